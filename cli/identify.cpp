@@ -124,8 +124,9 @@ void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked
 void print(const identify::Report& report, const config::UnitsToShow& asked, double room) {
   const Retold whole = retold(report.full_scale, report.unit, asked, room);
   fmt::print("{}\n", report.subject);
-  fmt::print("errors of the {} in % of {}, {:.5g}{}{}\n\n", report.quantity, report.full_scale_is,
-             whole.number, whole.unit == "1" ? "" : " ", whole.unit == "1" ? "" : whole.unit);
+  const std::string of =
+      whole.unit == "1" ? "" : fmt::format(", {:.5g} {}", whole.number, whole.unit);
+  fmt::print("errors of the {} in % of {}{}\n\n", report.quantity, report.full_scale_is, of);
   print_models(report);
   if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
   if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);

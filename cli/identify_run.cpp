@@ -57,6 +57,9 @@ void add_identify_run(Command identify, Action& action) {
   sub.add_option("--prior", o.priors,
                  "\"KEY=VALUE +- DEVIATION\": what is known of a fitted number; may be repeated")
       .takes_one();
+  sub.add_option("--freeze", o.freeze,
+                 "KEY=VALUE: a number that is known and not fitted; may be repeated")
+      .takes_one();
   sub.add_option("--hold-out", o.hold_out, "of the run, at its end: scores and is not fitted")
       .show_default();
   sub.add_option("--from", o.from, "what is before is not compared").show_default();

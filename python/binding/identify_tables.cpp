@@ -126,6 +126,7 @@ Identified of_run(const Sources&, const Settings& given) {
   given.texts("sets", s.sets);
   given.texts("fit", s.fit);
   given.texts("priors", s.priors);
+  given.texts("freeze", s.freeze);
   given.text("hold_out", s.hold_out);
   given.quantity("from", "s", s.from);
   given.integer("threads", s.threads);

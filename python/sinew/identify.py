@@ -166,6 +166,7 @@ def run(
     machine: Optional[_Path] = None,
     sets: Union[str, Sequence[str]] = (),
     priors: Union[str, Sequence[str]] = (),
+    freeze: Union[str, Sequence[str]] = (),
     hold_out: str = "20 %",
     begin: _Quantity = 0.0,
     threads: int = 0,
@@ -175,7 +176,9 @@ def run(
 
     run: its folder or log; an imported recording's too. fit: keys, and groups of them: "friction",
     "damping", "dead-time", "volume", "leak"; else all groups. machine: what was run, in place of the
-    folder's. sets: "KEY=VALUE", where the search begins or what is known; priors: "KEY=VALUE +- DEVIATION".
+    folder's. sets: "KEY=VALUE", where the search begins or what is known; priors: "KEY=VALUE +- DEVIATION"; freeze:
+    "KEY=VALUE", what is known and not fitted. Where the readings jump with the numbers ("rough" in the report) its
+    "intervals" is False, "no_intervals_because" says why, and "low" and "high" are None.
     hold_out: share of the run, at its end, that scores and is not fitted; begin [s]: what is before is not
     compared. threads: simulations at once, 0: one for each processor; the result is the same. base: the
     robot's file that the written one adds to.
@@ -186,6 +189,7 @@ def run(
         "machine": machine,
         "sets": sets,
         "priors": priors,
+        "freeze": freeze,
         "hold_out": hold_out,
         "from": begin,
         "threads": threads,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -270,6 +271,34 @@ TEST(Joint, WhatCannotBeUsedIsTold) {
   Measured no_pressure = good;
   no_pressure.columns.erase(no_pressure.columns.begin() + 1);
   says(no_pressure, setup_of(t), "no pressure");
+}
+
+// Of 100 trials with other noise and other poses, 90 to 99 hold each parameter.
+TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
+  constexpr int trials = 100;
+  std::map<std::string, int> held;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Truth t{.arm = 0.018 + 8e-5 * trial, .c0 = 0.9 + 1e-3 * trial};
+    const auto seed = static_cast<unsigned>(1000 + trial);
+    const JointResult r =
+        identify_joint(poses(t, true, 0.001, seed), {}, setup_of(t), "round_pressure");
+    const std::map<std::string, double> truth = {{"moment_arm", t.arm},
+                                                 {"flexor_length", t.flexor},
+                                                 {"extensor_length", t.extensor},
+                                                 {"c0", t.c0},
+                                                 {"c1", t.c1}};
+    for (const Estimate& e : r.report.best().parameters) {
+      const auto of = truth.find(e.name);
+      ASSERT_NE(of, truth.end()) << e.name;
+      held[e.name] += e.low <= of->second && of->second <= e.high ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(held.size(), 5u);
+  for (const auto& [name, count] : held) {
+    EXPECT_GE(count, 90) << name;
+    EXPECT_LE(count, 99) << name;
+    RecordProperty("held_" + name, count);
+  }
 }
 
 }  // namespace

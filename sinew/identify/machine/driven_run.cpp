@@ -1,7 +1,9 @@
 #include "sinew/identify/machine/driven_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
@@ -11,10 +13,33 @@ namespace sinew::identify {
 
 using experiment::Experiment;
 
+namespace {
+
+// Do all edges stand at the rows of a table? It then knows them to one of its rows.
+bool is_of_rows(const signals::Series& edges, const std::vector<RunChannel>& channels) {
+  return std::ranges::all_of(edges.time_ns, [&](std::int64_t time) {
+    const signals::Tick at = time / signals::tick_nanoseconds;
+    return std::ranges::binary_search(channels[0].at, at);
+  });
+}
+
+}  // namespace
+
 DrivenRun::DrivenRun(const Experiment& e, const signals::Table& recorded, bool imported,
                      const std::string& name)
     : channels_(run_channels(e, recorded, imported, name)) {
-  run::ValveCommands commands = run::valve_commands(e, recorded, name);
+  signals::Table table = recorded;
+  const std::vector<std::string> edges = run::edge_topics(e), duties = run::duty_topics(e);
+  for (std::size_t v = 0; v < edges.size(); ++v) {
+    const signals::Series* series = recorded.find(edges[v]);
+    if (!imported || !series || series->time_ns.empty() || !is_of_rows(*series, channels_))
+      continue;
+    if (recorded.find(duties[v]))  // which says when within the period it was
+      std::erase_if(table.series, [&](const auto& s) { return s.topic.name == edges[v]; });
+    else
+      coarse_.push_back(edges[v]);
+  }
+  run::ValveCommands commands = run::valve_commands(e, table, name);
   edges_ = std::move(commands.edges);
   rebuilt_ = std::move(commands.rebuilt);
   for (std::size_t c = 0; c < channels_.size(); ++c)
@@ -29,7 +54,8 @@ double DrivenRun::duration() const {
   return static_cast<double>(instants_.back().at) * signals::tick_seconds;
 }
 
-bool DrivenRun::predict(const Experiment& e, std::span<double> out, double until) const {
+template <class Visit>
+bool DrivenRun::drive(const Experiment& e, double until, Visit visit) const {
   plant::Machine machine(run::planar_setup(e));
   std::size_t edge = 0;
   signals::Tick shown = -1;
@@ -42,12 +68,35 @@ bool DrivenRun::predict(const Experiment& e, std::span<double> out, double until
     // Several sensors may be sampled at once.
     if (i.at != shown) truth = machine.truth(t);
     shown = i.at;
-    const RunChannel& c = channels_[i.channel];
-    const double value = c.expected(c.quantity(truth, e.robot, e.air.atmosphere));
-    if (machine.failure() || !std::isfinite(value)) return false;
-    out[i.sample] = value;
+    if (machine.failure() || !visit(i, truth)) return false;
   }
   return true;
+}
+
+bool DrivenRun::predict(const Experiment& e, std::span<double> out, double until) const {
+  return drive(e, until, [&](const Instant& i, const plant::Truth& truth) {
+    const RunChannel& c = channels_[i.channel];
+    out[i.sample] = c.expected(c.quantity(truth, e.robot, e.air.atmosphere));
+    return std::isfinite(out[i.sample]);
+  });
+}
+
+int DrivenRun::landings(const Experiment& e, double until) const {
+  std::array<bool, robot::max_legs> foot{};
+  std::array<bool, robot::max_discs> disc{};
+  int out = 0;
+  bool first = true;
+  const auto note = [&](bool& down, double force) {
+    out += !first && force > 0 && !down ? 1 : 0;
+    down = force > 0;
+  };
+  (void)drive(e, until, [&](const Instant&, const plant::Truth& truth) {
+    for (std::size_t k = 0; k < foot.size(); ++k) note(foot[k], truth.foot[k].force_y);
+    for (std::size_t k = 0; k < disc.size(); ++k) note(disc[k], truth.disc_force[k]);
+    first = false;
+    return true;
+  });
+  return out;
 }
 
 }  // namespace sinew::identify

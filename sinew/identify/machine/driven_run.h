@@ -35,6 +35,8 @@ class DrivenRun {
   double time(std::size_t sample) const { return time_[sample]; }
   // The topics of duties that edges were made from.
   const std::vector<std::string>& rebuilt() const { return rebuilt_; }
+  // The topics of edges that an imported table knows to one of its rows only, and has no duties of.
+  const std::vector<std::string>& coarse() const { return coarse_; }
 
   // Writes what each sample's mean is if the machine is that one, whose description differs from
   // the constructor's in numbers only. Samples later than `until` [s] are left as they are. False
@@ -42,7 +44,16 @@ class DrivenRun {
   // robot that no plant can hold.
   bool predict(const experiment::Experiment& machine, std::span<double> out, double until) const;
 
+  // Returns how often a foot or a disc of that machine comes down on the ground, as far as samples
+  // up to `until` [s] see it; one that stands on it from the beginning does not.
+  int landings(const experiment::Experiment& machine, double until) const;
+
  private:
+  // Simulates the machine, and calls visit(instant, truth) for each sample in ascending time. False
+  // where the machine does not get so far, or a visit returns false.
+  template <class Visit>
+  bool drive(const experiment::Experiment& machine, double until, Visit visit) const;
+
   // A sample: its place in `out`, and its channel.
   struct Instant {
     signals::Tick at = 0;
@@ -51,7 +62,7 @@ class DrivenRun {
 
   std::vector<RunChannel> channels_;
   std::vector<signals::Edge> edges_;
-  std::vector<std::string> rebuilt_;
+  std::vector<std::string> rebuilt_, coarse_;
   std::vector<Instant> instants_;  // in ascending time
   std::vector<double> time_;       // by sample
 };

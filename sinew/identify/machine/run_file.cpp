@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sinew/config/quantity.h"
@@ -36,9 +37,11 @@ std::string run_file(const RunFitResult& found, const std::string& source, confi
     config::Node leaf = config::make_table(key);
     leaf.put(config::make_text("value", config::rounded_quantity(e.value, e.unit)));
     leaf.put(config::make_flag("fit", true));
-    leaf.put(config::make_text("uncertainty",
-                               config::format_quantity(0.5 * (e.high - e.low), unit, unit, 3)));
-    leaf.put(config::make_text("source", source));
+    const bool told = std::isfinite(e.high - e.low);
+    if (told)
+      leaf.put(config::make_text("uncertainty",
+                                 config::format_quantity(0.5 * (e.high - e.low), unit, unit, 3)));
+    leaf.put(config::make_text("source", told ? source : source + "; how far off is not known"));
     put_at(robot, e.name, std::move(leaf));
   }
   return config::to_toml(robot);
@@ -48,7 +51,12 @@ nlohmann::ordered_json describe(const RunFitResult& found) {
   using Json = nlohmann::ordered_json;
   Json out{{"simulations", found.simulations},
            {"rms_at_start", finite_or_null(found.at_start)},
-           {"not_determined", found.undetermined}};
+           {"not_determined", found.undetermined},
+           {"rough", found.rough},
+           {"roughness", finite_or_null(found.roughness)},
+           {"landings", found.landings},
+           {"intervals", found.no_intervals.empty()}};
+  if (!found.no_intervals.empty()) out["no_intervals_because"] = found.no_intervals;
   out["channels"] = Json::array();
   for (const ChannelScore& c : found.channels)
     out["channels"].push_back({{"channel", c.name},

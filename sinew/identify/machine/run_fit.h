@@ -36,10 +36,14 @@ struct RunPrior {
   double value = 0, standard_deviation = 0;  // in SI
 };
 
+// The run needs the rest for its fit.
+inline constexpr double most_held_out = 0.9;
+
 // Says which numbers a fit to a run searches, and how hard.
 struct RunFitOptions {
-  std::vector<std::string> fit;  // keys and groups (machine_numbers.h); empty: all groups
-  double hold_out = 0.2;         // share of the run, at its end, that scores what was found
+  std::vector<std::string> fit;     // keys and groups (machine_numbers.h); empty: all groups
+  std::vector<std::string> frozen;  // keys of these that are not searched after all
+  double hold_out = 0.2;            // share of the run, at its end, that scores what was found
   std::vector<RunPrior> priors;
   int threads = 0;  // simulations at once; 0: as many as the computer has processors
   int rounds = 12;  // of trying other dead times, at most
@@ -61,7 +65,14 @@ struct RunFitResult {
   std::vector<ChannelScore> channels;
   std::vector<std::string> undetermined;  // combinations of numbers, in words
   experiment::Experiment machine;         // with what was found
-  bool rough = false;  // readings jump with the numbers: the intervals are too narrow
+
+  // Why intervals are not given: the readings jump with the numbers, so that what is known of them
+  // near the solution says nothing of how far off it lies. Empty: they are given.
+  std::string no_intervals;
+  bool rough = false;    // derivatives over a longer step are others
+  double roughness = 0;  // by that share of them
+  int landings = 0;      // of feet on the ground, up to the end of what was fitted
+
   int simulations = 0;
   double at_start = 0;  // rms of what is left with the numbers as they stood, in noises
 };

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 
+#include "sinew/config/write/writer.h"
+#include "sinew/identify/machine/run_file.h"
 #include "sinew/identify/machine/test_runs.h"
 
 namespace sinew::identify {
@@ -50,6 +53,50 @@ TEST(RunFit, SaysWhatNoReadingDependsOn) {
   EXPECT_EQ(found.report.best().parameters.size(), 1u);
 }
 
+// A walk's readings jump with its numbers, so an interval would be false: it gives none, says why,
+// and the robot's file has no uncertainty. The number itself is nearer than at the start.
+TEST(RunFit, GivesNoIntervalsOfAWalk) {
+  experiment::Experiment start = shipped("walk-test-1", {"sequence.repeat=1"});
+  const DrivenRun driven(start, recorded(start), false);
+  const double truth = number_at(start, "joint.knee.damping");
+  set_number(start, "joint.knee.damping", 1.1 * truth);
+  const RunFitResult found = fit_run(start, driven, {.fit = {"joint.knee.damping"}});
+  EXPECT_GT(found.landings, 0);
+  EXPECT_NE(found.no_intervals.find("a foot comes down on the ground"), std::string::npos);
+  const Estimate& e = estimate(found, "joint.knee.damping");
+  EXPECT_NEAR(e.value, truth, 0.05 * truth);
+  EXPECT_EQ(e.low, -unbounded);
+  EXPECT_EQ(e.high, unbounded);
+  EXPECT_TRUE(e.identifiable);
+  const std::string file = run_file(found, "a walk", config::make_table("robot"));
+  EXPECT_NE(file.find("how far off is not known"), std::string::npos) << file;
+  EXPECT_EQ(file.find("uncertainty"), std::string::npos) << file;
+  EXPECT_EQ(describe(found)["intervals"], false);
+  EXPECT_EQ(describe(found)["landings"], found.landings);
+}
+
+TEST(RunFit, GivesIntervalsInTheAirAndSaysSo) {
+  const experiment::Experiment e = shipped("one-joint", {"sequence.repeat=1"});
+  const DrivenRun driven(e, recorded(e), false);
+  const RunFitResult found = fit_run(e, driven, {.fit = {"damping"}});
+  EXPECT_LT(found.roughness, 0.005);
+  EXPECT_EQ(found.landings, 0);
+  const nlohmann::ordered_json out = describe(found);
+  EXPECT_EQ(out["rough"], false);
+  EXPECT_EQ(out["intervals"], true);
+  EXPECT_FALSE(out.contains("no_intervals_because"));
+}
+
+// What is known beforehand stays what it is.
+TEST(RunFit, DoesNotSearchWhatIsFrozen) {
+  const experiment::Experiment e = shipped("one-joint", {"sequence.repeat=1"});
+  const DrivenRun driven(e, recorded(e), false);
+  const RunFitResult found =
+      fit_run(e, driven, {.fit = {"friction", "damping"}, .frozen = {"joint.lever.dry_friction"}});
+  ASSERT_EQ(found.report.best().parameters.size(), 1u);
+  EXPECT_EQ(found.report.best().parameters[0].name, "joint.lever.damping");
+}
+
 TEST(RunFit, IsTheSameWithAnyNumberOfThreads) {
   experiment::Experiment start = shipped("one-joint");
   const DrivenRun driven(start, recorded(start), false);
@@ -87,8 +134,11 @@ TEST(RunFit, RefusesWhatItCannotFit) {
   EXPECT_EQ(refusal([&] {
               fit_run(e, driven, {.fit = {"damping"}, .priors = {{"trolley.drag", 1, 1}}});
             }),
-            "prior: trolley.drag: found a number that is not fitted; expected one of "
-            "joint.lever.damping; try fit=trolley.drag");
+            "prior: found \"trolley.drag\", which is not fitted; expected one of "
+            "joint.lever.damping; try to fit it too");
+  EXPECT_EQ(
+      refusal([&] { fit_run(e, driven, {.fit = {"damping"}, .frozen = {"joint.lever.damping"}}); }),
+      "freeze: found all numbers that were to be fitted; expected one to fit at least");
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ RunResiduals::RunResiduals(const Experiment& machine, const DrivenRun& run,
     for (const double value : c.value) {
       reading_.push_back(value);
       noise_.push_back(c.noise);
+      bottom_.push_back(c.bottom);
+      top_.push_back(c.top);
       const double t = run.time(sample);
       if (t >= options.from && t <= until_) fitted_.push_back(sample);
       ++sample;
@@ -42,6 +44,14 @@ bool RunResiduals::operator()(std::span<const double> p, std::span<double> r) co
     r[k++] = (p[i] - prior.value) / prior.standard_deviation;
   }
   return true;
+}
+
+bool RunResiduals::is_cut(std::size_t k, double residual) const {
+  constexpr double near = 2;  // in noises
+  if (k >= fitted_.size()) return false;
+  const std::size_t s = fitted_[k];
+  const double mean = reading_[s] + noise_[s] * residual;
+  return mean < bottom_[s] + near * noise_[s] || mean > top_[s] - near * noise_[s];
 }
 
 double RunResiduals::cost(std::span<const double> p) const {

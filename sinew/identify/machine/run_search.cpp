@@ -12,7 +12,6 @@ namespace {
 
 constexpr double only_noise =
     1.05;  // rms of what is left, in noises, above which cells are changed
-constexpr double off_the_jump = 1e-7;  // how near to a cell's end is simulated [s]
 constexpr double tick = signals::tick_seconds;
 
 bool is_dead_time(const Parameter& p) { return p.name.ends_with("ing_delay"); }
@@ -117,34 +116,77 @@ bool try_cells(const RunResiduals& residuals, std::span<const Parameter> paramet
 // standard deviations.
 constexpr double ruled_out = 8;
 
-// Goes to a neighbouring cell where that is better; then widens the cells to those neighbours that
-// the run does not rule out.
+double half_square(const RunResiduals& residuals, const RunSearched& at) {
+  return 0.5 * at.rms * at.rms * static_cast<double>(residuals.count());
+}
+
+// Goes to a neighbouring cell as long as that is better.
 void settle_cells(const RunResiduals& residuals, std::span<const Parameter> parameters, int threads,
                   RunSearched& best) {
-  constexpr int moves = 3, steps = 6;
-  const auto half_square = [&](const RunSearched& at) {
-    return 0.5 * at.rms * at.rms * static_cast<double>(residuals.count());
-  };
-  Places tried;
-  std::vector<double> cost;
-  for (int move = 0; move < moves; ++move) {
-    tried = cells_around(parameters, best.p, 1);
+  constexpr int few_moves = 3, moves = 20, steps = 6;
+  for (int move = 0; move < (best.rms > only_noise ? moves : few_moves); ++move) {
+    const Places tried = cells_around(parameters, best.p, 1);
     if (tried.empty()) return;
-    cost = made_up_costs(residuals, parameters, best, tried, threads);
+    const std::vector<double> cost = made_up_costs(residuals, parameters, best, tried, threads);
     const auto k = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
-    if (cost[k] > half_square(best) - 1) break;
+    if (cost[k] > half_square(residuals, best) - 1) return;
     const RunSearched there = search_in_cells(residuals, parameters, tried[k], steps, threads);
-    if (there.rms >= best.rms) break;
+    if (there.rms >= best.rms) return;
     best = there;
   }
-  for (std::size_t k = 0; k < tried.size(); ++k) {
-    if (cost[k] > half_square(best) + ruled_out) continue;
-    const std::vector<RunCell> cells = run_cells(parameters, tried[k]);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      best.cells[i].low = std::min(best.cells[i].low, cells[i].low);
-      best.cells[i].high = std::max(best.cells[i].high, cells[i].high);
+}
+
+bool same_cells(const std::vector<RunCell>& a, const std::vector<RunCell>& b) {
+  return std::ranges::equal(a, b, [](const RunCell& x, const RunCell& y) {
+    return x.low == y.low || std::abs(x.low - y.low) < 0.5 * tick;
+  });
+}
+
+// The places around that one which the run does not rule out, by what the numbers can make up for;
+// the likely ones first.
+Places open_places(const RunResiduals& residuals, std::span<const Parameter> parameters,
+                   int threads, const RunSearched& at, double least) {
+  Places tried = cells_around(parameters, at.p, 1), out;
+  if (tried.empty()) return out;
+  const std::vector<double> cost = made_up_costs(residuals, parameters, at, tried, threads);
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return cost[k]; });
+  for (const std::size_t k : order)
+    if (cost[k] < least + ruled_out) out.push_back(tried[k]);
+  return out;
+}
+
+// Searches the cells around that the run does not rule out, and those around these; the best of all
+// becomes `best`. Cells beyond so many widen those that they are beside.
+void search_open_cells(const RunResiduals& residuals, std::span<const Parameter> parameters,
+                       int threads, RunSearched& best) {
+  constexpr std::size_t most = 16;
+  constexpr int steps = 3;
+  std::vector<RunSearched> all{best};
+  std::vector<std::vector<RunCell>> known{best.cells};
+  double least = half_square(residuals, best);
+  for (std::size_t from = 0; from < all.size(); ++from)
+    for (const auto& place : open_places(residuals, parameters, threads, all[from], least)) {
+      const std::vector<RunCell> cells = run_cells(parameters, place);
+      if (std::ranges::any_of(known, [&](const auto& k) { return same_cells(k, cells); })) continue;
+      if (all.size() == most) {
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+          all[from].cells[i].low = std::min(all[from].cells[i].low, cells[i].low);
+          all[from].cells[i].high = std::max(all[from].cells[i].high, cells[i].high);
+        }
+        continue;
+      }
+      known.push_back(cells);
+      RunSearched there = search_in_cells(residuals, parameters, place, steps, threads);
+      if (half_square(residuals, there) > least + ruled_out) continue;
+      least = std::min(least, half_square(residuals, there));
+      all.push_back(std::move(there));
     }
-  }
+  const auto first = std::ranges::min_element(all, {}, &RunSearched::rms);
+  std::iter_swap(all.begin(), first);
+  best = all.front();
+  best.others.assign(all.begin() + 1, all.end());
 }
 
 }  // namespace
@@ -180,6 +222,7 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
   best = search_in_cells(whole, parameters, best.p, most_steps, threads);
   tell("searched in all of the run", best.rms);
   settle_cells(whole, parameters, threads, best);
+  search_open_cells(whole, parameters, threads, best);
   tell("beside neighbouring dead times", best.rms);
   return best;
 }

@@ -10,8 +10,9 @@
 //   best
 //                                     is taken; D the diagonal of J^T J (Levenberg, Marquardt)
 //
-// The last step goes without bounds, along the tangent: it and J^T J give what the readings say;
-// that a delay is in its cell, the lost pulses say.
+// Where the run does not rule out neighbouring cells, these are searched too. The last step goes
+// without bounds, along the tangent: it and J^T J give what the readings say within a cell, and
+// that a delay is in it, the lost pulses say (run_mixture.h).
 #pragma once
 
 #include <atomic>
@@ -30,6 +31,8 @@ namespace sinew::identify {
 struct RunCell {
   double low = -unbounded, high = unbounded;
 };
+
+inline constexpr double off_the_jump = 1e-7;  // how near to a cell's end is simulated [s]
 
 // Returns the cells that these numbers stand in.
 std::vector<RunCell> run_cells(std::span<const Parameter> parameters, std::span<const double> p);
@@ -51,6 +54,8 @@ class RunResiduals {
   experiment::Experiment machine(std::span<const double> p) const;
   // Writes (predicted - read)/noise. False where the machine has no answer.
   bool operator()(std::span<const double> p, std::span<double> r) const;
+  // Does a converter's end cut the noise of that residual's reading? Such ones scatter less.
+  bool is_cut(std::size_t k, double residual) const;
   // Returns half the sum of their squares; infinite where there is no answer.
   double cost(std::span<const double> p) const;
 
@@ -59,7 +64,7 @@ class RunResiduals {
   const DrivenRun& run_;
   std::span<const Parameter> parameters_;
   const RunFitOptions& options_;
-  std::vector<double> reading_, noise_;  // by sample
+  std::vector<double> reading_, noise_, bottom_, top_;  // by sample
   std::vector<std::size_t> fitted_;
   double until_ = 0;
   mutable std::atomic<int> simulations_ = 0;
@@ -67,9 +72,10 @@ class RunResiduals {
 
 // Where a search has ended.
 struct RunSearched {
-  std::vector<double> p;       // within the cells
-  std::vector<RunCell> cells;  // with the neighbours that the run does not rule out
-  double rms = 0;              // of the residuals there
+  std::vector<double> p;            // within the cells
+  std::vector<RunCell> cells;       // these numbers stand in
+  double rms = 0;                   // of the residuals there
+  std::vector<RunSearched> others;  // in cells that the run does not rule out either
 };
 
 // Scans and searches in the beginning of the run, moves to neighbouring cells while more than noise
@@ -92,8 +98,8 @@ std::vector<double> made_up_costs(const RunResiduals& residuals,
                                   std::span<const Parameter> parameters, const RunSearched& at,
                                   const std::vector<std::vector<double>>& places, int threads);
 
-// What the run says of all numbers together, at the end of a search. An interval is that of the
-// last step without bounds; what is known to lie in a cell has the middle 95 % of what is in it.
+// What the run says of all numbers together, at the end of a search. An interval is the middle 95 %
+// of what the cells leave that the run does not rule out (run_mixture.h).
 struct RunJudged {
   std::vector<Estimate> estimates;
   std::vector<double> covariance;  // row by row; of numbers that nothing is known of infinite

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/experiment.h"
@@ -13,8 +14,9 @@
 
 namespace sinew::identify {
 
-inline experiment::Experiment shipped(const std::string& name) {
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml");
+inline experiment::Experiment shipped(const std::string& name,
+                                      const std::vector<std::string>& sets = {}) {
+  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
 }
 
 inline signals::Table recorded(const experiment::Experiment& e) { return run::run(e).table; }

@@ -53,8 +53,11 @@ Json describe(const PairResult& found) {
 std::string pair_file(const PairResult& found, const std::string& joint, const std::string& source,
                       config::Node robot) {
   if (!found.rotary)
-    throw Refusal("out", "a slide", "a joint: a robot's file has no key for the losses of a slide",
-                  "torque and angle of a joint, or the report alone");
+    throw Refusal("out", "a slide",
+                  "torque and angle of a joint: in a robot's file muscles move joints, and these "
+                  "alone have dry_friction and damping. Of a slide N/m and N s/m have no place "
+                  "there, as long as no lever turns them into N m",
+                  "no file: the report and its JSON have all of it");
   Provenance provenance;
   std::vector<JointLosses> joints{{.name = joint}};
   const std::string path = "joint." + joint + ".";

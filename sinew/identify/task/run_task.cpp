@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/fit/robot_over.h"
@@ -20,28 +23,91 @@ namespace sinew::identify {
 
 namespace {
 
+// The text before and behind the first of the marks, without blanks; nothing where there is none.
+std::optional<std::pair<std::string, std::string>> parted(
+    std::string_view text, std::initializer_list<std::string_view> marks) {
+  for (const std::string_view mark : marks)
+    if (const std::size_t at = text.find(mark); at != text.npos)
+      return std::pair{std::string(config::trimmed(text.substr(0, at))),
+                       std::string(config::trimmed(text.substr(at + mark.size())))};
+  return {};
+}
+
+// The number of that key; the setting names it.
+const MachineNumber& number_of(const std::vector<MachineNumber>& all, const std::string& key,
+                               const std::string& setting) {
+  const auto number = std::ranges::find(all, key, &MachineNumber::key);
+  if (number != all.end()) return *number;
+  std::vector<std::string_view> keys;
+  for (const MachineNumber& n : all) keys.push_back(n.key);
+  config::fail({setting, 0, 0}, "", config::in_quotes(key), "a number's key of this robot",
+               config::closest_in_quotes(key, keys));
+}
+
 // "key=value +- deviation", both with a unit.
 RunPrior prior_of(const std::string& text, experiment::Experiment& e) {
-  const std::size_t equals = text.find('='), sign = text.find("+-");
-  if (equals == text.npos || sign == text.npos || sign < equals)
+  const auto named = parted(text, {"="});
+  const auto told = parted(named ? named->second : "", {"±", "+/-", "+-"});
+  if (!told)
     config::fail({"prior", 0, 0}, "", config::in_quotes(text),
                  "a key, its value and its standard deviation",
                  "\"joint.hip.damping=0.2 N m s/rad +- 0.05 N m s/rad\"");
-  const std::string key = text.substr(0, equals);
   const std::vector<MachineNumber> all = machine_numbers(e);
-  const auto number = std::ranges::find(all, key, &MachineNumber::key);
-  if (number == all.end())
-    config::fail({"prior", 0, 0}, key, "no number of this robot", "one of its keys", "sinew keys");
-  std::string value = text.substr(equals + 1, sign - equals - 1), spread = text.substr(sign + 2);
-  for (std::string* piece : {&value, &spread}) {
-    piece->erase(0, piece->find_first_not_of(' '));
-    piece->erase(piece->find_last_not_of(' ') + 1);
+  const MachineNumber& number = number_of(all, named->first, "prior");
+  return {number.key,
+          config::quantity_setting("prior", told->first, number.unit, e.air.atmosphere,
+                                   {number.low, number.high, "as its field"}),
+          config::quantity_setting("prior", told->second, config::difference_unit(number.unit),
+                                   e.air.atmosphere, config::above_zero(unbounded, "a spread"))};
+}
+
+// The keys of "key=value", which are settings too.
+std::vector<std::string> frozen_keys(const std::vector<std::string>& texts,
+                                     const std::vector<std::string>& fit,
+                                     experiment::Experiment& e) {
+  const std::vector<MachineNumber> all = machine_numbers(e);
+  std::vector<std::string> out;
+  for (const std::string& text : texts) {
+    const auto named = parted(text, {"="});
+    out.push_back(number_of(all, named ? named->first : text, "freeze").key);
+    if (std::ranges::find(fit, out.back()) != fit.end())
+      config::fail({"freeze", 0, 0}, "", config::in_quotes(out.back()) + ", which is to be fitted",
+                   "a number that is one or the other");
   }
-  return {key,
-          config::quantity_setting("prior", value, number->unit, e.air.atmosphere,
-                                   {number->low, number->high, "as its field"}),
-          config::quantity_setting("prior", spread, number->unit, e.air.atmosphere,
-                                   config::above_zero(unbounded, "a spread"))};
+  return out;
+}
+
+double share_of(const std::string& text) {
+  const double share = config::quantity_setting("hold_out", text, "1");
+  if (share >= 0 && share < most_held_out) return share;
+  config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
+               fmt::format("a share of the run, from 0 to below {:g} %", 100 * most_held_out),
+               share > 1 && share < 100 * most_held_out
+                   ? fmt::format("\"{:g} %\" or \"{:g}\"", share, share / 100)
+                   : "\"20 %\"");
+}
+
+RunFitOptions options_of(const RunFitSettings& settings, experiment::Experiment& e) {
+  RunFitOptions out{
+      .fit = settings.fit, .threads = settings.threads, .progress = settings.progress};
+  out.frozen = frozen_keys(settings.freeze, settings.fit, e);
+  out.hold_out = share_of(settings.hold_out);
+  out.from = config::quantity_setting("from", settings.from, "s", units::atmosphere,
+                                      config::from_zero(1e6, "a time of the run"));
+  for (const std::string& prior : settings.priors) out.priors.push_back(prior_of(prior, e));
+  return out;
+}
+
+// Throws config::Error for a frozen number without its value.
+std::vector<std::string> all_sets(const RunFitSettings& settings) {
+  std::vector<std::string> out = settings.sets;
+  for (const std::string& text : settings.freeze) {
+    if (!parted(text, {"="}))
+      config::fail({"freeze", 0, 0}, "", config::in_quotes(text), "a key and its value",
+                   config::in_quotes(text + "=VALUE"));
+    out.push_back(text);
+  }
+  return out;
 }
 
 }  // namespace
@@ -53,24 +119,23 @@ std::string RunFitFound::file(const std::string& out) const {
 RunFitFound find_run_fit(const RunFitSettings& settings) {
   const run::RecordedRun run = run::recorded_run(settings.run);
   const std::string machine = run::machine_of(run, settings.machine).string();
-  const config::Node root = config::compose(machine, settings.sets);
+  const config::Node root = config::compose(machine, all_sets(settings));
   experiment::Experiment e = run::buildable(root, machine);
   if (!e.faults.empty())
     config::fail({machine, 0, 0}, "fault", "a run in which something broke",
                  "one of a machine that stays what it is", "a run without [[fault]]");
   const bool imported = root.find("imported") != nullptr;
-  RunFitOptions options{
-      .fit = settings.fit, .threads = settings.threads, .progress = settings.progress};
-  options.hold_out = config::quantity_setting("hold_out", settings.hold_out, "1");
-  options.from = config::quantity_setting("from", settings.from, "s", units::atmosphere,
-                                          config::from_zero(1e6, "a time of the run"));
-  for (const std::string& prior : settings.priors) options.priors.push_back(prior_of(prior, e));
-
+  const RunFitOptions options = options_of(settings, e);
   const DrivenRun driven(e, log::read(run.log), imported, run.log.string());
   if (options.from >= driven.duration())
     config::fail({"from", 0, 0}, "", config::in_quotes(settings.from),
                  fmt::format("a time within the run of {:.4g} s", driven.duration()), "\"0 s\"");
   RunFitFound out{fit_run(e, driven, options), settings.base, "identified from " + settings.run};
+  if (!driven.coarse().empty())
+    out.result.report.warnings.push_back(
+        fmt::format("the recording knows when {} valves switch to one of its rows only, and pulses "
+                    "are shorter: their duties, or edges at their own times, would tell",
+                    driven.coarse().size()));
   if (!driven.rebuilt().empty())
     out.result.report.notes.push_back(
         fmt::format("edges were made from duties, as the low level makes them, of {} valves",

@@ -18,6 +18,7 @@ struct RunFitSettings {
   std::vector<std::string> sets;    // "key=value": where the search begins, and what is known
   std::vector<std::string> fit;     // keys and groups; empty: all groups
   std::vector<std::string> priors;  // "joint.hip.damping=0.2 N m s/rad +- 0.05 N m s/rad"
+  std::vector<std::string> freeze;  // "key=value": what is known and not searched
   std::string hold_out = "20 %";    // of the run, at its end
   std::string from = "0 s";         // what is before is not compared
   int threads = 0;                  // 0: one for each processor

@@ -1,0 +1,130 @@
+#include "sinew/identify/machine/run_mixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <tuple>
+#include <utility>
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double normal_width = 1.959963984540054;
+constexpr double outside = 6;  // standard deviations; a box beyond them cuts nothing
+constexpr int draws_of_a_piece = 4096;
+
+// Uniform and normal numbers that are the same with every library.
+class Draws {
+ public:
+  double uniform() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53; }
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(uniform()));
+    return radius * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+  // Draws a unit normal between the two, and multiplies `weight` with the share that lies there.
+  double normal_between(double low, double high, double& weight) {
+    if (low < -outside && high > outside) return normal();
+    const bool mirrored = low > 0;  // the tail below zero has the digits
+    if (mirrored) std::tie(low, high) = std::pair(-high, -low);
+    const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
+    const double first = below(low), share = below(high) - first;
+    weight *= std::max(0.0, share);
+    const double wanted = first + uniform() * share;
+    double from = std::max(low, -38.0), to = std::min(high, 38.0);
+    for (int halving = 0; halving < 40; ++halving) {
+      const double x = 0.5 * (from + to);
+      (below(x) < wanted ? from : to) = x;
+    }
+    const double x = std::clamp(0.5 * (from + to), low, high);
+    return mirrored ? -x : x;
+  }
+
+ private:
+  std::mt19937_64 random_{1};
+};
+
+// Draws of all pieces together: a row of numbers each, and its weight.
+struct Drawn {
+  std::vector<Eigen::VectorXd> at;
+  std::vector<double> weight;
+};
+
+void draw(const RunPiece& piece, double stretch, double least_cost, double largest, Draws& draws,
+          Drawn& out) {
+  const Eigen::Index n = piece.middle.size();
+  const double height =
+      std::exp(least_cost - piece.cost + piece.spread.diagonal().array().log().sum() - largest);
+  Eigen::VectorXd z(n), x(n);
+  for (int k = 0; k < draws_of_a_piece; ++k) {
+    double weight = height;
+    for (Eigen::Index i = n - 1; i >= 0; --i) {
+      const RunCell& box = piece.box[static_cast<std::size_t>(i)];
+      const double deviation = stretch * piece.spread(i, i);
+      double middle = piece.middle(i);
+      for (Eigen::Index b = i + 1; b < n; ++b) middle += stretch * piece.spread(i, b) * z(b);
+      z(i) = draws.normal_between((box.low - middle) / deviation, (box.high - middle) / deviation,
+                                  weight);
+      x(i) = middle + deviation * z(i);
+    }
+    if (!(weight > 0)) continue;
+    out.at.push_back(x);
+    out.weight.push_back(weight);
+  }
+}
+
+bool is_cut(const RunPiece& piece) {
+  for (Eigen::Index i = 0; i < piece.middle.size(); ++i) {
+    const RunCell& box = piece.box[static_cast<std::size_t>(i)];
+    const double far = outside * piece.spread.row(i).norm();
+    if (box.low > piece.middle(i) - far || box.high < piece.middle(i) + far) return true;
+  }
+  return false;
+}
+
+// The middle 95 % of number i.
+RunCell middle_of(const Drawn& drawn, Eigen::Index i) {
+  std::vector<std::size_t> order(drawn.at.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(drawn.at[k](i), k); });
+  const double all = std::accumulate(drawn.weight.begin(), drawn.weight.end(), 0.0);
+  const auto quantile = [&](double share) {
+    double sum = 0;
+    for (const std::size_t k : order) {
+      sum += drawn.weight[k];
+      if (sum >= share * all) return drawn.at[k](i);
+    }
+    return drawn.at[order.back()](i);
+  };
+  return {quantile(0.025), quantile(0.975)};
+}
+
+}  // namespace
+
+std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces, double width) {
+  const auto n = static_cast<std::size_t>(pieces[0].middle.size());
+  std::vector<RunCell> out(n);
+  Drawn drawn;
+  if (pieces.size() > 1 || is_cut(pieces[0])) {
+    Draws draws;
+    double least = unbounded, largest = -unbounded;
+    for (const RunPiece& p : pieces) {
+      least = std::min(least, p.cost);
+      largest = std::max(largest, p.spread.diagonal().array().log().sum());
+    }
+    for (const RunPiece& p : pieces) draw(p, width / normal_width, least, largest, draws, drawn);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const RunPiece& only = pieces[0];
+    const double reach = width * only.spread.row(k).norm();
+    out[i] = drawn.at.empty() ? RunCell{only.middle(k) - reach, only.middle(k) + reach}
+                              : middle_of(drawn, k);
+  }
+  return out;
+}
+
+}  // namespace sinew::identify

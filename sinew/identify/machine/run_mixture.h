@@ -1,0 +1,34 @@
+// identify/machine/run_mixture.h - what is known of numbers where several normal distributions
+// hold, each within a box of its own: dead times have cells (run_search.h), and what the readings
+// say is another distribution in each that the run does not rule out.
+//
+//   p(x)  ~  sum over the pieces of  exp(-c) exp(-|z|^2/2)  within the piece's box
+//
+//   x = middle + spread z      z of unit normals, spread upper triangular
+//   c                          what is left in the piece's own best place, half a sum of squares
+//
+// The middle 95 % of each number come from seeded draws, number after number within what the box
+// leaves of it, with the box's share as weight (Geweke, Hajivassiliou, Keane).
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "sinew/identify/machine/run_search.h"
+
+namespace sinew::identify {
+
+// One of the distributions.
+struct RunPiece {
+  Eigen::VectorXd middle;
+  Eigen::MatrixXd spread;    // its diagonal > 0
+  std::vector<RunCell> box;  // of each number
+  double cost = 0;           // c
+};
+
+// Returns the middle 95 % of each number, where a distribution's are its middle -+ `width` standard
+// deviations. There is a piece at least.
+std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces, double width);
+
+}  // namespace sinew::identify

@@ -1,0 +1,66 @@
+// What boxes leave of normal distributions.
+#include "sinew/identify/machine/run_mixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sinew::identify {
+namespace {
+
+constexpr double width = 1.959963984540054;
+
+// Two numbers of which the readings know the difference to 0.01 and the sum to 1.
+RunPiece bound_pair(double low, double high, double cost = 0) {
+  RunPiece out{.middle = Eigen::Vector2d(0, 0), .spread = Eigen::Matrix2d(), .cost = cost};
+  out.spread << 0.01, 0.5, 0, 0.5;
+  out.box = {{}, {low, high}};
+  return out;
+}
+
+TEST(RunMixture, WithoutABoxItIsTheNormalDistribution) {
+  const RunPiece piece = bound_pair(-unbounded, unbounded);
+  const std::vector<RunCell> all = middle_of_pieces({&piece, 1}, width);
+  EXPECT_NEAR(all[1].high, width * 0.5, 1e-12);
+  EXPECT_NEAR(all[0].low, -width * std::hypot(0.01, 0.5), 1e-12);
+}
+
+// Of the half above zero: quantiles of |x|. What is bound to it follows.
+TEST(RunMixture, ABoxCutsWhatIsBoundToTheNumberToo) {
+  const RunPiece piece = bound_pair(0, unbounded);
+  const std::vector<RunCell> all = middle_of_pieces({&piece, 1}, width);
+  for (const RunCell& one : all) {
+    EXPECT_NEAR(one.low, 0.5 * 0.0313, 0.02);
+    EXPECT_NEAR(one.high, 0.5 * 2.2414, 0.06);
+  }
+}
+
+// Boxes beside each other, in which the same is known, are one without the wall.
+TEST(RunMixture, PiecesThatFitTogetherAreTheWhole) {
+  const RunPiece pieces[] = {bound_pair(-unbounded, 0.2), bound_pair(0.2, unbounded)};
+  const std::vector<RunCell> all = middle_of_pieces(pieces, width);
+  EXPECT_NEAR(all[1].low, -width * 0.5, 0.05);
+  EXPECT_NEAR(all[1].high, width * 0.5, 0.05);
+}
+
+TEST(RunMixture, APieceThatFitsBadlyHasNoWeight) {
+  RunPiece far = bound_pair(10, 11, 20);
+  far.middle = Eigen::Vector2d(10.5, 10.5);
+  const RunPiece pieces[] = {bound_pair(-unbounded, 10), far};
+  EXPECT_NEAR(middle_of_pieces(pieces, width)[1].high, width * 0.5, 0.05);
+  RunPiece near = far;
+  near.cost = 0;
+  const RunPiece two[] = {bound_pair(-unbounded, 10), near};
+  EXPECT_GT(middle_of_pieces(two, width)[1].high, 10);
+}
+
+// A box far out in the tail is where the numbers are, all the same.
+TEST(RunMixture, ABoxInTheTailHoldsTheNumber) {
+  const RunPiece piece = bound_pair(6, 7);
+  const RunCell cell = middle_of_pieces({&piece, 1}, width)[1];
+  EXPECT_GE(cell.low, 6);
+  EXPECT_LT(cell.high, 6.3);
+}
+
+}  // namespace
+}  // namespace sinew::identify

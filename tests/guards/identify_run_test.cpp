@@ -1,0 +1,198 @@
+// Numbers of a machine that are injected into noisy runs are found again: in 90 to 99 of 100 trials
+// an interval of 95 % holds its number, and the intervals' median width is at most one and a half
+// times that of the Cramér-Rao bound, from the derivatives of the readings at the truth and the
+// known noise of the sensors.
+//
+//   one-joint    friction, damping, dead times, volumes, leaks: all groups
+//   leg-in-air   the same of robots/leg, one step
+//
+// SINEW_GUARD_COUNT: trials of each; what can be asked of fewer is that most are held.
+#include <gmock/gmock.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include "sinew/identify/machine/machine_numbers.h"
+#include "sinew/identify/machine/run_fit.h"
+#include "sinew/run/simulation/run.h"
+
+namespace sinew::guards {
+namespace {
+
+using experiment::Experiment;
+
+int tries(int few) {
+  const char* asked = std::getenv("SINEW_GUARD_COUNT");
+  return asked ? std::atoi(asked) : few;
+}
+
+struct Number {
+  std::string key;
+  double scale = 0;
+  int held = 0;
+  std::vector<double> width;  // of the intervals, in those of the bound
+};
+
+double& at(Experiment& e, const std::string& key) {
+  const auto all = identify::machine_numbers(e);
+  return *std::ranges::find(all, key, &identify::MachineNumber::key)->value;
+}
+
+// A machine whose numbers are up to 30 % off; its leaks, which the shipped ones do not have, are of
+// half a to one and a half of what empties ten cubic centimetres in two minutes.
+Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, int trial) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(trial) * 7919 + 1);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  Experiment out = shipped;
+  out.seed = trial + 1;
+  for (const Number& n : numbers) {
+    double& value = at(out, n.key);
+    value = value > 0 ? value * (0.7 + 0.6 * uniform()) : n.scale * (0.5 + uniform());
+  }
+  return out;
+}
+
+// Standard deviations that no unbiased estimate goes below: of (J^T J)^-1 in noises.
+std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
+                          const std::vector<Number>& numbers) {
+  const auto rows = static_cast<Eigen::Index>(run.samples());
+  Eigen::MatrixXd j(rows, static_cast<Eigen::Index>(numbers.size()));
+  std::vector<double> noise;
+  for (const identify::RunChannel& c : run.channels())
+    noise.insert(noise.end(), c.value.size(), c.noise);
+  std::vector<double> up(run.samples()), down(run.samples());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    double& value = at(truth, numbers[i].key);
+    const double was = value, step = 1e-5 * numbers[i].scale;
+    value = was + step;
+    EXPECT_TRUE(run.predict(truth, up, run.duration()));
+    value = was - step;
+    EXPECT_TRUE(run.predict(truth, down, run.duration()));
+    value = was;
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      const auto s = static_cast<std::size_t>(k);
+      j(k, static_cast<Eigen::Index>(i)) = (up[s] - down[s]) / (2e-5 * noise[s]);
+    }
+  }
+  const Eigen::MatrixXd covariance =
+      (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(j.cols(), j.cols()));
+  std::vector<double> out;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    out.push_back(std::sqrt(covariance(k, k)) * numbers[i].scale);
+  }
+  return out;
+}
+
+// What one trial has found of each number, in the numbers' order.
+struct Trial {
+  std::vector<identify::Estimate> found;
+  std::vector<double> truth, least;  // least: the bound's standard deviations
+  double noises = 0;                 // rms of what is left
+  int simulations = 0;
+};
+
+Trial tried(const Experiment& shipped, int seed, const std::vector<Number>& numbers) {
+  Experiment truth = drawn(shipped, numbers, seed);
+  const identify::DrivenRun run(shipped, run::run(truth).table, false);
+  identify::RunFitOptions options{.hold_out = 0, .threads = 1};
+  for (const Number& n : numbers) options.fit.push_back(n.key);
+  const identify::RunFitResult found = identify::fit_run(shipped, run, options);
+  Trial out{.least = bound(truth, run, numbers),
+            .noises = found.report.best().fit.rmse,
+            .simulations = found.simulations};
+  const std::vector<identify::Estimate>& all = found.report.best().parameters;
+  for (const Number& n : numbers) {
+    out.truth.push_back(at(truth, n.key));
+    out.found.push_back(*std::ranges::find(all, n.key, &identify::Estimate::name));
+  }
+  return out;
+}
+
+// Counts a trial, and tells of what its intervals do not hold.
+void count(const Trial& t, int seed, std::vector<Number>& numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const identify::Estimate& e = t.found[i];
+    const bool held = e.low <= t.truth[i] && t.truth[i] <= e.high;
+    numbers[i].held += held ? 1 : 0;
+    numbers[i].width.push_back((e.high - e.low) / (2 * 1.96 * t.least[i]));
+    if (!held)
+      std::cout << "  trial " << seed << ": " << e.name << " is " << t.truth[i] << ", found "
+                << e.low << " to " << e.high << ", " << t.noises << " noises left\n";
+  }
+}
+
+std::size_t held_by(const Trial& t) {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < t.found.size(); ++i)
+    out += t.found[i].low <= t.truth[i] && t.truth[i] <= t.found[i].high ? 1 : 0;
+  return out;
+}
+
+// Trials run side by side, each with one thread, and are counted in their order; that each is done
+// is told at once, for those who end a long try.
+std::vector<Trial> try_side_by_side(const Experiment& shipped, const std::vector<Number>& numbers,
+                                    int trials) {
+  std::vector<Trial> out(static_cast<std::size_t>(trials));
+  std::atomic<int> next = 0;
+  const auto some = [&] {
+    for (int i = next++; i < trials; i = next++) {
+      Trial& t = out[static_cast<std::size_t>(i)];
+      t = tried(shipped, i, numbers);
+      std::cerr << "  trial " + std::to_string(i) + " holds " + std::to_string(held_by(t)) +
+                       " of " + std::to_string(numbers.size()) + "\n";
+    }
+  };
+  std::vector<std::jthread> others;
+  for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) others.emplace_back(some);
+  some();
+  others.clear();
+  return out;
+}
+
+void try_all(const std::string& name, int trials, const std::vector<std::string>& sets = {}) {
+  Experiment shipped =
+      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+  std::vector<Number> numbers;
+  for (const std::string& key : identify::machine_keys(shipped, {})) {
+    if (key == "trolley.drag") continue;  // in the air no reading depends on it
+    for (const identify::MachineNumber& n : identify::machine_numbers(shipped))
+      if (n.key == key) numbers.push_back({key, identify::machine_scale(shipped, n), 0, {}});
+  }
+  int noisy = 0, simulations = 0;
+  const std::vector<Trial> all = try_side_by_side(shipped, numbers, trials);
+  for (int i = 0; i < trials; ++i) {
+    const Trial& t = all[static_cast<std::size_t>(i)];
+    count(t, i, numbers);
+    noisy += t.noises > 1.05 ? 1 : 0;
+    simulations += t.simulations;
+  }
+  std::cout << trials << " trials of " << name << ", " << noisy << " ended above the noise, "
+            << simulations / trials << " simulations each\n";
+  for (Number& n : numbers) {
+    std::ranges::sort(n.width);
+    const double width = n.width[n.width.size() / 2];
+    std::cout << "  " << n.key << ": held in " << n.held << ", median width " << width
+              << " of the bound\n";
+    EXPECT_LE(width, 1.5) << n.key;
+    EXPECT_GE(n.held, trials >= 100 ? 0.9 * trials : trials - 2 - trials / 10) << n.key;
+    if (trials >= 100) {
+      EXPECT_LE(n.held, 0.99 * trials) << n.key;
+    }
+  }
+}
+
+TEST(IdentifyRun, HoldsWhatWasInjectedIntoOneJoint) { try_all("one-joint", tries(2)); }
+
+TEST(IdentifyRun, HoldsWhatWasInjectedIntoTheLeg) {
+  try_all("leg-in-air", tries(1), {"sequence.repeat=1"});
+}
+
+}  // namespace
+}  // namespace sinew::guards
