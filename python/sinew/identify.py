@@ -176,12 +176,13 @@ def run(
 
     run: its folder or log; an imported recording's too. fit: keys, and groups of them: "friction",
     "damping", "dead-time", "volume", "leak"; else all groups. machine: what was run, in place of the
-    folder's. sets: "KEY=VALUE", where the search begins or what is known; priors: "KEY=VALUE +- DEVIATION"; freeze:
-    "KEY=VALUE", what is known and not fitted. Where the readings jump with the numbers ("rough" in the report) its
-    "intervals" is False, "no_intervals_because" says why, and "low" and "high" are None.
-    hold_out: share of the run, at its end, that scores and is not fitted; begin [s]: what is before is not
-    compared. threads: simulations at once, 0: one for each processor; the result is the same. base: the
-    robot's file that the written one adds to.
+    folder's. sets: "KEY=VALUE", where the search begins or what is known; priors: "KEY=VALUE +- DEVIATION".
+    freeze: "KEY=VALUE", what is known and not fitted. hold_out: share of the run, at its end, that scores and
+    is not fitted; begin [s]: what is before is not compared. threads: simulations at once, 0: one for each
+    processor; the result is the same. base: the robot's file that the written one adds to.
+
+    A leg that walks has no intervals: "intervals" of the report is False, "no_intervals_because" says why, and
+    "low" and "high" are None.
     """
     settings = {
         "run": run,

@@ -22,8 +22,17 @@ class Run(unittest.TestCase):
             self.assertLess(number["low"], 0.07)
             self.assertGreater(number["high"], 0.07)
             self.assertAlmostEqual(number["value"], 0.07, 3)
+            self.assertFalse(found.report["rough"])
+            self.assertTrue(found.report["intervals"])
+            self.assertEqual(found.report["landings"], 0)
             with self.assertRaisesRegex((sinew.InputError, identify.RefusalError), "fit"):
                 identify.run(folder, fit="joint.elbow.dry_friction")
+            with self.assertRaisesRegex((sinew.InputError, identify.RefusalError), "a share of the run"):
+                identify.run(folder, fit="friction", hold_out="20")
+            with self.assertRaisesRegex((sinew.InputError, identify.RefusalError), "to be fitted"):
+                identify.run(
+                    folder, fit="joint.lever.damping", freeze="joint.lever.damping=0.04 N m s/rad"
+                )
 
 
 if __name__ == "__main__":
