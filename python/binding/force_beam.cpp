@@ -10,7 +10,7 @@ namespace sinew::python {
 
 namespace {
 
-// What `sinew force-beam --json` prints.
+// Returns what `sinew force-beam --json` prints.
 py::object force_beam(const py::dict& given) {
   identify::TransducerSettings s;
   const Settings settings(given);

@@ -16,12 +16,12 @@ py::object loaded(const std::string& json) {
   return py::module_::import("json").attr("loads")(json);
 }
 
-// What `sinew identify METHOD --columns --json` prints.
+// Returns what `sinew identify METHOD --columns --json` prints.
 py::object inputs(const std::string& method) {
   return loaded(to_json(identify::inputs_of(method)).dump());
 }
 
-// What `--template` writes.
+// Returns what `--template` writes.
 std::string table_to_fill_in(const std::string& method, const std::string& kind) {
   return identify::template_of(identify::inputs_of(method), kind);
 }

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::ordered_json;
 
-// A shipped map, its columns told.
+// Names a shipped map and its columns.
 Words of_map(const std::string& method, const Words& more) {
   Words out{"identify",
             method,

@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-// A slide on 80 N/mm with 15 N of dry friction and a zero of the force cell. Synthetic.
+// Records a synthetic slide on 80 N/mm with 15 N of dry friction and a zero of the force cell.
 std::string moved(double bias, double phase) {
   std::string out = "time [s],force [N],displacement [mm],pressure_1 [kPa gauge]\n";
   double share = 0, before = std::sin(phase);

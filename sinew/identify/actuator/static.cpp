@@ -26,7 +26,7 @@ using Points = std::vector<StaticPoint>;
 constexpr std::string_view may_be_at_bound[] = {"half_width", "end_loss", "thread_length",
                                                 "series_compliance"};
 
-// A muscle whose rest length nobody said: its longest length.
+// A muscle whose rest length nobody said has its longest length.
 void give_rest_length(Points& points, Report& report) {
   double longest = 0;
   bool none = false, some = false;
@@ -272,6 +272,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
 
   std::vector<Best> found;
   for (const StaticModel& model : static_models()) {
+    if (options.tried) ++*options.tried;
     if (!options.model.empty() && model.name != options.model) continue;
     found.emplace_back();
     report.fits.push_back(

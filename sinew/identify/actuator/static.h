@@ -3,13 +3,15 @@
 //
 // Choice: each model predicts parts of the data it was not fitted to - pressures in four parts,
 // lengths one by one, the lowest and the highest of both left in - and the one with the fewest
-// parameters within 10 % of the smallest error (root mean square over all kinds, alike) is taken.
+// parameters within 10 % of the smallest error (geometric mean over the kinds, and each) is taken.
 // Of three muscles or more, each muscle is left out once, too: that is the third kind.
 // A law of which a parameter stands at the bound of its range is none for the data and is not
 // chosen. The end lengths, predicted by the others, are told apart: that is extrapolation. What is
 // held out by the user (StaticPoint::fitted) has no part in it and tells how good the result is.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +34,9 @@ struct StaticOptions {
   std::optional<actuator::Braid> braid;   // known from elsewhere
   std::string model;                      // this one alone; empty: all
   HoldOut hold_out = HoldOut::none;       // beside what the points say
+
+  // Counts the laws that have been tried, for whoever watches; null: nobody does.
+  std::atomic<std::int64_t>* tried = nullptr;
 };
 
 // One muscle's actuator, as a file would have it.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rest = test_rest_length;
 
-// A muscle at six lengths and twelve pressures, with the noise of a good force cell.
+// Returns a muscle at six lengths and twelve pressures, with the noise of a good force cell.
 StaticData good_data() {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;

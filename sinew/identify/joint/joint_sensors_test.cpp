@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi, atmosphere = actuator::thesis_atmosphere;
 constexpr double arm = 0.022, mount = 0.083, c0 = 0.97, rest = 4.0;
 
-// Of a flexor round a cam, [22]; it raises the angle.
+// Returns the torque of a flexor round a cam, [22]; it raises the angle.
 double pull(double q, double gauge) {
   const actuator::Braid braid = actuator::thesis_actuator().braid;
   const double length = mount - arm * q, b = braid.thread_length, n = braid.turns;

@@ -1,4 +1,4 @@
-// What boxes leave of normal distributions.
+// Says what boxes leave of normal distributions.
 #include "sinew/identify/machine/run_mixture.h"
 
 #include <gtest/gtest.h>

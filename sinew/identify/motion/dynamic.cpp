@@ -182,7 +182,7 @@ class Dynamic {
  private:
   using Which = std::vector<std::size_t>;  // of the records
 
-  // Of the law and of these records.
+  // Returns the parameters of the law and of these records.
   std::vector<Parameter> parameters_of(const Law& law, const Which& which,
                                        const Start& start) const {
     std::vector<Parameter> parameters;

@@ -77,7 +77,7 @@ nlohmann::ordered_json json_of_column(const MethodInputs& inputs, const Wanted& 
   return out;
 }
 
-// Of a header's "length [mm]" the name.
+// Returns the name of a header's "length [mm]".
 std::string name_in_heading(const std::string& heading) {
   return heading.substr(0, std::min(heading.find(" ["), heading.size()));
 }

@@ -125,7 +125,7 @@ PlanFound planned(PlanFound out, const PlanReader& read, std::span<const Measure
   return out;
 }
 
-// A muscle whose rest length nobody said: its longest length.
+// A muscle whose rest length nobody said has its longest length.
 void give_longest(std::vector<StaticPoint>& points, std::vector<std::string>& notes) {
   double longest = 0;
   for (const StaticPoint& p : points) longest = std::max(longest, p.length);

@@ -105,7 +105,7 @@ TEST(Task, WantsItsTables) {
   expect_begins(refusal([] { atmosphere_setting("14.7 in"); }), "atmosphere: found ");
 }
 
-// A joint with a spring of 12 N m/rad and 0.8 N m of dry friction, moved by hand.
+// Records a joint with a spring of 12 N m/rad and 0.8 N m of dry friction, moved by hand.
 std::vector<Source> moved_pair(const std::string& name = "pair.csv") {
   std::string text = "time [s],torque [N m],angle [rad]\n";
   double share = 0, before = 0;

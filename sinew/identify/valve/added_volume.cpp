@@ -24,7 +24,7 @@ bool is_of_one_fill(std::string_view name) {
   return name == "start_pressure" || name == "opening_instant" || name == "port_pressure";
 }
 
-// A curve with its place in the parameters of all.
+// Holds a curve with its place in the parameters of all.
 struct JointCurve {
   Curve curve;
   double added = 0;
