@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_outliers.h"
@@ -130,6 +133,40 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
     out.refused = refusal.what();
   }
   return out;
+}
+
+// Tries the laws side by side, the dearest of them, which come last, first. Each is found as it
+// would be alone, whatever the number of threads.
+std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
+                         const StaticOptions& options, double full_scale,
+                         std::vector<Best>& found) {
+  std::vector<const StaticModel*> models;
+  for (const StaticModel& model : static_models())
+    if (options.model.empty() || model.name == options.model) models.push_back(&model);
+  std::vector<Fit> fits(models.size());
+  std::vector<std::exception_ptr> failed(models.size());
+  found.resize(models.size());
+  std::atomic<std::size_t> begun = 0;
+  const auto work = [&] {
+    for (std::size_t i = begun++; i < models.size(); i = begun++) {
+      const std::size_t k = models.size() - 1 - i;
+      try {
+        fits[k] = try_model(*models[k], s, scales, options.hold_out, full_scale, found[k]);
+      } catch (...) {
+        failed[k] = std::current_exception();
+      }
+      if (options.tried) ++*options.tried;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    for (std::size_t t = 1; t < std::min(cores, models.size()); ++t) others.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& error : failed)
+    if (error) std::rethrow_exception(error);
+  return fits;
 }
 
 StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
@@ -271,13 +308,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
                   "the sign of the force");
 
   std::vector<Best> found;
-  for (const StaticModel& model : static_models()) {
-    if (options.tried) ++*options.tried;
-    if (!options.model.empty() && model.name != options.model) continue;
-    found.emplace_back();
-    report.fits.push_back(
-        try_model(model, s, out.scales, options.hold_out, report.full_scale, found.back()));
-  }
+  report.fits = try_all(s, out.scales, options, report.full_scale, found);
   report.rows = rows_of(s);
   choose(report);
   if (options.model.empty())

@@ -17,7 +17,8 @@ namespace {
 using Points = std::vector<StaticPoint>;
 
 constexpr int pressure_parts = 4;
-constexpr double left_out_tolerance = 1e-9;  // of fits that only judge
+constexpr double left_out_tolerance = 1e-6;  // of fits that only judge
+constexpr double whole_tolerance = 1e-11;    // of the fit to all points
 
 double mean_square(const std::vector<double>& residuals) {
   double sum = 0;
@@ -153,7 +154,7 @@ bool Tried::by_ratio() const { return model_.name == "effectiveness-by-ratio"; }
 
 StaticFit Tried::fit(const Points& points, const StaticFit* start) const {
   if (by_ratio()) return fit_by_ratio(points, scales_);
-  return fit_static(knobs_, points, scales_, start, start ? left_out_tolerance : 1e-14);
+  return fit_static(knobs_, points, scales_, start, start ? left_out_tolerance : whole_tolerance);
 }
 
 Unseen Tried::cross(const Points& points, const std::vector<int>& part, int parts,
