@@ -115,24 +115,29 @@ Trial tried(const Experiment& shipped, int seed, const std::vector<Number>& numb
   return out;
 }
 
+// An interval that is not given holds nothing.
+bool holds(const Trial& t, std::size_t i) {
+  const identify::Estimate& e = t.found[i];
+  return std::isfinite(e.high - e.low) && e.low <= t.truth[i] && t.truth[i] <= e.high;
+}
+
+std::size_t held_by(const Trial& t) {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < t.found.size(); ++i) out += holds(t, i) ? 1 : 0;
+  return out;
+}
+
 // Counts a trial, and tells of what its intervals do not hold.
 void count(const Trial& t, int seed, std::vector<Number>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const identify::Estimate& e = t.found[i];
-    const bool held = e.low <= t.truth[i] && t.truth[i] <= e.high;
+    const bool held = holds(t, i);
     numbers[i].held += held ? 1 : 0;
     numbers[i].width.push_back((e.high - e.low) / (2 * 1.96 * t.least[i]));
     if (!held)
       std::cout << "  trial " << seed << ": " << e.name << " is " << t.truth[i] << ", found "
                 << e.low << " to " << e.high << ", " << t.noises << " noises left\n";
   }
-}
-
-std::size_t held_by(const Trial& t) {
-  std::size_t out = 0;
-  for (std::size_t i = 0; i < t.found.size(); ++i)
-    out += t.found[i].low <= t.truth[i] && t.truth[i] <= t.found[i].high ? 1 : 0;
-  return out;
 }
 
 // Trials run side by side, each with one thread, and are counted in their order; that each is done
