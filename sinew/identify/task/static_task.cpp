@@ -129,7 +129,10 @@ std::optional<actuator::Braid> braid_of(const StaticSettings& settings) {
 
 StaticOptions options_of(const std::vector<Source>& sources, const StaticSettings& settings,
                          const std::optional<actuator::Braid>& braid) {
-  StaticOptions out{.atmosphere = sources[0].atmosphere, .braid = braid, .model = settings.model, .tried = settings.tried};
+  StaticOptions out{.atmosphere = sources[0].atmosphere,
+                    .braid = braid,
+                    .model = settings.model,
+                    .tried = settings.tried};
   out.subject = "static law from " + sources[0].path;
   if (sources.size() > 1) out.subject += " and " + std::to_string(sources.size() - 1) + " more";
   if (settings.hold_out == "pressure") out.hold_out = HoldOut::pressure;
