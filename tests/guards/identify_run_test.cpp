@@ -21,6 +21,7 @@
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_fit.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/signals/tick.h"
 
 namespace sinew::guards {
 namespace {
@@ -44,8 +45,10 @@ double& at(Experiment& e, const std::string& key) {
   return *std::ranges::find(all, key, &identify::MachineNumber::key)->value;
 }
 
-// A machine whose numbers are up to 30 % off; its leaks, which the shipped ones do not have, are of
-// half a to one and a half of what empties ten cubic centimetres in two minutes.
+// A machine whose numbers are up to 30 % off, and dead times up to the ends of the ticks that these
+// lie in: a run tells the tick well and the place in it less, so that places have to come alike.
+// Its leaks, which the shipped ones do not have, are of half a to one and a half of what empties
+// ten cubic centimetres in two minutes.
 Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, int trial) {
   std::mt19937_64 random(static_cast<std::uint64_t>(trial) * 7919 + 1);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -53,7 +56,13 @@ Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, 
   out.seed = trial + 1;
   for (const Number& n : numbers) {
     double& value = at(out, n.key);
-    value = value > 0 ? value * (0.7 + 0.6 * uniform()) : n.scale * (0.5 + uniform());
+    double low = value > 0 ? 0.7 * value : 0.5 * n.scale;
+    double high = value > 0 ? 1.3 * value : 1.5 * n.scale;
+    if (n.key.ends_with("ing_delay")) {
+      low = std::floor(low / signals::tick_seconds) * signals::tick_seconds;
+      high = std::ceil(high / signals::tick_seconds) * signals::tick_seconds;
+    }
+    value = low + (high - low) * uniform();
   }
   return out;
 }

@@ -142,8 +142,10 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
     piece.cost /= s * s;
   }
   const bool known = !pieces.empty() && s > 0;
+  std::vector<double> value;
+  for (const Eigen::Index i : columns) value.push_back(at.p[static_cast<std::size_t>(i)]);
   const std::vector<RunCell> middle =
-      known ? middle_of_pieces(pieces, t_quantile(std::max(1, freedom)))
+      known ? middle_of_pieces(pieces, value, t_quantile(std::max(1, freedom)))
             : std::vector<RunCell>(columns.size());
   const auto m = static_cast<Eigen::Index>(columns.size());
   RunPiece none{.middle = Eigen::VectorXd::Zero(m), .spread = Matrix::Zero(m, m)};

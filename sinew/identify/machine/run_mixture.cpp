@@ -85,12 +85,17 @@ bool is_cut(const RunPiece& piece) {
   return false;
 }
 
-// The middle 95 % of number i.
-RunCell middle_of(const Drawn& drawn, Eigen::Index i) {
+// The middle 95 % of number i, or those that reach up to its value.
+RunCell middle_of(const Drawn& drawn, Eigen::Index i, double value) {
+  constexpr double tail = 0.025;
   std::vector<std::size_t> order(drawn.at.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(drawn.at[k](i), k); });
-  const double all = std::accumulate(drawn.weight.begin(), drawn.weight.end(), 0.0);
+  double all = 0, below = 0;
+  for (std::size_t k = 0; k < drawn.at.size(); ++k) {
+    all += drawn.weight[k];
+    below += drawn.at[k](i) < value ? drawn.weight[k] : 0;
+  }
   const auto quantile = [&](double share) {
     double sum = 0;
     for (const std::size_t k : order) {
@@ -99,12 +104,16 @@ RunCell middle_of(const Drawn& drawn, Eigen::Index i) {
     }
     return drawn.at[order.back()](i);
   };
-  return {quantile(0.025), quantile(0.975)};
+  const double from = below < tail * all         ? below / all
+                      : below > (1 - tail) * all ? below / all - (1 - 2 * tail)
+                                                 : tail;
+  return {quantile(from), quantile(from + 1 - 2 * tail)};
 }
 
 }  // namespace
 
-std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces, double width) {
+std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces,
+                                      std::span<const double> value, double width) {
   const auto n = static_cast<std::size_t>(pieces[0].middle.size());
   std::vector<RunCell> out(n);
   Drawn drawn;
@@ -122,7 +131,7 @@ std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces, double w
     const RunPiece& only = pieces[0];
     const double reach = width * only.spread.row(k).norm();
     out[i] = drawn.at.empty() ? RunCell{only.middle(k) - reach, only.middle(k) + reach}
-                              : middle_of(drawn, k);
+                              : middle_of(drawn, k, value[i]);
   }
   return out;
 }

@@ -28,7 +28,9 @@ struct RunPiece {
 };
 
 // Returns the middle 95 % of each number, where a distribution's are its middle -+ `width` standard
-// deviations. There is a piece at least.
-std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces, double width);
+// deviations. Where `value` is none of them, as the end of a box that holds it, they are those 95 %
+// that reach up to it. There is a piece at least.
+std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces,
+                                      std::span<const double> value, double width);
 
 }  // namespace sinew::identify

@@ -10,6 +10,11 @@ namespace {
 
 constexpr double width = 1.959963984540054;
 
+// Of two numbers whose values are in the middle of what is known.
+std::vector<RunCell> middle(std::span<const RunPiece> pieces, double value = 0.5) {
+  return middle_of_pieces(pieces, std::vector<double>{value, value}, width);
+}
+
 // Two numbers of which the readings know the difference to 0.01 and the sum to 1.
 RunPiece bound_pair(double low, double high, double cost = 0) {
   RunPiece out{.middle = Eigen::Vector2d(0, 0), .spread = Eigen::Matrix2d(), .cost = cost};
@@ -20,7 +25,7 @@ RunPiece bound_pair(double low, double high, double cost = 0) {
 
 TEST(RunMixture, WithoutABoxItIsTheNormalDistribution) {
   const RunPiece piece = bound_pair(-unbounded, unbounded);
-  const std::vector<RunCell> all = middle_of_pieces({&piece, 1}, width);
+  const std::vector<RunCell> all = middle({&piece, 1});
   EXPECT_NEAR(all[1].high, width * 0.5, 1e-12);
   EXPECT_NEAR(all[0].low, -width * std::hypot(0.01, 0.5), 1e-12);
 }
@@ -28,17 +33,26 @@ TEST(RunMixture, WithoutABoxItIsTheNormalDistribution) {
 // Of the half above zero: quantiles of |x|. What is bound to it follows.
 TEST(RunMixture, ABoxCutsWhatIsBoundToTheNumberToo) {
   const RunPiece piece = bound_pair(0, unbounded);
-  const std::vector<RunCell> all = middle_of_pieces({&piece, 1}, width);
+  const std::vector<RunCell> all = middle({&piece, 1});
   for (const RunCell& one : all) {
     EXPECT_NEAR(one.low, 0.5 * 0.0313, 0.02);
     EXPECT_NEAR(one.high, 0.5 * 2.2414, 0.06);
   }
 }
 
+// A value at the end of its box belongs to its interval, which is no wider for it: 95 % of |x| from
+// 0.
+TEST(RunMixture, AValueAtTheEndOfItsBoxBelongsToTheInterval) {
+  const RunPiece piece = bound_pair(0, unbounded);
+  const RunCell cell = middle({&piece, 1}, 0)[1];
+  EXPECT_NEAR(cell.low, 0, 1e-3);
+  EXPECT_NEAR(cell.high, 0.5 * width, 0.05);
+}
+
 // Boxes beside each other, in which the same is known, are one without the wall.
 TEST(RunMixture, PiecesThatFitTogetherAreTheWhole) {
   const RunPiece pieces[] = {bound_pair(-unbounded, 0.2), bound_pair(0.2, unbounded)};
-  const std::vector<RunCell> all = middle_of_pieces(pieces, width);
+  const std::vector<RunCell> all = middle(pieces);
   EXPECT_NEAR(all[1].low, -width * 0.5, 0.05);
   EXPECT_NEAR(all[1].high, width * 0.5, 0.05);
 }
@@ -47,17 +61,17 @@ TEST(RunMixture, APieceThatFitsBadlyHasNoWeight) {
   RunPiece far = bound_pair(10, 11, 20);
   far.middle = Eigen::Vector2d(10.5, 10.5);
   const RunPiece pieces[] = {bound_pair(-unbounded, 10), far};
-  EXPECT_NEAR(middle_of_pieces(pieces, width)[1].high, width * 0.5, 0.05);
+  EXPECT_NEAR(middle(pieces)[1].high, width * 0.5, 0.05);
   RunPiece near = far;
   near.cost = 0;
   const RunPiece two[] = {bound_pair(-unbounded, 10), near};
-  EXPECT_GT(middle_of_pieces(two, width)[1].high, 10);
+  EXPECT_GT(middle(two)[1].high, 10);
 }
 
 // A box far out in the tail is where the numbers are, all the same.
 TEST(RunMixture, ABoxInTheTailHoldsTheNumber) {
   const RunPiece piece = bound_pair(6, 7);
-  const RunCell cell = middle_of_pieces({&piece, 1}, width)[1];
+  const RunCell cell = middle({&piece, 1}, 6.05)[1];
   EXPECT_GE(cell.low, 6);
   EXPECT_LT(cell.high, 6.3);
 }
