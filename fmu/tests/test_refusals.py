@@ -313,7 +313,9 @@ class Files(unittest.TestCase):
     def test_that_are_damaged(self) -> None:
         cases = [
             (lambda t: t.replace(b"turns = 2.3125", b"turns = 2.4"), "was changed by hand"),
-            (lambda t: t[: len(t) // 2], "the file is damaged"),
+            # Cut within a key, and between two lines.
+            (lambda t: t[: t.index(b" = ", len(t) // 2)], "the file is damaged"),
+            (lambda t: t[: t.index(b"\n", len(t) // 2) + 1], "the file is cut off"),
             (lambda t: b"", "is empty"),
             (lambda t: b"\x00\xff" * 100, "expected \"sinew fmu 1\""),
             (lambda t: t.replace(b"fmu 1", b"fmu 9", 1), "expected \"sinew fmu 1\""),
