@@ -16,6 +16,7 @@ struct ChartAxis {
 
 // Either numbers, or two channels of one clock. A number that is none breaks a line.
 struct ChartCurve {
+  // Says what is drawn at the numbers.
   enum class Style {
     points,
     line,
