@@ -99,7 +99,7 @@ std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
   return out;
 }
 
-// What one trial has found of each number, in the numbers' order.
+// Holds what one trial has found of each number, in the numbers' order.
 struct Trial {
   std::vector<identify::Estimate> found;
   std::vector<double> truth, least;  // least: the bound's standard deviations

@@ -32,7 +32,7 @@ export function band_path(curve, at_x, at_y) {
 // How dark a band is: that of 68 % lies within that of 95 %.
 export const band_opacity = (label) => (label.startsWith('68') ? 0.3 : 0.17);
 
-// What a curve looks like, for a legend 26 pixels wide.
+// Returns what a curve looks like, for a legend 26 pixels wide.
 export function sample_of(curve) {
   const svg = (inner) => `<svg viewBox="0 0 26 10" width="26" height="10" aria-hidden="true">${inner}</svg>`;
   if (curve.style === 'band') return svg(`<rect width="26" height="10" fill="var(--line)" fill-opacity="${band_opacity(curve.label) + 0.1}"/>`);

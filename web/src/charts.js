@@ -19,8 +19,8 @@ const near = 24;  // a point that the cursor finds [px]
 const numbers_of = (source, columns) =>
   Array.isArray(source) ? Float64Array.from(source, (v) => v ?? NaN) : columns[source].values;
 
-// What an axis must show, and what it makes room for up to a share of that: else a wild point or a
-// law that fails would leave no height to what matters.
+// Says for which curves an axis makes room only up to a share of what it must show: else a wild point
+// or a law that fails would leave no height to what matters.
 const beside = { band: 0.2, 'other line': 0.1, 'left out': 0.35 };
 
 function ends_of(curves, keys) {
@@ -115,7 +115,7 @@ class Chart {
     return new Set(this.spec.curves.filter((c) => c.label === label).map((c) => c.color)).size > 1;
   }
 
-  // Of a curve; null where it stands for several colors.
+  // Returns the color of a curve; null where it stands for several colors.
   color_of(curve, palette = this.charts.palette, dark = this.charts.dark) {
     if (curve.style === 'held out') return null;
     if (curve.style in beside) return palette[curve.color % palette.length];

@@ -1,4 +1,4 @@
-// What a fit shows beside its models: the error by part, what was left out and why, and what a
+// Shows what a fit tells beside its models: the error by part, what was left out and why, and what a
 // further measurement would buy.
 import { sample_of } from './chart_shapes.js';
 import { element } from './page.js';

@@ -20,7 +20,7 @@ const Wanted creep_wanted[] = {
     {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
 };
 
-// What is searched: how many elements of creep, and is there friction?
+// Says what is searched: how many elements of creep, and whether there is friction.
 struct Form {
   std::string_view name;
   int elements = 0;

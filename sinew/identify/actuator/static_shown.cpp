@@ -19,7 +19,7 @@ constexpr double room_beyond = 0.08;     // of the range of all points
 constexpr std::size_t most_shown = 240;  // left out for one reason
 constexpr double off_branch = 1000;      // of another branch: further than any length  [m]
 
-// What the picture's axis goes over.
+// Says whether the picture's axis goes over pressures; it goes over lengths otherwise.
 bool over_pressure(const Rows& rows) { return rows.x == "pressure"; }
 
 double& along(StaticPoint& point, bool pressure) {

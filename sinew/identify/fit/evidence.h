@@ -22,7 +22,7 @@ struct OmittedRow {
   std::string why;  // "1/10 of what the law has: a slipped decimal?"
 };
 
-// What was left out for one reason.
+// Holds what was left out for one reason.
 struct Omitted {
   std::string reason;            // "pressure still moving"
   std::string told_by;           // how it was told from the others
@@ -39,7 +39,7 @@ struct FurtherMount {
   double rms = 0, half = 0;  // root mean square, half of 95 % at the worst place  [%]
 };
 
-// What further measurements of one muscle would buy, the most useful first.
+// Says what further measurements of one muscle would buy, the most useful first.
 struct Further {
   std::string of;            // "the muscle of 225 mm"; empty: there is but one
   std::size_t readings = 0;  // that there are

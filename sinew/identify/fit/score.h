@@ -15,7 +15,7 @@ struct Score {
   std::size_t points = 0;
   double rmse = 0, max = 0;  // of the residuals, in the report's unit
 
-  // Of `full_scale`, for instance the muscle's largest force  [%].
+  // These are shares of `full_scale`, for instance the muscle's largest force  [%].
   double rmse_percent = 0, max_percent = 0;
 
   // R^2, the share of the variance of what was measured that is explained; NaN: not told.

@@ -273,7 +273,7 @@ TEST(Joint, WhatCannotBeUsedIsTold) {
   says(no_pressure, setup_of(t), "no pressure");
 }
 
-// Of 100 trials with other noise and other poses, 90 to 99 hold each parameter.
+// Intervals of 90 to 99 in 100 trials with other noise and other poses hold each parameter.
 TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
   constexpr int trials = 100;
   std::map<std::string, int> held;

@@ -51,8 +51,8 @@ std::vector<Eigen::Index> seen_columns(const Matrix& j, std::span<const RunCell>
   return plain;
 }
 
-// What the tangent at a place says of those numbers, in units of the residuals; these become what
-// is left where it ends.
+// Returns what the tangent at a place says of those numbers, in units of the residuals; these
+// become what is left where it ends.
 RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const RunSearched& at,
                   const std::vector<Eigen::Index>& columns) {
   const auto m = static_cast<Eigen::Index>(columns.size());
@@ -77,7 +77,8 @@ RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const Ru
   return out;
 }
 
-// Of what is left in readings that no converter's end cuts. Returns its freedom.
+// Writes the deviation of what is left in readings that no converter's end cuts. Returns its
+// freedom.
 int set_deviation(const RunResiduals& residuals, const Eigen::VectorXd& left, int numbers,
                   RunJudged& out) {
   double squares = 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double width = 1.959963984540054;
 
-// Of two numbers whose values are in the middle of what is known.
+// Returns the intervals of two numbers whose values are in the middle of what is known.
 std::vector<RunCell> middle(std::span<const RunPiece> pieces, double value = 0.5) {
   return middle_of_pieces(pieces, std::vector<double>{value, value}, width);
 }
@@ -30,7 +30,7 @@ TEST(RunMixture, WithoutABoxItIsTheNormalDistribution) {
   EXPECT_NEAR(all[0].low, -width * std::hypot(0.01, 0.5), 1e-12);
 }
 
-// Of the half above zero: quantiles of |x|. What is bound to it follows.
+// The half above zero has the quantiles of |x|, and a number that is bound to it follows.
 TEST(RunMixture, ABoxCutsWhatIsBoundToTheNumberToo) {
   const RunPiece piece = bound_pair(0, unbounded);
   const std::vector<RunCell> all = middle({&piece, 1});

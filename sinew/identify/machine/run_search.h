@@ -98,7 +98,7 @@ std::vector<double> made_up_costs(const RunResiduals& residuals,
                                   std::span<const Parameter> parameters, const RunSearched& at,
                                   const std::vector<std::vector<double>>& places, int threads);
 
-// What the run says of all numbers together, at the end of a search. An interval is the middle 95 %
+// Holds what the run says of all numbers, at the end of a search. An interval is the middle 95 %
 // of what the cells leave that the run does not rule out (run_mixture.h).
 struct RunJudged {
   std::vector<Estimate> estimates;

@@ -165,7 +165,7 @@ class Maker {
     left_.curves.push_back(std::move(apart));
   }
 
-  // What no fit has seen, each reason with a mark of its own.
+  // Adds what no fit has seen, each reason with a mark of its own.
   void add_left_out() {
     int mark = 0;
     for (const Omitted& omitted : report_.left_out) {
