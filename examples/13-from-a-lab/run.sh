@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A laboratory's files, without an editor: a rig's table to a muscle, the muscle to a robot, a recording of the
-# machine beside the simulated one. Every command is done in a few seconds where the machine is quiet.
+# machine beside the simulated one. Every command is done within five seconds.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 cp "$here/kennlinie.csv" "$here/aufnahme.csv" .
 
-slowest=60  # seconds after which a command is taken to hang
+slowest=5  # seconds that a command may take
 lesson() {  # shows a command line, then what it prints
   local word before=$EPOCHREALTIME after
   printf '$ sinew'
