@@ -33,16 +33,16 @@ inline double braid_length(const Actuator& a, double length, double gauge_pressu
     const BladderPull bladder = bladder_pull(a.bladder, x);
     const double hard =
         (ideal_tension(a.braid, w, acting) + acting * wall_area(a, w)) * eff + bladder.tension;
-    const double pull = toe_tension(a.toe, hard);
+    const ToePull toe = toe_pull(a.toe, hard);
     const double slope =
         ((ideal_stiffness(a.braid, w, acting) + acting * wall_area_slope(a, w)) * gain * eff +
          bladder.stiffness) *
-        toe_share(a.toe, hard);
+        toe.share;
     const double grows = c * slope > -0.5 ? c * slope : -0.5;
-    const double step = (c * pull - (length - x)) / (1.0 + grows);
+    const double step = (c * toe.tension - (length - x)) / (1.0 + grows);
     x -= step;
-    // What is left is of the order of the square of the last step.
-    if (step < 1e-9 * length && step > -1e-9 * length) break;
+    // What is left is of the order of the square of the last step: 1e-12 of the length.
+    if (step < 1e-7 * length && step > -1e-7 * length) break;
   }
   return x;
 }

@@ -21,24 +21,30 @@ namespace sinew::actuator {
 // Says where B is so far from 0, in toes, that nothing of the toe is left in 53 bits  [-].
 inline constexpr double toe_ends = 40;
 
-// Returns T  [N]. Without a toe it is `pull` itself, to the bit.
-constexpr double toe_tension(const Toe& toe, double pull) {
+// T [N] and dT/dB [-].
+struct ToePull {
+  double tension = 0, share = 1;
+};
+
+// Returns both, with one exponential. Without a toe T is `pull` itself, to the bit, and the
+// share 1.
+constexpr ToePull toe_pull(const Toe& toe, double pull) {
   const double s = toe.tension;
-  if (!(s > 0) || pull > toe_ends * s) return pull;
-  if (pull > 0) return pull + s * units::log(1.0 + units::exp(-pull / s));
+  if (!(s > 0) || pull > toe_ends * s) return {pull, 1.0};
+  if (pull > 0) {
+    const double e = units::exp(-pull / s);
+    return {pull + s * units::log(1.0 + e), 1.0 / (1.0 + e)};
+  }
   const double x = pull > -600 * s ? pull / s : -600;
   const double e = units::exp(x);
   // ln(1 + e) of an e that 1 would swallow.
-  return s * (x > -18 ? units::log(1.0 + e) : e);
+  return {s * (x > -18 ? units::log(1.0 + e) : e), e / (1.0 + e)};
 }
 
-// Returns dT/dB, 0 to 1  [-]. Without a toe it is 1.
-constexpr double toe_share(const Toe& toe, double pull) {
-  const double s = toe.tension;
-  if (!(s > 0) || pull > toe_ends * s) return 1.0;
-  if (pull > 0) return 1.0 / (1.0 + units::exp(-pull / s));
-  const double e = units::exp(pull > -600 * s ? pull / s : -600);
-  return e / (1.0 + e);
-}
+// Returns T alone  [N].
+constexpr double toe_tension(const Toe& toe, double pull) { return toe_pull(toe, pull).tension; }
+
+// Returns dT/dB alone, 0 to 1  [-].
+constexpr double toe_share(const Toe& toe, double pull) { return toe_pull(toe, pull).share; }
 
 }  // namespace sinew::actuator

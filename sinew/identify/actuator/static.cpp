@@ -72,6 +72,17 @@ void describe(const StaticFit& fit, Fit& out) {
       out.notes.push_back(
           "thread_length stands at the shortest that a braid can have: the law holds for the "
           "lengths that were measured, and says little of the air in the muscle");
+  for (std::size_t i = 0; i < fit.setting.rest_lengths.size(); ++i) {
+    const RestLengthError& r = fit.setting.rest_lengths[i];
+    const Estimate& e = out.parameters[fit.knobs.size() + i];
+    const double half = 0.5 * (e.high - e.low);
+    if (std::abs(r.error) > half && std::abs(r.error) > rest_length_deviation(r.labelled))
+      out.notes.push_back(fmt::format(
+          "the muscle labelled {:.4g} mm pulls as one of {:.4g} +- {:.2g} mm beside the others, be "
+          "it "
+          "for its label or for a law that is not quite theirs: its file has that length",
+          1e3 * r.labelled, 1e3 * (r.labelled + r.error), 1e3 * half));
+  }
   for (const std::string& unseen : fit.solution.unseen)
     out.notes.push_back("not determined: " + unseen);
   if (fit.outliers > 0)
@@ -127,7 +138,10 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
     const std::vector<LeftOut> muscles = tried.leave_out_muscles(s.fitted);
     out.held_out = held_out(tried, fit, s, muscles, hold_out, full_scale);
     const StaticSpread spread = cross_validate(tried, s.fitted, fit, muscles, full_scale, out);
-    keep_off_bounds(out, may_be_at_bound);
+    std::vector<std::string_view> allowed(std::begin(may_be_at_bound), std::end(may_be_at_bound));
+    for (const Estimate& e : out.parameters)
+      if (e.name.starts_with(rest_length_error)) allowed.push_back(e.name);
+    keep_off_bounds(out, allowed);
     found = {fit, own, spread};
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();

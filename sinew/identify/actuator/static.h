@@ -42,8 +42,8 @@ struct StaticOptions {
 // One muscle's actuator, as a file would have it.
 struct StaticMuscle {
   actuator::Actuator actuator;
-  double rest_length = 0;            // [m]
-  double shortest = 0, longest = 0;  // lengths that were fitted [m]
+  double rest_length = 0;            // as labelled [m]
+  double shortest = 0, longest = 0;  // lengths that were fitted, as labelled [m]
   double lowest = 0, highest = 0;    // gauge pressures that were fitted [Pa]
 };
 

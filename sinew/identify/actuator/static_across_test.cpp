@@ -87,13 +87,15 @@ TEST(AcrossMuscles, MusclesOf10MmPredictEachOther) {
   }
 }
 
-// The muscle of 98 mm is far from both others: its interval holds it, and one reading of its own
-// brings the law to 5 % or so, wherever above a third of its force it is read (the median of all).
+// Asked for: the muscle of 98 mm within 5 % with one reading of its own, else its interval holds
+// it. Both others are far from it, and it comes within 5 % without a reading as well; with one,
+// wherever above a third of its force it is read (the median of all).
 TEST(AcrossMuscles, OneReadingCorrectsTheShortMuscleOf20Mm) {
   const std::string path = bins_file("psu_20mm");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
   const Other other = without(filling(path), 0.098, "saturating-series");
   EXPECT_GE(held(other), 95);
+  EXPECT_LE(missed(other, [&](const StaticPoint& p) { return predict(other.found, p).force; }), 5);
   const StaticMuscle muscle = muscle_of(other.found, 0.098);
   std::vector<double> after;
   for (const StaticPoint& q : other.unseen) {
@@ -106,7 +108,26 @@ TEST(AcrossMuscles, OneReadingCorrectsTheShortMuscleOf20Mm) {
   }
   ASSERT_GT(after.size(), 20u);
   std::ranges::nth_element(after, after.begin() + static_cast<std::ptrdiff_t>(after.size() / 2));
-  EXPECT_LE(after[after.size() / 2], 5.2);
+  EXPECT_LE(after[after.size() / 2], 5);
+}
+
+// The muscle that is labelled 225 mm is probably 228 mm (check/label_test.cpp). Asked for, with
+// that label: it and the one of 398 mm each from the other two within 6 %.
+TEST(AcrossMuscles, MusclesOf20MmPredictEachOther) {
+  const std::string path = bins_file("psu_20mm");
+  if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
+  Points points = filling(path);
+  for (StaticPoint& p : points) {
+    if (p.rest_length != 0.225) continue;
+    if (p.length == 0.225) p.length = 0.228;
+    p.rest_length = 0.228;
+  }
+  for (const double muscle : {0.228, 0.398}) {
+    const Other other = without(points, muscle, "saturating-series");
+    EXPECT_LE(missed(other, [&](const StaticPoint& p) { return predict(other.found, p).force; }), 6)
+        << muscle;
+    EXPECT_GE(held(other), 92) << muscle;
+  }
 }
 
 // Six muscles, each fitted at 100, 200 ... 600 kPa while filling, all other bins not seen: the 95 %

@@ -35,10 +35,10 @@ Estimate scaled_estimate(const Estimate& e, double value) {
 }
 
 // What no static measurement tells: ends as stiff as the thesis's, reached where the data end.
-void add_ends(const StaticMuscle& muscle, const std::string& path, actuator::Actuator& a,
+void add_ends(double longest_measured, const std::string& path, actuator::Actuator& a,
               Provenance& provenance) {
-  const double longest = std::min(0.999 * (a.braid.thread_length + a.caps.length),
-                                  std::max(muscle.longest, muscle.rest_length) * 1.005);
+  const double longest =
+      std::min(0.999 * (a.braid.thread_length + a.caps.length), longest_measured * 1.005);
   a.long_end = {.length = std::max(longest, actuator::shortest_length(a)),
                 .stiffness = 87563.4,
                 .damping = 122.6};
@@ -76,17 +76,20 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
     provenance.given(path + "effectiveness.scale", source + "; the rest length's effect");
 
   // Outside what was measured the laws are held.
+  const double shortest = fitted_length(result, muscle, muscle.shortest);
+  const double longest = fitted_length(result, muscle, muscle.longest);
   a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
   a.effectiveness.valid_to = muscle.highest;
   a.bladder.valid_from =  // the braid is shorter than the muscle where ends give way
-      actuator::braid_length(a, muscle.shortest, muscle.highest, result.scales.atmosphere);
-  a.bladder.valid_to = std::max(muscle.longest, muscle.shortest * 1.0001);
+      actuator::braid_length(a, shortest, muscle.highest, result.scales.atmosphere);
+  a.bladder.valid_to = std::max(longest, shortest * 1.0001);
   provenance.given(path + "effectiveness.valid", "pressures in " + source);
   provenance.given(path + "bladder.valid", "lengths in " + source);
   if (!(a.bladder.saturating_tension > 0)) a.bladder.saturation_length = 0;
   if (!actuator::tapers(a.taper)) a.taper = {};
   if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
-  add_ends(muscle, path, a, provenance);
+  add_ends(std::max(longest, fitted_length(result, muscle, muscle.rest_length)), path, a,
+           provenance);
   a.prediction = prediction_of(result, muscle);
   for (const char* key : {"rest_length", "lengths", "pressures"})
     provenance.given(path + "prediction." + key, source);

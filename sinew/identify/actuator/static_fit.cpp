@@ -16,17 +16,28 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double slack_below = 0.005;  // of the full scale
+constexpr double common_deviation = 1e-3;  // of the sum of all d/L_0
+constexpr double slack_below = 0.005;      // of the full scale
 constexpr double first_scatter = 0.005, least_scatter = 0.001, most_scatter = 0.02;
 constexpr double outlier = 4;        // scatters
 constexpr double prior_rules = 0.6;  // of its deviation: an error that is larger says nothing new
 
 // Force as the law has it: below zero where the muscle would push.
-double pull(const actuator::Actuator& a, const StaticPoint& point, double atmosphere) {
+double pull(const actuator::Actuator& a, const StaticPoint& point, double length,
+            double atmosphere) {
   double p = point.pressure;
   if (a.hysteresis.half_width > 0)
-    p -= static_cast<int>(point.branch) * actuator::half_width(a, point.length, p);
-  return actuator::tension(a, point.length, 0, p, atmosphere);
+    p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
+  return actuator::tension(a, length, 0, p, atmosphere);
+}
+
+Parameter rest_length_parameter(double labelled) {
+  const double most = 10 * rest_length_deviation(labelled);
+  return {.name = fmt::format("{}{:.4g}mm", rest_length_error, 1e3 * labelled),
+          .unit = "m",
+          .low = -most,
+          .high = most,
+          .scale = 0.02 * labelled};
 }
 
 class Problem {
@@ -38,22 +49,43 @@ class Problem {
       parameters_.push_back(parameter_of(knob, scales));
       priors_.push_back(prior_of(knob, scales));
     }
+    for (const StaticPoint& p : points)
+      if (std::ranges::find(muscles_, p.rest_length) == muscles_.end())
+        muscles_.push_back(p.rest_length);
+    if (muscles_.size() < 2) muscles_.clear();
+    for (const double labelled : muscles_) {
+      parameters_.push_back(rest_length_parameter(labelled));
+      priors_.push_back(Prior{0, rest_length_deviation(labelled)});
+    }
   }
 
-  std::size_t count() const { return points_.size() + knobs_.size(); }
+  std::size_t count() const {
+    return points_.size() + parameters_.size() + (muscles_.empty() ? 0 : 1);
+  }
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::optional<Prior>& prior(std::size_t i) const { return priors_[i]; }
 
   StaticSetting setting(std::span<const double> values) const {
     StaticSetting out = setting_of(scales_);
     for (std::size_t i = 0; i < knobs_.size(); ++i) value_of(out, knobs_[i]) = values[i];
+    for (std::size_t i = 0; i < muscles_.size(); ++i)
+      out.rest_lengths.push_back({muscles_[i], values[knobs_.size() + i]});
+    return out;
+  }
+
+  // The values of a setting.
+  std::vector<double> values(const StaticSetting& setting) const {
+    std::vector<double> out;
+    StaticSetting from = setting;
+    for (const Knob knob : knobs_) out.push_back(value_of(from, knob));
+    for (const double m : muscles_) out.push_back(rest_length_of(setting, m) - m);
     return out;
   }
 
   Residuals residuals(double scatter) const {
     return [this, scatter](std::span<const double> values, std::span<double> r) {
       fill(setting(values), std::max(slack_below * scales_.full_scale, outlier * scatter), r);
-      for (std::size_t i = 0; i < knobs_.size(); ++i) {
+      for (std::size_t i = 0; i < priors_.size(); ++i) {
         double& out = r[points_.size() + i];
         out = 0;
         if (!priors_[i]) continue;
@@ -62,22 +94,31 @@ class Problem {
             prior.logarithmic ? std::log(values[i] / prior.mean) : values[i] - prior.mean;
         out = scatter * off / prior.deviation;
       }
+      if (!muscles_.empty()) r.back() = scatter * in_common(values) / common_deviation;
       return std::all_of(r.begin(), r.end(), [](double x) { return std::isfinite(x); });
     };
   }
 
  private:
+  // Returns the sum of d/L_0: what all labels have in common.
+  double in_common(std::span<const double> values) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < muscles_.size(); ++i)
+      sum += values[knobs_.size() + i] / muscles_[i];
+    return sum;
+  }
+
   // Points below `slack` may be slack: a law that pushes there is no worse than one that ends.
   void fill(const StaticSetting& setting, double slack, std::span<double> r) const {
-    double rest_length = 0;
+    double labelled = 0;
     actuator::Actuator a;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const StaticPoint& point = points_[i];
-      if (point.rest_length != rest_length) {
-        rest_length = point.rest_length;
-        a = scaled(setting, scales_, rest_length);
+      if (point.rest_length != labelled) {
+        labelled = point.rest_length;
+        a = scaled(setting, scales_, labelled);
       }
-      const double f = pull(a, point, scales_.atmosphere);
+      const double f = pull(a, point, fitted_length(setting, point), scales_.atmosphere);
       r[i] = (point.force > slack ? f : std::max(f, 0.0)) - point.force;
     }
   }
@@ -85,7 +126,8 @@ class Problem {
   const std::vector<Knob>& knobs_;
   std::span<const StaticPoint> points_;
   const StaticScales& scales_;
-  std::vector<Parameter> parameters_;
+  std::vector<double> muscles_;        // whose rest lengths are fitted with the law
+  std::vector<Parameter> parameters_;  // of the knobs, of the muscles
   std::vector<std::optional<Prior>> priors_;
 };
 
@@ -114,9 +156,16 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
 
 }  // namespace
 
+double fitted_length(const StaticSetting& setting, const StaticPoint& point) {
+  if (setting.rest_lengths.empty() || !at_rest(point.length, point.rest_length))
+    return point.length;
+  return point.length + (rest_length_of(setting, point.rest_length) - point.rest_length);
+}
+
 double predicted(const StaticSetting& setting, const StaticScales& scales,
                  const StaticPoint& point) {
-  return std::max(0.0, pull(scaled(setting, scales, point.rest_length), point, scales.atmosphere));
+  return std::max(0.0, pull(scaled(setting, scales, point.rest_length), point,
+                            fitted_length(setting, point), scales.atmosphere));
 }
 
 std::vector<double> misses(const StaticSetting& setting, const StaticScales& scales,
@@ -138,7 +187,8 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   std::vector<Parameter> from = problem.parameters();
   if (start) {
     out.scatter = start->scatter;
-    for (std::size_t i = 0; i < from.size(); ++i) from[i].start = start->solution.values[i];
+    const std::vector<double> values = problem.values(start->setting);
+    for (std::size_t i = 0; i < from.size(); ++i) from[i].start = values[i];
   } else {
     const Solution first =
         least_squares_from(problem.residuals(first_scatter * scales.full_scale), problem.count(),

@@ -261,6 +261,18 @@ std::optional<Prior> prior_of(Knob knob, const StaticScales& s) {
   }
 }
 
+double rest_length_deviation(double labelled) { return std::hypot(0.5e-3, 0.005 * labelled); }
+
+bool at_rest(double length, double rest_length) {
+  return std::abs(length - rest_length) < 0.002 * rest_length;
+}
+
+double rest_length_of(const StaticSetting& setting, double labelled) {
+  for (const RestLengthError& r : setting.rest_lengths)
+    if (r.labelled == labelled) return labelled + r.error;
+  return labelled;
+}
+
 bool needs_lengths(Knob knob) {
   switch (knob) {
     case thread_length:
@@ -317,7 +329,7 @@ actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scal
                           double rest_length) {
   actuator::Actuator a = setting.actuator;
   a.effectiveness.scale = 1 - setting.end_loss / scales.rest_length;
-  return like(a, scales.rest_length, rest_length);
+  return like(a, scales.rest_length, rest_length_of(setting, rest_length));
 }
 
 }  // namespace sinew::identify

@@ -54,6 +54,11 @@ StaticMuscle muscle_of(const StaticResult& result, double rest_length) {
   return out;
 }
 
+double fitted_length(const StaticResult& result, const StaticMuscle& muscle, double length) {
+  return fitted_length(result.fit.setting,
+                       StaticPoint{.length = length, .rest_length = muscle.rest_length});
+}
+
 StaticForce predict(const StaticResult& result, const StaticPoint& point) {
   const std::vector<StaticPoint> one{point};
   StaticForce out{.force = predicted(result.fit.setting, result.scales, point)};
@@ -87,9 +92,9 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
       if (i == 0 && length > 0) beyond.insert(beyond.end(), {at(-a_fifth, y), at(1 + a_fifth, y)});
       if (k == 0 && pressure > 0) beyond.insert(beyond.end(), {at(x, 1 + a_fifth)});
     }
-  actuator::Prediction out{.rest_length = m.rest_length,
-                           .shortest = m.shortest,
-                           .longest = m.longest,
+  actuator::Prediction out{.rest_length = fitted_length(result, m, m.rest_length),
+                           .shortest = fitted_length(result, m, m.shortest),
+                           .longest = fitted_length(result, m, m.longest),
                            .lowest = m.lowest,
                            .highest = m.highest};
   const auto in = mean_widths(result, inside);

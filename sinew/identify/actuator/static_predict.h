@@ -33,6 +33,10 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point);
 // in the same proportion  [m].
 StaticMuscle muscle_of(const StaticResult& result, double rest_length);
 
+// Returns a length of the muscle without its label's error: another than the given one at rest
+// alone [m].
+double fitted_length(const StaticResult& result, const StaticMuscle& muscle, double length);
+
 // Returns what a file tells of how far measured forces lie from the muscle's law: the root mean
 // square of the half-widths over its lengths and pressures, and a fifth beyond them.
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& muscle);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sinew::identify {
 
@@ -30,6 +31,28 @@ double by_parameters(const std::vector<std::vector<double>>& gradient, std::size
   return std::max(sum, 0.0);
 }
 
+// The setting with one muscle longer or shorter than it has it.
+StaticSetting with_error(const StaticSetting& setting, double labelled, double more) {
+  StaticSetting out = setting;
+  const auto at = std::ranges::find(out.rest_lengths, labelled, &RestLengthError::labelled);
+  if (at == out.rest_lengths.end())
+    out.rest_lengths.push_back({labelled, more});
+  else
+    at->error += more;
+  return out;
+}
+
+// Rest lengths of points that the fit did not see; none where it knew of one muscle only.
+std::set<double> unknown_muscles(const std::vector<RestLengthError>& known,
+                                 std::span<const StaticPoint> points) {
+  std::set<double> out;
+  if (known.empty()) return out;
+  for (const StaticPoint& p : points)
+    if (std::ranges::find(known, p.rest_length, &RestLengthError::labelled) == known.end())
+      out.insert(p.rest_length);
+  return out;
+}
+
 }  // namespace
 
 const Quantiles& StaticSpread::of(Guess guess) const {
@@ -45,21 +68,39 @@ void Unseen::add(const Unseen& other) {
 std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
                            std::span<const StaticPoint> points) {
   std::vector<std::vector<double>> gradient;
+  const auto slope = [&](const StaticSetting& up, const StaticSetting& down, double step) {
+    std::vector<double> out = misses(up, scales, points);
+    const std::vector<double> below = misses(down, scales, points);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = (out[i] - below[i]) / (2 * step);
+    return out;
+  };
   for (const Knob knob : fit.knobs) {
     const double step = gradient_step * parameter_of(knob, scales).scale;
     StaticSetting up = fit.setting, down = fit.setting;
     value_of(up, knob) += step;
     value_of(down, knob) -= step;
-    std::vector<double> above = misses(up, scales, points);
-    const std::vector<double> below = misses(down, scales, points);
-    for (std::size_t i = 0; i < above.size(); ++i) above[i] = (above[i] - below[i]) / (2 * step);
-    gradient.push_back(std::move(above));
+    gradient.push_back(slope(up, down, step));
   }
-  std::vector<double> out;
+  const auto by_rest_length = [&](double labelled) {
+    const double step = 0.01 * rest_length_deviation(labelled);
+    return slope(with_error(fit.setting, labelled, step), with_error(fit.setting, labelled, -step),
+                 step);
+  };
+  const std::vector<RestLengthError>& known = fit.setting.rest_lengths;
+  for (const RestLengthError& r : known) gradient.push_back(by_rest_length(r.labelled));
+
+  std::vector<double> square;
   for (std::size_t i = 0; i < points.size(); ++i)
-    out.push_back(
-        std::sqrt(fit.scatter * fit.scatter + by_parameters(gradient, i, fit.solution.covariance)));
-  return out;
+    square.push_back(fit.scatter * fit.scatter +
+                     by_parameters(gradient, i, fit.solution.covariance));
+  // A muscle that was not fitted has an error of its own.
+  for (const double labelled : unknown_muscles(known, points)) {
+    const std::vector<double> g = by_rest_length(labelled);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      square[i] += std::pow(g[i] * rest_length_deviation(labelled), 2);
+  }
+  for (double& s : square) s = std::sqrt(s);
+  return square;
 }
 
 Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,

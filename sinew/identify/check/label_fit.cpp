@@ -15,7 +15,6 @@ namespace sinew::identify {
 namespace {
 
 constexpr std::size_t most_pressures = 6;  // of a curve
-constexpr double near_label = 0.002;       // of a rest length: a mount that is labelled as it
 constexpr double slack_share = 0.02;       // of a muscle's largest force: below, it may be slack
 constexpr double usual_misfit = 0.01;      // that the priors are weighed with
 constexpr double far_misfit = 0.04;        // beyond it points count less
@@ -97,7 +96,7 @@ class LabelProblem {
               double largest) const {
     double length = p.length;
     const double label = doubted_ ? doubted_->mount.value_or(doubted_->rest_length) : 0;
-    if (shift != 0 && std::abs(length - label) < near_label * label) length += shift;
+    if (shift != 0 && at_rest(length, label)) length += shift;
     double force = factor * law_force(a, length, p, scales_.atmosphere);
     if (p.force < slack_share * largest) force = std::max(force, 0.0);
     return (force - p.force) / largest;

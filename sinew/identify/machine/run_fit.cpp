@@ -138,24 +138,45 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
   }
 }
 
-// Numbers that no reading depends on as far as they are large are not searched.
-std::vector<Parameter> felt(const RunResiduals& residuals, std::vector<Parameter> all,
+// By how much a change of one number moves the readings, in half sums of squares of noises; the
+// first change that moves them enough is enough. `there` is for use.
+double moved_by(const RunResiduals& residuals, const Parameter& one, std::size_t i,
+                std::vector<double> p, std::span<double> at, std::span<double> there) {
+  constexpr double enough = 0.1;
+  if (!residuals(p, at)) return 0;
+  const double from = p[i];
+  double most = 0;
+  for (const double step : {0.3, -0.3, 1.0}) {
+    p[i] = from + step * one.scale;
+    if (p[i] < one.low || p[i] > one.high || !residuals(p, there)) continue;
+    double moved = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) moved += (there[k] - at[k]) * (there[k] - at[k]);
+    most = std::max(most, moved);
+    if (most > enough) break;
+  }
+  return most > enough ? most : 0;
+}
+
+// Numbers that no reading depends on as far as they are large are not searched. A valve whose every
+// pulse is lost has no closing delay to be seen, so that dead times are asked again with all of
+// them halved.
+std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Parameter>& all,
                             std::vector<std::string>& not_felt) {
-  std::vector<double> p, at(residuals.count()), there(residuals.count());
-  for (const Parameter& one : all) p.push_back(one.start);
+  std::vector<double> p, short_times, at(residuals.count()), there(residuals.count());
+  for (const Parameter& one : all) {
+    p.push_back(one.start);
+    short_times.push_back(is_dead_time(one) ? std::max(one.low, 0.5 * one.start) : one.start);
+  }
   if (!residuals(p, at))
     throw Refusal("the machine at the start of the search",
                   "that it does not get to the end of the run in finite numbers",
                   "a machine that can do what was recorded", "other start values");
   std::vector<Parameter> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    std::vector<double> q = p;
-    q[i] = all[i].start + 0.3 * all[i].scale > all[i].high ? all[i].start - 0.3 * all[i].scale
-                                                           : all[i].start + 0.3 * all[i].scale;
-    double moved = 0;
-    if (residuals(q, there))
-      for (std::size_t k = 0; k < at.size(); ++k) moved += (there[k] - at[k]) * (there[k] - at[k]);
-    if (moved > 0.1)
+    double moved = moved_by(residuals, all[i], i, p, at, there);
+    if (!(moved > 0) && is_dead_time(all[i]))
+      moved = moved_by(residuals, all[i], i, short_times, at, there);
+    if (moved > 0)
       out.push_back(all[i]);
     else
       not_felt.push_back(all[i].name + ": no reading depends on it");

@@ -53,6 +53,35 @@ TEST(RunFit, SaysWhatNoReadingDependsOn) {
   EXPECT_EQ(found.report.best().parameters.size(), 1u);
 }
 
+// A valve that loses every pulse has a closing delay that nothing depends on. Here it does so at
+// the start of the search, by a tick, and did not where the run was recorded.
+TEST(RunFit, FindsADelayThatOnlyAnotherDelayMakesFelt) {
+  experiment::Experiment start = shipped("one-joint");
+  const std::string opens = "valve.exhaust.opening_delay", closes = "valve.exhaust.closing_delay";
+  const double opening = number_at(start, opens), closing = number_at(start, closes);
+  const DrivenRun driven(start, recorded(start), false);
+  const auto is_felt = [&] {
+    std::vector<double> at(driven.samples()), there(driven.samples());
+    set_number(start, closes, closing);
+    EXPECT_TRUE(driven.predict(start, at, driven.duration()));
+    set_number(start, closes, closing + 3e-4);
+    EXPECT_TRUE(driven.predict(start, there, driven.duration()));
+    set_number(start, closes, closing);
+    return at != there;
+  };
+  double lost = opening;
+  while (is_felt() && lost < 0.01) set_number(start, opens, lost += 1e-4);
+  ASSERT_LT(lost, 0.01);
+  const RunFitResult found = fit_run(start, driven, {.fit = {opens, closes}});
+  EXPECT_TRUE(found.undetermined.empty());
+  EXPECT_NEAR(found.report.best().fit.rmse, 1, 0.1);
+  for (const auto& [key, value] : {std::pair{opens, opening}, {closes, closing}}) {
+    const Estimate& e = estimate(found, key);
+    EXPECT_LE(e.low, value) << key;
+    EXPECT_GE(e.high, value) << key;
+  }
+}
+
 // A walk's readings jump with its numbers, so an interval would be false: it gives none, says why,
 // and the robot's file has no uncertainty. The number itself is nearer than at the start.
 TEST(RunFit, GivesNoIntervalsOfAWalk) {

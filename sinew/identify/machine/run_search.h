@@ -34,6 +34,9 @@ struct RunCell {
 
 inline constexpr double off_the_jump = 1e-7;  // how near to a cell's end is simulated [s]
 
+// Is it the delay of a valve?
+bool is_dead_time(const Parameter& number);
+
 // Returns the cells that these numbers stand in.
 std::vector<RunCell> run_cells(std::span<const Parameter> parameters, std::span<const double> p);
 
