@@ -4,7 +4,7 @@
 // Choice: each model predicts parts of the data it was not fitted to - pressures in four parts,
 // lengths one by one, the lowest and the highest of both left in - and the one with the fewest
 // parameters within 10 % of the smallest error (geometric mean over the kinds, and each) is taken.
-// Of three muscles or more, each muscle is left out once, too: that is the third kind.
+// Of several muscles each is left out once, too: that is the third kind.
 // A law of which a parameter stands at the bound of its range is none for the data and is not
 // chosen. The end lengths, predicted by the others, are told apart: that is extrapolation. What is
 // held out by the user (StaticPoint::fitted) has no part in it and tells how good the result is.

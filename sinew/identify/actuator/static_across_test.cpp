@@ -130,6 +130,21 @@ TEST(AcrossMuscles, MusclesOf20MmPredictEachOther) {
   }
 }
 
+// Asked for: of three muscles the law that is chosen says by its cross-validation at least half of
+// what muscles left out are missed by.
+TEST(AcrossMuscles, CrossValidationPromisesNoLessThanHalfOfAnUnseenMuscle) {
+  for (const char* folder : {"psu_10mm", "psu_20mm"}) {
+    const std::string path = bins_file(folder);
+    if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no " << folder;
+    StaticData data;
+    data.points = filling(path);
+    const Report report = identify_static(data, {.hold_out = HoldOut::muscle}).report;
+    const double promised = report.best().cross_validated->rmse_percent;
+    EXPECT_GE(promised, 0.5 * report.best().held_out->rmse_percent) << folder;
+    EXPECT_LE(promised, 2 * report.best().held_out->rmse_percent) << folder;
+  }
+}
+
 // Six muscles, each fitted at 100, 200 ... 600 kPa while filling, all other bins not seen: the 95 %
 // intervals hold 92 to 98 % of them all, where the muscle pulls. A slack one is read anywhere
 // between -19 and 5 N, as its weight and the sensor's zero will have it.

@@ -213,7 +213,7 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
     inside.add(lengths);
   }
   const double of_muscles = tell_muscles(muscles, fit) * full_scale * full_scale;
-  if (muscles.size() > 2) squares.push_back(of_muscles);
+  if (muscles.size() > 1) squares.push_back(of_muscles);
 
   for (const double square : squares) fit.kinds.push_back(100 * std::sqrt(square) / full_scale);
   fit.cross_validated = score(inside.residuals, full_scale);

@@ -53,7 +53,7 @@ class Tried {
 
 // Writes into `fit` what the law makes of points that it did not see, in % of full_scale: pressures
 // between the lowest and the highest in parts, lengths between the ends of each muscle one by one,
-// and, of three muscles or more, each muscle once; all kinds alike (cross_validated). To leave out
+// and, of several muscles, each muscle once; all kinds alike (cross_validated). To leave out
 // an end is to extrapolate: that is told apart. `muscles` are those of leave_out_muscles(). Returns
 // how far off it was.
 StaticSpread cross_validate(const Tried& model, const std::vector<StaticPoint>& points,
