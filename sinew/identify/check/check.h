@@ -12,7 +12,7 @@
 //   e  contraction [-]
 //
 // Forces that are all too small by one factor look like those of a thinner muscle: nothing in the
-// law has a size of its own but D. The diameter alone tells lbf from N.
+// law has a size of its own but D. The diameter alone tells lbf from N, and is asked for.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,8 @@ struct Check {
   std::string evidence;  // a sentence
   std::string advice;    // what to do; empty where it is green
 
-  // A fit's own report tells it, too, by its notes and intervals.
+  // A fit does not warn of it: its own report tells it, by its notes and intervals, or these data
+  // give no reason to doubt.
   bool told_by_fit = false;
 };
 

@@ -129,6 +129,8 @@ const Broken broken[] = {
        each(i, [](Row& r) { r.force /= 4.448; });
        i.diameter = 0.01;
      }},
+    {"lbf called N, no diameter to compare with", "force unit", Light::yellow,
+     [](Input& i) { each(i, [](Row& r) { r.force /= 4.448; }); }},
     {"N called lbf, diameter known", "force unit", Light::red,
      [](Input& i) {
        i.force = "lbf";

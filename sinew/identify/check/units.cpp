@@ -138,11 +138,10 @@ Check cross_section(const Reach& r, double diameter) {
   }
   if (implied < 0.002 || implied > 0.09) return {"force unit", Light::red, text + ".", advice};
   // Nothing but the diameter tells a thick muscle in lbf from a thin one in N: see check.h.
-  return {"force unit", Light::green,
-          fmt::format("{}, of {:.3g} mm if the numbers are lbf; a known diameter would be compared "
-                      "with it.",
-                      text, 1e3 * implied * std::sqrt(newtons_per_lbf)),
-          ""};
+  return {"force unit", Light::yellow,
+          fmt::format("{}, of {:.3g} mm if the numbers are lbf; nothing here tells which.", text,
+                      1e3 * implied * std::sqrt(newtons_per_lbf)),
+          "Give the muscle's diameter, diameter=LENGTH, and it is compared.", true};
 }
 
 Check length_unit(const Reach& r, double diameter) {
