@@ -138,23 +138,20 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
   }
 }
 
-// By how much a change of one number moves the readings, in half sums of squares of noises; the
-// first change that moves them enough is enough. `there` is for use.
-double moved_by(const RunResiduals& residuals, const Parameter& one, std::size_t i,
-                std::vector<double> p, std::span<double> at, std::span<double> there) {
-  constexpr double enough = 0.1;
-  if (!residuals(p, at)) return 0;
+// Do the readings move where one number alone is another than at p? `at` and `there` are for use.
+bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::size_t i,
+                    std::vector<double> p, std::span<double> at, std::span<double> there) {
+  constexpr double enough = 0.1;  // sum of squares, in noises
+  if (!residuals(p, at)) return false;
   const double from = p[i];
-  double most = 0;
   for (const double step : {0.3, -0.3, 1.0}) {
     p[i] = from + step * one.scale;
     if (p[i] < one.low || p[i] > one.high || !residuals(p, there)) continue;
     double moved = 0;
     for (std::size_t k = 0; k < at.size(); ++k) moved += (there[k] - at[k]) * (there[k] - at[k]);
-    most = std::max(most, moved);
-    if (most > enough) break;
+    if (moved > enough) return true;
   }
-  return most > enough ? most : 0;
+  return false;
 }
 
 // Numbers that no reading depends on as far as they are large are not searched. A valve whose every
@@ -173,10 +170,9 @@ std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Par
                   "a machine that can do what was recorded", "other start values");
   std::vector<Parameter> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    double moved = moved_by(residuals, all[i], i, p, at, there);
-    if (!(moved > 0) && is_dead_time(all[i]))
-      moved = moved_by(residuals, all[i], i, short_times, at, there);
-    if (moved > 0)
+    const bool here = moves_readings(residuals, all[i], i, p, at, there);
+    if (here ||
+        (is_dead_time(all[i]) && moves_readings(residuals, all[i], i, short_times, at, there)))
       out.push_back(all[i]);
     else
       not_felt.push_back(all[i].name + ": no reading depends on it");
