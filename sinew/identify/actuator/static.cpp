@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "sinew/identify/actuator/static_groups.h"
+#include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_outliers.h"
 #include "sinew/identify/actuator/static_shown.h"
 #include "sinew/identify/actuator/static_tried.h"
@@ -31,6 +32,7 @@ constexpr std::string_view may_be_at_bound[] = {"half_width", "end_loss", "threa
 
 // A muscle whose rest length nobody said has its longest length.
 void give_rest_length(Points& points, Report& report) {
+  unite_labels(points);
   double longest = 0;
   bool none = false, some = false;
   for (const StaticPoint& p : points) {
@@ -60,6 +62,30 @@ void refuse_falling(const StaticFit& fit, const StaticScales& scales) {
   }
 }
 
+// Which muscles pull as others than their labels say.
+void tell_labels(const StaticFit& fit, Fit& out) {
+  for (const RestLengthError& r : fit.setting.rest_lengths) {
+    const Estimate* e = rest_length_estimate(fit, r.labelled);
+    if (!e) continue;
+    const std::string muscle = fmt::format("the muscle labelled {:.4g} mm", 1e3 * r.labelled);
+    if (e->at_bound)
+      out.notes.push_back(
+          muscle +
+          fmt::format(" would be {} by more than {:.2g} mm beside the others, the bound of "
+                      "what is believed: its label, or another's, is probably wrong",
+                      r.error > 0 ? "longer" : "shorter", 1e3 * std::abs(r.error)));
+    else if (std::abs(r.error) > 0.5 * (e->high - e->low))
+      out.notes.push_back(
+          muscle + fmt::format(" pulls as one of {:.4g} +- {:.2g} mm beside the others, for its "
+                               "label or for a law that is not quite theirs: its file has that "
+                               "length",
+                               1e3 * (r.labelled + r.error), 500 * (e->high - e->low)));
+  }
+  if (rest_length_estimate(fit, fit.setting.rest_lengths.back().labelled))
+    out.notes.push_back(fmt::format("parameters are those of a muscle of exactly {:.4g} mm",
+                                    1e3 * fit.setting.rest_lengths.back().labelled));
+}
+
 void describe(const StaticFit& fit, Fit& out) {
   out.parameters = fit.solution.estimates;
   for (const Knob knob : fit.unknown)
@@ -72,17 +98,7 @@ void describe(const StaticFit& fit, Fit& out) {
       out.notes.push_back(
           "thread_length stands at the shortest that a braid can have: the law holds for the "
           "lengths that were measured, and says little of the air in the muscle");
-  for (std::size_t i = 0; i < fit.setting.rest_lengths.size(); ++i) {
-    const RestLengthError& r = fit.setting.rest_lengths[i];
-    const Estimate& e = out.parameters[fit.knobs.size() + i];
-    const double half = 0.5 * (e.high - e.low);
-    if (std::abs(r.error) > half && std::abs(r.error) > rest_length_deviation(r.labelled))
-      out.notes.push_back(fmt::format(
-          "the muscle labelled {:.4g} mm pulls as one of {:.4g} +- {:.2g} mm beside the others, be "
-          "it "
-          "for its label or for a law that is not quite theirs: its file has that length",
-          1e3 * r.labelled, 1e3 * (r.labelled + r.error), 1e3 * half));
-  }
+  tell_labels(fit, out);
   for (const std::string& unseen : fit.solution.unseen)
     out.notes.push_back("not determined: " + unseen);
   if (fit.outliers > 0)
@@ -106,6 +122,7 @@ std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const St
     for (const LeftOut& m : muscles) {
       for (const double r : m.unseen.residuals) shares.push_back(r * full_scale / m.largest);
     }
+    if (shares.empty()) return std::nullopt;
     return score(shares, full_scale);
   }
   if (s.held_out.empty()) return std::nullopt;

@@ -91,7 +91,12 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   add_ends(std::max(longest, fitted_length(result, muscle, muscle.rest_length)), path, a,
            provenance);
   a.prediction = prediction_of(result, muscle);
-  for (const char* key : {"rest_length", "lengths", "pressures"})
+  if (const Estimate* e = rest_length_estimate(result.fit, muscle.rest_length))
+    provenance.fitted(path + "prediction.rest_length", "m", 0.5 * (e->high - e->low),
+                      source + fmt::format("; labelled {:.4g} mm", 1e3 * muscle.rest_length));
+  else
+    provenance.given(path + "prediction.rest_length", source);
+  for (const char* key : {"lengths", "pressures"})
     provenance.given(path + "prediction." + key, source);
   for (const char* key :
        {"inside_68", "inside_95", "beyond_68", "beyond_95", "other_68", "other_95", "other_reach"})

@@ -8,6 +8,7 @@
 
 #include "sinew/actuator/hysteresis.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_widen.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
@@ -16,60 +17,38 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double common_deviation = 1e-3;  // of the sum of all d/L_0
-constexpr double slack_below = 0.005;      // of the full scale
+constexpr double slack_below = 0.005;  // of the full scale
 constexpr double first_scatter = 0.005, least_scatter = 0.001, most_scatter = 0.02;
 constexpr double outlier = 4;        // scatters
 constexpr double prior_rules = 0.6;  // of its deviation: an error that is larger says nothing new
-
-// Force as the law has it: below zero where the muscle would push.
-double pull(const actuator::Actuator& a, const StaticPoint& point, double length,
-            double atmosphere) {
-  double p = point.pressure;
-  if (a.hysteresis.half_width > 0)
-    p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
-  return actuator::tension(a, length, 0, p, atmosphere);
-}
-
-Parameter rest_length_parameter(double labelled) {
-  const double most = 10 * rest_length_deviation(labelled);
-  return {.name = fmt::format("{}{:.4g}mm", rest_length_error, 1e3 * labelled),
-          .unit = "m",
-          .low = -most,
-          .high = most,
-          .scale = 0.02 * labelled};
-}
 
 class Problem {
  public:
   Problem(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
           const StaticScales& scales)
-      : knobs_(knobs), points_(points), scales_(scales) {
+      : knobs_(knobs), points_(points), scales_(scales), labels_(labels_of(points)) {
     for (const Knob knob : knobs) {
       parameters_.push_back(parameter_of(knob, scales));
       priors_.push_back(prior_of(knob, scales));
     }
-    for (const StaticPoint& p : points)
-      if (std::ranges::find(muscles_, p.rest_length) == muscles_.end())
-        muscles_.push_back(p.rest_length);
-    if (muscles_.size() < 2) muscles_.clear();
-    for (const double labelled : muscles_) {
-      parameters_.push_back(rest_length_parameter(labelled));
-      priors_.push_back(Prior{0, rest_length_deviation(labelled)});
+    for (const RestLengthError& label : labels_) {
+      if (!label.doubted()) continue;
+      parameters_.push_back(parameter_of(label));
+      priors_.push_back(Prior{0, rest_length_deviation(label.labelled)});
     }
   }
 
-  std::size_t count() const {
-    return points_.size() + parameters_.size() + (muscles_.empty() ? 0 : 1);
-  }
+  std::size_t count() const { return points_.size() + parameters_.size() + (has_labels() ? 1 : 0); }
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::optional<Prior>& prior(std::size_t i) const { return priors_[i]; }
 
   StaticSetting setting(std::span<const double> values) const {
     StaticSetting out = setting_of(scales_);
     for (std::size_t i = 0; i < knobs_.size(); ++i) value_of(out, knobs_[i]) = values[i];
-    for (std::size_t i = 0; i < muscles_.size(); ++i)
-      out.rest_lengths.push_back({muscles_[i], values[knobs_.size() + i]});
+    out.rest_lengths = labels_;
+    std::size_t i = knobs_.size();
+    for (RestLengthError& label : out.rest_lengths)
+      if (label.doubted()) label.error = values[i++];
     return out;
   }
 
@@ -78,7 +57,9 @@ class Problem {
     std::vector<double> out;
     StaticSetting from = setting;
     for (const Knob knob : knobs_) out.push_back(value_of(from, knob));
-    for (const double m : muscles_) out.push_back(rest_length_of(setting, m) - m);
+    for (const RestLengthError& r : labels_)
+      if (r.doubted())
+        out.push_back(std::clamp(rest_length_of(setting, r.labelled) - r.labelled, r.low, r.high));
     return out;
   }
 
@@ -94,17 +75,20 @@ class Problem {
             prior.logarithmic ? std::log(values[i] / prior.mean) : values[i] - prior.mean;
         out = scatter * off / prior.deviation;
       }
-      if (!muscles_.empty()) r.back() = scatter * in_common(values) / common_deviation;
+      if (has_labels()) r.back() = scatter * in_common(values) / common_deviation;
       return std::all_of(r.begin(), r.end(), [](double x) { return std::isfinite(x); });
     };
   }
 
  private:
-  // Returns the sum of d/L_0: what all labels have in common.
+  bool has_labels() const { return parameters_.size() > knobs_.size(); }
+
+  // Returns the sum of delta/L_0.
   double in_common(std::span<const double> values) const {
     double sum = 0;
-    for (std::size_t i = 0; i < muscles_.size(); ++i)
-      sum += values[knobs_.size() + i] / muscles_[i];
+    std::size_t i = knobs_.size();
+    for (const RestLengthError& label : labels_)
+      if (label.doubted()) sum += values[i++] / label.labelled;
     return sum;
   }
 
@@ -118,7 +102,7 @@ class Problem {
         labelled = point.rest_length;
         a = scaled(setting, scales_, labelled);
       }
-      const double f = pull(a, point, fitted_length(setting, point), scales_.atmosphere);
+      const double f = law_force(a, fitted_length(setting, point), point, scales_.atmosphere);
       r[i] = (point.force > slack ? f : std::max(f, 0.0)) - point.force;
     }
   }
@@ -126,8 +110,8 @@ class Problem {
   const std::vector<Knob>& knobs_;
   std::span<const StaticPoint> points_;
   const StaticScales& scales_;
-  std::vector<double> muscles_;        // whose rest lengths are fitted with the law
-  std::vector<Parameter> parameters_;  // of the knobs, of the muscles
+  std::vector<RestLengthError> labels_;
+  std::vector<Parameter> parameters_;  // of the knobs, of doubted labels
   std::vector<std::optional<Prior>> priors_;
 };
 
@@ -154,18 +138,43 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
   return out;
 }
 
+// An error that the data leave where its prior has it is told as not identifiable; all of them know
+// only how the muscles are beside each other.
+void judge_labels(StaticFit& fit) {
+  std::size_t i = fit.knobs.size();
+  for (const RestLengthError& label : fit.setting.rest_lengths) {
+    if (!label.doubted()) continue;
+    Estimate& e = fit.solution.estimates[i++];
+    if (!e.at_bound && e.standard_error > prior_rules * rest_length_deviation(label.labelled))
+      e.identifiable = false;
+    widen_by_common(fit.setting.rest_lengths, label, fit.solution.freedom, e);
+  }
+}
+
 }  // namespace
 
-double fitted_length(const StaticSetting& setting, const StaticPoint& point) {
-  if (setting.rest_lengths.empty() || !at_rest(point.length, point.rest_length))
-    return point.length;
-  return point.length + (rest_length_of(setting, point.rest_length) - point.rest_length);
+const Estimate* rest_length_estimate(const StaticFit& fit, double labelled) {
+  std::size_t i = fit.knobs.size();
+  for (const RestLengthError& r : fit.setting.rest_lengths) {
+    if (!r.doubted()) continue;
+    if (r.labelled == labelled) return &fit.solution.estimates[i];
+    ++i;
+  }
+  return nullptr;
+}
+
+double law_force(const actuator::Actuator& a, double length, const StaticPoint& point,
+                 double atmosphere) {
+  double p = point.pressure;
+  if (a.hysteresis.half_width > 0)
+    p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
+  return actuator::tension(a, length, 0, p, atmosphere);
 }
 
 double predicted(const StaticSetting& setting, const StaticScales& scales,
                  const StaticPoint& point) {
-  return std::max(0.0, pull(scaled(setting, scales, point.rest_length), point,
-                            fitted_length(setting, point), scales.atmosphere));
+  return std::max(0.0, law_force(scaled(setting, scales, point.rest_length),
+                                 fitted_length(setting, point), point, scales.atmosphere));
 }
 
 std::vector<double> misses(const StaticSetting& setting, const StaticScales& scales,
@@ -178,12 +187,13 @@ std::vector<double> misses(const StaticSetting& setting, const StaticScales& sca
 
 StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
                      const StaticScales& scales, const StaticFit* start, double tolerance) {
-  if (points.size() < knobs.size() + 2)
-    throw Refusal("data", fmt::format("{} points", points.size()),
-                  fmt::format("at least {} for {} parameters", knobs.size() + 2, knobs.size()),
-                  "more measurements, or a simpler model");
   StaticFit out{.knobs = knobs};
   Problem problem(out.knobs, points, scales);
+  const std::size_t parameters = problem.parameters().size();
+  if (points.size() < parameters + 2)
+    throw Refusal("data", fmt::format("{} points", points.size()),
+                  fmt::format("at least {} for {} parameters", parameters + 2, parameters),
+                  "more measurements, or a simpler model");
   std::vector<Parameter> from = problem.parameters();
   if (start) {
     out.scatter = start->scatter;
@@ -215,6 +225,7 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
     e.identifiable = false;
     out.unknown.push_back(knobs[i]);
   }
+  judge_labels(out);
   return out;
 }
 
@@ -223,6 +234,7 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
   StaticSetting ideal = setting_of(scales);
   if (!scales.braid) ideal = fit_static({Knob::thread_length, Knob::turns}, points, scales).setting;
   of_braid.braid = ideal.actuator.braid;
+  ideal.rest_lengths.clear();  // the thesis believes its labels
 
   // Sums per nominal pressure, of what pulls.
   std::vector<double> pressures;
@@ -256,6 +268,8 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
   };
   out.solution = least_squares(off, sums.size(), parameters);
   out.setting = setting_of(of_braid);
+  for (const RestLengthError& r : labels_of(points))
+    out.setting.rest_lengths.push_back({.labelled = r.labelled});
   for (std::size_t i = 0; i < out.knobs.size(); ++i)
     value_of(out.setting, out.knobs[i]) = out.solution.values[i];
   out.solution.residuals = misses(out.setting, of_braid, points);

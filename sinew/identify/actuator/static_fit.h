@@ -6,9 +6,9 @@
 // A slack point is censored: it says that the muscle does not pull, not how much it would push. So
 // counts whatever is within the scatter of no force. Two passes: the first finds how far the points
 // scatter (s, by its median), the second takes what is beyond 4 s for outliers and holds every
-// parameter to its prior, (value - mean)/deviation x s. Of several muscles the errors of their rest
-// lengths are fitted as well (static_model.h), with sum d/L_0 = 0 +- 0.1 %: what all labels have in
-// common is what the law misses at rest, not a label's error.
+// parameter to its prior, (value - mean)/deviation x s, which counts less beyond 4 deviations as a
+// point does. Of several muscles the errors of their rest lengths are fitted as well
+// (static_labels.h).
 #pragma once
 
 #include <span>
@@ -19,21 +19,22 @@
 
 namespace sinew::identify {
 
-// Begins the names of estimates of rest lengths' errors; the labelled length follows, "225mm".
-inline constexpr std::string_view rest_length_error = "rest_length_error_";
-
 struct StaticFit {
   StaticSetting setting;
   std::vector<Knob> knobs;
-  Solution solution;          // of the knobs, of the rest lengths; residuals of the points alone
+  Solution solution;          // of the knobs, of doubted rest lengths; residuals of points alone
   double scatter = 0;         // s [N]
   std::size_t outliers = 0;   // points beyond 4 s
   std::vector<Knob> unknown;  // that the data leave where the prior has them
 };
 
-// Returns the length of a point with its muscle's error: where it is labelled as the rest length,
-// the one error is the other's  [m].
-double fitted_length(const StaticSetting& setting, const StaticPoint& point);
+// Returns the estimate of a muscle's error; null where its label is believed.
+const Estimate* rest_length_estimate(const StaticFit& fit, double labelled);
+
+// Returns the force at a length [m] at the pressure and on the branch of a point: below zero where
+// the muscle would push  [N].
+double law_force(const actuator::Actuator& a, double length, const StaticPoint& point,
+                 double atmosphere);
 
 // Force of a point, never negative  [N].
 double predicted(const StaticSetting& setting, const StaticScales& scales,

@@ -261,15 +261,9 @@ std::optional<Prior> prior_of(Knob knob, const StaticScales& s) {
   }
 }
 
-double rest_length_deviation(double labelled) { return std::hypot(0.5e-3, 0.005 * labelled); }
-
-bool at_rest(double length, double rest_length) {
-  return std::abs(length - rest_length) < 0.002 * rest_length;
-}
-
 double rest_length_of(const StaticSetting& setting, double labelled) {
   for (const RestLengthError& r : setting.rest_lengths)
-    if (r.labelled == labelled) return labelled + r.error;
+    if (std::abs(r.labelled - labelled) < same_label) return labelled + r.error;
   return labelled;
 }
 

@@ -12,10 +12,8 @@
 // gives it. Laws whose ends give way (actuator/series.h) need no c: C is that of the ends, the same
 // for every muscle, and takes more from a short one by itself.
 //
-// Nobody knows a rest length to the last bit: where the fittings begin is a matter of taste, and a
-// ruler has its error. Of several muscles each has L_0 = labelled + d, with d = 0 +- (0.5 mm and
-// 0.5 % of L_0) beforehand, which is fitted with the law. Of one muscle alone d cannot be told
-// from the braid, and does not matter.
+// Nobody knows a rest length to the last bit: of several muscles each may have another one than its
+// label says, which is fitted with the law (static_labels.h).
 //
 // Priors: a term that the data do not determine stays where three Festo muscles of 20 mm put it
 // (rest lengths 98, 225, 398 mm; docs/theory/static-models.md), instead of anywhere. Where the data
@@ -58,16 +56,23 @@ enum class Knob {
   toe
 };
 
+// Labels nearer to each other than this are one  [m].
+inline constexpr double same_label = 1e-6;
+
 // What a muscle's rest length is more than its label says.
 struct RestLengthError {
-  double labelled = 0, error = 0;  // L_0 as labelled, d [m]
+  double labelled = 0, error = 0;  // L_0 as labelled, delta [m]
+  double low = 0, high = 0;        // bounds of delta [m]; both 0: the label is believed
+
+  // Is it fitted with the law?
+  bool doubted() const { return low < high; }
 };
 
 // What a set of knobs comes to.
 struct StaticSetting {
-  actuator::Actuator actuator;                // of the reference muscle
+  actuator::Actuator actuator;                // of a muscle as long as the reference's label says
   double end_loss = 0;                        // c [m]
-  std::vector<RestLengthError> rest_lengths;  // of several muscles, by label; else empty
+  std::vector<RestLengthError> rest_lengths;  // of the muscles that were fitted
 };
 
 // Sizes that start values and bounds go by.
@@ -103,12 +108,6 @@ double& value_of(StaticSetting& setting, Knob knob);
 Parameter parameter_of(Knob knob, const StaticScales& scales);
 std::optional<Prior> prior_of(Knob knob, const StaticScales& scales);
 
-// Returns the standard deviation that d has before the data are looked at  [m].
-double rest_length_deviation(double labelled);
-
-// Is a length labelled as the rest length, within 0.2 %?
-bool at_rest(double length, double rest_length);
-
 // Returns the rest length of the muscle that is labelled so  [m].
 double rest_length_of(const StaticSetting& setting, double labelled);
 
@@ -121,7 +120,7 @@ StaticSetting setting_of(const StaticScales& scales);
 // Returns the like of an actuator whose muscle has the rest length `from`, with `to`  [m].
 actuator::Actuator like(const actuator::Actuator& actuator, double from, double to);
 
-// The like of the reference muscle with another rest length: as labelled.
+// Returns the like of the reference muscle that is labelled with this rest length  [m].
 actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,
                           double rest_length);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
@@ -18,7 +19,7 @@ constexpr int nodes = 5;         // of lengths and of pressures
 
 const StaticMuscle* fitted(const StaticResult& result, double rest_length) {
   for (const StaticMuscle& m : result.muscles)
-    if (std::abs(m.rest_length - rest_length) < 1e-6) return &m;
+    if (std::abs(m.rest_length - rest_length) < same_label) return &m;
   return nullptr;
 }
 
@@ -60,9 +61,10 @@ double fitted_length(const StaticResult& result, const StaticMuscle& muscle, dou
 }
 
 StaticForce predict(const StaticResult& result, const StaticPoint& point) {
-  const std::vector<StaticPoint> one{point};
-  StaticForce out{.force = predicted(result.fit.setting, result.scales, point)};
   const StaticMuscle muscle = muscle_of(result, point.rest_length);
+  std::vector<StaticPoint> one{point};
+  one[0].rest_length = muscle.rest_length;
+  StaticForce out{.force = predicted(result.fit.setting, result.scales, one[0])};
   const bool inside = within(point.length, muscle.shortest, muscle.longest) &&
                       within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? result.spread.inside : result.spread.beyond;

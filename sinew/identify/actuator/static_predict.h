@@ -33,8 +33,8 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point);
 // in the same proportion  [m].
 StaticMuscle muscle_of(const StaticResult& result, double rest_length);
 
-// Returns a length of the muscle without its label's error: another than the given one at rest
-// alone [m].
+// Returns a length of a muscle as its file has it: that of the mount at rest with the label's
+// error, every other one as it is  [m].
 double fitted_length(const StaticResult& result, const StaticMuscle& muscle, double length);
 
 // Returns what a file tells of how far measured forces lie from the muscle's law: the root mean
@@ -47,9 +47,8 @@ struct ForceReading {
 };
 
 // Returns the actuator with its law multiplied by the factor above: t is its prediction.other_68,
-// h is `half_68`. Throws Refusal where
-// it does not pull at that length and pressure, or twice or half as much as was read: then the
-// reading is of something else.
+// h is `half_68`. Throws Refusal where it does not pull at that length and pressure, or twice or
+// half as much as was read: then the reading is of something else.
 actuator::Actuator corrected(actuator::Actuator actuator, const ForceReading& reading,
                              double atmosphere, double half_68 = 0);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "sinew/identify/actuator/static_labels.h"
+
 namespace sinew::identify {
 
 namespace {
@@ -42,7 +44,7 @@ StaticSetting with_error(const StaticSetting& setting, double labelled, double m
   return out;
 }
 
-// Rest lengths of points that the fit did not see; none where it knew of one muscle only.
+// Rest lengths of points that the fit did not see; none where nobody says which muscles it saw.
 std::set<double> unknown_muscles(const std::vector<RestLengthError>& known,
                                  std::span<const StaticPoint> points) {
   std::set<double> out;
@@ -87,7 +89,8 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
                  step);
   };
   const std::vector<RestLengthError>& known = fit.setting.rest_lengths;
-  for (const RestLengthError& r : known) gradient.push_back(by_rest_length(r.labelled));
+  for (const RestLengthError& r : known)
+    if (r.doubted()) gradient.push_back(by_rest_length(r.labelled));
 
   std::vector<double> square;
   for (std::size_t i = 0; i < points.size(); ++i)

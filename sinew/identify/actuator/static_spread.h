@@ -1,8 +1,10 @@
 // identify/actuator/static_spread.h - how far a force that is measured lies from the predicted one.
 //
-//   w^2 = s^2 + g' Cov g                half-width = q w
+//   w^2 = s^2 + g' Cov g + (h sigma)^2  half-width = q w
 //
 //   s  scatter of the points that were fitted [N]       g  dF/d(parameter) at the point
+//   h  dF/d(rest length) of a muscle that was not fitted, sigma what its label may be off
+//      (static_labels.h); 0 for those that were
 //   Cov  covariance of the parameters                   w  what the fit itself expects [N]
 //   q  quantile of |measured - predicted|/w over points that a fit had not seen  [-]
 //

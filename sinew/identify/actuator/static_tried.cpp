@@ -32,6 +32,12 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+std::set<double> muscles_in(const Points& points) {
+  std::set<double> out;
+  for (const StaticPoint& p : points) out.insert(p.rest_length);
+  return out;
+}
+
 // Returns a part for each point: -1 for those at the ends, which are always fitted. Fewer than
 // three groups have nothing between their ends: each is a part then.
 std::vector<int> interior_pressures(const Points& points) {
@@ -114,7 +120,13 @@ void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
 
 // Adds what leaving out muscles says to the notes. Returns its mean square, each muscle in shares
 // of its own largest force  [-].
-double tell_muscles(const std::vector<LeftOut>& muscles, Fit& fit) {
+double tell_muscles(const std::vector<LeftOut>& muscles, const std::set<double>& all, Fit& fit) {
+  for (const double muscle : all)
+    if (all.size() > 1 &&
+        std::ranges::find(muscles, muscle, &LeftOut::rest_length) == muscles.end())
+      fit.notes.push_back(fmt::format(
+          "the muscle of {:.4g} mm was not left out: the others alone are too few to fit it",
+          1e3 * muscle));
   std::string each;
   double square = 0;
   for (const LeftOut& m : muscles) {
@@ -170,22 +182,29 @@ Unseen Tried::cross(const Points& points, const std::vector<int>& part, int part
   return out;
 }
 
+LeftOut Tried::leave_out(const Points& points, double muscle) const {
+  const StaticSplit s =
+      split(points, [&](std::size_t i) { return points[i].rest_length != muscle; });
+  const StaticScales scales = scales_of(s.fitted, scales_.atmosphere, scales_.braid);
+  const Tried others(model_, scales, s.fitted);
+  const StaticFit one = others.fit(s.fitted);
+  const StaticScales own = others.scales_of_fit(one);
+  LeftOut left{.rest_length = muscle, .unseen = unseen_by(one, own, s.held_out)};
+  for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
+  left.score = score(left.unseen.residuals, left.largest);
+  return left;
+}
+
 std::vector<LeftOut> Tried::leave_out_muscles(const Points& points) const {
-  std::set<double> muscles;
-  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::set<double> muscles = muscles_in(points);
   std::vector<LeftOut> out;
   if (muscles.size() < 2) return out;
   for (const double muscle : muscles) {
-    const StaticSplit s =
-        split(points, [&](std::size_t i) { return points[i].rest_length != muscle; });
-    const StaticScales scales = scales_of(s.fitted, scales_.atmosphere, scales_.braid);
-    const Tried others(model_, scales, s.fitted);
-    const StaticFit one = others.fit(s.fitted);
-    const StaticScales own = others.scales_of_fit(one);
-    LeftOut left{.rest_length = muscle, .unseen = unseen_by(one, own, s.held_out)};
-    for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
-    left.score = score(left.unseen.residuals, left.largest);
-    out.push_back(std::move(left));
+    try {
+      out.push_back(leave_out(points, muscle));
+    } catch (const Refusal&) {
+      continue;  // the others are too few to predict it; cross_validate() says so
+    }
   }
   return out;
 }
@@ -212,8 +231,9 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
     squares.push_back(mean_square(lengths.residuals));
     inside.add(lengths);
   }
-  const double of_muscles = tell_muscles(muscles, fit) * full_scale * full_scale;
-  if (muscles.size() > 1) squares.push_back(of_muscles);
+  const double of_muscles =
+      tell_muscles(muscles, muscles_in(points), fit) * full_scale * full_scale;
+  if (!muscles.empty()) squares.push_back(of_muscles);
 
   for (const double square : squares) fit.kinds.push_back(100 * std::sqrt(square) / full_scale);
   fit.cross_validated = score(inside.residuals, full_scale);

@@ -36,8 +36,8 @@ class Tried {
   Unseen cross(const std::vector<StaticPoint>& points, const std::vector<int>& part, int parts,
                const StaticFit& whole) const;
 
-  // Returns each muscle as a fit to all others predicts it; none where there is but one muscle. The
-  // law is set up anew each time, as if the muscle had never been there.
+  // Returns each muscle as a fit to all others predicts it; not those for which the others are too
+  // few points or lengths. The law is set up anew each time, as if the muscle had never been there.
   std::vector<LeftOut> leave_out_muscles(const std::vector<StaticPoint>& points) const;
 
   // Returns the scales that a fit is computed with: 2.3 has found its own braid.
@@ -45,6 +45,8 @@ class Tried {
 
  private:
   bool by_ratio() const;
+  // Throws Refusal where the other muscles are too few points or lengths.
+  LeftOut leave_out(const std::vector<StaticPoint>& points, double muscle) const;
 
   const StaticModel& model_;
   const StaticScales& scales_;

@@ -129,8 +129,6 @@ const Broken broken[] = {
        each(i, [](Row& r) { r.force /= 4.448; });
        i.diameter = 0.01;
      }},
-    {"lbf called N, no diameter to compare with", "force unit", Light::yellow,
-     [](Input& i) { each(i, [](Row& r) { r.force /= 4.448; }); }},
     {"N called lbf, diameter known", "force unit", Light::red,
      [](Input& i) {
        i.force = "lbf";
@@ -253,7 +251,11 @@ TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
     Input in = rig(scale);
     in.known_rest = rest;
     for (const Check& c : checked(in))
-      if (c.name == "force unit") return c.evidence;
+      if (c.name == "force unit") {
+        EXPECT_EQ(c.light, Light::yellow);
+        EXPECT_NE(c.advice.find("diameter"), std::string::npos) << c.advice;
+        return c.evidence;
+      }
     return std::string();
   };
   const std::string newtons = evidence(1), pounds = evidence(1 / 4.448222);

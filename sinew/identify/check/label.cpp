@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/check/label_fit.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -21,7 +22,6 @@ constexpr double least_shift = 0.01;    // of a rest length; less is a ruler's e
 constexpr double own_explains = 0.35;   // of what is left, squared: within a muscle
 constexpr double make_supports = 0.25;  // the same among muscles, where the muscle itself says so
 constexpr double make_explains = 0.5;   // where it does not
-constexpr double rest_mount = 0.002;    // of a rest length: a mount that is labelled as it
 constexpr double mount_explains = 0.6;  // where one mount among four or more is doubted
 constexpr double least_misfit = 0.002;  // of the largest force: less is left by right labels
 
@@ -119,8 +119,7 @@ std::set<double> mounts_of_muscle(const Points& points) {
 bool can_be_asked(const Points& own) {
   const std::set<double> mounts = mounts_of_muscle(own);
   const double rest = own.front().rest_length;
-  return rest > 0 && mounts.size() >= 3 && own.size() >= 15 &&
-         std::abs(*mounts.rbegin() / rest - 1) < rest_mount;
+  return rest > 0 && mounts.size() >= 3 && own.size() >= 15 && at_rest(*mounts.rbegin(), rest);
 }
 
 // Which other mount, if it were off alone, would explain as much.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "sinew/actuator/hysteresis.h"
-#include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_groups.h"
+#include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/check/curves.h"
 #include "sinew/identify/fit/least_squares.h"
 
@@ -20,15 +20,6 @@ constexpr double usual_misfit = 0.01;      // that the priors are weighed with
 constexpr double far_misfit = 0.04;        // beyond it points count less
 constexpr double gain_deviation = 0.1;     // of g
 constexpr double widest_shift = 0.1;       // of a rest length
-
-// Force as the law has it, below zero where the muscle would push  [N].
-double law_force(const actuator::Actuator& a, double length, const StaticPoint& point,
-                 double atmosphere) {
-  double p = point.pressure;
-  if (a.hysteresis.half_width > 0)
-    p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
-  return actuator::tension(a, length, 0, p, atmosphere);
-}
 
 // The residuals of points over knobs, shift and gains, in this order.
 class LabelProblem {

@@ -138,11 +138,22 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
   }
 }
 
-// Do the readings move where one number alone is another than at p? `at` and `there` are for use.
+// A machine's numbers, and what is left there.
+struct RunPlace {
+  std::vector<double> p, left;
+  bool answered = false;
+
+  RunPlace(const RunResiduals& residuals, std::vector<double> numbers)
+      : p(std::move(numbers)), left(residuals.count()), answered(residuals(p, left)) {}
+};
+
+// Do the readings move where number i alone is another than at the place?
 bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::size_t i,
-                    std::vector<double> p, std::span<double> at, std::span<double> there) {
+                    const RunPlace& place) {
   constexpr double enough = 0.1;  // sum of squares, in noises
-  if (!residuals(p, at)) return false;
+  if (!place.answered) return false;
+  std::vector<double> p = place.p, there(residuals.count());
+  const std::vector<double>& at = place.left;
   const double from = p[i];
   for (const double step : {0.3, -0.3, 1.0}) {
     p[i] = from + step * one.scale;
@@ -154,25 +165,25 @@ bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::si
   return false;
 }
 
-// Numbers that no reading depends on as far as they are large are not searched. A valve whose every
-// pulse is lost has no closing delay to be seen, so that dead times are asked again with all of
-// them halved.
+// Numbers that no reading depends on are not searched, where they change by as much as they are
+// large. A valve whose every pulse is lost has no closing delay to be seen, so that dead times are
+// asked again with all of them halved.
 std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Parameter>& all,
                             std::vector<std::string>& not_felt) {
-  std::vector<double> p, short_times, at(residuals.count()), there(residuals.count());
+  std::vector<double> p, short_times;
   for (const Parameter& one : all) {
     p.push_back(one.start);
     short_times.push_back(is_dead_time(one) ? std::max(one.low, 0.5 * one.start) : one.start);
   }
-  if (!residuals(p, at))
+  const RunPlace start(residuals, p), sooner(residuals, short_times);
+  if (!start.answered)
     throw Refusal("the machine at the start of the search",
                   "that it does not get to the end of the run in finite numbers",
                   "a machine that can do what was recorded", "other start values");
   std::vector<Parameter> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool here = moves_readings(residuals, all[i], i, p, at, there);
-    if (here ||
-        (is_dead_time(all[i]) && moves_readings(residuals, all[i], i, short_times, at, there)))
+    if (moves_readings(residuals, all[i], i, start) ||
+        (is_dead_time(all[i]) && moves_readings(residuals, all[i], i, sooner)))
       out.push_back(all[i]);
     else
       not_felt.push_back(all[i].name + ": no reading depends on it");

@@ -228,8 +228,11 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
     return found;
   };
   RunSearched best = search_from(start);
+  const bool others = std::ranges::any_of(parameters, is_dead_time);
   for (const double times : other_dead_times) {
-    if (best.rms < far_above_noise) break;
+    if (best.rms < far_above_noise || !others) break;
+    tell(fmt::format("begins again with dead times of {:.3g} times those at the start", times),
+         best.rms);
     std::vector<double> p = start;
     for (std::size_t i = 0; i < p.size(); ++i)
       if (is_dead_time(parameters[i]))

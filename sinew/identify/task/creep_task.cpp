@@ -1,5 +1,6 @@
 #include "sinew/identify/task/creep_task.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sinew/identify/fit/report_json.h"
@@ -14,7 +15,10 @@ CreepResult find_creep(const std::vector<Source>& sources) {
 nlohmann::ordered_json to_json(const CreepResult& found) {
   nlohmann::ordered_json out = to_json(found.report);
   out["creep"] = {{"share", found.creep.share}, {"time_s", found.creep.time}};
-  out["hysteresis"] = {{"half_width_Pa", found.hysteresis.half_width}};
+  const bool tried = std::ranges::any_of(found.report.fits, [](const Fit& fit) {
+    return std::ranges::find(fit.parameters, "half_width", &Estimate::name) != fit.parameters.end();
+  });
+  if (tried) out["hysteresis"] = {{"half_width_Pa", found.hysteresis.half_width}};
   return out;
 }
 
