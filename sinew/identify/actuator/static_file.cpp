@@ -49,6 +49,18 @@ void add_ends(double longest_measured, const std::string& path, actuator::Actuat
       provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
 }
 
+// The rest length with what it may be off, where it was fitted and that is known.
+void add_rest_length(const StaticResult& result, const StaticMuscle& muscle,
+                     const std::string& path, const std::string& source, Provenance& provenance) {
+  const std::string key = path + "prediction.rest_length";
+  const Estimate* e = rest_length_estimate(result.fit, muscle.rest_length);
+  if (!e) return provenance.given(key, source);
+  const std::string labelled =
+      source + fmt::format("; labelled {:.4g} mm", 1e3 * muscle.rest_length);
+  if (e->at_bound || !std::isfinite(e->high - e->low)) return provenance.given(key, labelled);
+  provenance.fitted(key, "m", 0.5 * (e->high - e->low), labelled);
+}
+
 }  // namespace
 
 std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
@@ -91,11 +103,7 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   add_ends(std::max(longest, fitted_length(result, muscle, muscle.rest_length)), path, a,
            provenance);
   a.prediction = prediction_of(result, muscle);
-  if (const Estimate* e = rest_length_estimate(result.fit, muscle.rest_length))
-    provenance.fitted(path + "prediction.rest_length", "m", 0.5 * (e->high - e->low),
-                      source + fmt::format("; labelled {:.4g} mm", 1e3 * muscle.rest_length));
-  else
-    provenance.given(path + "prediction.rest_length", source);
+  add_rest_length(result, muscle, path, source, provenance);
   for (const char* key : {"lengths", "pressures"})
     provenance.given(path + "prediction." + key, source);
   for (const char* key :

@@ -139,8 +139,12 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
 }
 
 // An error that the data leave where its prior has it is told as not identifiable; all of them know
-// only how the muscles are beside each other.
+// only how the muscles are beside each other. Where one stands at its bound the others stand for a
+// part of it, and nobody knows how far off they are.
 void judge_labels(StaticFit& fit) {
+  const bool wrong =
+      std::any_of(fit.solution.estimates.begin() + static_cast<std::ptrdiff_t>(fit.knobs.size()),
+                  fit.solution.estimates.end(), [](const Estimate& e) { return e.at_bound; });
   std::size_t i = fit.knobs.size();
   for (const RestLengthError& label : fit.setting.rest_lengths) {
     if (!label.doubted()) continue;
@@ -148,6 +152,11 @@ void judge_labels(StaticFit& fit) {
     if (!e.at_bound && e.standard_error > prior_rules * rest_length_deviation(label.labelled))
       e.identifiable = false;
     widen_by_common(fit.setting.rest_lengths, label, fit.solution.freedom, e);
+    if (!wrong || e.at_bound) continue;
+    e.standard_error = unbounded;
+    e.low = -unbounded;
+    e.high = unbounded;
+    e.identifiable = false;
   }
 }
 
