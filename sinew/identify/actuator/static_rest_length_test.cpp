@@ -54,12 +54,12 @@ std::string notes_of(const StaticResult& found) {
 }
 
 // Errors as they are expected, independent of each other and with whatever they have in common: of
-// 90 intervals 81 or more hold theirs. How the muscles are beside each other is known far better.
+// 60 intervals 54 or more hold theirs. How the muscles are beside each other is known far better.
 TEST(RestLength, ErrorsOfLabelsAreHeldByTheirIntervals) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   int held = 0, beside = 0;
-  for (unsigned seed = 1; seed <= 30; ++seed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
     std::array<double, 3> errors{};
     double common = 0, found_common = 0;
     for (std::size_t m = 0; m < 3; ++m) {
@@ -77,14 +77,14 @@ TEST(RestLength, ErrorsOfLabelsAreHeldByTheirIntervals) {
     }
     EXPECT_LT(found.report.best().fit.rmse_percent, 0.6);
   }
-  EXPECT_GE(held, 81);
-  EXPECT_GE(beside, 81);
+  EXPECT_GE(held, 54);
+  EXPECT_GE(beside, 54);
 }
 
 // Right labels are left where they are, and nothing is said of them.
 TEST(RestLength, RightLabelsAreBelieved) {
   int held = 0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
     const StaticResult found = identified(measured({}, seed));
     for (const double label : labels) {
       const Estimate& e = error_of(found, label);
@@ -93,7 +93,7 @@ TEST(RestLength, RightLabelsAreBelieved) {
     }
     EXPECT_EQ(notes_of(found).find("pulls as one of"), std::string::npos) << notes_of(found);
   }
-  EXPECT_GE(held, 54);
+  EXPECT_GE(held, 27);
 }
 
 // What all labels have in common is not taken for their errors: the law's own lengths answer for
