@@ -149,7 +149,8 @@ void judge_labels(StaticFit& fit) {
   for (const RestLengthError& label : fit.setting.rest_lengths) {
     if (!label.doubted()) continue;
     Estimate& e = fit.solution.estimates[i++];
-    if (!e.at_bound && e.standard_error > prior_rules * rest_length_deviation(label.labelled))
+    const double before = rest_length_deviation(label.labelled);
+    if (!e.at_bound && e.standard_error > prior_rules * before && std::abs(e.value) < before)
       e.identifiable = false;
     widen_by_common(fit.setting.rest_lengths, label, fit.solution.freedom, e);
     if (!wrong || e.at_bound) continue;
