@@ -165,9 +165,9 @@ bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::si
   return false;
 }
 
-// Numbers that no reading depends on are not searched, where they change by as much as they are
-// large. A valve whose every pulse is lost has no closing delay to be seen, so that dead times are
-// asked again with all of them halved.
+// Numbers are not searched where no reading moves as one of them becomes twice as large. A valve
+// whose every pulse is lost has no closing delay to be seen, so that dead times are asked again
+// with all of them halved.
 std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Parameter>& all,
                             std::vector<std::string>& not_felt) {
   std::vector<double> p, short_times;
