@@ -21,7 +21,7 @@ void print_scaled(const identify::ScaleFound& found) {
   fmt::print("a muscle of {:.4g} mm, like that of {:.4g} mm\n", 1e3 * p.rest_length,
              1e3 * found.from);
   fmt::print("largest force  {:.4g} N at {:.4g} mm and {:.4g} kPa gauge\n", found.largest,
-             1e3 * p.longest, 1e-3 * p.highest);
+             1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (found.corrected_by != 1)
     fmt::print("its reading    the law times {:.4f}\n", found.corrected_by);
   if (p.inside_95 > 0)

@@ -4,6 +4,7 @@
 // at all, that L_max lies where it should - is in check.h.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -304,20 +305,34 @@ template <class Visitor>
 void fields(Visitor& v, Prediction& p) {
   v.number({.name = "rest_length", .unit = "m", .min = 0, .doc = "L_0 of the muscle"},
            p.rest_length);
-  ends(v, "lengths", "m", "shortest and longest length that were measured",
-       R"(["80 mm", "100 mm"])", p.shortest, p.longest);
-  if (p.shortest < 0)
-    units::complain(v, "lengths", "a length below zero", "the shortest and the longest",
-                    R"(["80 mm", "100 mm"])");
+  v.numbers(
+      {.name = "lengths", .unit = "m", .min = 0, .doc = "that were measured, in ascending order"},
+      p.lengths);
+  if (!std::ranges::is_sorted(p.lengths))
+    units::complain(v, "lengths", "lengths in another order",
+                    "lengths from the shortest to the longest", R"(["80 mm", "90 mm", "100 mm"])");
   ends(v, "pressures", "Pa gauge", "lowest and highest pressure that were measured",
        R"(["0 kPa gauge", "600 kPa gauge"])", p.lowest, p.highest);
   v.number({.name = "inside_68",
             .unit = "N",
             .min = 0,
-            .doc = "two of three measured forces lie as close to the law's, between these ends"},
+            .doc = "two of three measured forces lie as close to the law's, at these lengths and "
+                   "between these pressures"},
            p.inside_68);
   v.number({.name = "inside_95", .unit = "N", .min = 0, .doc = "19 of 20 lie as close"},
            p.inside_95);
+  v.number({.name = "between_68",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "the same halfway in the widest gap between two lengths; 0: not known"},
+           p.between_68);
+  v.number({.name = "between_95",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "19 of 20 there; 0: not known"},
+           p.between_95);
   v.number({.name = "beyond_68",
             .unit = "N",
             .min = 0,
@@ -349,6 +364,9 @@ void fields(Visitor& v, Prediction& p) {
             .optional = true,
             .doc = "|ln(L/L_0)| over which muscles of other rest lengths L were tried"},
            p.other_reach);
+  if (p.inside_95 > 0 && p.lengths.empty())
+    units::complain(v, "lengths", "none beside inside_95", "at least the one that was measured",
+                    R"(["80 mm", "90 mm", "100 mm"])");
 }
 
 template <class Visitor>

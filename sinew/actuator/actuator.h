@@ -7,6 +7,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace sinew::actuator {
 
@@ -113,13 +114,14 @@ struct Toe {
 // How far a measured force lies from the law's, as an identification left it in the actuator's
 // file; no part of any law, see prediction.h. 0: not known.
 struct Prediction {
-  double rest_length = 0;               // L_0 of the muscle [m]
-  double shortest = 0, longest = 0;     // lengths that were measured [m]
-  double lowest = 0, highest = 0;       // gauge pressures that were measured [Pa]
-  double inside_68 = 0, inside_95 = 0;  // half-widths between these [N]
-  double beyond_68 = 0, beyond_95 = 0;  // a fifth of their range beyond them [N]
-  double other_68 = 0, other_95 = 0;    // of muscles of other rest lengths, of the force [-]
-  double other_reach = 0;               // |ln(L/L_0)| over which that was tried [-]
+  double rest_length = 0;                 // L_0 of the muscle [m]
+  std::vector<double> lengths;            // that were measured, in ascending order [m]
+  double lowest = 0, highest = 0;         // gauge pressures that were measured [Pa]
+  double inside_68 = 0, inside_95 = 0;    // half-widths at these lengths, between the pressures [N]
+  double between_68 = 0, between_95 = 0;  // halfway in the widest gap between two lengths [N]
+  double beyond_68 = 0, beyond_95 = 0;    // a fifth of the range beyond the ends [N]
+  double other_68 = 0, other_95 = 0;      // of muscles of other rest lengths, of the force [-]
+  double other_reach = 0;                 // |ln(L/L_0)| over which that was tried [-]
 };
 
 struct Actuator {

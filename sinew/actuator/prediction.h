@@ -1,9 +1,12 @@
 // actuator/prediction.h - within which distance of the law's force a measured one lies.
 //
-//   half-width = inside                                     between the ends of what was measured
-//              = inside + (beyond - inside) d/0.2           beyond them
+//   half-width^2 = inside^2 + (between^2 - inside^2) a^2    between the ends of what was measured
+//   half-width   = inside + (beyond - inside) d/0.2         beyond them
 //
-//   inside, beyond  half-widths that hold 68 or 95 % of measured forces [N]
+//   inside, between, beyond  half-widths that hold 68 or 95 % of measured forces [N]
+//   a  distance of the next length that was measured, in parts of half the widest gap between two
+//   of
+//      them: 0 at such a length, 1 halfway in that gap [-]
 //   d  how far beyond the lengths or the pressures, in parts of their range; the larger one [-]
 //
 // The identification that wrote them counted the forces that it had not seen
@@ -12,10 +15,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
 
 #include "sinew/actuator/actuator.h"
 
 namespace sinew::actuator {
+
+inline constexpr double same_length = 0.004;  // of the longest: closer than that is that length
 
 // Half-widths at a point  [N].
 struct ForceInterval {
@@ -32,20 +40,38 @@ inline double beyond_ends(double x, double low, double high) {
   return off > 1e-9 * range ? off / range : 0.0;
 }
 
+// Returns the distance of the next of some lengths, which are in ascending order  [m].
+inline double next_length(const std::vector<double>& lengths, double length) {
+  double out = std::numeric_limits<double>::infinity();
+  for (const double l : lengths) out = std::min(out, std::abs(l - length));
+  return out;
+}
+
+// Returns the widest gap between two neighbours of some lengths in ascending order  [m].
+inline double widest_gap(const std::vector<double>& lengths) {
+  double out = 0;
+  for (std::size_t i = 1; i < lengths.size(); ++i) out = std::max(out, lengths[i] - lengths[i - 1]);
+  return out;
+}
+
 // Returns the interval about the law's tension at a length [m] and a gauge pressure [Pa].
 inline ForceInterval force_interval(const Prediction& p, double length, double gauge_pressure) {
   ForceInterval out;
-  if (!(p.inside_95 > 0)) return out;
-  const double d = std::max(beyond_ends(length, p.shortest, p.longest),
-                            beyond_ends(gauge_pressure, p.lowest, p.highest));
+  if (!(p.inside_95 > 0) || p.lengths.empty()) return out;
+  const double off = beyond_ends(length, p.lengths.front(), p.lengths.back());
+  const double d = std::max(off, beyond_ends(gauge_pressure, p.lowest, p.highest));
+  const double away = off > 0 ? 0 : next_length(p.lengths, length);
+  const double a = away > 0 ? away / (0.5 * widest_gap(p.lengths)) : 0;
   out.measured = d == 0;
-  out.known = out.measured || (p.beyond_95 > 0 && d <= 1.0);
+  out.known = (out.measured || (p.beyond_95 > 0 && d <= 1.0)) &&
+              (p.between_95 > 0 || away < same_length * p.lengths.back());
   if (!out.known) return out;
-  const auto at = [d](double inside, double beyond) {
-    return d == 0 ? inside : inside + std::max(0.0, beyond - inside) * d / 0.2;
+  const auto at = [a, d](double inside, double between, double beyond) {
+    if (d > 0) return inside + std::max(0.0, beyond - inside) * d / 0.2;
+    return std::sqrt(inside * inside + std::max(0.0, between * between - inside * inside) * a * a);
   };
-  out.half_68 = at(p.inside_68, p.beyond_68);
-  out.half_95 = at(p.inside_95, p.beyond_95);
+  out.half_68 = at(p.inside_68, p.between_68, p.beyond_68);
+  out.half_95 = at(p.inside_95, p.between_95, p.beyond_95);
   return out;
 }
 

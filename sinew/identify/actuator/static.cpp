@@ -262,16 +262,13 @@ std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& s
   std::vector<StaticMuscle> out;
   for (const StaticPoint& p : points) {
     if (out.empty() || out.back().rest_length != p.rest_length) {
-      out.push_back({.rest_length = p.rest_length,
-                     .shortest = p.length,
-                     .longest = p.length,
+      out.push_back({.actuator = scaled(fit.setting, scales, p.rest_length),
+                     .rest_length = p.rest_length,
+                     .lengths = lengths_of(points, p.rest_length),
                      .lowest = p.pressure,
                      .highest = p.pressure});
-      out.back().actuator = scaled(fit.setting, scales, p.rest_length);
     }
     StaticMuscle& m = out.back();
-    m.shortest = std::min(m.shortest, p.length);
-    m.longest = std::max(m.longest, p.length);
     m.lowest = std::min(m.lowest, p.pressure);
     m.highest = std::max(m.highest, p.pressure);
   }

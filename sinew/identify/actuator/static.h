@@ -42,9 +42,9 @@ struct StaticOptions {
 // One muscle's actuator, as a file would have it.
 struct StaticMuscle {
   actuator::Actuator actuator;
-  double rest_length = 0;            // as labelled [m]
-  double shortest = 0, longest = 0;  // lengths that were fitted, as labelled [m]
-  double lowest = 0, highest = 0;    // gauge pressures that were fitted [Pa]
+  double rest_length = 0;          // as labelled [m]
+  std::vector<double> lengths;     // that were fitted, as labelled, in ascending order [m]
+  double lowest = 0, highest = 0;  // gauge pressures that were fitted [Pa]
 };
 
 // The models that were fitted, and the muscles of the chosen one.

@@ -88,8 +88,8 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
     provenance.given(path + "effectiveness.scale", source + "; the rest length's effect");
 
   // Outside what was measured the laws are held.
-  const double shortest = fitted_length(result, muscle, muscle.shortest);
-  const double longest = fitted_length(result, muscle, muscle.longest);
+  const double shortest = fitted_length(result, muscle, muscle.lengths.front());
+  const double longest = fitted_length(result, muscle, muscle.lengths.back());
   a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
   a.effectiveness.valid_to = muscle.highest;
   a.bladder.valid_from =  // the braid is shorter than the muscle where ends give way
@@ -106,8 +106,8 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   add_rest_length(result, muscle, path, source, provenance);
   for (const char* key : {"lengths", "pressures"})
     provenance.given(path + "prediction." + key, source);
-  for (const char* key :
-       {"inside_68", "inside_95", "beyond_68", "beyond_95", "other_68", "other_95", "other_reach"})
+  for (const char* key : {"inside_68", "inside_95", "between_68", "between_95", "beyond_68",
+                          "beyond_95", "other_68", "other_95", "other_reach"})
     provenance.given(path + "prediction." + key, source + "; points that a fit had not seen");
   return actuator_file(a, provenance);
 }

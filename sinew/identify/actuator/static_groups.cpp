@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/identify/data/quality.h"
 
 namespace sinew::identify {
@@ -58,11 +59,26 @@ std::vector<int> length_groups(const Points& points) {
   double longest = 0;
   for (const StaticPoint& point : points) longest = std::max(longest, point.length);
   for (const StaticPoint& point : points) l.push_back(point.length + 10 * point.rest_length);
-  return groups_of(l, 0.004 * longest, 1e9);
+  return groups_of(l, actuator::same_length * longest, 1e9);
 }
 
 int count_of(const std::vector<int>& groups) {
   return static_cast<int>(std::set<int>(groups.begin(), groups.end()).size());
+}
+
+std::vector<double> lengths_of(const Points& points, double rest_length) {
+  std::set<double> all;
+  for (const StaticPoint& p : points)
+    if (p.rest_length == rest_length) all.insert(p.length);
+  std::vector<double> out;
+  for (const double length : all) {
+    const double close = actuator::same_length * *all.rbegin();
+    if (out.empty() || length - out.back() > close)
+      out.push_back(length);
+    else if (length == *all.rbegin())  // the end itself, for a mount that is told by its first
+      out.size() > 1 ? out.back() = length : out.emplace_back(length);
+  }
+  return out;
 }
 
 std::vector<StaticPoint> all_points(const StaticSplit& s) {

@@ -35,6 +35,10 @@ std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
 std::vector<int> length_groups(const std::vector<StaticPoint>& points);
 int count_of(const std::vector<int>& groups);
 
+// Returns the lengths at which a muscle was measured, in ascending order: the shortest, the longest
+// and those between that are not one mount with the one before  [m].
+std::vector<double> lengths_of(const std::vector<StaticPoint>& points, double rest_length);
+
 // The fitted points, then the others.
 std::vector<StaticPoint> all_points(const StaticSplit& split);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/fit/refusal.h"
@@ -15,7 +16,8 @@ namespace sinew::identify {
 namespace {
 
 constexpr double a_fifth = 0.2;  // of the range, prediction.h's beyond
-constexpr int nodes = 5;         // of lengths and of pressures
+constexpr int nodes = 5;         // of pressures
+constexpr std::size_t most_lengths = 9;
 
 const StaticMuscle* fitted(const StaticResult& result, double rest_length) {
   for (const StaticMuscle& m : result.muscles)
@@ -40,7 +42,22 @@ std::array<double, 2> mean_widths(const StaticResult& result,
   return {std::sqrt(sum[0]), std::sqrt(sum[1])};
 }
 
-double known(double width) { return std::isfinite(width) ? width : 0.0; }
+// Writes half-widths, no narrower than the least; 0 where they are not known.
+void write_widths(const std::array<double, 2>& widths, const std::array<double, 2>& least,
+                  double& half_68, double& half_95) {
+  const bool known = std::isfinite(widths[1]) && widths[1] > 0;
+  half_68 = known ? std::max(widths[0], least[0]) : 0;
+  half_95 = known ? std::max(widths[1], least[1]) : 0;
+}
+
+// The ends of the lengths and some of those between: a sweep has hundreds.
+std::vector<double> some_of(const std::vector<double>& lengths) {
+  std::vector<double> out;
+  const std::size_t last = lengths.size() - 1, count = std::min(last, most_lengths - 1);
+  for (std::size_t i = 0; i <= count; ++i)
+    out.push_back(lengths[count > 0 ? (i * last + count / 2) / count : 0]);
+  return out;
+}
 
 }  // namespace
 
@@ -50,8 +67,7 @@ StaticMuscle muscle_of(const StaticResult& result, double rest_length) {
   const double ratio = rest_length / out.rest_length;
   out.actuator = scaled(result.fit.setting, result.scales, rest_length);
   out.rest_length = rest_length;
-  out.shortest *= ratio;
-  out.longest *= ratio;
+  for (double& length : out.lengths) length *= ratio;
   return out;
 }
 
@@ -61,53 +77,59 @@ double fitted_length(const StaticResult& result, const StaticMuscle& muscle, dou
 }
 
 StaticForce predict(const StaticResult& result, const StaticPoint& point) {
+  const StaticSpread& spread = result.spread;
   const StaticMuscle muscle = muscle_of(result, point.rest_length);
   std::vector<StaticPoint> one{point};
   one[0].rest_length = muscle.rest_length;
   StaticForce out{.force = predicted(result.fit.setting, result.scales, one[0])};
-  const bool inside = within(point.length, muscle.shortest, muscle.longest) &&
+  const bool inside = within(point.length, muscle.lengths.front(), muscle.lengths.back()) &&
                       within(point.pressure, muscle.lowest, muscle.highest);
-  Quantiles q = inside ? result.spread.inside : result.spread.beyond;
+  Quantiles q = inside ? spread.inside : spread.beyond;
   out.guess = inside ? Guess::inside : Guess::beyond;
+  double away = 0;  // what muscles were missed by that were left out holds it
   if (!fitted(result, point.rest_length)) {
-    q = wider(q, result.spread.other_muscle);
+    q = wider(q, spread.other_muscle);
     out.guess = Guess::other_muscle;
+  } else {
+    away = actuator::next_length(muscle.lengths, point.length) / muscle.rest_length;
+    if (!within(point.length, muscle.lengths.front(), muscle.lengths.back())) away *= 2;
   }
   const double w = widths(result.fit, result.scales, one)[0];
-  out.half_68 = q.q68 * w;
-  out.half_95 = q.q95 * w;
+  out.half_68 = std::hypot(q.q68 * w, spread.between_68 * away);
+  out.half_95 = std::hypot(q.q95 * w, spread.between_95 * away);
   return out;
 }
 
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& m) {
-  std::vector<StaticPoint> inside, beyond;
-  const double length = m.longest - m.shortest, pressure = m.highest - m.lowest;
-  for (int i = 0; i < nodes; ++i)
-    for (int k = 0; k < nodes; ++k) {
-      const double x = i / (nodes - 1.0), y = k / (nodes - 1.0);
-      const auto at = [&](double along, double up) {
-        return StaticPoint{.length = m.shortest + along * length,
-                           .pressure = m.lowest + up * pressure,
-                           .rest_length = m.rest_length};
-      };
-      inside.push_back(at(x, y));
-      if (i == 0 && length > 0) beyond.insert(beyond.end(), {at(-a_fifth, y), at(1 + a_fifth, y)});
-      if (k == 0 && pressure > 0) beyond.insert(beyond.end(), {at(x, 1 + a_fifth)});
+  const double shortest = m.lengths.front(), longest = m.lengths.back();
+  const double range = longest - shortest, pressure = m.highest - m.lowest;
+  std::vector<StaticPoint> inside, between, beyond;
+  const auto add = [&](std::vector<StaticPoint>& to, double length, double up) {
+    to.push_back(
+        {.length = length, .pressure = m.lowest + up * pressure, .rest_length = m.rest_length});
+  };
+  const double gap = actuator::widest_gap(m.lengths);
+  for (int k = 0; k < nodes; ++k) {
+    const double up = k / (nodes - 1.0);
+    for (const double length : some_of(m.lengths)) {
+      add(inside, length, up);
+      if (k == 0 && pressure > 0) add(beyond, length, 1 + a_fifth);
     }
+    for (std::size_t i = 1; i < m.lengths.size(); ++i)
+      if (m.lengths[i] - m.lengths[i - 1] > 0.999 * gap)
+        add(between, 0.5 * (m.lengths[i] + m.lengths[i - 1]), up);
+    if (range > 0)
+      add(beyond, shortest - a_fifth * range, up), add(beyond, longest + a_fifth * range, up);
+  }
   actuator::Prediction out{.rest_length = fitted_length(result, m, m.rest_length),
-                           .shortest = fitted_length(result, m, m.shortest),
-                           .longest = fitted_length(result, m, m.longest),
+                           .lengths = m.lengths,
                            .lowest = m.lowest,
                            .highest = m.highest};
-  const auto in = mean_widths(result, inside);
-  out.inside_68 = known(in[0]);
-  out.inside_95 = known(in[1]);
-  if (!beyond.empty()) {
-    const auto off = mean_widths(result, beyond);
-    out.beyond_68 = std::max(out.inside_68, known(off[0]));
-    out.beyond_95 = std::max(out.inside_95, known(off[1]));
-    if (!std::isfinite(off[1])) out.beyond_68 = out.beyond_95 = 0;
-  }
+  for (double& length : out.lengths) length = fitted_length(result, m, length);
+  write_widths(mean_widths(result, inside), {0, 0}, out.inside_68, out.inside_95);
+  const std::array<double, 2> least{out.inside_68, out.inside_95};
+  write_widths(mean_widths(result, between), least, out.between_68, out.between_95);
+  write_widths(mean_widths(result, beyond), least, out.beyond_68, out.beyond_95);
   out.other_68 = result.spread.other_share_68;
   out.other_95 = result.spread.other_share_95;
   out.other_reach = result.spread.other_reach;
@@ -147,9 +169,9 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   const actuator::Prediction old = actuator.prediction;
   actuator::Prediction& p = a.prediction;
   p.rest_length = rest_length;
-  p.shortest *= ratio;
-  p.longest *= ratio;
-  const double most = std::max(0.0, actuator::tension(a, p.longest, 0, p.highest, atmosphere));
+  for (double& length : p.lengths) length *= ratio;
+  const double most =
+      std::max(0.0, actuator::tension(a, p.lengths.back(), 0, p.highest, atmosphere));
   const double away = std::abs(std::log(ratio));
   const double stretch = old.other_reach > 0 ? std::max(1.0, away / old.other_reach) : 1.0;
   const auto inside = [&](double share, double of_fit) {
@@ -157,6 +179,8 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   };
   p.inside_68 = inside(old.other_68, old.inside_68);
   p.inside_95 = inside(old.other_95, old.inside_95);
+  p.between_68 = inside(old.other_68, old.between_68);
+  p.between_95 = inside(old.other_95, old.between_95);
   const double grows = old.inside_95 > 0 ? old.beyond_95 / old.inside_95 : 0;
   p.beyond_68 = p.inside_68 * grows;
   p.beyond_95 = p.inside_95 * grows;

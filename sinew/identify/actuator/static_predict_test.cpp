@@ -15,12 +15,13 @@ namespace {
 actuator::Actuator measured_muscle() {
   actuator::Actuator a = test_muscle().actuator;
   a.prediction = {.rest_length = test_rest_length,
-                  .shortest = 0.2,
-                  .longest = 0.25,
+                  .lengths = {0.2, 0.23, 0.25},
                   .lowest = 1e5,
                   .highest = 6e5,
                   .inside_68 = 2,
                   .inside_95 = 4,
+                  .between_68 = 3,
+                  .between_95 = 6,
                   .beyond_68 = 4,
                   .beyond_95 = 10,
                   .other_68 = 0.02,
@@ -66,7 +67,7 @@ TEST(Predict, IntervalsGrowBeyondTheRatioThatWasTried) {
   const actuator::Actuator a = measured_muscle();
   const auto share = [&](double rest_length) {
     const actuator::Actuator b = with_rest_length(a, rest_length, units::atmosphere);
-    return b.prediction.inside_95 / force(b, b.prediction.longest, b.prediction.highest);
+    return b.prediction.inside_95 / force(b, b.prediction.lengths.back(), b.prediction.highest);
   };
   EXPECT_NEAR(share(0.25 * std::exp(0.4)), 0.05, 1e-9);
   EXPECT_NEAR(share(0.25 * std::exp(-1.0)), 0.10, 1e-9);

@@ -126,7 +126,7 @@ TEST(RestLength, EveryFileScalesToTheSameMuscle) {
     a.prediction = prediction_of(found, m);
     EXPECT_NEAR(a.prediction.rest_length, m.rest_length + error_of(found, m.rest_length).value,
                 1e-12);
-    EXPECT_EQ(a.prediction.longest, a.prediction.rest_length);
+    EXPECT_EQ(a.prediction.lengths.back(), a.prediction.rest_length);
     const std::string file = static_file(found, m, "m", "a test", "");
     EXPECT_NE(file.find("labelled"), file.npos) << file;
     EXPECT_GT(a.prediction.inside_95, 0);

@@ -11,8 +11,10 @@ namespace sinew::identify {
 namespace {
 
 constexpr std::size_t few = 20;  // points below which an order says little of the 95th percentile
-constexpr double slack_share = 0.005;   // of the largest force: less is no pull
-constexpr double gradient_step = 1e-4;  // of a parameter's scale
+constexpr double slack_share = 0.005;    // of the largest force: less is no pull
+constexpr double gradient_step = 1e-4;   // of a parameter's scale
+constexpr double believed_error = 0.22;  // c_0: share of the largest force per rest length
+constexpr int believed_freedom = 2;      // nu_0
 
 // The smallest of the sorted values that a further one lies below with this chance.
 double conformal(const std::vector<double>& sorted, double level) {
@@ -57,9 +59,14 @@ std::set<double> unknown_muscles(const std::vector<RestLengthError>& known,
 
 }  // namespace
 
-const Quantiles& StaticSpread::of(Guess guess) const {
-  if (guess == Guess::other_muscle) return other_muscle;
-  return guess == Guess::inside ? inside : beyond;
+void add_between(std::span<const MissedLength> missed, double largest_force, StaticSpread& spread) {
+  double shown = 0;
+  for (const MissedLength& m : missed) shown += m.square / (m.away * m.away);
+  const double squares = believed_freedom * believed_error * believed_error + std::max(0.0, shown);
+  const int freedom = believed_freedom + static_cast<int>(missed.size());
+  const double c = std::sqrt(squares / freedom);
+  spread.between_68 = t_quantile_68(freedom) * c * largest_force;
+  spread.between_95 = t_quantile(freedom) * c * largest_force;
 }
 
 void Unseen::add(const Unseen& other) {

@@ -13,6 +13,22 @@
 // each with a q of its own: between the ends of the data, beyond them, and of a muscle of another
 // rest length. No law of errors is assumed: the quantiles are those of the points that were left
 // out (split-conformal prediction; of muscles the worst one, as points of one muscle err together).
+//
+// Between two lengths the form of the law errs besides, at all pressures alike, by the more the
+// further the next one is:
+//
+//   half-width^2 = (q w)^2 + (t c a F)^2    c^2 = (nu_0 c_0^2 + sum e_k^2/a_k^2) / (nu_0 + n)
+//
+//   a  distance of the next length that was measured, of the rest length; twice that beyond the
+//      ends, where there is one on one side alone [-]
+//   F  largest force [N]         t  Student's factor of nu_0 + n degrees of freedom
+//   e_k^2  mean square of what the k-th of n lengths that were left out was missed by, less that of
+//      pressures that were left out, in shares of F [-]; the sum is no less than 0    a_k  its a
+//   c_0 = 0.22, nu_0 = 2  what is believed of any law on any muscle before: so far off were those
+//      that were chosen for seven muscles (docs/theory/static-models.md)
+//
+// c is the scale of a normal law of errors with a conjugate prior; few muscles have more than two
+// lengths between their ends, and a quantile of two says nothing.
 #pragma once
 
 #include <cstddef>
@@ -39,13 +55,21 @@ enum class Guess { inside, beyond, other_muscle };
 struct StaticSpread {
   Quantiles inside, beyond, other_muscle;
 
+  // Half-widths between lengths: t c F, for each a  [N].
+  double between_68 = 0, between_95 = 0;
+
   // What the worst of the muscles that were left out was missed by, in shares of its own largest
   // force, and |ln| of the greatest ratio to the rest length that was next to it  [-]. 0: none was.
   double other_share_68 = 0, other_share_95 = 0, other_reach = 0;
-
-  // Returns those of a kind.
-  const Quantiles& of(Guess guess) const;
 };
+
+// A length that was left out: e_k^2 and a_k above  [-].
+struct MissedLength {
+  double square = 0, away = 0;
+};
+
+// Writes the half-widths between lengths, those of a law whose lengths were missed by this.
+void add_between(std::span<const MissedLength> missed, double largest_force, StaticSpread& spread);
 
 // Points that a fit had not seen: what it missed them by, and what it expected to.
 struct Unseen {

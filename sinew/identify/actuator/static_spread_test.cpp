@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/actuator/test_muscle.h"
 
@@ -56,6 +57,47 @@ TEST(Spread, FewPointsTakeStudentsFactorAndNoneAreInfinite) {
   const Quantiles q = quantiles({.residuals = {1, -1, 1, -1}, .widths = {2, 2, 2, 2}});
   EXPECT_NEAR(q.q95, 0.5 * t_quantile(4), 1e-12);
   EXPECT_TRUE(std::isinf(quantiles({}).q95));
+}
+
+// Without a length left out it is the belief alone; lengths that were missed by as much as is
+// believed leave it, and narrow what Student adds; lengths that were met narrow it further.
+TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
+  const auto half_95 = [](const std::vector<MissedLength>& missed) {
+    StaticSpread spread;
+    add_between(missed, 1000, spread);
+    EXPECT_GT(spread.between_95, spread.between_68);
+    return spread.between_95 / 1000;
+  };
+  const double believed = half_95({}) / t_quantile(2);
+  EXPECT_GT(believed, 0);
+  const double a = 0.04, square = std::pow(believed * a, 2);
+  EXPECT_NEAR(half_95({{square, a}, {square, a}}), believed * t_quantile(4), 1e-12);
+  EXPECT_NEAR(half_95({{0, a}, {0, a}}), std::sqrt(0.5) * believed * t_quantile(4), 1e-12);
+  EXPECT_NEAR(half_95({{-square, a}, {0, a}}), half_95({{0, a}, {0, a}}), 1e-12);
+  EXPECT_NEAR(half_95({{100 * square, a}}), std::sqrt(102.0 / 3) * believed * t_quantile(3), 1e-12);
+  EXPECT_NEAR(half_95({{100 * square, 2 * a}}), std::sqrt(27.0 / 3) * believed * t_quantile(3),
+              1e-12);
+}
+
+// The width grows from a length to the middle of the gap, and is that of the fit at the length.
+TEST(Spread, BetweenTwoLengthsItIsWidestHalfway) {
+  const StaticResult found = fit_of(measure({0.25}, 3, 7), "saturating-elastic");
+  const auto half = [&](double part) {
+    return predict(found,
+                   {.length = 0.25 * (0.91 + 0.03 * part), .pressure = 3e5, .rest_length = 0.25})
+        .half_95;
+  };
+  EXPECT_GT(half(0.25), half(0));
+  EXPECT_GT(half(0.5), half(0.25));
+  EXPECT_GT(half(0.5), half(0.75));
+  EXPECT_NEAR(std::hypot(half(0), 0.25 * 0.03 * 0.5 / 0.25 * found.spread.between_95), half(0.5),
+              0.1 * half(0));
+
+  // The file says the same, by and large.
+  actuator::Prediction p = prediction_of(found, found.muscles[0]);
+  EXPECT_EQ(p.lengths.size(), 7u);
+  EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.91, 3e5).half_95, half(0), 0.2 * half(0));
+  EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.925, 3e5).half_95, half(0.5), 0.2 * half(0.5));
 }
 
 // Of forces measured anew between the old ones, in 12 rigs: 92 to 98 % lie within 95 %.

@@ -248,8 +248,8 @@ TEST(Static, OutsideTheDataItStaysBoundedAndMonotone) {
     actuator::Actuator a = found.muscles[0].actuator;
     a.effectiveness.valid_from = found.muscles[0].lowest;
     a.effectiveness.valid_to = found.muscles[0].highest;
-    a.bladder.valid_from = found.muscles[0].shortest;
-    a.bladder.valid_to = found.muscles[0].longest;
+    a.bladder.valid_from = found.muscles[0].lengths.front();
+    a.bladder.valid_to = found.muscles[0].lengths.back();
     for (double l = 0.5 * rest; l < 1.1 * rest; l += 0.01 * rest) {
       double before = 0;
       for (double p = 0; p < 20 * bar; p += 0.1 * bar) {

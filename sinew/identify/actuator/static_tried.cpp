@@ -26,6 +26,14 @@ double mean_square(const std::vector<double>& residuals) {
   return residuals.empty() ? 0 : sum / static_cast<double>(residuals.size());
 }
 
+// Of those at which the muscle pulls; 0 where it does nowhere.
+double mean_square_of_pull(const Unseen& unseen) {
+  std::vector<double> pull;
+  for (std::size_t i = 0; i < unseen.residuals.size(); ++i)
+    if (std::isfinite(unseen.widths[i])) pull.push_back(unseen.residuals[i]);
+  return mean_square(pull);
+}
+
 double mean(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += v;
@@ -53,6 +61,7 @@ struct Mount {
   double length = 0, rest_length = 0;
   int group = 0;
   bool at_end = false;  // the longest or the shortest of its muscle
+  double next = 0;      // distance of the next one, of the rest length [-]; 0: it is the only one
 };
 
 std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group) {
@@ -67,6 +76,11 @@ std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group
       });
     };
     m.at_end = !beyond(1) || !beyond(-1);
+    for (const Mount& other : out) {
+      const double away = std::abs(other.length - m.length) / m.rest_length;
+      if (other.rest_length == m.rest_length && away > 0 && (m.next == 0 || away < m.next))
+        m.next = away;
+    }
   }
   return out;
 }
@@ -79,12 +93,19 @@ std::vector<int> end_pressures(const Points& points) {
   return part;
 }
 
-// Returns the end lengths or those between, each predicted by all other lengths. Adds a text for
-// each length to `each`.
-Unseen cross_lengths(const Tried& model, const Points& points, const StaticFit& whole, bool at_end,
-                     double full_scale, std::string& each) {
+// Lengths that were left out one by one.
+struct LeftOutLengths {
+  Unseen all;
+  std::vector<MissedLength>
+      missed;        // where the muscle pulls; what pressures are missed by is in it
+  std::string each;  // a text for each
+};
+
+// Returns the end lengths or those between, each predicted by all other lengths.
+LeftOutLengths cross_lengths(const Tried& model, const Points& points, const StaticFit& whole,
+                             bool at_end, double full_scale) {
   const std::vector<int> group = length_groups(points);
-  Unseen out;
+  LeftOutLengths out;
   for (const Mount& mount : mounts_of(points, group)) {
     if (mount.at_end != at_end) continue;
     std::vector<int> mine(points.size(), 1);
@@ -92,9 +113,11 @@ Unseen cross_lengths(const Tried& model, const Points& points, const StaticFit& 
       if (group[i] == mount.group) mine[i] = 0;
     const Unseen one = model.cross(points, mine, 1, whole);
     const Score s = score(one.residuals, full_scale);
-    each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", each.empty() ? "" : ", ", 1e3 * mount.length,
-                        s.rmse_percent, s.max_percent);
-    out.add(one);
+    out.each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", out.each.empty() ? "" : ", ",
+                            1e3 * mount.length, s.rmse_percent, s.max_percent);
+    out.all.add(one);
+    if (const double square = mean_square_of_pull(one); square > 0)
+      out.missed.push_back({square / (full_scale * full_scale), mount.next});
   }
   return out;
 }
@@ -224,12 +247,17 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
   fit.notes.push_back(fmt::format("pressures between the ends that it did not see: {:.2f} % rmse",
                                   100 * std::sqrt(squares[0]) / full_scale));
 
-  std::string between, ends;
-  const Unseen lengths = cross_lengths(model, points, whole, false, full_scale, between);
-  if (!lengths.residuals.empty()) {
-    fit.notes.push_back("lengths between the ends that it did not see, rmse/max %: " + between);
-    squares.push_back(mean_square(lengths.residuals));
-    inside.add(lengths);
+  StaticSpread out;
+  out.inside = quantiles(inside);
+  LeftOutLengths lengths = cross_lengths(model, points, whole, false, full_scale);
+  const double of_pressures = mean_square_of_pull(inside) / (full_scale * full_scale);
+  for (MissedLength& m : lengths.missed) m.square -= of_pressures;
+  add_between(lengths.missed, full_scale, out);
+  if (!lengths.each.empty()) {
+    fit.notes.push_back("lengths between the ends that it did not see, rmse/max %: " +
+                        lengths.each);
+    squares.push_back(mean_square(lengths.all.residuals));
+    inside.add(lengths.all);
   }
   const double of_muscles =
       tell_muscles(muscles, muscles_in(points), fit) * full_scale * full_scale;
@@ -239,17 +267,15 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
   fit.cross_validated = score(inside.residuals, full_scale);
   fit.cross_validated->rmse = std::sqrt(mean(squares));
   fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;
-  StaticSpread out;
-  out.inside = quantiles(inside);
   add_the_worst(muscles, out);
 
   if (count_of(length_groups(points)) < 3) return out;
-  Unseen beyond = cross_lengths(model, points, whole, true, full_scale, ends);
-  fit.extrapolated = score(beyond.residuals, full_scale);
-  fit.notes.push_back("lengths at the ends that it did not see, rmse/max %: " + ends);
+  LeftOutLengths ends = cross_lengths(model, points, whole, true, full_scale);
+  fit.extrapolated = score(ends.all.residuals, full_scale);
+  fit.notes.push_back("lengths at the ends that it did not see, rmse/max %: " + ends.each);
   if (count_of(pressure_groups(points)) > 3)
-    beyond.add(model.cross(points, end_pressures(points), 2, whole));
-  out.beyond = wider(out.inside, quantiles(beyond));
+    ends.all.add(model.cross(points, end_pressures(points), 2, whole));
+  out.beyond = wider(out.inside, quantiles(ends.all));
   return out;
 }
 

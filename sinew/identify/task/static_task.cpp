@@ -194,7 +194,8 @@ void add_predicted(const std::vector<double>& lengths, const StaticSettings& set
       found.result.report.notes.push_back(
           what + fmt::format("68 % of its forces are expected within {:.3g} N of the law, 95 % "
                              "within {:.3g} N, between {:.4g} and {:.4g} mm",
-                             p.inside_68, p.inside_95, 1e3 * p.shortest, 1e3 * p.longest));
+                             p.inside_68, p.inside_95, 1e3 * p.lengths.front(),
+                             1e3 * p.lengths.back()));
     else
       found.result.report.warnings.push_back(
           what +
