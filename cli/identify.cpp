@@ -132,6 +132,12 @@ void print(const identify::Report& report, const config::UnitsToShow& asked, dou
   if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
   fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
   print_parameters(report.best(), asked, room);
+  if (const auto& band = report.best().band) {
+    const Retold most = retold(band->half_95, report.unit, asked, room);
+    fmt::print("68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
+               band->half_68 * most.scale, most.number, most.unit == "1" ? "" : " ",
+               most.unit == "1" ? "" : most.unit);
+  }
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 

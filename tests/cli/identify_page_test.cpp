@@ -83,15 +83,21 @@ TEST_P(IdentifyPage, ShowsTheFileBesideTheModel) {
   double square = 0;
   std::size_t rows = 0;
   std::vector<double> measured, model, left;
+  std::vector<Json> bands;
   const auto add = [](std::vector<double>& to, const Json& numbers) {
     for (const Json& x : numbers) to.push_back(x);
   };
   for (const Json& curve : part["charts"][0]["curves"]) {
     if (curve.contains("hidden")) continue;
+    if (curve["style"] == "band") {
+      bands.push_back(curve);
+      continue;
+    }
     add(curve["style"] == "line" ? model : measured, curve["y"]);
     EXPECT_TRUE(std::ranges::is_sorted(curve["x"]));
   }
   for (const Json& curve : part["charts"][1]["curves"]) {
+    if (curve["style"] == "band") continue;
     rows += curve["y"].size();
     add(left, curve["y"]);
   }
@@ -106,6 +112,19 @@ TEST_P(IdentifyPage, ShowsTheFileBesideTheModel) {
               1e-4 * std::sqrt(square) + 1e-9 * c.scale);
   EXPECT_NEAR(part["charts"][0]["curves"][0]["x"][0], c.first_x, 1e-9);
   EXPECT_LT(std::sqrt(square), 0.05 * c.scale) << "it fits";
+
+  // Where the report tells bands they lie about the model's line, as wide everywhere.
+  const Json& report = part["report"];
+  ASSERT_EQ(bands.size(), report.contains("band") ? 2 : 0);
+  EXPECT_EQ(report.contains("band"), c.method[0] == "creep");
+  for (const Json& band : bands) {
+    const double half = report["band"][band["label"] == "68 % band" ? "half_68" : "half_95"];
+    ASSERT_EQ(band["y"].size(), rows);
+    for (std::size_t i = 0; i < rows; ++i) {
+      EXPECT_NEAR(band["y"][i].get<double>() + half, model[i], 1e-6 * c.scale);
+      EXPECT_NEAR(band["y_high"][i].get<double>() - half, model[i], 1e-6 * c.scale);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, IdentifyPage,

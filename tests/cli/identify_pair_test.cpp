@@ -48,10 +48,14 @@ TEST(IdentifyPair, FindsTheSlideOfTwoRecordings) {
   EXPECT_GT(out["held_out"]["r_squared"], 0.999);
   EXPECT_NEAR(out["air"]["muscles"][0]["relative_change_1_per_m"], 20, 0.1);
   EXPECT_EQ(out["air"]["muscles"][0]["falls"], true);
+  EXPECT_GT(out["band"]["half_68"], 0);
+  EXPECT_GT(out["band"]["half_95"], out["band"]["half_68"]);
+  EXPECT_LT(out["held_out"]["rmse"], out["band"]["half_95"]);
 
   const Result text = w.sinew(words);
   EXPECT_THAT(text.out, AllOf(HasSubstr("friction"), HasSubstr("frozen"), HasSubstr("held out"),
-                              HasSubstr("springs and trapped air together")));
+                              HasSubstr("springs and trapped air together"),
+                              HasSubstr("68 and 95 % of what it did not see lie within +- ")));
   EXPECT_THAT(text.err, HasSubstr("freeze area or stiffness to part them"));
 }
 

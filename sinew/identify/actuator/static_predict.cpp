@@ -149,10 +149,11 @@ actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double
   const double muscles = a.prediction.other_68, noise = half_68 / force;
   const double trust = muscles > 0 ? muscles * muscles / (muscles * muscles + noise * noise) : 1;
   const double factor = 1 + (ratio - 1) * trust;
-  // Everything that pulls is as much stronger, so that the shape stays.
-  a.effectiveness.scale *= factor;
-  for (double* spring : {&a.bladder.stiffness, &a.bladder.quadratic, &a.bladder.cubic,
-                         &a.bladder.saturating_tension, &a.toe.tension})
+  // Everything that pulls is as much stronger, so that the shape stays; effectiveness.scale is what
+  // the ends take, by which a file is scaled to other lengths.
+  for (double* spring :
+       {&a.effectiveness.c0, &a.effectiveness.c1, &a.effectiveness.c2, &a.bladder.stiffness,
+        &a.bladder.quadratic, &a.bladder.cubic, &a.bladder.saturating_tension, &a.toe.tension})
     *spring *= factor;
   a.series.compliance /= factor;
   return a;

@@ -90,6 +90,22 @@ TEST(Predict, AReadingCountsAsFarAsItIsSurerThanTheLaw) {
   EXPECT_NEAR(force(b, 0.23, 4e5), 1.05 * f, 1e-9 * f);
 }
 
+// A corrected muscle that is scaled on takes its reading along: it is as much stronger at every
+// length, whatever the ends take.
+TEST(Predict, AReadingGoesAlongToOtherLengths) {
+  for (const double scale : {1.0, 0.9}) {
+    actuator::Actuator a = measured_muscle();
+    a.effectiveness.scale = scale;
+    a.toe.tension = 0;
+    const double f = force(a, 0.23, 4e5);
+    const actuator::Actuator b = corrected(a, {0.23, 4e5, 1.1 * f}, units::atmosphere);
+    const actuator::Actuator plain = with_rest_length(a, 0.15, units::atmosphere);
+    const actuator::Actuator on = with_rest_length(b, 0.15, units::atmosphere);
+    for (const double l : {0.13, 0.14, 0.15})
+      EXPECT_NEAR(force(on, l, 5e5), 1.1 * force(plain, l, 5e5), 1e-9 * f);
+  }
+}
+
 TEST(Predict, AReadingOfSomethingElseIsRefused) {
   const actuator::Actuator a = measured_muscle();
   const double f = force(a, 0.23, 4e5);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sinew/identify/actuator/static_labels.h"
+#include "sinew/identify/fit/score.h"
 
 namespace sinew::identify {
 
@@ -15,13 +16,6 @@ constexpr double slack_share = 0.005;    // of the largest force: less is no pul
 constexpr double gradient_step = 1e-4;   // of a parameter's scale
 constexpr double believed_error = 0.22;  // c_0: share of the largest force per rest length
 constexpr int believed_freedom = 2;      // nu_0
-
-// The smallest of the sorted values that a further one lies below with this chance.
-double conformal(const std::vector<double>& sorted, double level) {
-  const double rank = std::ceil(level * static_cast<double>(sorted.size() + 1));
-  const auto at = std::min(static_cast<std::size_t>(rank), sorted.size());
-  return sorted[at - 1];
-}
 
 // Returns the variance of the mean force by the parameters, g' Cov g  [N2].
 double by_parameters(const std::vector<std::vector<double>>& gradient, std::size_t point,
@@ -139,9 +133,8 @@ Quantiles quantiles(const Unseen& unseen) {
     out.q68 = std::sqrt(square);
     return out;
   }
-  std::ranges::sort(z);
-  out.q68 = conformal(z, 0.68);
-  out.q95 = conformal(z, 0.95);
+  out.q68 = half_width_of(z, 0.68);
+  out.q95 = half_width_of(z, 0.95);
   return out;
 }
 

@@ -41,6 +41,7 @@ Json to_json(const Fit& fit) {
   if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
   if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
   if (fit.extrapolated) out["extrapolated"] = to_json(*fit.extrapolated);
+  if (fit.band) out["band"] = {{"half_68", fit.band->half_68}, {"half_95", fit.band->half_95}};
   if (!fit.not_chosen.empty()) out["not_chosen"] = fit.not_chosen;
   if (!fit.notes.empty()) out["notes"] = fit.notes;
   return out;
@@ -124,7 +125,7 @@ Json to_json(const Report& report) {
   // The chosen one once more, where a program looks first.
   const Json best = to_json(report.best());
   for (const char* key :
-       {"model", "parameters", "fit", "held_out", "cross_validated", "extrapolated"})
+       {"model", "parameters", "fit", "held_out", "cross_validated", "extrapolated", "band"})
     if (best.contains(key)) out[key] = best[key];
   return out;
 }

@@ -21,6 +21,18 @@ Score score(std::span<const double> residuals, double full_scale) {
   return out;
 }
 
+double half_width_of(std::span<const double> residuals, double chance) {
+  std::vector<double> sorted;
+  for (const double r : residuals) sorted.push_back(std::abs(r));
+  std::ranges::sort(sorted);
+  const double rank = std::ceil(chance * static_cast<double>(sorted.size() + 1));
+  return sorted[std::min(static_cast<std::size_t>(rank), sorted.size()) - 1];
+}
+
+Band band_of(std::span<const double> unseen) {
+  return {half_width_of(unseen, 0.68), half_width_of(unseen, 0.95)};
+}
+
 ErrorBy error_by(std::string what, std::string unit, std::span<const double> residuals,
                  std::span<const int> part, std::span<const double> value, double full_scale) {
   struct Part {

@@ -25,6 +25,19 @@ struct Score {
 // Returns it; `full_scale` is what 100 % are, in the residuals' unit.
 Score score(std::span<const double> residuals, double full_scale);
 
+// Returns the half-width that one more residual lies within with this chance: the smallest of these
+// that as many lie below, counted with the one that is to come (split-conformal prediction). It
+// knows of nothing but these: residuals that a fit saw say too little. Not empty.
+double half_width_of(std::span<const double> residuals, double chance);
+
+// Half-widths about a model's values, everywhere alike, that hold 68 and 95 % of measured ones.
+struct Band {
+  double half_68 = 0, half_95 = 0;
+};
+
+// Returns those that residuals tell which a fit had not seen. Not empty.
+Band band_of(std::span<const double> unseen);
+
 // The error of one part of the rows: those of a length, or of a branch, which has a name.
 struct PartError {
   std::string name;  // empty: its value tells it

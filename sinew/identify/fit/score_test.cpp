@@ -24,6 +24,26 @@ struct SomeRows {
   }
 };
 
+// A further residual of the same kind lies within it as often as it says, and of few it is the
+// largest one.
+TEST(HalfWidth, HoldsAFurtherResidualAsOftenAsItSays) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0, 2);
+  int in_68 = 0, in_95 = 0;
+  constexpr int tries = 4000;
+  for (int i = 0; i < tries; ++i) {
+    std::vector<double> residuals;
+    for (int k = 0; k < 39; ++k) residuals.push_back(normal(random));
+    const double next = std::abs(normal(random));
+    in_68 += next <= half_width_of(residuals, 0.68);
+    in_95 += next <= half_width_of(residuals, 0.95);
+  }
+  EXPECT_NEAR(in_95, 0.95 * tries, 4 * std::sqrt(0.95 * 0.05 * tries));
+  EXPECT_NEAR(in_68, 28.0 / 40 * tries, 4 * std::sqrt(0.68 * 0.32 * tries));  // 28 of 40 ranks
+  EXPECT_EQ(half_width_of(std::vector<double>{-3, 1, 2}, 0.95), 3);
+  EXPECT_EQ(half_width_of(std::vector<double>{-3}, 0.1), 3);
+}
+
 TEST(ErrorBy, PartsHaveEachRowOnce) {
   const SomeRows rows;
   const ErrorBy by = error_by("length", "m", rows.residuals, rows.part, rows.length, 100);

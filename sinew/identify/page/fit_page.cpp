@@ -140,6 +140,7 @@ class Maker {
     rows.bold = true;
     const auto curve = std::ranges::find(report_.curves, name, &PredictedCurve::group);
     if (curve == report_.curves.end()) {
+      add_even_bands(rows);
       fit_.curves.push_back(std::move(rows));
       return;
     }
@@ -149,6 +150,22 @@ class Maker {
     add_band("95 % band", *curve, curve->half_95);
     add_band("68 % band", *curve, curve->half_68);
     fit_.curves.push_back(std::move(rows));
+  }
+
+  // About rows by the model, as wide everywhere, where it tells such bands. Some of the rows are
+  // enough for them.
+  void add_even_bands(const Curve& rows) {
+    const auto& band = report_.best().band;
+    if (!band || rows_.scattered) return;
+    PredictedCurve some;
+    const std::size_t stride = 1 + rows.x.size() / most_of_other;
+    for (std::size_t i = 0; i < rows.x.size(); ++i) {
+      if (i % stride != 0 && i + 1 != rows.x.size()) continue;
+      some.at.push_back(rows.x[i]);
+      some.value.push_back(rows.y[i]);
+    }
+    add_band("95 % band", some, std::vector<double>(some.at.size(), band->half_95));
+    add_band("68 % band", some, std::vector<double>(some.at.size(), band->half_68));
   }
 
   void add_band(const std::string& label, const PredictedCurve& curve,

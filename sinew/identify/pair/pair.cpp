@@ -55,7 +55,7 @@ class Pair {
       out.values = out.solution.values;
       out.fit.parameters = out.solution.estimates;
       out.fit.fit = scored(problem, out.values, fitted_, rows_);
-      out.fit.cross_validated = cross_validated(thinned, out.values);
+      cross_validate(thinned, out.values, out.fit);
       hold_out(law, problem, out);
       tell_residuals(law, problem, out);
       judge(law, out.fit);
@@ -148,7 +148,7 @@ class Pair {
   }
 
   // Each block of time predicted from the others, in all recordings at once.
-  Score cross_validated(PairProblem& problem, const std::vector<double>& from) const {
+  void cross_validate(PairProblem& problem, const std::vector<double>& from, Fit& fit) const {
     std::vector<double> all, some;
     for (std::size_t b = 0; b < pair_blocks; ++b) {
       Selection others, block;
@@ -160,7 +160,8 @@ class Pair {
       problem.residuals(s.values, block, some);
       all.insert(all.end(), some.begin(), some.end());
     }
-    return score(all, full_scale_);
+    fit.cross_validated = score(all, full_scale_);
+    fit.band = band_of(all);
   }
 
   // What was not fitted: times of these recordings, and recordings of which only what is theirs -

@@ -147,6 +147,29 @@ TEST(Pair, IntervalsHoldTheTruthUnderNoiseThatRemembers) {
   RecordProperty("held", held);
 }
 
+// What a block of time that was left out is missed by says how far a recording that nobody fitted
+// lies from the law.
+TEST(Pair, BandsHoldARecordingThatIsHeldOut) {
+  int in_68 = 0, in_95 = 0, all = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    TestPair truth{.mass = 0, .noise = 2, .memory = 0.95};
+    std::vector<PairRecord> records{test_record(truth, 200 + seed, false, 8, "a.csv"),
+                                    test_record(truth, 300 + seed, false, 8, "b.csv")};
+    records[1].held_out = true;
+    const Fit best = identify_pair(records, {.model = "spring_viscous_bristle"}).report.best();
+    ASSERT_TRUE(best.band);
+    for (std::size_t i = records[0].size(); i < best.residuals.size(); ++i) {
+      in_68 += std::abs(best.residuals[i]) <= best.band->half_68;
+      in_95 += std::abs(best.residuals[i]) <= best.band->half_95;
+      ++all;
+    }
+  }
+  EXPECT_GT(in_95, 0.92 * all);
+  EXPECT_LT(in_95, 0.995 * all);
+  EXPECT_GT(in_68, 0.63 * all);
+  EXPECT_LT(in_68, 0.85 * all);
+}
+
 TEST(Pair, PredictsTheUnseenHalfOfAMeasuredRecording) {
   const char* folder = std::getenv("SINEW_DATA_DIR");
   const std::string file =
@@ -159,7 +182,15 @@ TEST(Pair, PredictsTheUnseenHalfOfAMeasuredRecording) {
     const auto& fits = found.report.fits;
     return std::ranges::find(fits, model, &Fit::model)->held_out->explained;
   };
-  EXPECT_GE(found.report.best().held_out->explained, 0.97) << found.report.rule;
+  const Fit& best = found.report.best();
+  EXPECT_GE(best.held_out->explained, 0.97) << found.report.rule;
+  std::size_t in = 0, all = 0;
+  for (std::size_t i = 0; i < best.residuals.size(); ++i) {
+    if (!found.report.rows.held_out[i]) continue;
+    ++all;
+    in += std::abs(best.residuals[i]) <= best.band->half_95;
+  }
+  EXPECT_NEAR(100.0 * static_cast<double>(in) / static_cast<double>(all), 95, 3);
   EXPECT_LT(explained("spring_dry"), 0.97);
   EXPECT_LT(explained("spring"), explained("spring_dry"));
 }

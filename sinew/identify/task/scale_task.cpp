@@ -40,13 +40,14 @@ std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
   const std::string path = "actuator." + found.actuator.name + ".";
   Provenance provenance({}, s.file + ", with another rest length");
   const std::string source = fmt::format("sinew identify scale {} {}", s.file, s.rest_length);
-  for (const char* key : {"braid.thread_length", "braid.turns", "prediction.rest_length",
-                          "prediction.inside_68", "prediction.inside_95"})
+  for (const char* key : {"braid.thread_length", "braid.turns", "effectiveness.scale",
+                          "prediction.rest_length", "prediction.lengths", "prediction.inside_68",
+                          "prediction.inside_95", "prediction.between_68", "prediction.between_95"})
     provenance.given(path + key, source);
-  provenance.given(path + "effectiveness.scale",
-                   found.corrected_by == 1 ? source
-                                           : fmt::format("{}; times {:.4f} by its reading, {}",
-                                                         source, found.corrected_by, s.reading));
+  if (found.corrected_by != 1)
+    provenance.given(
+        path + "effectiveness.polynomial",
+        fmt::format("{}; times {:.4f} by its reading, {}", source, found.corrected_by, s.reading));
   return actuator_file(found.actuator, provenance);
 }
 
@@ -63,10 +64,13 @@ ScaleFound find_scaled(const ScaleSettings& s) {
                  .from = old.prediction.rest_length,
                  .file = {}};
   if (!s.reading.empty()) {
-    const double before = out.actuator.effectiveness.scale;
-    out.actuator = corrected(out.actuator, reading_of(s.reading, atmosphere), atmosphere,
-                             old.prediction.inside_68);
-    out.corrected_by = out.actuator.effectiveness.scale / before;
+    const ForceReading read = reading_of(s.reading, atmosphere);
+    const auto force = [&] {
+      return actuator::tension(out.actuator, read.length, 0, read.gauge_pressure, atmosphere);
+    };
+    const double before = force();
+    out.actuator = corrected(out.actuator, read, atmosphere, old.prediction.inside_68);
+    out.corrected_by = force() / before;
   }
   if (!s.name.empty()) out.actuator.name = s.name;
   const actuator::Prediction& p = out.actuator.prediction;
