@@ -134,9 +134,10 @@ void print(const identify::Report& report, const config::UnitsToShow& asked, dou
   print_parameters(report.best(), asked, room);
   if (const auto& band = report.best().band) {
     const Retold most = retold(band->half_95, report.unit, asked, room);
+    const std::string unit = most.unit == "1" ? "" : " " + most.unit;
+    const std::string where = band->where.empty() ? "" : ", " + band->where;
     fmt::print("68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
-               band->half_68 * most.scale, most.number, most.unit == "1" ? "" : " ",
-               most.unit == "1" ? "" : most.unit);
+               band->half_68 * most.scale, most.number, unit, where);
   }
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }

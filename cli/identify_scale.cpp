@@ -5,6 +5,7 @@
 #include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
+#include "sinew/actuator/prediction.h"
 #include "sinew/identify/task/scale_task.h"
 
 namespace sinew::cli {
@@ -25,8 +26,8 @@ void print_scaled(const identify::ScaleFound& found) {
   if (found.corrected_by != 1)
     fmt::print("its reading    the law times {:.4f}\n", found.corrected_by);
   if (p.inside_95 > 0)
-    fmt::print("68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n", p.inside_68,
-               p.inside_95);
+    fmt::print("68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
+               actuator::widest_inside_68(p), actuator::widest_inside_95(p));
 }
 
 ExitCode run_scale(const Options& options) {

@@ -337,7 +337,7 @@ void fields(Visitor& v, Prediction& p) {
             .unit = "N",
             .min = 0,
             .optional = true,
-            .doc = "the same a fifth of the range beyond an end; 0: not known"},
+            .doc = "the same a fifth of their range beyond the lengths; 0: not known"},
            p.beyond_68);
   v.number({.name = "beyond_95",
             .unit = "N",
@@ -345,6 +345,18 @@ void fields(Visitor& v, Prediction& p) {
             .optional = true,
             .doc = "19 of 20 there; 0: not known"},
            p.beyond_95);
+  v.number({.name = "above_68",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "the same a fifth of their range beyond the pressures; 0: not known"},
+           p.above_68);
+  v.number({.name = "above_95",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "19 of 20 there; 0: not known"},
+           p.above_95);
   v.number(
       {.name = "other_68",
        .unit = "1",
@@ -364,8 +376,8 @@ void fields(Visitor& v, Prediction& p) {
             .optional = true,
             .doc = "|ln(L/L_0)| over which muscles of other rest lengths L were tried"},
            p.other_reach);
-  if (p.inside_95 > 0 && p.lengths.empty())
-    units::complain(v, "lengths", "none beside inside_95", "at least the one that was measured",
+  if ((p.rest_length > 0 || p.inside_95 > 0) && p.lengths.empty())
+    units::complain(v, "lengths", "none", "at least the one that was measured",
                     R"(["80 mm", "90 mm", "100 mm"])");
 }
 

@@ -119,7 +119,8 @@ struct Prediction {
   double lowest = 0, highest = 0;         // gauge pressures that were measured [Pa]
   double inside_68 = 0, inside_95 = 0;    // half-widths at these lengths, between the pressures [N]
   double between_68 = 0, between_95 = 0;  // halfway in the widest gap between two lengths [N]
-  double beyond_68 = 0, beyond_95 = 0;    // a fifth of the range beyond the ends [N]
+  double beyond_68 = 0, beyond_95 = 0;    // a fifth of the range beyond the lengths [N]
+  double above_68 = 0, above_95 = 0;      // a fifth of the range beyond the pressures [N]
   double other_68 = 0, other_95 = 0;      // of muscles of other rest lengths, of the force [-]
   double other_reach = 0;                 // |ln(L/L_0)| over which that was tried [-]
 };

@@ -1,16 +1,19 @@
 // actuator/prediction.h - within which distance of the law's force a measured one lies.
 //
-//   half-width^2 = inside^2 + (between^2 - inside^2) a^2    between the ends of what was measured
-//   half-width   = inside + (beyond - inside) d/0.2         beyond them
+//   half-width = base + max((beyond - inside) d/0.2, (above - inside) e/0.2, 0)
+//   base^2     = inside^2 + (between^2 - inside^2) a^2
 //
-//   inside, between, beyond  half-widths that hold 68 or 95 % of measured forces [N]
-//   a  distance of the next length that was measured, in parts of half the widest gap between two
-//   of
-//      them: 0 at such a length, 1 halfway in that gap [-]
-//   d  how far beyond the lengths or the pressures, in parts of their range; the larger one [-]
+//   inside, between, beyond, above  half-widths that hold 68 or 95 % of measured forces: at a
+//   length
+//      that was measured, halfway in the widest gap between two, a fifth of the range beyond the
+//      lengths, and a fifth of it beyond the pressures [N]
+//   a  distance of the nearest length that was measured, in parts of half the widest gap; 0 beyond
+//      the ends [-]
+//   d, e  how far beyond the lengths and the pressures, in parts of their ranges [-]
 //
 // The identification that wrote them counted the forces that it had not seen
-// (identify/actuator/static_spread.h). Beyond one range further nothing is known.
+// (identify/actuator/static_spread.h). Beyond one range further nothing is known, nor beyond the
+// longest mount of a muscle of which none was within 1 % of its rest length.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +26,8 @@
 
 namespace sinew::actuator {
 
-inline constexpr double same_length = 0.004;  // of the longest: closer than that is that length
+// Lengths that differ by less, in shares of the longest, are one mount  [-].
+inline constexpr double same_length = 0.004;
 
 // Half-widths at a point  [N].
 struct ForceInterval {
@@ -40,8 +44,8 @@ inline double beyond_ends(double x, double low, double high) {
   return off > 1e-9 * range ? off / range : 0.0;
 }
 
-// Returns the distance of the next of some lengths, which are in ascending order  [m].
-inline double next_length(const std::vector<double>& lengths, double length) {
+// Returns how far the nearest of some lengths is  [m]; infinite where there are none.
+inline double nearest_length(const std::vector<double>& lengths, double length) {
   double out = std::numeric_limits<double>::infinity();
   for (const double l : lengths) out = std::min(out, std::abs(l - length));
   return out;
@@ -54,24 +58,39 @@ inline double widest_gap(const std::vector<double>& lengths) {
   return out;
 }
 
+// Says whether a muscle whose longest mount that is has shown the first pull of its bladder, which
+// is steepest just below the rest length: shorter mounts do not tell it, whatever the law.
+inline bool first_pull_seen(double longest, double rest_length) {
+  return longest >= 0.99 * rest_length;
+}
+
+// Return the widest half-widths within what was measured  [N]; 0: none is known.
+inline double widest_inside_68(const Prediction& p) { return std::max(p.inside_68, p.between_68); }
+inline double widest_inside_95(const Prediction& p) { return std::max(p.inside_95, p.between_95); }
+
 // Returns the interval about the law's tension at a length [m] and a gauge pressure [Pa].
 inline ForceInterval force_interval(const Prediction& p, double length, double gauge_pressure) {
   ForceInterval out;
   if (!(p.inside_95 > 0) || p.lengths.empty()) return out;
-  const double off = beyond_ends(length, p.lengths.front(), p.lengths.back());
-  const double d = std::max(off, beyond_ends(gauge_pressure, p.lowest, p.highest));
-  const double away = off > 0 ? 0 : next_length(p.lengths, length);
-  const double a = away > 0 ? away / (0.5 * widest_gap(p.lengths)) : 0;
-  out.measured = d == 0;
-  out.known = (out.measured || (p.beyond_95 > 0 && d <= 1.0)) &&
+  const double d = beyond_ends(length, p.lengths.front(), p.lengths.back());
+  const double e = beyond_ends(gauge_pressure, p.lowest, p.highest);
+  const double gap = widest_gap(p.lengths);
+  const double away = d == 0 && gap > 0 ? nearest_length(p.lengths, length) : 0;
+  const double a = gap > 0 ? away / (0.5 * gap) : 0;
+  out.measured = d == 0 && e == 0;
+  const bool unseen =
+      length > p.lengths.back() && !first_pull_seen(p.lengths.back(), p.rest_length);
+  out.known = (d == 0 || (p.beyond_95 > 0 && d <= 1 && !unseen)) &&
+              (e == 0 || (p.above_95 > 0 && e <= 1)) &&
               (p.between_95 > 0 || away < same_length * p.lengths.back());
   if (!out.known) return out;
-  const auto at = [a, d](double inside, double between, double beyond) {
-    if (d > 0) return inside + std::max(0.0, beyond - inside) * d / 0.2;
-    return std::sqrt(inside * inside + std::max(0.0, between * between - inside * inside) * a * a);
+  const auto at = [a, d, e](double inside, double between, double beyond, double above) {
+    const double form = std::max(0.0, between * between - inside * inside) * a * a;
+    return std::sqrt(inside * inside + form) +
+           std::max({0.0, (beyond - inside) * d / 0.2, (above - inside) * e / 0.2});
   };
-  out.half_68 = at(p.inside_68, p.between_68, p.beyond_68);
-  out.half_95 = at(p.inside_95, p.between_95, p.beyond_95);
+  out.half_68 = at(p.inside_68, p.between_68, p.beyond_68, p.above_68);
+  out.half_95 = at(p.inside_95, p.between_95, p.beyond_95, p.above_95);
   return out;
 }
 

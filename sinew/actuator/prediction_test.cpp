@@ -19,7 +19,9 @@ Prediction known() {
           .between_68 = 2,
           .between_95 = 5,
           .beyond_68 = 4,
-          .beyond_95 = 11};
+          .beyond_95 = 11,
+          .above_68 = 2,
+          .above_95 = 7};
 }
 
 double half_95(const Prediction& p, double length, double pressure = 3e5) {
@@ -32,7 +34,9 @@ TEST(Prediction, EveryHalfWidthStandsWhereItIsToldOf) {
   EXPECT_NEAR(half_95(p, 0.225), 5, 1e-12);  // halfway in the widest gap
   EXPECT_NEAR(half_95(p, 0.26), 11, 1e-12);  // a fifth of the range beyond
   EXPECT_NEAR(half_95(p, 0.19), 11, 1e-12);
-  EXPECT_NEAR(half_95(p, 0.24, 5.8e5), 11, 1e-12);
+  EXPECT_NEAR(half_95(p, 0.24, 5.8e5), 7, 1e-12);  // a fifth of their range beyond the pressures
+  EXPECT_NEAR(half_95(p, 0.24, 0.2e5), 7, 1e-12);
+  EXPECT_NEAR(half_95(p, 0.26, 5.8e5), 11, 1e-12);  // the larger of both
   const ForceInterval halfway = force_interval(p, 0.225, 3e5);
   EXPECT_NEAR(halfway.half_68, 2, 1e-12);
   EXPECT_TRUE(halfway.measured && halfway.known);
@@ -53,11 +57,33 @@ TEST(Prediction, BetweenLengthsSquaresGrowWithTheSquareOfTheDistance) {
   }
 }
 
+// Whichever end one leaves by, and from wherever, the interval never shrinks.
+TEST(Prediction, NothingShrinksOnTheWayOut) {
+  const Prediction p = known();
+  for (const double length : {0.2, 0.205, 0.225, 0.25})
+    for (const double end : {1e5, 5e5}) {
+      double before = half_95(p, length, end);
+      for (double off = 0; off < 3e5; off += 1e3) {
+        const double now = half_95(p, length, end + (end > 3e5 ? off : -off));
+        EXPECT_GE(now, before - 1e-12);
+        EXPECT_LT(now, before + 0.1);
+        before = now;
+      }
+    }
+  for (double off = 0, before = 3; off < 0.04; off += 1e-4) {
+    EXPECT_GE(half_95(p, 0.25 + off), before - 1e-12);
+    before = half_95(p, 0.25 + off);
+  }
+}
+
 TEST(Prediction, WhatNobodyTriedIsNotKnown) {
   Prediction p = known();
   EXPECT_FALSE(force_interval(p, 0.31, 3e5).known);  // more than a range beyond
   p.beyond_68 = p.beyond_95 = 0;
   EXPECT_FALSE(force_interval(p, 0.26, 3e5).known);
+  EXPECT_TRUE(force_interval(p, 0.25, 5.1e5).known);
+  p.above_68 = p.above_95 = 0;
+  EXPECT_FALSE(force_interval(p, 0.25, 5.1e5).known);
   EXPECT_TRUE(force_interval(p, 0.225, 3e5).known);
   p.between_68 = p.between_95 = 0;
   EXPECT_FALSE(force_interval(p, 0.225, 3e5).known);
@@ -65,11 +91,23 @@ TEST(Prediction, WhatNobodyTriedIsNotKnown) {
   EXPECT_FALSE(force_interval({}, 0.2, 3e5).known);
 }
 
+// Of a muscle that was never mounted at its rest length nobody knows how steep it gets there.
+TEST(Prediction, BeyondTheLongestNothingIsKnownWithoutAMountAtRest) {
+  Prediction p = known();
+  p.rest_length = 0.254;
+  EXPECT_FALSE(force_interval(p, 0.252, 3e5).known);
+  EXPECT_TRUE(force_interval(p, 0.198, 3e5).known);
+  p.rest_length = 0.252;
+  EXPECT_TRUE(force_interval(p, 0.252, 3e5).known);
+}
+
 // One length: nothing is known of others.
 TEST(Prediction, OneLengthSpeaksForItself) {
   Prediction p = known();
+  p.lengths = {0.0762};
+  EXPECT_EQ(half_95(p, 0.0762), 3);
+  EXPECT_EQ(half_95(p, 3 * 0.0254), 3);  // 3 in: another double
   p.lengths = {0.25};
-  EXPECT_EQ(half_95(p, 0.25), 3);
   EXPECT_FALSE(force_interval(p, 0.24, 3e5).known);
 }
 

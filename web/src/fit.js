@@ -77,7 +77,7 @@ class Part {
     const { report } = this, { units } = this.page;
     const { band } = report;
     this.scale.textContent = `errors of the ${report.quantity} in % of ${report.full_scale_is}, ${units.text(report.full_scale, report.unit)}` +
-      (band ? `; 68 and 95 % of what it did not see lie within ± ${units.text(band.half_68, report.unit)} and ± ${units.text(band.half_95, report.unit)}` : '');
+      (band ? `; 68 and 95 % of what it did not see lie within ± ${units.text(band.half_68, report.unit)} and ± ${units.text(band.half_95, report.unit)}${band.where ? `, ${band.where}` : ''}` : '');
     const rows = report.parameters.map((p) => {
       const u = units.of(p.unit), half = p.high === null || p.high === p.low ? NaN : 0.5 * (p.high - p.low) * u.scale;
       const value = units.convert(p.value, p.unit);

@@ -165,7 +165,7 @@ Fit try_form(const Held& held, const Form& form) {
     for (const std::size_t row : left) unseen.push_back(f[row] - held.force[row]);
   }
   out.cross_validated = score(unseen, held.pull);
-  out.band = band_of(unseen);
+  out.band = band_of(unseen, "while the pressure rests");
   constexpr std::string_view may_be_zero[] = {"threshold"};
   keep_off_bounds(out, may_be_zero);
   return out;

@@ -67,17 +67,20 @@ int count_of(const std::vector<int>& groups) {
 }
 
 std::vector<double> lengths_of(const Points& points, double rest_length) {
-  std::set<double> all;
-  for (const StaticPoint& p : points)
-    if (p.rest_length == rest_length) all.insert(p.length);
-  std::vector<double> out;
-  for (const double length : all) {
-    const double close = actuator::same_length * *all.rbegin();
-    if (out.empty() || length - out.back() > close)
-      out.push_back(length);
-    else if (length == *all.rbegin())  // the end itself, for a mount that is told by its first
-      out.size() > 1 ? out.back() = length : out.emplace_back(length);
+  const std::vector<int> group = length_groups(points);
+  const std::vector<double> mean = means(points, group, &StaticPoint::length);
+  std::set<double> mounts, readings;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].rest_length != rest_length) continue;
+    mounts.insert(mean[static_cast<std::size_t>(group[i])]);
+    readings.insert(points[i].length);
   }
+  std::vector<double> out(mounts.begin(), mounts.end());
+  if (out.empty()) return out;
+  // The ends are those of all readings: beyond them nothing was measured.
+  if (out.size() == 1 && *readings.begin() < *readings.rbegin()) out.push_back(out.front());
+  out.front() = *readings.begin();
+  out.back() = *readings.rbegin();
   return out;
 }
 

@@ -35,8 +35,8 @@ std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
 std::vector<int> length_groups(const std::vector<StaticPoint>& points);
 int count_of(const std::vector<int>& groups);
 
-// Returns the lengths at which a muscle was measured, in ascending order: the shortest, the longest
-// and those between that are not one mount with the one before  [m].
+// Returns the lengths of a muscle's mounts in ascending order, each the mean of its readings, the
+// first and the last the shortest and the longest reading of all  [m]. Empty: it has no point.
 std::vector<double> lengths_of(const std::vector<StaticPoint>& points, double rest_length);
 
 // The fitted points, then the others.

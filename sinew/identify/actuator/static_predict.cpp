@@ -59,6 +59,35 @@ std::vector<double> some_of(const std::vector<double>& lengths) {
   return out;
 }
 
+// Where the widths of a muscle's file are taken from.
+struct Places {
+  std::vector<StaticPoint> inside, between, beyond, above;
+};
+
+Places places_of(const StaticMuscle& m) {
+  Places out;
+  const double range = m.lengths.back() - m.lengths.front(), pressure = m.highest - m.lowest;
+  const double gap = actuator::widest_gap(m.lengths);
+  const auto add = [&](std::vector<StaticPoint>& to, double length, double up) {
+    to.push_back(
+        {.length = length, .pressure = m.lowest + up * pressure, .rest_length = m.rest_length});
+  };
+  for (const double length : some_of(m.lengths))
+    if (pressure > 0) add(out.above, length, 1 + a_fifth);
+  for (int k = 0; k < nodes; ++k) {
+    const double up = k / (nodes - 1.0);
+    for (const double length : some_of(m.lengths)) add(out.inside, length, up);
+    for (std::size_t i = 1; i < m.lengths.size(); ++i)
+      if (m.lengths[i] - m.lengths[i - 1] > 0.999 * gap)
+        add(out.between, 0.5 * (m.lengths[i] + m.lengths[i - 1]), up);
+    if (!(range > 0)) continue;
+    add(out.beyond, m.lengths.front() - a_fifth * range, up);
+    if (actuator::first_pull_seen(m.lengths.back(), m.rest_length))
+      add(out.beyond, m.lengths.back() + a_fifth * range, up);
+  }
+  return out;
+}
+
 }  // namespace
 
 StaticMuscle muscle_of(const StaticResult& result, double rest_length) {
@@ -82,18 +111,20 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
   std::vector<StaticPoint> one{point};
   one[0].rest_length = muscle.rest_length;
   StaticForce out{.force = predicted(result.fit.setting, result.scales, one[0])};
-  const bool inside = within(point.length, muscle.lengths.front(), muscle.lengths.back()) &&
+  const double longest = muscle.lengths.back();
+  const bool inside = within(point.length, muscle.lengths.front(), longest) &&
                       within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? spread.inside : spread.beyond;
   out.guess = inside ? Guess::inside : Guess::beyond;
-  double away = 0;  // what muscles were missed by that were left out holds it
+  // What ends and muscles were missed by that were left out holds what the law's form errs.
+  double away = 0;
   if (!fitted(result, point.rest_length)) {
     q = wider(q, spread.other_muscle);
     out.guess = Guess::other_muscle;
-  } else {
-    away = actuator::next_length(muscle.lengths, point.length) / muscle.rest_length;
-    if (!within(point.length, muscle.lengths.front(), muscle.lengths.back())) away *= 2;
+  } else if (within(point.length, muscle.lengths.front(), longest)) {
+    away = actuator::nearest_length(muscle.lengths, point.length) / muscle.rest_length;
   }
+  if (point.length > longest && !actuator::first_pull_seen(longest, muscle.rest_length)) q = {};
   const double w = widths(result.fit, result.scales, one)[0];
   out.half_68 = std::hypot(q.q68 * w, spread.between_68 * away);
   out.half_95 = std::hypot(q.q95 * w, spread.between_95 * away);
@@ -101,43 +132,26 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
 }
 
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& m) {
-  const double shortest = m.lengths.front(), longest = m.lengths.back();
-  const double range = longest - shortest, pressure = m.highest - m.lowest;
-  std::vector<StaticPoint> inside, between, beyond;
-  const auto add = [&](std::vector<StaticPoint>& to, double length, double up) {
-    to.push_back(
-        {.length = length, .pressure = m.lowest + up * pressure, .rest_length = m.rest_length});
-  };
-  const double gap = actuator::widest_gap(m.lengths);
-  for (int k = 0; k < nodes; ++k) {
-    const double up = k / (nodes - 1.0);
-    for (const double length : some_of(m.lengths)) {
-      add(inside, length, up);
-      if (k == 0 && pressure > 0) add(beyond, length, 1 + a_fifth);
-    }
-    for (std::size_t i = 1; i < m.lengths.size(); ++i)
-      if (m.lengths[i] - m.lengths[i - 1] > 0.999 * gap)
-        add(between, 0.5 * (m.lengths[i] + m.lengths[i - 1]), up);
-    if (range > 0)
-      add(beyond, shortest - a_fifth * range, up), add(beyond, longest + a_fifth * range, up);
-  }
+  const Places places = places_of(m);
   actuator::Prediction out{.rest_length = fitted_length(result, m, m.rest_length),
                            .lengths = m.lengths,
                            .lowest = m.lowest,
                            .highest = m.highest};
   for (double& length : out.lengths) length = fitted_length(result, m, length);
-  write_widths(mean_widths(result, inside), {0, 0}, out.inside_68, out.inside_95);
+  std::ranges::sort(out.lengths);  // a label's error moves the mount at rest alone
+  write_widths(mean_widths(result, places.inside), {0, 0}, out.inside_68, out.inside_95);
   const std::array<double, 2> least{out.inside_68, out.inside_95};
-  write_widths(mean_widths(result, between), least, out.between_68, out.between_95);
-  write_widths(mean_widths(result, beyond), least, out.beyond_68, out.beyond_95);
+  write_widths(mean_widths(result, places.between), least, out.between_68, out.between_95);
+  write_widths(mean_widths(result, places.beyond), least, out.beyond_68, out.beyond_95);
+  write_widths(mean_widths(result, places.above), least, out.above_68, out.above_95);
   out.other_68 = result.spread.other_share_68;
   out.other_95 = result.spread.other_share_95;
   out.other_reach = result.spread.other_reach;
   return out;
 }
 
-actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double atmosphere,
-                             double half_68) {
+double reading_factor(const actuator::Actuator& a, const ForceReading& r, double atmosphere,
+                      double half_68) {
   const double force = actuator::tension(a, r.length, 0, r.gauge_pressure, atmosphere);
   const double ratio = force > 0 ? r.force / force : 0;
   if (!(ratio > 0.5 && ratio < 2))
@@ -148,9 +162,11 @@ actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double
                   "a reading well within the range of the muscle, in these units");
   const double muscles = a.prediction.other_68, noise = half_68 / force;
   const double trust = muscles > 0 ? muscles * muscles / (muscles * muscles + noise * noise) : 1;
-  const double factor = 1 + (ratio - 1) * trust;
-  // Everything that pulls is as much stronger, so that the shape stays; effectiveness.scale is what
-  // the ends take, by which a file is scaled to other lengths.
+  return 1 + (ratio - 1) * trust;
+}
+
+actuator::Actuator stronger(actuator::Actuator a, double factor) {
+  // effectiveness.scale is what the ends take, by which a file is scaled to other lengths.
   for (double* spring :
        {&a.effectiveness.c0, &a.effectiveness.c1, &a.effectiveness.c2, &a.bladder.stiffness,
         &a.bladder.quadratic, &a.bladder.cubic, &a.bladder.saturating_tension, &a.toe.tension})
@@ -162,7 +178,7 @@ actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
                                     double atmosphere) {
   const double from = actuator.prediction.rest_length;
-  if (!(from > 0))
+  if (!(from > 0) || actuator.prediction.lengths.empty())
     throw Refusal("actuator", "no prediction.rest_length", "one, as `identify static` writes it",
                   "a file of `identify static`, or prediction.rest_length in it");
   actuator::Actuator a = like(actuator, from, rest_length);
@@ -182,9 +198,13 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   p.inside_95 = inside(old.other_95, old.inside_95);
   p.between_68 = inside(old.other_68, old.between_68);
   p.between_95 = inside(old.other_95, old.between_95);
-  const double grows = old.inside_95 > 0 ? old.beyond_95 / old.inside_95 : 0;
-  p.beyond_68 = p.inside_68 * grows;
-  p.beyond_95 = p.inside_95 * grows;
+  const auto grown = [&](double width, double outside) {
+    return old.inside_95 > 0 ? width * outside / old.inside_95 : 0.0;
+  };
+  p.beyond_68 = grown(p.inside_68, old.beyond_95);
+  p.beyond_95 = grown(p.inside_95, old.beyond_95);
+  p.above_68 = grown(p.inside_68, old.above_95);
+  p.above_95 = grown(p.inside_95, old.above_95);
   return a;
 }
 

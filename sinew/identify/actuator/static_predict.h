@@ -37,8 +37,9 @@ StaticMuscle muscle_of(const StaticResult& result, double rest_length);
 // error, every other one as it is  [m].
 double fitted_length(const StaticResult& result, const StaticMuscle& muscle, double length);
 
-// Returns what a file tells of how far measured forces lie from the muscle's law: the root mean
-// square of the half-widths over its lengths and pressures, and a fifth beyond them.
+// Returns what a file tells of how far measured forces lie from the muscle's law: root mean squares
+// of the half-widths at its lengths (nine of them at most), halfway in the widest gap between two,
+// and a fifth of their ranges beyond the lengths and the pressures.
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& muscle);
 
 // One reading of a muscle at rest.
@@ -46,16 +47,20 @@ struct ForceReading {
   double length = 0, gauge_pressure = 0, force = 0;  // [m], [Pa], [N]
 };
 
-// Returns the actuator with its law multiplied by the factor above: t is its prediction.other_68,
-// h is `half_68`. Throws Refusal where it does not pull at that length and pressure, or twice or
-// half as much as was read: then the reading is of something else.
-actuator::Actuator corrected(actuator::Actuator actuator, const ForceReading& reading,
-                             double atmosphere, double half_68 = 0);
+// Returns the factor above of one reading: t is the actuator's prediction.other_68, h is `half_68`.
+// Throws Refusal where it does not pull at that length and pressure, or twice or half as much as
+// was read: then the reading is of something else.
+double reading_factor(const actuator::Actuator& actuator, const ForceReading& reading,
+                      double atmosphere, double half_68 = 0);
+
+// Returns the actuator with its law multiplied by a factor: all that pulls is as much stronger, so
+// that the shape stays.
+actuator::Actuator stronger(actuator::Actuator actuator, double factor);
 
 // Returns the like of an identified actuator with another rest length, and what is known of how
 // far it is off: the share of the force that muscles were missed by that the fit had not seen,
 // more beyond the ratio of lengths over which that was tried. Throws Refusal where the actuator
-// does not tell its own rest length.
+// tells neither its own rest length nor a length that was measured.
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
                                     double atmosphere);
 

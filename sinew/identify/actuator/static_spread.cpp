@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t few = 20;  // points below which an order says little of the 95th percentile
 constexpr double slack_share = 0.005;    // of the largest force: less is no pull
 constexpr double gradient_step = 1e-4;   // of a parameter's scale
-constexpr double believed_error = 0.22;  // c_0: share of the largest force per rest length
-constexpr int believed_freedom = 2;      // nu_0
+constexpr double believed_error = 0.08;  // c_0: share of the largest force per rest length
+constexpr int believed_freedom = 1;      // nu_0
 
 // Returns the variance of the mean force by the parameters, g' Cov g  [N2].
 double by_parameters(const std::vector<std::vector<double>>& gradient, std::size_t point,

@@ -68,15 +68,14 @@ TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
     EXPECT_GT(spread.between_95, spread.between_68);
     return spread.between_95 / 1000;
   };
-  const double believed = half_95({}) / t_quantile(2);
-  EXPECT_GT(believed, 0);
-  const double a = 0.04, square = std::pow(believed * a, 2);
-  EXPECT_NEAR(half_95({{square, a}, {square, a}}), believed * t_quantile(4), 1e-12);
-  EXPECT_NEAR(half_95({{0, a}, {0, a}}), std::sqrt(0.5) * believed * t_quantile(4), 1e-12);
+  constexpr double c = 0.08;  // of the largest force, per rest length
+  EXPECT_NEAR(half_95({}), c * t_quantile(1), 1e-12);
+  const double a = 0.04, square = std::pow(c * a, 2);
+  EXPECT_NEAR(half_95({{square, a}, {square, a}}), c * t_quantile(3), 1e-12);
+  EXPECT_NEAR(half_95({{0, a}, {0, a}}), c * std::sqrt(1.0 / 3) * t_quantile(3), 1e-12);
   EXPECT_NEAR(half_95({{-square, a}, {0, a}}), half_95({{0, a}, {0, a}}), 1e-12);
-  EXPECT_NEAR(half_95({{100 * square, a}}), std::sqrt(102.0 / 3) * believed * t_quantile(3), 1e-12);
-  EXPECT_NEAR(half_95({{100 * square, 2 * a}}), std::sqrt(27.0 / 3) * believed * t_quantile(3),
-              1e-12);
+  EXPECT_NEAR(half_95({{100 * square, a}}), c * std::sqrt(101.0 / 2) * t_quantile(2), 1e-12);
+  EXPECT_NEAR(half_95({{100 * square, 2 * a}}), c * std::sqrt(26.0 / 2) * t_quantile(2), 1e-12);
 }
 
 // The width grows from a length to the middle of the gap, and is that of the fit at the length.

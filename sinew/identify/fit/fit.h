@@ -30,7 +30,8 @@ struct Fit {
   // The ends of the data, predicted by what lies between them. It has no part in the choice: a
   // law that ends badly may be the best one where it is used.
   std::optional<Score> extrapolated;
-  std::optional<Band> band;        // of what is predicted; absent: not told, or told by curves
+  // Half-widths about the model at every row; absent: not told, or by Report::curves.
+  std::optional<Band> band;
   std::vector<double> residuals;   // predicted - measured, of Report::rows; none: not told
   std::vector<std::string> notes;  // what one should know about this fit
   std::string refused;             // why this model cannot be had from the data; empty: it can

@@ -96,7 +96,7 @@ Solution least_squares_from(const Residuals& residuals, std::size_t count,
 
 // Quantile 0.975 of Student's t: the half-width of a 95 % interval in standard errors.
 double t_quantile(int freedom);
-// Quantile 0.84 of it, of two degrees of freedom or more: the half-width of a 68 % interval.
+// Quantile 0.84 of it, of one degree within 2 %: the half-width of a 68 % interval.
 double t_quantile_68(int freedom);
 
 }  // namespace sinew::identify

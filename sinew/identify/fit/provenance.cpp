@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "sinew/actuator/actuator.fields.h"
@@ -47,6 +49,56 @@ void Provenance::given(std::string_view path, std::string_view source) {
 void Provenance::guessed(std::string_view path, std::string_view source) {
   given(path, source);
   origins_.back().guess = true;
+}
+
+double with_digits(double number, int digits) {
+  const std::string text = fmt::format("{:.{}g}", number, digits);
+  double out = number;
+  std::from_chars(text.data(), text.data() + text.size(), out);
+  return out;
+}
+
+actuator::Actuator without_idle_digits(actuator::Actuator a) {
+  constexpr int of_laws = 10, of_widths = 4;
+  for (double* number : {&a.braid.thread_length,
+                         &a.braid.turns,
+                         &a.effectiveness.c0,
+                         &a.effectiveness.c1,
+                         &a.effectiveness.c2,
+                         &a.effectiveness.scale,
+                         &a.effectiveness.threshold,
+                         &a.effectiveness.valid_from,
+                         &a.effectiveness.valid_to,
+                         &a.bladder.stiffness,
+                         &a.bladder.rest_length,
+                         &a.bladder.quadratic,
+                         &a.bladder.cubic,
+                         &a.bladder.saturating_tension,
+                         &a.bladder.saturation_length,
+                         &a.bladder.valid_from,
+                         &a.bladder.valid_to,
+                         &a.caps.length,
+                         &a.taper.gain,
+                         &a.taper.extra_gain,
+                         &a.taper.extra_pressure,
+                         &a.taper.rest_length,
+                         &a.wall.thickness,
+                         &a.series.compliance,
+                         &a.toe.tension,
+                         &a.hysteresis.half_width,
+                         &a.long_end.length,
+                         &a.prediction.rest_length,
+                         &a.prediction.lowest,
+                         &a.prediction.highest})
+    *number = with_digits(*number, of_laws);
+  actuator::Prediction& p = a.prediction;
+  for (double& length : p.lengths) length = with_digits(length, of_laws);
+  for (double* width : {&p.inside_68, &p.inside_95, &p.between_68, &p.between_95, &p.beyond_68,
+                        &p.beyond_95, &p.other_68, &p.other_95, &p.other_reach})
+    *width = with_digits(*width, of_widths);
+  // The mesh at its widest is no longer than it is straight.
+  a.long_end.length = std::max(a.long_end.length, actuator::shortest_length(a));
+  return a;
 }
 
 std::string actuator_file(actuator::Actuator actuator, const Provenance& provenance) {

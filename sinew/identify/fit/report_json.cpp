@@ -41,7 +41,10 @@ Json to_json(const Fit& fit) {
   if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
   if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
   if (fit.extrapolated) out["extrapolated"] = to_json(*fit.extrapolated);
-  if (fit.band) out["band"] = {{"half_68", fit.band->half_68}, {"half_95", fit.band->half_95}};
+  if (fit.band) {
+    out["band"] = {{"half_68", fit.band->half_68}, {"half_95", fit.band->half_95}};
+    if (!fit.band->where.empty()) out["band"]["where"] = fit.band->where;
+  }
   if (!fit.not_chosen.empty()) out["not_chosen"] = fit.not_chosen;
   if (!fit.notes.empty()) out["notes"] = fit.notes;
   return out;

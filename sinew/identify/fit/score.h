@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,18 +26,22 @@ struct Score {
 // Returns it; `full_scale` is what 100 % are, in the residuals' unit.
 Score score(std::span<const double> residuals, double full_scale);
 
-// Returns the half-width that one more residual lies within with this chance: the smallest of these
-// that as many lie below, counted with the one that is to come (split-conformal prediction). It
-// knows of nothing but these: residuals that a fit saw say too little. Not empty.
+// Returns the k-th smallest |residual|, k = ceil(chance (n + 1)): one more residual of the same
+// kind lies within it with that chance, of (0, 1) (split-conformal prediction). Of fewer than
+// chance/(1 - chance) it is the largest, which holds less. Residuals that a fit saw say too little.
+// Not empty.
 double half_width_of(std::span<const double> residuals, double chance);
 
-// Half-widths about a model's values, everywhere alike, that hold 68 and 95 % of measured ones.
+// Half-widths about a model's values, everywhere alike, that hold 68 and 95 % of measured ones, in
+// the report's unit.
 struct Band {
   double half_68 = 0, half_95 = 0;
+  std::string where;  // they hold: "while the pressure rests"; empty: everywhere
 };
 
-// Returns those that residuals tell which a fit had not seen. Not empty.
-Band band_of(std::span<const double> unseen);
+// Returns those that residuals tell which a fit had not seen; none of fewer than 19, the largest of
+// which holds less than 95 %.
+std::optional<Band> band_of(std::span<const double> unseen, std::string where = "");
 
 // The error of one part of the rows: those of a length, or of a branch, which has a name.
 struct PartError {

@@ -44,6 +44,18 @@ TEST(HalfWidth, HoldsAFurtherResidualAsOftenAsItSays) {
   EXPECT_EQ(half_width_of(std::vector<double>{-3}, 0.1), 3);
 }
 
+TEST(HalfWidth, ABandNeedsNineteenResiduals) {
+  std::vector<double> residuals;
+  for (int i = 1; i < 19; ++i) residuals.push_back(i);
+  EXPECT_FALSE(band_of(residuals));
+  residuals.push_back(-19);
+  const auto band = band_of(residuals, "at rest");
+  ASSERT_TRUE(band);
+  EXPECT_EQ(band->half_95, 19);
+  EXPECT_EQ(band->half_68, 14);  // ceil(0.68 * 20)
+  EXPECT_EQ(band->where, "at rest");
+}
+
 TEST(ErrorBy, PartsHaveEachRowOnce) {
   const SomeRows rows;
   const ErrorBy by = error_by("length", "m", rows.residuals, rows.part, rows.length, 100);

@@ -152,17 +152,26 @@ class Maker {
     fit_.curves.push_back(std::move(rows));
   }
 
-  // About rows by the model, as wide everywhere, where it tells such bands. Some of the rows are
-  // enough for them.
+  // About rows by the model, as wide everywhere, where it tells such bands. Of many rows each
+  // stretch's lowest and highest are enough: no turn of the model leaves its band.
   void add_even_bands(const Curve& rows) {
     const auto& band = report_.best().band;
     if (!band || rows_.scattered) return;
     PredictedCurve some;
-    const std::size_t stride = 1 + rows.x.size() / most_of_other;
-    for (std::size_t i = 0; i < rows.x.size(); ++i) {
-      if (i % stride != 0 && i + 1 != rows.x.size()) continue;
-      some.at.push_back(rows.x[i]);
-      some.value.push_back(rows.y[i]);
+    const std::size_t stride = 1 + 2 * rows.x.size() / most_of_other;
+    for (std::size_t i = 0; i < rows.y.size(); i += stride) {
+      const auto from = rows.y.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto to =
+          rows.y.begin() + static_cast<std::ptrdiff_t>(std::min(i + stride, rows.y.size()));
+      const auto [low, high] = std::minmax_element(from, to);
+      std::set<std::size_t> places{static_cast<std::size_t>(low - rows.y.begin()),
+                                   static_cast<std::size_t>(high - rows.y.begin())};
+      if (i == 0) places.insert(0);
+      if (to == rows.y.end()) places.insert(rows.y.size() - 1);
+      for (const std::size_t place : places) {
+        some.at.push_back(rows.x[place]);
+        some.value.push_back(rows.y[place]);
+      }
     }
     add_band("95 % band", some, std::vector<double>(some.at.size(), band->half_95));
     add_band("68 % band", some, std::vector<double>(some.at.size(), band->half_68));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
@@ -40,15 +41,27 @@ std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
   const std::string path = "actuator." + found.actuator.name + ".";
   Provenance provenance({}, s.file + ", with another rest length");
   const std::string source = fmt::format("sinew identify scale {} {}", s.file, s.rest_length);
-  for (const char* key : {"braid.thread_length", "braid.turns", "effectiveness.scale",
-                          "prediction.rest_length", "prediction.lengths", "prediction.inside_68",
-                          "prediction.inside_95", "prediction.between_68", "prediction.between_95"})
+  for (const char* key :
+       {"braid.thread_length", "braid.turns", "effectiveness.scale", "prediction.rest_length",
+        "prediction.lengths", "prediction.inside_68", "prediction.inside_95",
+        "prediction.between_68", "prediction.between_95", "prediction.beyond_68",
+        "prediction.beyond_95", "prediction.above_68", "prediction.above_95"})
     provenance.given(path + key, source);
-  if (found.corrected_by != 1)
-    provenance.given(
-        path + "effectiveness.polynomial",
-        fmt::format("{}; times {:.4f} by its reading, {}", source, found.corrected_by, s.reading));
-  return actuator_file(found.actuator, provenance);
+  const std::string by_reading =
+      fmt::format("{}; times {:.4f} by its reading, {}", source, found.corrected_by, s.reading);
+  for (const char* key :
+       {"effectiveness.polynomial", "bladder.stiffness", "bladder.quadratic", "bladder.cubic",
+        "bladder.saturating_tension", "toe.tension", "series.compliance"})
+    if (found.corrected_by != 1) provenance.given(path + key, by_reading);
+  return actuator_file(without_idle_digits(found.actuator), provenance);
+}
+
+// How far one more reading of the muscle that is to be corrected may lie from its law: as far as
+// one of the muscle that was fitted, at the same share of its length  [N].
+double scatter_of(const ForceReading& read, const actuator::Prediction& old, double rest_length) {
+  const actuator::ForceInterval there = actuator::force_interval(
+      old, read.length * old.rest_length / rest_length, read.gauge_pressure);
+  return there.known ? there.half_68 : actuator::widest_inside_68(old);
 }
 
 }  // namespace
@@ -65,12 +78,9 @@ ScaleFound find_scaled(const ScaleSettings& s) {
                  .file = {}};
   if (!s.reading.empty()) {
     const ForceReading read = reading_of(s.reading, atmosphere);
-    const auto force = [&] {
-      return actuator::tension(out.actuator, read.length, 0, read.gauge_pressure, atmosphere);
-    };
-    const double before = force();
-    out.actuator = corrected(out.actuator, read, atmosphere, old.prediction.inside_68);
-    out.corrected_by = force() / before;
+    out.corrected_by = reading_factor(out.actuator, read, atmosphere,
+                                      scatter_of(read, old.prediction, rest_length));
+    out.actuator = stronger(out.actuator, out.corrected_by);
   }
   if (!s.name.empty()) out.actuator.name = s.name;
   const actuator::Prediction& p = out.actuator.prediction;
@@ -88,8 +98,9 @@ nlohmann::ordered_json to_json(const ScaleFound& found) {
            {"from_rest_length_m", found.from},
            {"largest_force_N", found.largest},
            {"corrected_by", found.corrected_by}};
-  out["half_68_N"] = p.inside_68 > 0 ? Json(p.inside_68) : Json();
-  out["half_95_N"] = p.inside_95 > 0 ? Json(p.inside_95) : Json();
+  const double half_68 = actuator::widest_inside_68(p), half_95 = actuator::widest_inside_95(p);
+  out["half_68_N"] = half_68 > 0 ? Json(half_68) : Json();
+  out["half_95_N"] = half_95 > 0 ? Json(half_95) : Json();
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "sinew/actuator/prediction.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
 #include "sinew/config/setting.h"
@@ -194,8 +195,8 @@ void add_predicted(const std::vector<double>& lengths, const StaticSettings& set
       found.result.report.notes.push_back(
           what + fmt::format("68 % of its forces are expected within {:.3g} N of the law, 95 % "
                              "within {:.3g} N, between {:.4g} and {:.4g} mm",
-                             p.inside_68, p.inside_95, 1e3 * p.lengths.front(),
-                             1e3 * p.lengths.back()));
+                             actuator::widest_inside_68(p), actuator::widest_inside_95(p),
+                             1e3 * p.lengths.front(), 1e3 * p.lengths.back()));
     else
       found.result.report.warnings.push_back(
           what +

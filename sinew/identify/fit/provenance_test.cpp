@@ -1,0 +1,48 @@
+// Identified values as files: in the units of their laws, and read back as they were told.
+#include "sinew/identify/fit/provenance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sinew/actuator/body.h"
+#include "sinew/actuator/thesis_actuator.h"
+
+namespace sinew::identify {
+namespace {
+
+TEST(Digits, AreThoseThatAreAskedFor) {
+  EXPECT_EQ(with_digits(3.16713958, 4), 3.167);
+  EXPECT_EQ(with_digits(-1234567.0, 3), -1230000.0);
+  EXPECT_EQ(with_digits(2.61773e-6, 10), 2.61773e-6);
+  EXPECT_EQ(with_digits(0, 4), 0);
+  EXPECT_TRUE(std::isinf(with_digits(std::numeric_limits<double>::infinity(), 4)));
+}
+
+// Whatever number comes out of a fit, the file has it in SI: sixteen digits would stand in the unit
+// that has one less of them, "0.000458414332647958 in/lbf".
+TEST(Digits, FilesAreInUnitsOfSi) {
+  actuator::Actuator a = actuator::thesis_actuator();
+  a.name = "m";
+  a.long_end.length = actuator::shortest_length(a);
+  for (int k = 1; k < 50; ++k) {
+    a.series.compliance = 2.6e-6 * std::sqrt(k);
+    a.bladder.saturating_tension = 100 * std::sqrt(k + 0.5);
+    a.bladder.saturation_length = 3e-3 * std::sqrt(k + 0.3);
+    a.prediction = {.rest_length = 0.25,
+                    .lengths = {0.2 + 0.001 * std::sqrt(k), 0.25},
+                    .highest = 1e5 * std::sqrt(k),
+                    .inside_95 = std::sqrt(k)};
+    const actuator::Actuator short_one = without_idle_digits(a);
+    EXPECT_NEAR(short_one.series.compliance, a.series.compliance, 1e-9 * a.series.compliance);
+    EXPECT_NEAR(short_one.prediction.inside_95, a.prediction.inside_95, 1e-3 * std::sqrt(k));
+    EXPECT_GE(short_one.long_end.length, actuator::shortest_length(short_one));
+    const std::string file = actuator_file(short_one, {});
+    for (const char* unit : {"in/lbf\"", " lbf\"", " ft\""})
+      EXPECT_EQ(file.find(unit), file.npos) << unit << " in\n" << file;
+  }
+}
+
+}  // namespace
+}  // namespace sinew::identify
