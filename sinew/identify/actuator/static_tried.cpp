@@ -96,8 +96,8 @@ std::vector<int> end_pressures(const Points& points) {
 // Lengths that were left out one by one.
 struct LeftOutLengths {
   Unseen all;
-  std::vector<MissedLength>
-      missed;        // where the muscle pulls; what pressures are missed by is in it
+  // Those at which the muscle pulls, each with its whole mean square.
+  std::vector<MissedLength> missed;
   std::string each;  // a text for each
 };
 
