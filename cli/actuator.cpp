@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ActuatorOptions {
   std::string file, name, length, pressure, velocity, external_volume = "0 m3", units;
   bool json = false, quiet = false;
 };
@@ -47,7 +47,7 @@ void warn(const std::vector<Point>& points, const Messages& messages) {
     messages.warning(text + (points.size() > 1 ? " (rows with *)" : ""));
 }
 
-ExitCode run_actuator(const Options& options) {
+ExitCode run_actuator(const ActuatorOptions& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const actuator::Actuator& a =
@@ -93,7 +93,7 @@ ExitCode run_actuator(const Options& options) {
 }  // namespace
 
 void add_actuator(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ActuatorOptions>();
   Command sub = app.subcommand(
       "actuator", "tension, stiffness and geometry of one braided actuator",
       "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "

@@ -17,7 +17,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct AnalyzeOptions {
   std::string run, machine, out, units;
   bool json = false, verdicts = false, force = false, quiet = false;
 };
@@ -25,7 +25,7 @@ struct Options {
 // The machine is a whole one or a stand. What is reported is of whole runs: there is no verdict on
 // a part of one.
 template <class Machine>
-ExitCode tell(const Options& options, const Messages& messages, const signals::Table& table,
+ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const signals::Table& table,
               Machine machine, const config::UnitsToShow& units) {
   if (!table.complete) machine.reported.clear();
   analysis::Summary summary = analysis::summarize(table, machine);
@@ -48,7 +48,7 @@ ExitCode tell(const Options& options, const Messages& messages, const signals::T
   return ok;
 }
 
-ExitCode analyze_run(const Options& options) {
+ExitCode analyze_run(const AnalyzeOptions& options) {
   const Messages messages(options.quiet);
   const run::RecordedRun run = run::recorded_run(options.run);
   run::require_finished(run.log);
@@ -68,7 +68,7 @@ ExitCode analyze_run(const Options& options) {
 }  // namespace
 
 void add_analyze(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AnalyzeOptions>();
   Command sub = app.subcommand("analyze", "a run's numbers from its log, beside what is reported",
                                "sinew analyze runs/walk-test-1/1 --json");
   sub.add_option("DIR", options->run, "a run's folder, or a log file").required();

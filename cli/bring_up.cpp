@@ -20,7 +20,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct BringUpOptions {
   std::string robot, place, folder;
   std::vector<std::string> sets;
   bool yes = false, clear_fault = false;
@@ -62,13 +62,13 @@ std::string problem_of_port(const std::string& place) {
 }
 
 // A person has to stand at a machine.
-void refuse_yes_at_a_machine(const Options& o) {
+void refuse_yes_at_a_machine(const BringUpOptions& o) {
   if (o.yes && o.place.starts_with("serial:"))
     config::fail({"bring-up", 0, 0}, "--yes", "yes to everything at " + o.place,
                  "a person who answers: air may be open and somebody near");
 }
 
-ExitCode bring_up(const Options& o) {
+ExitCode bring_up(const BringUpOptions& o) {
   refuse_yes_at_a_machine(o);
   const std::filesystem::path robot(o.robot);
   const std::filesystem::path folder =
@@ -103,7 +103,7 @@ ExitCode bring_up(const Options& o) {
 }  // namespace
 
 void add_bring_up(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BringUpOptions>();
   Command sub = app.subcommand("bring-up", "a machine's first day at the bench, step by step",
                                "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
   sub.add_option("ROBOT", options->robot, "file of the robot").required();

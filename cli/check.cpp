@@ -14,12 +14,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using files::Finding;
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> files;
   bool json = false;
 };
 
-ExitCode check_all(const Options& options) {
+ExitCode check_all(const CheckOptions& options) {
   bool good = true;
   Json report = Json::array();
   for (const std::string& file : options.files) {
@@ -40,7 +40,7 @@ ExitCode check_all(const Options& options) {
 }  // namespace
 
 void add_check(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   Command sub = app.subcommand("check", "what is wrong with files, all of it at once",
                                "sinew check robots/leg/*.toml robots/leg/predict.dat");
   sub.add_option(

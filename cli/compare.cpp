@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompareOptions {
   std::vector<std::string> runs, channels;
   Alignment alignment;
   std::string out, residuals, units;
   bool json = false, all = false, force = false, quiet = false;
 };
 
-report::ComparisonText shown_as(const Options& options) {
+report::ComparisonText shown_as(const CompareOptions& options) {
   const fs::path first = run::recorded_run(options.runs.front()).resolved;
   return {.units = units_asked(options.units, units::UnitSet::thesis, first).units,
           .all = options.all,
@@ -35,7 +35,7 @@ report::ComparisonText shown_as(const Options& options) {
 }
 
 // Nothing that was there is written over unasked, nor a run that is read.
-void refuse_outputs(const Options& options) {
+void refuse_outputs(const CompareOptions& options) {
   if (!options.out.empty()) report::require_page(options.out);
   std::vector<fs::path> inputs;
   for (const std::string& named : options.runs) {
@@ -46,7 +46,7 @@ void refuse_outputs(const Options& options) {
     if (!out.empty()) run::refuse_to_overwrite(out, options.force, inputs);
 }
 
-ExitCode compare_runs(const Options& options) {
+ExitCode compare_runs(const CompareOptions& options) {
   const Messages messages(options.quiet);
   refuse_outputs(options);
   const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
@@ -72,7 +72,7 @@ ExitCode compare_runs(const Options& options) {
 }  // namespace
 
 void add_compare(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   Command sub =
       app.subcommand("compare", "runs beside each other: numbers, parameters, channels",
                      "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");

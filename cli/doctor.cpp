@@ -15,7 +15,7 @@ namespace {
 
 using host::Verdict;
 
-struct Options {
+struct DoctorOptions {
   std::string place = "simulated";
   bool json = false;
 };
@@ -36,7 +36,8 @@ void print(const std::vector<host::Finding>& findings) {
   }
 }
 
-void print_json(const std::vector<host::Finding>& findings, const Options& options, bool ready) {
+void print_json(const std::vector<host::Finding>& findings, const DoctorOptions& options,
+                bool ready) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const host::Finding& f : findings) {
     nlohmann::ordered_json item{
@@ -58,7 +59,7 @@ host::Latency measure() {
   return host::measure_latency(1);
 }
 
-ExitCode examine(const Options& options) {
+ExitCode examine(const DoctorOptions& options) {
   const std::vector<host::Finding> findings = host::examine({.latency = measure});
   const bool ready = host::is_ready(findings, options.place);
   if (options.json)
@@ -74,7 +75,7 @@ ExitCode examine(const Options& options) {
 }  // namespace
 
 void add_doctor(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorOptions>();
   Command sub = app.subcommand("doctor", "is this computer ready to drive a machine?",
                                "sinew doctor --for comedi");
   sub.add_option("--for", options->place,

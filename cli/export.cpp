@@ -21,14 +21,14 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string run, out, machine;
   std::string format = "csv";
   std::vector<std::string> channels;
   bool csv = false, derived = false, force = false, quiet = false;
 };
 
-std::vector<std::string> chosen_topics(const Options& options, const signals::Table& table) {
+std::vector<std::string> chosen_topics(const ExportOptions& options, const signals::Table& table) {
   if (options.channels.empty()) return {};
   const std::vector<std::string_view> names = experiment::names_of(table);
   const std::vector<bool> chosen =
@@ -40,18 +40,18 @@ std::vector<std::string> chosen_topics(const Options& options, const signals::Ta
 }
 
 // What is only CSV's.
-void refuse_csv_options(const Options& options) {
+void refuse_csv_options(const ExportOptions& options) {
   if (options.format == "csv" || (options.channels.empty() && !options.derived)) return;
   config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
                "csv, for --channels and --derived");
 }
 
-experiment::Experiment experiment_of(const run::RecordedRun& run, const Options& options) {
+experiment::Experiment experiment_of(const run::RecordedRun& run, const ExportOptions& options) {
   return experiment::load(run::machine_of(run, options.machine).string());
 }
 
 // Line by line, since a long run's text is longer than memory.
-void put_csv(const run::RecordedRun& run, const Options& options, signals::Table table) {
+void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
   if (options.derived) {
     const config::Node root = config::compose(run::machine_of(run, options.machine).string());
     signals::Table derived = analysis::derive(table, analysis::read_machine(root));
@@ -66,7 +66,7 @@ void put_csv(const run::RecordedRun& run, const Options& options, signals::Table
   std::cout.flush();
 }
 
-void put(const run::RecordedRun& run, const Options& options, signals::Table table) {
+void put(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
   if (options.format == "csv") return put_csv(run, options, std::move(table));
   const experiment::Experiment e = experiment_of(run, options);
   const std::string text =
@@ -75,7 +75,7 @@ void put(const run::RecordedRun& run, const Options& options, signals::Table tab
   fmt::print("{}", text);
 }
 
-ExitCode export_run(const Options& options) {
+ExitCode export_run(const ExportOptions& options) {
   const Messages messages(options.quiet);
   refuse_csv_options(options);
   const run::RecordedRun run = run::recorded_run(options.run);
@@ -94,7 +94,7 @@ ExitCode export_run(const Options& options) {
 }  // namespace
 
 void add_export(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   Command sub = app.subcommand(
       "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
       "sinew export runs/walk-test-1/1 --csv -o walk.csv");

@@ -12,7 +12,7 @@
 namespace sinew::cli {
 namespace {
 
-struct Options {
+struct FiguresOptions {
   RunFiguresRequest runs;
   ThesisFiguresRequest thesis;
   bool of_thesis = false;
@@ -37,7 +37,7 @@ std::vector<report::Picture> parse_formats(const std::vector<std::string>& words
   return out;
 }
 
-ExitCode draw(Options& options) {
+ExitCode draw(FiguresOptions& options) {
   if (!options.of_thesis) return draw_runs(options.runs);
   options.thesis.out = options.runs.out;
   options.thesis.formats = options.runs.formats;
@@ -99,7 +99,7 @@ void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
 }  // namespace
 
 void add_figures(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FiguresOptions>();
   Command sub = app.subcommand(
       "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
       "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"

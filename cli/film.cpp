@@ -16,7 +16,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct FilmCommandOptions {
   std::vector<std::string> runs;
   Alignment alignment;
   std::string machine, out, from, to;
@@ -24,7 +24,7 @@ struct Options {
   bool force = false, quiet = false;
 };
 
-film::FilmOptions film_of(const Options& options) {
+film::FilmOptions film_of(const FilmCommandOptions& options) {
   film::FilmOptions out = options.film;
   if (!options.from.empty()) out.from = argument("--from", options.from, "s", units::atmosphere);
   if (!options.to.empty()) out.to = argument("--to", options.to, "s", units::atmosphere);
@@ -32,7 +32,7 @@ film::FilmOptions film_of(const Options& options) {
 }
 
 // Refuses options that are for one run alone where there are several, and the other way round.
-void check_runs(const Options& options) {
+void check_runs(const FilmCommandOptions& options) {
   const auto wrong = [](const std::string& name, std::string found, std::string expected) {
     config::fail({name, 0, 0}, "", std::move(found), std::move(expected));
   };
@@ -44,13 +44,13 @@ void check_runs(const Options& options) {
           "none: of several runs each says itself what was run");
 }
 
-film::Filming filming_of(const Options& options, const film::FilmOptions& film,
+film::Filming filming_of(const FilmCommandOptions& options, const film::FilmOptions& film,
                          const std::atomic<bool>& stop, const run::Notices& notices) {
   if (options.runs.size() == 1) return {options.runs.front(), options.machine, film, stop, notices};
   return {options.runs, options.alignment.wish(), film, stop, notices};
 }
 
-ExitCode make(const Options& options) {
+ExitCode make(const FilmCommandOptions& options) {
   const Messages messages(options.quiet);
   const film::FilmOptions film = film_of(options);
   // Mistakes that show without a look at the run are told first: a browser takes its time.
@@ -78,7 +78,7 @@ ExitCode make(const Options& options) {
 }  // namespace
 
 void add_film(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FilmCommandOptions>();
   film::FilmOptions& film = options->film;
   Command sub = app.subcommand(
       "film", "the replay of a run, or of several, as a GIF, an MP4 or a WebM",

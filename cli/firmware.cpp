@@ -11,7 +11,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct FirmwareOptions {
   std::string robot, board, out, sources = ".";
   bool force = false;
 };
@@ -30,7 +30,7 @@ void print_flash(const run::FirmwareBoard& board, const std::string& file) {
                                      : command);
 }
 
-ExitCode build(const Options& o) {
+ExitCode build(const FirmwareOptions& o) {
   const run::FirmwareBoard& board = run::firmware_board(o.board);
   run::require_fits(o.robot, board);
   const bool low = run::low_gives_current(o.robot);
@@ -42,7 +42,7 @@ ExitCode build(const Options& o) {
   return ok;
 }
 
-ExitCode wiring(const Options& o) {
+ExitCode wiring(const FirmwareOptions& o) {
   run::refuse_to_overwrite(o.out, o.force, {o.robot}, ".svg");
   run::write_file(o.out, run::wiring_on(o.robot, run::firmware_board(o.board)));
   return ok;
@@ -51,7 +51,7 @@ ExitCode wiring(const Options& o) {
 }  // namespace
 
 void add_firmware(Command app, Action& action) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<FirmwareOptions>();
   Command group = app.subcommand("firmware", "the program of a robot's board",
                                  "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
   group.require_subcommand();

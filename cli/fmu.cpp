@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct FmuOptions {
   fmu::Asked asked;
   std::string out;
   bool force = false, json = false;
@@ -65,7 +65,7 @@ void print_text(const fmu::Fmu& made, const std::string& file) {
   row(C::parameter, "parameters");
 }
 
-ExitCode export_fmu(const Options& options) {
+ExitCode export_fmu(const FmuOptions& options) {
   const fmu::Fmu made = fmu::make_fmu(options.asked);
   const std::string file = options.out.empty() ? made.identifier + ".fmu" : options.out;
   run::refuse_to_overwrite(file, options.force, {options.asked.file}, ".fmu");
@@ -80,7 +80,7 @@ ExitCode export_fmu(const Options& options) {
 }  // namespace
 
 void add_fmu(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FmuOptions>();
   fmu::Asked& asked = options->asked;
   Command fmu = app.subcommand("fmu", "FMUs for somebody else's co-simulation",
                                "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");

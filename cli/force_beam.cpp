@@ -14,13 +14,13 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct ForceBeamOptions {
   identify::TransducerSettings settings;
   std::string units;
   bool json = false, quiet = false;
 };
 
-ExitCode run_force_beam(const Options& options) {
+ExitCode run_force_beam(const ForceBeamOptions& options) {
   const identify::Transducer s = transducer_of(options.settings);
   const std::optional<double> wanted = wanted_sensitivity(options.settings);
   if (options.json) {
@@ -66,7 +66,7 @@ void add_bridge_options(Command sub, identify::TransducerSettings& o) {
 }  // namespace
 
 void add_force_beam(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ForceBeamOptions>();
   Command sub = app.subcommand(
       "force-beam",
       "strain, safety and output of a beam with strain gages; without options the thesis's",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "cli/command.h"
 #include "cli/help_topics.h"

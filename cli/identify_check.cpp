@@ -18,7 +18,7 @@ namespace {
 
 using report::TextTable;
 
-struct Options {
+struct IdentifyCheckOptions {
   DataOptions data;
   identify::StaticSettings settings;
   bool json = false;
@@ -82,7 +82,7 @@ void print_determined(const identify::DeterminedLaw& law) {
 }
 
 // Fails where a check is red, so that a script stops.
-ExitCode run_check(const Options& options) {
+ExitCode run_check(const IdentifyCheckOptions& options) {
   const identify::Checkup found =
       identify::check_before_static(sources_of(options.data), options.settings);
   if (options.json) {
@@ -100,7 +100,7 @@ ExitCode run_check(const Options& options) {
 }  // namespace
 
 void add_identify_check(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyCheckOptions>();
   Command sub = identify.subcommand(
       "check", "are measurements plausible, and what can `identify static` find in them",
       "sinew identify check map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "

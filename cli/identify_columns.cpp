@@ -22,7 +22,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyColumnsOptions {
   std::string method, kind, file;
   bool json = false, force = false, quiet = false;
 };
@@ -69,7 +69,7 @@ bool is_template(const std::string& path) {
   return line.starts_with("# For `sinew identify ");
 }
 
-ExitCode run_columns(const Options& options) {
+ExitCode run_columns(const IdentifyColumnsOptions& options) {
   const identify::MethodInputs& inputs = identify::inputs_of(options.method);
   const std::string text = identify::template_of(inputs, options.kind);  // is the kind one?
   if (options.file.empty()) {
@@ -119,7 +119,7 @@ std::vector<std::string> with_columns_first(std::vector<std::string> words) {
 }
 
 void add_identify_columns(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyColumnsOptions>();
   Command sub = identify.subcommand(
       "columns", "which columns a method reads, and a table to fill in; --columns of each method",
       "sinew identify columns static --template forces.csv");

@@ -11,7 +11,7 @@ namespace sinew::cli {
 namespace {
 
 using Align = report::TextTable::Align;
-struct Options {
+struct IdentifyDynamicOptions {
   DataOptions data;
   ResultOptions result;
   identify::DynamicSettings settings;
@@ -50,7 +50,7 @@ void print_methods(const identify::DynamicResult& found, const config::UnitsToSh
     if (!s.exact) fmt::print("no two points: {}\n", s.why_not);
 }
 
-ExitCode run_dynamic(const Options& options) {
+ExitCode run_dynamic(const IdentifyDynamicOptions& options) {
   check_result_options(options.result);
   const std::vector<identify::Source> sources = sources_of(options.data);
   identify::DynamicSettings settings = options.settings;
@@ -68,7 +68,7 @@ ExitCode run_dynamic(const Options& options) {
 }  // namespace
 
 void add_identify_dynamic(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyDynamicOptions>();
   Command sub = identify.subcommand(
       "dynamic", "viscous loss and dry friction from a mass that swings on trapped air",
       "sinew identify dynamic a.csv b.csv --actuator robots/leg/actuator.toml --mass \"6 lb,11 "

@@ -12,19 +12,19 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyGeometryOptions {
   DataOptions data;
   ResultOptions result;
   identify::GeometrySettings settings;
 };
 
-ExitCode from_pairs(const Options& options) {
+ExitCode from_pairs(const IdentifyGeometryOptions& options) {
   const auto found = identify::find_geometry(sources_of(options.data), options.settings);
   tell(*found.report, found.file, options.data, options.result, to_json(found));
   return ok;
 }
 
-ExitCode from_trapezoids(const Options& options) {
+ExitCode from_trapezoids(const IdentifyGeometryOptions& options) {
   const auto found = identify::count_geometry(options.settings);
   if (options.result.json) {
     fmt::print("{}\n", json_text(to_json(found), 2));
@@ -43,7 +43,7 @@ ExitCode from_trapezoids(const Options& options) {
 }  // namespace
 
 void add_identify_geometry(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyGeometryOptions>();
   Command sub = identify.subcommand(
       "geometry", "thread length and turns, from counted trapezoids or from lengths and diameters",
       "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\"");

@@ -15,7 +15,7 @@ namespace {
 
 using identify::JointResult;
 
-struct Options {
+struct IdentifyJointOptions {
   DataOptions data;
   ResultOptions result;
   identify::JointSettings settings;
@@ -32,7 +32,7 @@ void print_combinations(const JointResult& found) {
   fmt::print("\n{}", table.text());
 }
 
-ExitCode run_joint(const Options& options) {
+ExitCode run_joint(const IdentifyJointOptions& options) {
   check_result_options(options.result);
   identify::JointSettings settings = options.settings;
   if (!settings.base.empty() && options.result.out.empty())
@@ -79,7 +79,7 @@ void add_known_options(Command sub, identify::JointSettings& o) {
 }  // namespace
 
 void add_identify_joint(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyJointOptions>();
   Command sub = identify.subcommand(
       "joint", "force law and moment arm from joint angle, pressures and a known load",
       "sinew identify joint knee.csv --actuator robots/leg/actuator.toml --load \"5 lb\" --lever "

@@ -17,7 +17,7 @@ namespace {
 
 using Align = report::TextTable::Align;
 
-struct Options {
+struct IdentifyPairOptions {
   DataOptions data;
   ResultOptions result;
   identify::PairSettings settings;
@@ -63,7 +63,7 @@ void print_air(const identify::PairResult& found) {
   fmt::print("{}", table.text());
 }
 
-ExitCode run_pair(const Options& options) {
+ExitCode run_pair(const IdentifyPairOptions& options) {
   check_result_options(options.result);
   const std::vector<identify::Source> sources = sources_of(options.data);
   identify::PairSettings settings = options.settings;
@@ -99,7 +99,7 @@ ExitCode run_pair(const Options& options) {
 }  // namespace
 
 void add_identify_pair(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyPairOptions>();
   Command sub = identify.subcommand(
       "pair",
       "stiffness, dry friction, losses and trapped air of an antagonistic pair that is sealed and "

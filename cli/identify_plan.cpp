@@ -20,7 +20,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyPlanOptions {
   DataOptions data;
   identify::StaticSettings how;
   identify::PlanSettings settings;
@@ -106,7 +106,7 @@ bool is_plan(const std::string& path) {
   return line.starts_with("# Plan of `sinew identify plan`");
 }
 
-void check_out(const Options& options) {
+void check_out(const IdentifyPlanOptions& options) {
   if (options.out.empty()) return;
   run::refuse_to_overwrite(options.out, options.force,
                            {options.data.files.begin(), options.data.files.end()}, ".csv");
@@ -116,7 +116,7 @@ void check_out(const Options& options) {
                  "a name that is free, or that of a plan", "another one");
 }
 
-ExitCode run_plan(const Options& options) {
+ExitCode run_plan(const IdentifyPlanOptions& options) {
   check_out(options);
   identify::PlanSettings settings = options.settings;
   identify::StaticSettings how = options.how;
@@ -169,7 +169,7 @@ void add_plan_options(Command sub, identify::PlanSettings& s) {
 }  // namespace
 
 void add_identify_plan(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyPlanOptions>();
   Command sub = identify.subcommand(
       "plan", "which lengths and pressures to measure for an error, and in how many minutes",
       "sinew identify plan --rest-length \"250 mm\" --diameter \"10 mm\" --pressure \"600 kPa "

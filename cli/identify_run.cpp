@@ -11,13 +11,13 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyRunOptions {
   DataOptions data;
   ResultOptions result;
   identify::RunFitSettings settings;
 };
 
-ExitCode run_run(const Options& options) {
+ExitCode run_run(const IdentifyRunOptions& options) {
   check_result_options(options.result);
   identify::RunFitSettings settings = options.settings;
   if (!settings.base.empty() && options.result.out.empty())
@@ -34,7 +34,7 @@ ExitCode run_run(const Options& options) {
 }  // namespace
 
 void add_identify_run(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyRunOptions>();
   identify::RunFitSettings& o = options->settings;
   Command sub = identify.subcommand(
       "run", "friction, damping, dead times, volumes, leaks from a run of a robot itself",

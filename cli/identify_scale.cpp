@@ -12,7 +12,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyScaleOptions {
   identify::ScaleSettings settings;
   ResultOptions result;
 };
@@ -30,7 +30,7 @@ void print_scaled(const identify::ScaleFound& found) {
                actuator::widest_inside_68(p), actuator::widest_inside_95(p));
 }
 
-ExitCode run_scale(const Options& options) {
+ExitCode run_scale(const IdentifyScaleOptions& options) {
   check_result_options(options.result);
   const identify::ScaleFound found = identify::find_scaled(options.settings);
   if (options.result.json)
@@ -49,7 +49,7 @@ ExitCode run_scale(const Options& options) {
 }  // namespace
 
 void add_identify_scale(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyScaleOptions>();
   Command sub = identify.subcommand(
       "scale", "a muscle of another rest length than those that were measured",
       "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml");

@@ -22,7 +22,7 @@ namespace {
 using identify::Calibration;
 using identify::SensorResult;
 
-struct Options {
+struct IdentifySensorOptions {
   DataOptions data;
   ResultOptions result;
   identify::SensorSettings settings;
@@ -88,7 +88,7 @@ void print(const Calibration& c, const std::string& display, const ResultOptions
 
 // --- the command ---
 
-ExitCode run(const Options& options) {
+ExitCode run(const IdentifySensorOptions& options) {
   check_result_options(options.result);
   identify::SensorSettings settings = options.settings;
   if (!settings.base.empty() && options.result.out.empty())
@@ -117,7 +117,7 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void add_identify_sensor(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifySensorOptions>();
   Command sub = identify.subcommand(
       "sensor", "scale, offset, linearity, hysteresis and noise of calibrated sensors",
       "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml");

@@ -13,7 +13,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyStaticOptions {
   DataOptions data;
   ResultOptions result;
   identify::StaticSettings settings;
@@ -38,7 +38,7 @@ void write_muscle(const identify::StaticMuscle& muscle, const std::string& text,
 }
 
 // Identifies, and shows on a terminal how many laws have been tried.
-identify::StaticFound watched(const Options& options) {
+identify::StaticFound watched(const IdentifyStaticOptions& options) {
   std::atomic<std::int64_t> tried = 0;
   identify::StaticSettings settings = options.settings;
   settings.tried = &tried;
@@ -47,7 +47,7 @@ identify::StaticFound watched(const Options& options) {
   return identify::find_static(sources_of(options.data), settings);
 }
 
-ExitCode run_static(const Options& options) {
+ExitCode run_static(const IdentifyStaticOptions& options) {
   const identify::StaticFound found = watched(options);
   tell(found.result.report, found.files[0], options.data, options.result);
 
@@ -87,7 +87,7 @@ void add_static_data_options(Command sub, identify::StaticSettings& settings) {
 }
 
 void add_identify_static(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyStaticOptions>();
   Command sub = identify.subcommand(
       "static", "the static law of an actuator from force, length and pressure",
       "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "

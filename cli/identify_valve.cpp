@@ -12,7 +12,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct IdentifyValveOptions {
   DataOptions data;
   ResultOptions result;
   identify::ValveSettings settings;
@@ -20,7 +20,7 @@ struct Options {
 };
 
 // The compensated table, where one is wanted and the delays are known.
-void write_timing(const Options& options, const identify::ValveFound& found) {
+void write_timing(const IdentifyValveOptions& options, const identify::ValveFound& found) {
   if (options.predict.empty()) return;
   const identify::TimingFile timing = identify::timing_of(found, options.settings.frequency);
   run::write_file(options.predict, timing.text);
@@ -31,7 +31,7 @@ void write_timing(const Options& options, const identify::ValveFound& found) {
                       options.predict, timing.frequency, 100 * timing.worst));
 }
 
-ExitCode run_identify_valve(const Options& options) {
+ExitCode run_identify_valve(const IdentifyValveOptions& options) {
   const std::vector<identify::Source> sources = sources_of(options.data);
   identify::refuse_fitted(sources, "predict_dat", options.predict);
   identify::ValveSettings settings = options.settings;
@@ -55,7 +55,7 @@ ExitCode run_identify_valve(const Options& options) {
 }  // namespace
 
 void add_identify_valve(Command identify, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdentifyValveOptions>();
   Command sub =
       identify.subcommand("valve",
                           "flow and delays, from a chart, a filling, pulses, a coil's current "

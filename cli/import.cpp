@@ -18,7 +18,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct ImportOptions {
   run::ImportRequest request;
   std::vector<std::string> maps, units, scales, offsets, where, shifts;  // "name=value"
   std::string join = "side";
@@ -37,7 +37,7 @@ Pair pair_at(std::size_t equals, const std::string& text, const char* option,
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-void take_pairs(Options& options) {
+void take_pairs(ImportOptions& options) {
   recording::Mapping& mapping = options.request.mapping;
   for (const std::string& text : options.maps) {
     const Pair p =
@@ -76,7 +76,8 @@ bool is_out_dat(const std::string& path) {
 }
 
 // The thesis's own log knows what its columns are.
-run::Kept<analysis::Machine> import_out_dat(const Options& options, const Messages& messages) {
+run::Kept<analysis::Machine> import_out_dat(const ImportOptions& options,
+                                            const Messages& messages) {
   const run::ImportRequest& request = options.request;
   const std::string& path = request.files.front();
   if (request.files.size() > 1)
@@ -95,7 +96,7 @@ run::Kept<analysis::Machine> import_out_dat(const Options& options, const Messag
 }
 
 template <class Machine>
-ExitCode tell_kept(const run::Kept<Machine>& kept, const Options& options,
+ExitCode tell_kept(const run::Kept<Machine>& kept, const ImportOptions& options,
                    const Messages& messages) {
   for (const std::string& text : kept.summary.warnings) messages.warning(text);
   if (options.json)
@@ -115,7 +116,7 @@ std::int64_t bytes_to_show(const std::vector<std::string>& files) {
   return files.size() == 1 && !none && size > large ? static_cast<std::int64_t>(size) : 0;
 }
 
-ExitCode import_recording(Options& options) {
+ExitCode import_recording(ImportOptions& options) {
   const Messages messages(options.quiet);
   take_pairs(options);
   options.request.join_at_end = options.join == "end";
@@ -130,7 +131,7 @@ ExitCode import_recording(Options& options) {
   return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
 }
 
-void add_mapping_options(Command sub, Options& options) {
+void add_mapping_options(Command sub, ImportOptions& options) {
   run::ImportRequest& request = options.request;
   sub.add_option("--map", options.maps,
                  "CHANNEL=COLUMN: what a column is, /joint/elbow/angle=Winkel; may be repeated")
@@ -153,7 +154,7 @@ void add_mapping_options(Command sub, Options& options) {
                "keep columns that are no channel, as /recorded/NAME");
 }
 
-void add_clock_options(Command sub, Options& options) {
+void add_clock_options(Command sub, ImportOptions& options) {
   recording::ClockMapping& clock = options.request.mapping.clock;
   sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
   sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
@@ -188,7 +189,7 @@ void add_table_options(Command sub, recording::TableSettings& table) {
 }  // namespace
 
 void add_import(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportOptions>();
   run::ImportRequest& request = options->request;
   Command sub = app.subcommand(
       "import", "a recording of a laboratory as the folder of a run",

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct KeysOptions {
   std::vector<std::string> words;
   std::string kind, schema;
   bool json = false, page = false;
@@ -28,7 +28,7 @@ std::vector<std::string> kinds_with_a_schema() {
   return out;
 }
 
-ExitCode keys(const Options& options) {
+ExitCode keys(const KeysOptions& options) {
   const bool all = options.words.empty() && options.kind.empty();
   if (options.page) {
     fmt::print("{}", files::page_of_keys());
@@ -49,7 +49,7 @@ ExitCode keys(const Options& options) {
 }  // namespace
 
 void add_keys(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<KeysOptions>();
   Command sub = app.subcommand("keys", "every key of every file: unit, range, default, meaning",
                                "sinew keys damping\n  sinew keys joint.hip.damping");
   sub.add_option("WORD", options->words,

@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct KinematicsOptions {
   std::string file, leg, foot, angles, force, units;
   bool json = false;
 };
@@ -40,7 +40,7 @@ std::string unit_in(const config::Origins& origins, std::string_view table, std:
 
 // Those that somebody asked for; else the units in which the robot's file speaks, by its first link
 // and its first joint, and of the torques by the force that is given.
-run::StanceUnits stance_units(const experiment::Experiment& e, const Options& options) {
+run::StanceUnits stance_units(const experiment::Experiment& e, const KinematicsOptions& options) {
   const std::string& force = options.force;
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
   if (asked.asked) {
@@ -129,7 +129,7 @@ void choose_leg(experiment::Experiment& e, const std::string& leg) {
   e.robot = robot::only_leg(e.robot, static_cast<std::size_t>(found - names.begin()));
 }
 
-ExitCode run_kinematics(const Options& options) {
+ExitCode run_kinematics(const KinematicsOptions& options) {
   auto file = experiment::load_machine_file(options.file);
   choose_leg(file.experiment, options.leg);
   const experiment::Experiment& e = file.experiment;
@@ -158,7 +158,7 @@ ExitCode run_kinematics(const Options& options) {
 }  // namespace
 
 void add_kinematics(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<KinematicsOptions>();
   Command sub =
       app.subcommand("kinematics", "foot to joint angles, muscle lengths and torques, and back",
                      "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ListOptions {
   std::string kind;
   bool json = false;
 };
@@ -32,7 +32,7 @@ Json json_of(const files::Listing& listing) {
   return all;
 }
 
-ExitCode list(const Options& options) {
+ExitCode list(const ListOptions& options) {
   const files::Listing listing = files::list(options.kind);
   if (options.json)
     fmt::print("{}\n", json_text(json_of(listing), 2));
@@ -50,7 +50,7 @@ ExitCode list(const Options& options) {
 }  // namespace
 
 void add_list(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ListOptions>();
   Command sub =
       app.subcommand("list", "robots, experiments and more: with Sinew and in this folder",
                      "sinew list experiments");

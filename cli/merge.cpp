@@ -12,12 +12,12 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> files;
   std::string out;
 };
 
-ExitCode merge_all(const Options& options) {
+ExitCode merge_all(const MergeOptions& options) {
   const tune::Merged merged =
       tune::merge({options.files.begin(), options.files.end()}, options.out);
   fmt::print("{}: {} of {} points are there, {} of them new\n", options.out, merged.there,
@@ -28,7 +28,7 @@ ExitCode merge_all(const Options& options) {
 }  // namespace
 
 void add_merge(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MergeOptions>();
   Command sub = app.subcommand("merge", "files of one study as one file",
                                "sinew merge a.db b.db c.db -o all.db");
   sub.add_option("FILE", options->files, "what sinew sweep --results wrote, each another --shard")

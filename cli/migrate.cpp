@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MigrateCommandOptions {
   std::vector<std::string> files;
   files::MigrateOptions how;
   bool dry_run = false, json = false;
@@ -29,7 +29,7 @@ Json json_of(const files::Migration& m) {
 }
 
 // One file's failure does not keep the others from being migrated.
-ExitCode migrate_all(const Options& options) {
+ExitCode migrate_all(const MigrateCommandOptions& options) {
   bool good = true;
   Json report = Json::array();
   for (const std::string& file : options.files) {
@@ -51,7 +51,7 @@ ExitCode migrate_all(const Options& options) {
 }  // namespace
 
 void add_migrate(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MigrateCommandOptions>();
   Command sub = app.subcommand("migrate", "files of older formats in today's, comments kept",
                                "sinew migrate my-leg/*.toml --dry-run");
   sub.add_option("FILE", options->files,

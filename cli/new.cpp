@@ -9,13 +9,14 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct NewCommandOptions {
   std::string kind, name;
   files::NewOptions how;
 };
 
 // What is done with the new file, as a shell takes it.
-std::vector<std::string> next_commands(const Options& options, const std::string& written) {
+std::vector<std::string> next_commands(const NewCommandOptions& options,
+                                       const std::string& written) {
   const std::string file = written.find(' ') == written.npos ? written : "\"" + written + "\"";
   const std::string &kind = options.kind, &name = options.name;
   std::vector<std::string> out{"sinew check " + file};
@@ -34,7 +35,7 @@ std::vector<std::string> next_commands(const Options& options, const std::string
   return out;
 }
 
-ExitCode write(const Options& options) {
+ExitCode write(const NewCommandOptions& options) {
   const files::NewFiles made = files::write_new(options.kind, options.name, options.how);
   for (const std::string& file : made.files) fmt::print("{}\n", file);
   for (const std::string& problem : made.problems) error(problem);
@@ -52,7 +53,7 @@ ExitCode write(const Options& options) {
 }  // namespace
 
 void add_new(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewCommandOptions>();
   Command sub = app.subcommand("new", "a commented file to begin with, valid as written",
                                "sinew new robot my-arm --metric");
   std::vector<std::string> kinds;

@@ -11,14 +11,14 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct ReplayOptions {
   run::ReplayRequest request;
   std::string of = "controller", folder, units;
   double band = 5;  // [%]
   bool json = false, quiet = false;
 };
 
-ExitCode replay_run(Options options) {
+ExitCode replay_run(ReplayOptions options) {
   const Messages messages(options.quiet);
   options.request.of = options.of == "plant" ? run::ReplayOf::plant : run::ReplayOf::controller;
   options.request.band = 0.01 * options.band;
@@ -39,7 +39,7 @@ ExitCode replay_run(Options options) {
 }  // namespace
 
 void add_replay(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   Command sub = app.subcommand("replay", "a recording through today's controller, or plant",
                                "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
   sub.add_option("DIR", options->request.run, "a run's folder, or a log file").required();

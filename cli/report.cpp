@@ -12,7 +12,7 @@ namespace sinew::cli {
 
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::vector<std::string> runs;
   std::string machine, out, units;
   bool force = false, quiet = false;
@@ -26,7 +26,7 @@ ExitCode write(const std::filesystem::path& out, const std::string& page,
   return ok;
 }
 
-ExitCode report_study(const Options& options) {
+ExitCode report_study(const ReportOptions& options) {
   std::filesystem::path out = options.out;
   if (out.empty()) out = std::filesystem::path(options.runs[0]).replace_extension(".html");
   const std::vector<std::filesystem::path> files(options.runs.begin(), options.runs.end());
@@ -34,7 +34,7 @@ ExitCode report_study(const Options& options) {
   return write(out, tune::study_page_of(files), Messages(options.quiet));
 }
 
-ExitCode report_run(const Options& options) {
+ExitCode report_run(const ReportOptions& options) {
   const Messages messages(options.quiet);
   const run::RecordedRun recorded = run::recorded_run(options.runs[0]);
   const std::filesystem::path out = options.out.empty()
@@ -48,7 +48,7 @@ ExitCode report_run(const Options& options) {
 }  // namespace
 
 void add_report(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   Command sub = app.subcommand("report", "a run or a study as one page, which opens in any browser",
                                "sinew report runs/walk-test-1/1 -o walk.html");
   sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")

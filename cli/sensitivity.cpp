@@ -17,15 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 using tune::Method;
 
-struct Options {
+struct SensitivityOptions {
   tune::Study study;
-  RunOptions run;
+  RunsOptions run;
   std::string method = "sobol", out, runs;
   int points = 0, seed = 1;
   bool force = false, json = false, quiet = false;
 };
 
-tune::Design design_of(const Options& options) {
+tune::Design design_of(const SensitivityOptions& options) {
   tune::Design out{.ranges = options.study.range.size(),
                    .seed = static_cast<std::uint64_t>(options.seed)};
   if (options.method == "morris") out.method = Method::morris;
@@ -35,14 +35,15 @@ tune::Design design_of(const Options& options) {
   return out;
 }
 
-tune::Sweep runs_of(const Options& options, const tune::Design& design) {
+tune::Sweep runs_of(const SensitivityOptions& options, const tune::Design& design) {
   tune::Study study = options.study;
   if (!study.range.empty()) study.points = 1;  // the design has its own
   return tune::sweep_of(design, tune::sweep_of(study));
 }
 
-void write_table(const Options& options, const tune::Design& design, const tune::Sweep& runs,
-                 const std::vector<tune::FigureSensitivity>& all, const Messages& messages) {
+void write_table(const SensitivityOptions& options, const tune::Design& design,
+                 const tune::Sweep& runs, const std::vector<tune::FigureSensitivity>& all,
+                 const Messages& messages) {
   tune::TableFile csv(options.out, tune::sensitivity_headings(design.method), options.force,
                       {options.study.experiment});
   for (const std::vector<std::string>& row : tune::sensitivity_rows(design, runs, all))
@@ -52,7 +53,7 @@ void write_table(const Options& options, const tune::Design& design, const tune:
   messages.note(options.out);
 }
 
-ExitCode tell_sensitivity(const Options& options) {
+ExitCode tell_sensitivity(const SensitivityOptions& options) {
   const tune::Design design = design_of(options);
   const tune::Ranks ranks;
   if (is_worker_of(ranks, options.run, [&] { return runs_of(options, design); })) return ok;
@@ -84,7 +85,7 @@ ExitCode tell_sensitivity(const Options& options) {
 }  // namespace
 
 void add_sensitivity(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SensitivityOptions>();
   Command sub = app.subcommand(
       "sensitivity", "which ranges a figure follows, and how strongly",
       "sinew sensitivity experiments/walk-test-1.toml --range \"joint.hip.angle_gain=0.02:0.08 "

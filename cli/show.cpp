@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ShowOptions {
   std::string file;
   std::vector<std::string> keys;
   std::vector<std::string> sets;
@@ -20,7 +20,7 @@ struct Options {
   bool json = false;
 };
 
-ExitCode show(const Options& options) {
+ExitCode show(const ShowOptions& options) {
   const files::Values values = files::values(options.file, options.sets, options.keys);
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si, &values.in_si);
   if (options.json)
@@ -33,7 +33,7 @@ ExitCode show(const Options& options) {
 }  // namespace
 
 void add_show(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShowOptions>();
   Command sub = app.subcommand("show", "values of a file, and where each one came from",
                                "sinew show robots/leg/robot.toml joint.knee muscle.hip");
   sub.add_option("FILE", options->file, "experiment, rig, robot, actuator, valves or wiring file")

@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SweepOptions {
   std::string file, out;
   tune::Said said;  // besides the plan
-  RunOptions runs;
+  RunsOptions runs;
   bool force = false, json = false, quiet = false;
 };
 
-ExitCode sweep_all(const Options& options) {
+ExitCode sweep_all(const SweepOptions& options) {
   const auto asked = [&] { return tune::sweep_of(tune::load_study(options.file, options.said)); };
   const tune::Ranks ranks;
   if (is_worker_of(ranks, options.runs, asked)) return ok;
@@ -47,7 +47,7 @@ ExitCode sweep_all(const Options& options) {
   return ok;
 }
 
-void add_sample(Command sub, Options& options) {
+void add_sample(Command sub, SweepOptions& options) {
   sub.add_option("--points", options.said.study.points, "of the sample, each a row or more")
       .is_between(1, 1000000);
   sub.add_option("--sample", options.said.sample, "how the points lie: sobol, latin, random; sobol")
@@ -59,7 +59,7 @@ void add_sample(Command sub, Options& options) {
 }  // namespace
 
 void add_sweep(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepOptions>();
   Command sub = app.subcommand(
       "sweep", "many runs of one experiment as one table",
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "

@@ -10,13 +10,13 @@
 
 namespace sinew::cli {
 
-int threads_of(const RunOptions& options) {
+int threads_of(const RunsOptions& options) {
   const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return options.threads > 0 ? options.threads : all;
 }
 
 // A signal is for the first process, which then lets this one go.
-bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
+bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
                   const std::function<tune::Sweep()>& sweep) {
   if (!ranks.is_worker()) return false;
   const Interrupt interrupt;
@@ -65,7 +65,7 @@ void add_words(Command sub, const char* name, std::vector<std::string>& words,
   sub.add_option(name, words, description).takes_one();
 }
 
-void add_runs(Command sub, tune::Study& study, RunOptions& options) {
+void add_runs(Command sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
             "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   add_words(sub, "--report", study.report,
@@ -76,7 +76,7 @@ void add_runs(Command sub, tune::Study& study, RunOptions& options) {
   add_keeping(sub, options);
 }
 
-void add_keeping(Command sub, RunOptions& options) {
+void add_keeping(Command sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "at a time; as many as the machine has")
       .is_between(1, 1024);
   sub.add_option("--results", options.results,

@@ -14,17 +14,17 @@
 namespace sinew::cli {
 
 // What all of these commands take besides the study.
-struct RunOptions {
+struct RunsOptions {
   int threads = 0;      // 0: as many as the machine has
   std::string results;  // a study's file
   std::string shard;    // "2/3"; empty: all points
 };
 
 // How many threads that is.
-int threads_of(const RunOptions& options);
+int threads_of(const RunsOptions& options);
 
 struct SweepRuns {
-  const RunOptions& options;
+  const RunsOptions& options;
   const Messages& messages;
   bool bar = true;                 // shows on a terminal how far it is
   tune::Master* master = nullptr;  // hands out the runs to other processes
@@ -33,7 +33,7 @@ struct SweepRuns {
 
 // Runs what other processes of mpirun hand out, where this one is not the first of them. Returns
 // false where it is, or is alone. `sweep` returns the sweep of this command line.
-bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
+bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
                   const std::function<tune::Sweep()>& sweep);
 
 // Returns the rows of the share: those that were there and those that were run. Tells what is to be
@@ -43,10 +43,10 @@ std::vector<tune::Row> run_rows(const tune::Sweep& sweep, const SweepRuns& how);
 
 // --range, --set, --report, --units, --allow-unreachable, --threads, --results: what every command
 // with runs takes.
-void add_runs(Command sub, tune::Study& study, RunOptions& options);
+void add_runs(Command sub, tune::Study& study, RunsOptions& options);
 
 // --threads and --results alone.
-void add_keeping(Command sub, RunOptions& options);
+void add_keeping(Command sub, RunsOptions& options);
 
 // An option that takes one word each time that it is named, so that what follows stays what it is.
 void add_words(Command sub, const char* name, std::vector<std::string>& words,

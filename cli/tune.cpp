@@ -21,15 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct TuneOptions {
   std::string file, out, best, units;
   std::vector<std::string> sets;
-  RunOptions runs;
+  RunsOptions runs;
   int generations = 0, candidate = -1;
   bool force = false, json = false, quiet = false;
 };
 
-tune::Tuned run_tuning(const tune::Tuning& tuning, const Options& options, tune::Master& master,
+tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, tune::Master& master,
                        const Messages& messages) {
   const auto all = static_cast<std::int64_t>(tune::points(tuning.runs));
   std::atomic<std::int64_t> progress{0};
@@ -57,7 +57,7 @@ std::string command_of(const tune::Tuning& tuning, const tune::Candidate& candid
   return out + (tuning.runs.allow_unreachable ? " --allow-unreachable" : "");
 }
 
-void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const Options& options) {
+void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const TuneOptions& options) {
   tune::TableFile csv(options.out, tune::candidate_headings(tuning), options.force, {options.file});
   for (const tune::Candidate& c : tuned.candidates) csv.add(tune::candidate_cells(c));
   csv.throw_failure();
@@ -66,7 +66,7 @@ void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const Opt
 
 // Prints the table. Units that were asked for now are stronger than those that the file names, and
 // these are stronger than the units of the person's settings.
-void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Options& options) {
+void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const TuneOptions& options) {
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
   const char* session = std::getenv(config::units_variable);
   const tune::TableUnits shown{asked.units, !options.units.empty() || (session && *session)};
@@ -76,7 +76,7 @@ void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Opti
 }
 
 // The one that was asked for, or the only best one.
-const tune::Candidate& chosen(const tune::Tuned& tuned, const Options& options) {
+const tune::Candidate& chosen(const tune::Tuned& tuned, const TuneOptions& options) {
   const std::size_t all = tuned.candidates.size();
   const auto asked = static_cast<std::size_t>(options.candidate);
   if (options.candidate < 0 && tuned.best.size() == 1) return tuned.candidates[tuned.best.front()];
@@ -87,8 +87,8 @@ const tune::Candidate& chosen(const tune::Tuned& tuned, const Options& options) 
                fmt::format("the number of one, 0 to {}", all - 1), "one of the table's");
 }
 
-ExitCode tune_all(const Options& given) {
-  Options options = given;
+ExitCode tune_all(const TuneOptions& given) {
+  TuneOptions options = given;
   const auto asked = [&] {
     return tune::load_tuning(options.file, options.sets, options.generations);
   };
@@ -125,7 +125,7 @@ ExitCode tune_all(const Options& given) {
 }  // namespace
 
 void add_tune(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TuneOptions>();
   Command sub = app.subcommand("tune", "the best values of an experiment's keys",
                                "sinew tune studies/faster-walk.toml --best faster-walk.toml");
   sub.add_option("FILE", options->file, "what is tuned, by which goals: docs/how-to-tune.md")

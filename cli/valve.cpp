@@ -24,12 +24,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ValveOptions {
   std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz", units;
   bool json = false, quiet = false;
 };
 
-std::vector<run::Delivered> deliveries(const gas::Valve& valve, const Options& options) {
+std::vector<run::Delivered> deliveries(const gas::Valve& valve, const ValveOptions& options) {
   std::vector<run::Delivered> out;
   if (options.duty.empty()) return out;
   const gas::Delays delays = gas::delays(valve);
@@ -41,7 +41,7 @@ std::vector<run::Delivered> deliveries(const gas::Valve& valve, const Options& o
   return out;
 }
 
-ExitCode run_valve(const Options& options) {
+ExitCode run_valve(const ValveOptions& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const gas::Valve& valve = config::named(file.experiment.valves, options.name, "NAME", "valve");
@@ -77,7 +77,7 @@ ExitCode run_valve(const Options& options) {
 }  // namespace
 
 void add_valve(Command app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ValveOptions>();
   Command sub =
       app.subcommand("valve", "flow, filling times and delays of a valve",
                      "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "

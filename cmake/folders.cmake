@@ -24,11 +24,17 @@ function(sinew_optimize_nothing target)
   target_compile_options(${target} PRIVATE -O0)
 endfunction()
 
-# A build that is made once compiles the sources of a folder some at a time (presets release, asan,
+# A build that is made once compiles the sources of a target some at a time (presets release, asan,
 # tsan): their headers are read and instantiated once. One that is edited compiles each alone.
-option(SINEW_TOGETHER "compile the sources of a folder some at a time" OFF)
-# In these, files have names of their own for the same thing.
-set(sinew_apart live tune)
+# Sources that are compiled together must not use one name for two things at namespace scope.
+option(SINEW_TOGETHER "compile the sources of a target some at a time" OFF)
+function(sinew_together target at_a_time)
+  if(SINEW_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${at_a_time})
+    # It takes a source that is compiled with others for a header, which may not have types of its own.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
 
 function(sinew_folder path)
   sinew_target(${path} target)
@@ -45,9 +51,7 @@ function(sinew_folder path)
   if(sources)
     add_library(${target} STATIC ${sources} ${headers})
     set(scope PUBLIC)
-    if(SINEW_TOGETHER AND NOT path IN_LIST sinew_apart)
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    endif()
+    sinew_together(${target} 6)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -66,6 +70,7 @@ function(sinew_folder path)
     add_executable(${target}_test ${tests})
     sinew_optimize_nothing(${target}_test)
     sinew_precompiled(${target}_test test)
+    sinew_together(${target}_test 6)
     target_link_libraries(${target}_test PRIVATE ${target} GTest::gtest_main)
     target_compile_definitions(${target}_test PRIVATE SINEW_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(${target}_test TEST_PREFIX "${path}: " DISCOVERY_TIMEOUT 60)

@@ -12,7 +12,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::body_test {
 namespace {
 
 const double atmosphere = thesis_atmosphere;
@@ -201,4 +201,4 @@ TEST(Body, TensionGrowsWithPressure) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::body_test

@@ -10,7 +10,7 @@
 
 #include "sinew/actuator/tension.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::braid_test {
 namespace {
 
 constexpr Braid braid{.thread_length = 0.1071372, .turns = 2.3125};
@@ -110,4 +110,4 @@ TEST(Braid, WorkOfAStrokeIsPressureTimesVolume) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::braid_test

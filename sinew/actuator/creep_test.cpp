@@ -8,7 +8,7 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::creep_test {
 namespace {
 
 constexpr double bar = 1e5;
@@ -68,4 +68,4 @@ TEST(Creep, IsExponentialWhereTheEffectivenessIsConstant) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::creep_test

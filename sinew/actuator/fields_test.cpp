@@ -8,7 +8,7 @@
 #include "sinew/actuator/thesis_actuator.h"
 #include "tests/field_visitor.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::fields_test {
 namespace {
 
 using tests::FieldVisitor;
@@ -200,4 +200,4 @@ TEST(ActuatorFields, AShorterPolynomialEndsInZeros) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::fields_test

@@ -11,7 +11,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::hysteresis_test {
 namespace {
 
 constexpr double bar = 1e5;
@@ -220,4 +220,4 @@ TEST(Hysteresis, StretchingPullsHarder) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::hysteresis_test

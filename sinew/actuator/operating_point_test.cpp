@@ -11,7 +11,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::operating_point_test {
 namespace {
 
 constexpr Surroundings around{thesis_atmosphere, 1.4, 1e-6};
@@ -51,4 +51,4 @@ TEST(OperatingPoint, SaysWhereTheModelEndsAndOnlyThere) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::operating_point_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace sinew::actuator {
+namespace sinew::actuator::prediction_test {
 namespace {
 
 // Four lengths of which the middle two are furthest apart.
@@ -112,4 +112,4 @@ TEST(Prediction, OneLengthSpeaksForItself) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::prediction_test

@@ -13,7 +13,7 @@
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::reference_test {
 namespace {
 
 using nlohmann::json;
@@ -169,4 +169,4 @@ TEST(ReferenceActuator, SecantIsWellBelowTheSealedStiffness) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::reference_test

@@ -10,7 +10,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::series_test {
 namespace {
 
 const double atmosphere = thesis_atmosphere;
@@ -98,4 +98,4 @@ TEST(Series, TensionFallsAsEndsGiveWayAndGrowsWithPressure) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::series_test

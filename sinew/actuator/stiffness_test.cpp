@@ -10,7 +10,7 @@
 #include "sinew/actuator/bundle.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::stiffness_test {
 namespace {
 
 const double atmosphere = thesis_atmosphere;
@@ -205,4 +205,4 @@ TEST(Bundle, IsThatManySingleActuators) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::stiffness_test

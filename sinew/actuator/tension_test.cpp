@@ -10,7 +10,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::tension_test {
 namespace {
 
 const double atmosphere = thesis_atmosphere;
@@ -187,4 +187,4 @@ TEST(SlidingTension, LosesBothWaysAndOnlyWhileItMoves) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::tension_test

@@ -10,7 +10,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::actuator {
+namespace sinew::actuator::toe_test {
 namespace {
 
 const double atmosphere = thesis_atmosphere;
@@ -95,4 +95,4 @@ TEST(Toe, TheSpringIsStretchedByTheSoftTension) {
 }
 
 }  // namespace
-}  // namespace sinew::actuator
+}  // namespace sinew::actuator::toe_test

@@ -10,7 +10,7 @@
 #include "sinew/air/test_machines.h"
 #include "sinew/gas/air.h"
 
-namespace sinew::air {
+namespace sinew::air::body_test {
 namespace {
 
 Muscle real_tube() {
@@ -48,4 +48,4 @@ TEST(RealTube, PullsAndHoldsAirByItsLaws) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::body_test

@@ -8,7 +8,7 @@
 #include "sinew/air/test_integrator.h"
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::cylinder_test {
 namespace {
 
 Cylinder thesis_cylinder() {
@@ -164,4 +164,4 @@ TEST(Cylinder, ChambersThatVanishAreRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::cylinder_test

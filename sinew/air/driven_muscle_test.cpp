@@ -7,7 +7,7 @@
 
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::driven_muscle_test {
 namespace {
 
 double swinging(double t) { return (3.2 + 0.3 * std::sin(9 * t)) * inch; }
@@ -89,4 +89,4 @@ TEST(DrivenMuscle, NeedsRoomForAir) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::driven_muscle_test

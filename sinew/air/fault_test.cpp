@@ -12,7 +12,7 @@
 #include "sinew/air/test_integrator.h"
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::fault_test {
 namespace {
 
 using What = AirFault::What;
@@ -256,4 +256,4 @@ TEST(Faults, BeforeItsTimeAFaultIsNone) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::fault_test

@@ -9,7 +9,7 @@
 #include "sinew/air/test_integrator.h"
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::memory_test {
 namespace {
 
 Motion still(double length) { return still_at(length); }
@@ -175,4 +175,4 @@ TEST(Memory, HysteresisTakesWork) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::memory_test

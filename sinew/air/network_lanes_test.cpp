@@ -13,7 +13,7 @@
 #include "sinew/air/test_integrator.h"
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::network_lanes_test {
 namespace {
 
 // A network with its valves and memory beside it, asked for any lengths and masses.
@@ -283,4 +283,4 @@ TEST(AirNetwork, MoreThanItHoldsIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::network_lanes_test

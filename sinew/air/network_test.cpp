@@ -9,7 +9,7 @@
 #include "sinew/air/test_integrator.h"
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::network_test {
 namespace {
 
 // Everything that lanes hold: bundles, losses, ends, 2-way and 3-way valves, ramps.
@@ -88,4 +88,4 @@ TEST(AirNetwork, MusclesAreTheSameWhateverStandsBeside) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::network_test

@@ -9,7 +9,7 @@
 #include "sinew/air/test_machines.h"
 #include "sinew/gas/heat.h"
 
-namespace sinew::air {
+namespace sinew::air::options_test {
 namespace {
 
 Motion still(double length = 3.15 * inch) { return still_at(length); }
@@ -354,4 +354,4 @@ TEST(AirNetwork, QuietMeansThatNothingMoves) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::options_test

@@ -12,7 +12,7 @@
 #include "sinew/air/test_machines.h"
 #include "sinew/gas/air.h"
 
-namespace sinew::air {
+namespace sinew::air::regulator_lanes_test {
 namespace {
 
 constexpr double lag = 0.03, step = 1e-3;
@@ -180,4 +180,4 @@ TEST_F(FourRegulated, HaveTheSameBitsInAnyLane) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::regulator_lanes_test

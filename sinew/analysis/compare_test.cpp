@@ -7,7 +7,7 @@
 
 #include "sinew/analysis/record/test_log.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::compare_test {
 namespace {
 
 using Times_ns = signals::Times;
@@ -221,4 +221,4 @@ TEST(Compare, RelativeDifferencesAreThoseOfTheFirst) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::compare_test

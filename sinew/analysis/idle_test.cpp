@@ -6,7 +6,7 @@
 #include "sinew/analysis/warnings.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::idle_test {
 namespace {
 
 using test::constant;
@@ -147,4 +147,4 @@ TEST(OverturnedJoints, AreNoneWithinWhatMusclesReach) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::idle_test

@@ -11,7 +11,7 @@
 #include "sinew/analysis/warnings.h"
 #include "sinew/robot/legs.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::legs_test {
 namespace {
 
 using test::constant;
@@ -146,4 +146,4 @@ TEST(Legs, WarningsNameTheLeg) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::legs_test

@@ -7,7 +7,7 @@
 #include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::summary_docs_test {
 namespace {
 
 using test::constant;
@@ -55,4 +55,4 @@ TEST(Summary, EveryKeyIsInTheDocs) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::summary_docs_test

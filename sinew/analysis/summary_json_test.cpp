@@ -9,7 +9,7 @@
 #include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::summary_json_test {
 namespace {
 
 using test::walk;
@@ -80,4 +80,4 @@ TEST(Json, IsValidAndBringsBackTheSameBits) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::summary_json_test

@@ -9,7 +9,7 @@
 
 #include "sinew/analysis/record/test_log.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::summary_test {
 namespace {
 
 using test::constant;
@@ -379,4 +379,4 @@ TEST(Summary, OfACutLogTheLastStepDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::summary_test

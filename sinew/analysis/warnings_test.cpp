@@ -5,7 +5,7 @@
 #include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::warnings_test {
 namespace {
 
 using test::constant;
@@ -134,4 +134,4 @@ TEST(Warnings, TellOfALogThatWasCutAndOfRollersInTheAir) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::warnings_test

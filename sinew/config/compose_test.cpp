@@ -9,7 +9,7 @@
 
 #include "sinew/config/lookup.h"
 
-namespace sinew::config {
+namespace sinew::config::compose_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -248,4 +248,4 @@ TEST(ComposeLeg, TheShippedFilesCompose) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::compose_test

@@ -8,7 +8,7 @@
 
 #include "sinew/config/compose.h"
 
-namespace sinew::config {
+namespace sinew::config::gains_test {
 namespace {
 
 const std::string walking = "0.9, 35.0\n0.035,6.5\n0.12,5.0\n";
@@ -121,4 +121,4 @@ TEST_F(GainFile, NeedsARowForEveryJoint) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::gains_test

@@ -6,7 +6,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/named.h"
 
-namespace sinew::config {
+namespace sinew::config::lookup_test {
 namespace {
 
 TEST(ValueAt, FindsTablesValuesAndPlacesOfListsAndNothingElse) {
@@ -43,4 +43,4 @@ TEST(Named, TheOnlyItemNeedsNoNameAndASlipIsTold) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::lookup_test

@@ -13,7 +13,7 @@
 #include "sinew/config/reader.h"
 #include "sinew/config/text_file.h"
 
-namespace sinew::config {
+namespace sinew::config::migrate_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ TEST(Migrate, FindsTheFormatOfEveryShippedFile) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::migrate_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sinew::config {
+namespace sinew::config::node_test {
 namespace {
 
 std::string message(std::string_view toml) {
@@ -109,4 +109,4 @@ TEST(Diagnostics, SuggestsOnlyWhatIsNear) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::node_test

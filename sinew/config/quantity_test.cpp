@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/units/literals.h"
 
-namespace sinew::config {
+namespace sinew::config::quantity_test {
 namespace {
 
 using namespace units::literals;
@@ -182,4 +182,4 @@ TEST(Quantity, CoefficientsOfAPolynomialHaveFallingUnits) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::quantity_test

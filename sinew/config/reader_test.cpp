@@ -10,7 +10,7 @@
 #include "sinew/units/literals.h"
 #include "sinew/units/ranges.h"
 
-namespace sinew::config {
+namespace sinew::config::reader_test {
 namespace {
 
 using namespace units::literals;
@@ -397,4 +397,4 @@ TEST(Reader, AVisitorMayComplainAndAPartMayBeRead) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::reader_test

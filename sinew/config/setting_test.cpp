@@ -5,7 +5,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::config {
+namespace sinew::config::setting_test {
 namespace {
 
 std::string refusal(const std::string& text, const Range& range) {
@@ -37,4 +37,4 @@ TEST(Setting, SaysItsNameAndRange) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::setting_test

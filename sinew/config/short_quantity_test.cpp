@@ -8,7 +8,7 @@
 
 #include "sinew/config/quantity.h"
 
-namespace sinew::config {
+namespace sinew::config::short_quantity_test {
 namespace {
 
 double read(std::string_view text, std::string_view unit) { return quantity(text, unit); }
@@ -74,4 +74,4 @@ TEST(QuantityLike, SpeaksInTheUnitThatSomebodyWrote) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::short_quantity_test

@@ -10,7 +10,7 @@
 
 #include "sinew/config/user_settings.h"
 
-namespace sinew::config {
+namespace sinew::config::shown_units_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ TEST_F(UnitsAskedOf, SettingsStandWhereTheFreedesktopRulesPutThem) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::shown_units_test

@@ -5,7 +5,7 @@
 
 #include "sinew/config/quantity.h"
 
-namespace sinew::config {
+namespace sinew::config::spelling_test {
 namespace {
 
 std::string first(std::string_view unit) {
@@ -142,4 +142,4 @@ TEST(Spelling, InOurOwnFilesItIsRefusedWithTheRightOne) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::spelling_test

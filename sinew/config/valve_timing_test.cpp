@@ -8,7 +8,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::config {
+namespace sinew::config::valve_timing_test {
 namespace {
 
 std::vector<std::string> good_rows() {
@@ -92,4 +92,4 @@ TEST(ValveTiming, AMissingFileIsAnError) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::valve_timing_test

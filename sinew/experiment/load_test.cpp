@@ -9,7 +9,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/machine_file.h"
 
-namespace sinew::experiment {
+namespace sinew::experiment::load_test {
 namespace {
 
 const std::string source = std::string(SINEW_SOURCE_DIR) + "/";
@@ -144,4 +144,4 @@ TEST(Load, AJudgedFigureNeedsItsClassAndItsBandAReason) {
 }
 
 }  // namespace
-}  // namespace sinew::experiment
+}  // namespace sinew::experiment::load_test

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace sinew::files {
+namespace sinew::files::check_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ TEST(Check, TellsWhatAnExperimentBreaksAndWhatNeverActs) {
 }
 
 }  // namespace
-}  // namespace sinew::files
+}  // namespace sinew::files::check_test

@@ -10,7 +10,7 @@
 #include "sinew/files/key_text.h"
 #include "sinew/files/keys_test.h"
 
-namespace sinew::files {
+namespace sinew::files::key_schema_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -158,4 +158,4 @@ TEST(KeySchema, OfAKindThatThereIsNotIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::files
+}  // namespace sinew::files::key_schema_test

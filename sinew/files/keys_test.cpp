@@ -19,7 +19,7 @@
 #include "sinew/files/values.h"
 #include "sinew/tune/optimizer/tuning.h"
 
-namespace sinew::files {
+namespace sinew::files::keys_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -284,4 +284,4 @@ TEST(Keys, TheNearestIsSuggested) {
 }
 
 }  // namespace
-}  // namespace sinew::files
+}  // namespace sinew::files::keys_test

@@ -5,7 +5,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::files {
+namespace sinew::files::values_test {
 namespace {
 
 const std::string leg = SINEW_SOURCE_DIR "/robots/leg/robot.toml";
@@ -37,4 +37,4 @@ TEST(Values, OfAKeyThatThereIsNotAreRefusedWithTheNearestOne) {
 }
 
 }  // namespace
-}  // namespace sinew::files
+}  // namespace sinew::files::values_test

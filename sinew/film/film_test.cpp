@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/film/process.h"
 
-namespace sinew::film {
+namespace sinew::film::film_test {
 namespace {
 
 using ::testing::AllOf;
@@ -104,4 +104,4 @@ TEST(Chromium, ThatIsMissingOrNoneIsToldWithWhatToDo) {
 }
 
 }  // namespace
-}  // namespace sinew::film
+}  // namespace sinew::film::film_test

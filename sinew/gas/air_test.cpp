@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::gas {
+namespace sinew::gas::air_test {
 namespace {
 
 TEST(Air, DensityIsTheInverseOfPressure) {
@@ -63,4 +63,4 @@ TEST(Air, ScalingAllPressuresLeavesTheLaw) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::air_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::gas {
+namespace sinew::gas::coil_current_test {
 namespace {
 
 Valve any_valve(std::mt19937& random) {
@@ -126,4 +126,4 @@ TEST(CoilCurrent, EnergyIsConserved) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::coil_current_test

@@ -11,7 +11,7 @@
 #include "sinew/gas/heat.h"
 #include "sinew/gas/supply.h"
 
-namespace sinew::gas {
+namespace sinew::gas::coil_test {
 namespace {
 
 // 4.3: standard 2 and 5 ms, speed-up below 1 ms.
@@ -177,4 +177,4 @@ TEST(Heat, EnergyAndTemperatureAreIdealGas) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::coil_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace sinew::gas {
+namespace sinew::gas::delay_test {
 namespace {
 
 constexpr double us = 1e-6;
@@ -340,4 +340,4 @@ TEST(Shutter, SaysWhenTooMuchWasToldAhead) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::delay_test

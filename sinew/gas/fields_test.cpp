@@ -8,7 +8,7 @@
 #include "sinew/gas/valve.fields.h"
 #include "tests/field_visitor.h"
 
-namespace sinew::gas {
+namespace sinew::gas::fields_test {
 namespace {
 
 using tests::FieldVisitor;
@@ -243,4 +243,4 @@ TEST(AirFields, FillEveryMember) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::fields_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::gas {
+namespace sinew::gas::fill_test {
 namespace {
 
 constexpr double volume = 1e-5, supply = 7.9e5;
@@ -133,4 +133,4 @@ TEST(Fill, DoesWithoutALinearPart) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::fill_test

@@ -9,7 +9,7 @@
 #include "sinew/gas/leak.h"
 #include "sinew/gas/series.h"
 
-namespace sinew::gas {
+namespace sinew::gas::hose_test {
 namespace {
 
 Hose pipe(double length, double diameter) {
@@ -142,4 +142,4 @@ TEST(Leak, IsTheHoleAndThePorousWallTogether) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::hose_test

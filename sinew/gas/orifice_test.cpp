@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace sinew::gas {
+namespace sinew::gas::orifice_test {
 namespace {
 
 constexpr double area = 1.6722547200000001e-06;  // 1.8e-5 ft2
@@ -268,4 +268,4 @@ TEST(Flow, ShutValvePassesNothing) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::orifice_test

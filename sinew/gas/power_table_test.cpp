@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::gas {
+namespace sinew::gas::power_table_test {
 namespace {
 
 double relative(double a, double b) { return std::fabs(a / b - 1.0); }
@@ -42,4 +42,4 @@ TEST(PowerTable, GoesByThePowerBeyondIt) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::power_table_test

@@ -13,7 +13,7 @@
 #include "sinew/gas/supply.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::gas {
+namespace sinew::gas::reference_test {
 namespace {
 
 using nlohmann::json;
@@ -141,4 +141,4 @@ TEST(ReferenceGas, AdiabaticSupplyWouldBeHot) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::reference_test

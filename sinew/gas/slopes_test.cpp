@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::gas {
+namespace sinew::gas::slopes_test {
 namespace {
 
 // A flow against its law, and its slopes against differences over 2e-6 of y. Not next to a kink,
@@ -92,4 +92,4 @@ TEST_F(Slopes, OfHosesAndLeaks) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::slopes_test

@@ -8,7 +8,7 @@
 
 #include "sinew/gas/orifice.h"
 
-namespace sinew::gas {
+namespace sinew::gas::valve_flow_test {
 namespace {
 
 constexpr int trials = 500;
@@ -97,4 +97,4 @@ TEST(Transfers, TakeLongerForMoreOfTheWayAndInProportionToTheVolume) {
 }
 
 }  // namespace
-}  // namespace sinew::gas
+}  // namespace sinew::gas::valve_flow_test

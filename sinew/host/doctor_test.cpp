@@ -9,7 +9,7 @@
 
 #include "sinew/host/doctor_files.h"
 
-namespace sinew::host {
+namespace sinew::host::doctor_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -192,4 +192,4 @@ TEST_F(Doctor, ALateTimerIsAdviceAndSaidByItsClass) {
 }
 
 }  // namespace
-}  // namespace sinew::host
+}  // namespace sinew::host::doctor_test

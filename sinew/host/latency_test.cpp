@@ -5,7 +5,7 @@
 
 #include "sinew/host/beat.h"
 
-namespace sinew::host {
+namespace sinew::host::latency_test {
 namespace {
 
 TEST(Latency, OfAThousandTheLastButOneIsWhatMostKeep) {
@@ -57,4 +57,4 @@ TEST(Beat, WhatHasPassedIsToldAsTicksBehind) {
 }
 
 }  // namespace
-}  // namespace sinew::host
+}  // namespace sinew::host::latency_test

@@ -5,15 +5,14 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <thread>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/live/server.h"
 #include "sinew/live/show.h"
+#include "sinew/live/text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/page.h"
@@ -54,13 +53,6 @@ struct Tee {
       tee.log.push(tee.log.object, tee.logged[topic], time_ns, values);
   }
 };
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 }  // namespace
 
@@ -122,7 +114,7 @@ class LiveRun::Impl {
         o.tapped.push_back(static_cast<std::uint16_t>(i));
       const auto kept = kept_.keep(run::run(kept_.experiment(), o));
       if (options_.kept) options_.kept(kept);
-      page_ = text_of(kept_.folder() / run::report_name);
+      page_ = file_text(kept_.folder() / run::report_name);
     } catch (const std::exception& e) {
       failure_ = std::current_exception();
       words_ = e.what();

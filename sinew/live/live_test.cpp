@@ -14,7 +14,7 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
 
-namespace sinew::live {
+namespace sinew::live::live_test {
 namespace {
 
 using experiment::Experiment;
@@ -311,4 +311,4 @@ TEST(Largest, IsTheLargestOfThePlan) {
 }
 
 }  // namespace
-}  // namespace sinew::live
+}  // namespace sinew::live::live_test

@@ -7,7 +7,7 @@
 
 #include "sinew/live/server.h"
 
-namespace sinew::live {
+namespace sinew::live::port_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,4 +41,4 @@ TEST(Server, TakesItsPortAgainAndAFreeOneWhileItIsTaken) {
 }
 
 }  // namespace
-}  // namespace sinew::live
+}  // namespace sinew::live::port_test

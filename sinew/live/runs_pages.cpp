@@ -7,10 +7,10 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "sinew/config/node.h"
 #include "sinew/live/path_numbers.h"
+#include "sinew/live/text.h"
 #include "sinew/report/compare/comparison.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/page_template.h"
@@ -39,7 +39,6 @@ std::vector<fs::path> runs_below(const fs::path& folder) {
 
 namespace {
 
-constexpr const char* plain = "text/plain; charset=utf-8";
 constexpr std::size_t most_compared = 8;
 
 Reply not_found() { return {404, "Nothing is here; the runs are at runs.\n", plain}; }
@@ -77,10 +76,6 @@ Json summary_in(const fs::path& folder) {
   std::ifstream in(folder / run::summary_name);
   Json out = in ? Json::parse(in, nullptr, false) : Json();
   return out.is_object() ? out : Json::object();
-}
-
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -127,7 +122,7 @@ std::string RunsPages::told_of(std::size_t run) {
   out["robot"] = text_at(top, "robot_name");
   out["seed"] = text_at(top, "seed");
   if (summary.contains("duration_s")) out["duration_s"] = summary["duration_s"];
-  told = {written, text_of(out)};
+  told = {written, json_text(out)};
   return told.json;
 }
 
@@ -141,8 +136,8 @@ Reply RunsPages::list() {
   }
   report::Content content;
   content.title = "Runs";
-  content.json = fmt::format(R"({{"folder":{},"most":{},"runs":[{}]}})", text_of(folder_.string()),
-                             most_compared, runs);
+  content.json = fmt::format(R"({{"folder":{},"most":{},"runs":[{}]}})",
+                             json_text(folder_.string()), most_compared, runs);
   content.connect = " 'self'";  // the pictures come from here
   return {200, report::fill(report::run_list_template(), content)};
 }

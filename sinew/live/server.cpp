@@ -54,7 +54,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
                      });
   }
 
-  void handle(Request request) {
+  void handle(HttpRequest request) {
     if (!server->is_ours(request, http::field::host, ""))
       return write(request, {403, "This server answers to its own name only.\n", "text/plain"});
     const std::string_view target(request.target().data(), request.target().size());
@@ -79,7 +79,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
     write(request, server->handlers.get(path), head);
   }
 
-  void write(const Request& request, Reply reply, bool head = false) {
+  void write(const HttpRequest& request, Reply reply, bool head = false) {
     response = {static_cast<http::status>(reply.status), request.version()};
     response.set(http::field::content_type, reply.type);
     response.set(http::field::cache_control, "no-store");
@@ -113,7 +113,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
 // --- the server ---
 
 // The field names this server, as a browser writes it; exactly once.
-bool Server::Impl::is_ours(const Request& request, http::field field,
+bool Server::Impl::is_ours(const HttpRequest& request, http::field field,
                            std::string_view before) const {
   if (request.count(field) != 1) return false;
   const auto value = request[field];

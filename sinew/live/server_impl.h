@@ -26,7 +26,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using tcp = asio::ip::tcp;
 using Error = beast::error_code;
-using Request = http::request<http::string_body>;
+using HttpRequest = http::request<http::string_body>;
 
 inline constexpr std::size_t longest_message = 4 << 10;  // [bytes]
 
@@ -37,7 +37,7 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   explicit Impl(Handlers h) : handlers(std::move(h)) {}
 
   // Makes a WebSocket of the connection that asked for one.
-  void upgrade(beast::tcp_stream&& stream, const Request& request);
+  void upgrade(beast::tcp_stream&& stream, const HttpRequest& request);
   void send_frames();    // to each that is done with the last one
   void leave_sockets();  // without another word
 
@@ -46,7 +46,7 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   void accept();
   void tick();
   bool make_room();
-  bool is_ours(const Request& request, http::field field, std::string_view before) const;
+  bool is_ours(const HttpRequest& request, http::field field, std::string_view before) const;
   bool has_token(std::string_view target) const;
 
   asio::io_context io{1};

@@ -27,7 +27,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
     server->sockets.erase(id);
   }
 
-  void start(const Request& request) {
+  void start(const HttpRequest& request) {
     beast::get_lowest_layer(ws).expires_never();
     ws.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     ws.read_message_max(longest_message);
@@ -94,7 +94,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
   bool waits = true;  // for a frame
 };
 
-void Server::Impl::upgrade(beast::tcp_stream&& stream, const Request& request) {
+void Server::Impl::upgrade(beast::tcp_stream&& stream, const HttpRequest& request) {
   std::make_shared<Socket>(shared_from_this(), std::move(stream))->start(request);
 }
 

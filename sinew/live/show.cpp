@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sinew/live/request.h"
+#include "sinew/live/text.h"
 #include "sinew/report/page/page_template.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/signals/tick.h"
@@ -17,10 +18,6 @@ using Json = nlohmann::ordered_json;
 using What = gait::Setting::What;
 
 constexpr double whole_turn = 2 * std::numbers::pi;  // [rad]
-
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 std::string_view word(What what) {
   switch (what) {
@@ -112,7 +109,7 @@ std::string Show::controls() const {
                    {"unit", s.unit},
                    {"most", most > 0 ? 3 * most : usual(s.what)}});
   }
-  return text_of({{"controls", std::move(out)}});
+  return json_text({{"controls", std::move(out)}});
 }
 
 std::string Show::page(std::string_view server) const {
@@ -127,7 +124,7 @@ std::string Show::state() const {
     values.push_back(steering_.value(i));
     overridden.push_back(steering_.overridden(i));
   }
-  return text_of(
+  return json_text(
       {{"time", static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds},
        {"machine", stop_ != nullptr},
        {"stopping", stop_ != nullptr && stop_->load(std::memory_order_relaxed)},
@@ -181,7 +178,7 @@ std::string Show::refusal(Request::Kind kind) const {
 
 std::string Show::answer(std::string_view text) {
   using Kind = Request::Kind;
-  const auto error = [](std::string_view what) { return text_of({{"error", what}}); };
+  const auto error = [](std::string_view what) { return json_text({{"error", what}}); };
   Request r;
   try {
     r = read_request(text, settings_);

@@ -2,25 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "sinew/live/path_numbers.h"
+#include "sinew/live/text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/page.h"
 
 namespace sinew::live {
 namespace {
-
-constexpr const char* plain = "text/plain; charset=utf-8";
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 // A page that asks again by itself.
 Reply it_goes(std::size_t row) {
@@ -93,7 +83,7 @@ Reply StudyPages::run_of(Study& study, std::size_t row) {
   if (!folder) return it_goes(row);
   if (study.told.insert(row).second)
     notices_.note(fmt::format("row {}: kept in {}", row, folder->string()));
-  return {200, text_of(*folder / run::report_name)};
+  return {200, file_text(*folder / run::report_name)};
 }
 
 }  // namespace sinew::live

@@ -12,7 +12,7 @@
 #include "sinew/report/page/page.h"
 #include "sinew/tune/results/results.h"
 
-namespace sinew::live {
+namespace sinew::live::study_pages_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ TEST_F(StudyPagesTest, OtherThingsDoNotStandBesideEachOther) {
 }
 
 }  // namespace
-}  // namespace sinew::live
+}  // namespace sinew::live::study_pages_test

@@ -7,7 +7,7 @@
 
 #include "sinew/log/fixtures_test.h"
 
-namespace sinew::log {
+namespace sinew::log::csv_test {
 namespace {
 
 using namespace testing;
@@ -84,4 +84,4 @@ TEST(Csv, ToAFile) {
 }
 
 }  // namespace
-}  // namespace sinew::log
+}  // namespace sinew::log::csv_test

@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace sinew::log {
+namespace sinew::log::deflate_test {
 namespace {
 
 std::string random_bytes(std::size_t size, int values) {
@@ -39,4 +39,4 @@ TEST(Deflate, RefusesWhatIsCutOrForeign) {
 }
 
 }  // namespace
-}  // namespace sinew::log
+}  // namespace sinew::log::deflate_test

@@ -9,7 +9,7 @@
 #include "sinew/log/mcap.h"
 #include "sinew/log/message.h"
 
-namespace sinew::log {
+namespace sinew::log::reader_test {
 namespace {
 
 using namespace testing;
@@ -270,4 +270,4 @@ TEST(Reader, ReadsAWalkQuickly) {
 }
 
 }  // namespace
-}  // namespace sinew::log
+}  // namespace sinew::log::reader_test

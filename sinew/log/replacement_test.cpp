@@ -13,7 +13,7 @@
 #include "sinew/log/reader.h"
 #include "sinew/log/writer.h"
 
-namespace sinew::log {
+namespace sinew::log::replacement_test {
 namespace {
 
 using namespace testing;
@@ -143,4 +143,4 @@ TEST(Lock, OfALogIsItsWriters) {
 }
 
 }  // namespace
-}  // namespace sinew::log
+}  // namespace sinew::log::replacement_test

@@ -7,7 +7,7 @@
 #include "sinew/log/mcap.h"
 #include "sinew/log/reader.h"
 
-namespace sinew::log {
+namespace sinew::log::steady_test {
 namespace {
 
 using namespace testing;
@@ -114,4 +114,4 @@ TEST(Steady, OfATopicThatThereIsNotIsWhatItIs) {
 }
 
 }  // namespace
-}  // namespace sinew::log
+}  // namespace sinew::log::steady_test

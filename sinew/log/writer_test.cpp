@@ -31,7 +31,7 @@ thread_local std::size_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* at) noexcept { std::free(at); }
 [[gnu::noinline]] void operator delete(void* at, std::size_t) noexcept { std::free(at); }
 
-namespace sinew::log {
+namespace sinew::log::writer_test {
 namespace {
 
 using namespace testing;
@@ -279,4 +279,4 @@ TEST(Writer, KilledRunLosesOnlyItsLastMilliseconds) {
 }
 
 }  // namespace
-}  // namespace sinew::log
+}  // namespace sinew::log::writer_test

@@ -10,7 +10,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/read.h"
 
-namespace sinew::recording {
+namespace sinew::recording::assemble_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -266,4 +266,4 @@ TEST_F(AssembleTest, SaysWhatIsWrongAndWhatToDo) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::assemble_test

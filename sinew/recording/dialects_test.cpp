@@ -7,7 +7,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/raw_table.h"
 
-namespace sinew::recording {
+namespace sinew::recording::dialects_test {
 namespace {
 
 RawTable read(std::string text, Source source = {}) {
@@ -226,4 +226,4 @@ TEST(Dialects, OfColumnsWithOneNameBothAreKept) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::dialects_test

@@ -8,7 +8,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::recording {
+namespace sinew::recording::mapping_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ TEST_F(MappingTest, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::mapping_test

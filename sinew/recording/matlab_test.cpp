@@ -14,7 +14,7 @@
 
 // Files are written here byte by byte, as the format is published, so that what reads them is not
 // what wrote them.
-namespace sinew::recording {
+namespace sinew::recording::matlab_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_F(MatlabTest, Level4HasVectorsToo) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::matlab_test

@@ -5,7 +5,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::recording {
+namespace sinew::recording::measured_test {
 namespace {
 
 constexpr Wanted wanted[] = {
@@ -122,4 +122,4 @@ TEST(Measured, TwoColumnsOfOneNameAreRefusedUnlessAnAtTellsThemApart) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::measured_test

@@ -16,7 +16,7 @@
 #include "sinew/recording/assemble.h"
 #include "sinew/recording/measured.h"
 
-namespace sinew::recording {
+namespace sinew::recording::read_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST_F(ReadTest, CountsTheBytesOfATableForWhoeverLooks) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::read_test

@@ -11,7 +11,7 @@
 #include "sinew/recording/measured.h"
 #include "sinew/recording/raw_table.h"
 
-namespace sinew::recording {
+namespace sinew::recording::wrong_test {
 namespace {
 
 constexpr Wanted wanted[] = {
@@ -306,4 +306,4 @@ TEST(Wrong, WhatIsLeftOutIsNoted) {
 }
 
 }  // namespace
-}  // namespace sinew::recording
+}  // namespace sinew::recording::wrong_test

@@ -8,7 +8,7 @@
 
 #include "sinew/robot/test_leg.h"
 
-namespace sinew::robot {
+namespace sinew::robot::boards_test {
 namespace {
 
 // Joints in a row, each with a pair, its angle and two tensions; ticks and channels of its board
@@ -198,4 +198,4 @@ TEST(Boards, EachHasItsOwnBitsChannelsAndTicks) {
 }
 
 }  // namespace
-}  // namespace sinew::robot
+}  // namespace sinew::robot::boards_test

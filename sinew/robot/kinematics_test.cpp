@@ -8,7 +8,7 @@
 
 #include "sinew/robot/test_leg.h"
 
-namespace sinew::robot {
+namespace sinew::robot::kinematics_test {
 namespace {
 
 using test::degree;
@@ -331,4 +331,4 @@ TEST(Normalised, IsWithinOneTurn) {
 }
 
 }  // namespace
-}  // namespace sinew::robot
+}  // namespace sinew::robot::kinematics_test

@@ -9,7 +9,7 @@
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/test_leg.h"
 
-namespace sinew::robot {
+namespace sinew::robot::legs_test {
 namespace {
 
 using test::inch;
@@ -143,4 +143,4 @@ TEST(Kinematics, PlacesOfATreeAreThoseOfItsLegs) {
 }
 
 }  // namespace
-}  // namespace sinew::robot
+}  // namespace sinew::robot::legs_test

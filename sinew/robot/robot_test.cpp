@@ -7,7 +7,7 @@
 #include "sinew/robot/robot.fields.h"
 #include "sinew/robot/test_leg.h"
 
-namespace sinew::robot {
+namespace sinew::robot::robot_test {
 namespace {
 
 // Keys that contradict something once `damage` is done to a sound leg.
@@ -183,4 +183,4 @@ TEST(RobotFields, EveryKeyIsExplained) {
 }
 
 }  // namespace
-}  // namespace sinew::robot
+}  // namespace sinew::robot::robot_test

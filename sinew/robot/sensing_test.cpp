@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace sinew::robot {
+namespace sinew::robot::sensing_test {
 namespace {
 
 TEST(Noise, IsUnitAndWhiteOverTicksAndSensors) {
@@ -48,4 +48,4 @@ TEST(Counts, APotentiometerCountsFromItsRestAngle) {
 }
 
 }  // namespace
-}  // namespace sinew::robot
+}  // namespace sinew::robot::sensing_test

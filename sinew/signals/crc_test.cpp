@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sinew::signals {
+namespace sinew::signals::crc_test {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
@@ -53,4 +53,4 @@ TEST(Crc, TablesAgreeWithBitByBit) {
 }
 
 }  // namespace
-}  // namespace sinew::signals
+}  // namespace sinew::signals::crc_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-namespace sinew::signals {
+namespace sinew::signals::paged_vector_test {
 namespace {
 
 using Numbers = PagedVector<std::int64_t>;
@@ -119,4 +119,4 @@ TEST(PageFile, UsesPagesAgain) {
 }
 
 }  // namespace
-}  // namespace sinew::signals
+}  // namespace sinew::signals::paged_vector_test

@@ -4,7 +4,7 @@
 #include "sinew/signals/pulse.h"
 #include "sinew/signals/timing.h"
 
-namespace sinew::signals {
+namespace sinew::signals::signals_test {
 namespace {
 
 TEST(Timing, IdentityIsThePrintedRule) {
@@ -49,4 +49,4 @@ TEST(Pulse, IdealValveDeliversTheDuty) {
 }
 
 }  // namespace
-}  // namespace sinew::signals
+}  // namespace sinew::signals::signals_test

@@ -7,17 +7,12 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/tune/refuse.h"
 
 namespace sinew::tune {
 namespace {
 
 constexpr double most_values = 10000;
-
-[[noreturn]] void refuse(std::string_view setting, std::string_view text, std::string expected,
-                         std::string try_this = "") {
-  config::fail({std::string(setting), 0, 0}, "", config::in_quotes(text), std::move(expected),
-               std::move(try_this));
-}
 
 // "0.05 %/count"; a word such as "2-way" is none.
 struct Number {

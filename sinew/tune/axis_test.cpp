@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 
-namespace sinew::tune {
+namespace sinew::tune::axis_test {
 namespace {
 
 std::vector<std::string> texts(const Axis& axis) {
@@ -98,4 +98,4 @@ TEST(Grid, HasEveryCombinationOnceTheLastAxisFastest) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::axis_test

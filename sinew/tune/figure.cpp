@@ -8,15 +8,10 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/tune/axis.h"
+#include "sinew/tune/refuse.h"
 
 namespace sinew::tune {
 namespace {
-
-[[noreturn]] void refuse(std::string_view setting, std::string_view text, std::string expected,
-                         std::string try_this = "") {
-  config::fail({std::string(setting), 0, 0}, "", config::in_quotes(text), std::move(expected),
-               std::move(try_this));
-}
 
 Figure parse_figure(std::string_view text, std::string_view setting) {
   const std::size_t bracket = text.find('[');

@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/tune/largest.h"
 
-namespace sinew::tune {
+namespace sinew::tune::figure_test {
 namespace {
 
 analysis::Summary summary() {
@@ -104,4 +104,4 @@ TEST(Largest, TakesTheLowestPart) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::figure_test

@@ -5,7 +5,7 @@
 
 #include "sinew/tune/sweep.h"
 
-namespace sinew::tune {
+namespace sinew::tune::notes_test {
 namespace {
 
 const std::string root = SINEW_SOURCE_DIR;
@@ -79,4 +79,4 @@ TEST(Share, HasEachPointOnce) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::notes_test

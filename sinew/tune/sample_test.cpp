@@ -9,7 +9,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::tune {
+namespace sinew::tune::sample_test {
 namespace {
 
 using Kind = Sample::Kind;
@@ -173,4 +173,4 @@ TEST(Range, SharesComeBackFromTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::sample_test

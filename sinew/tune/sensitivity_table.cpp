@@ -15,13 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // A column: its heading, and what of an effect stands in it.
-struct Number {
+struct ShownNumber {
   const char* heading;
   Estimate Effect::*which;
   bool with_interval;
 };
 
-std::vector<Number> numbers(Method method) {
+std::vector<ShownNumber> numbers(Method method) {
   if (method == Method::one_at_a_time)
     return {{"to the low end", &Effect::to_low, false},
             {"to the high end", &Effect::to_high, false}};
@@ -78,7 +78,7 @@ std::vector<FigureSensitivity> sensitivities(const Design& design, const Sweep& 
 
 std::vector<std::string> sensitivity_headings(Method method) {
   std::vector<std::string> out{"figure", "range"};
-  for (const Number& n : numbers(method)) {
+  for (const ShownNumber& n : numbers(method)) {
     out.emplace_back(n.heading);
     if (!n.with_interval) continue;
     out.push_back(fmt::format("{}, low", n.heading));
@@ -93,7 +93,7 @@ std::vector<std::vector<std::string>> sensitivity_rows(const Design& design, con
   for (const FigureSensitivity& f : all)
     for (std::size_t i = 0; i < runs.sample->ranges.size(); ++i) {
       std::vector<std::string> row{f.figure, runs.sample->ranges[i].axis.heading()};
-      for (const Number& n : numbers(design.method)) {
+      for (const ShownNumber& n : numbers(design.method)) {
         const Estimate e = f.found ? f.found->effects[i].*n.which : Estimate{};
         const auto add = [&](double x) { row.push_back(f.found ? cell(x) : ""); };
         add(e.value);
@@ -119,7 +119,7 @@ std::string sensitivity_json(const Design& design, const Sweep& runs,
       figure["ranges"] = Json::array();
       for (std::size_t i = 0; i < f.found->effects.size(); ++i) {
         Json range{{"range", runs.sample->ranges[i].axis.heading()}};
-        for (const Number& n : numbers(design.method)) {
+        for (const ShownNumber& n : numbers(design.method)) {
           const Estimate& e = f.found->effects[i].*n.which;
           range[n.heading] =
               n.with_interval ? Json::array({e.value, e.low, e.high}) : Json(e.value);

@@ -7,7 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::tune {
+namespace sinew::tune::sensitivity_table_test {
 namespace {
 
 const std::string lever = std::string(SINEW_SOURCE_DIR) + "/experiments/one-joint.toml";
@@ -84,4 +84,4 @@ TEST(SensitivityTable, RefusesWhatIsNoStudy) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::sensitivity_table_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sinew::tune {
+namespace sinew::tune::sensitivity_test {
 namespace {
 
 using Point = std::span<const double>;
@@ -142,4 +142,4 @@ TEST(Sensitivity, WhatHasNoFigureIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::sensitivity_test

@@ -12,7 +12,7 @@
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
 
-namespace sinew::tune {
+namespace sinew::tune::sweep_test {
 namespace {
 
 const std::string root = SINEW_SOURCE_DIR;
@@ -319,4 +319,4 @@ TEST_F(Plan, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::sweep_test

@@ -10,7 +10,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::tune {
+namespace sinew::tune::table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST(Table, AFigureThatNoRowHasIsRefusedAndOneThatSomeHaveIsNot) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::table_test

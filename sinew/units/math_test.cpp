@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace sinew::units {
+namespace sinew::units::math_test {
 namespace {
 
 constexpr int samples = 200000;
@@ -120,4 +120,4 @@ TEST(Math, CompilerAndProgramAgree) {
 }
 
 }  // namespace
-}  // namespace sinew::units
+}  // namespace sinew::units::math_test

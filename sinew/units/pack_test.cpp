@@ -10,7 +10,7 @@
 
 #include "sinew/units/math.h"
 
-namespace sinew::units {
+namespace sinew::units::pack_test {
 namespace {
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
@@ -157,4 +157,4 @@ TYPED_TEST(PackOf, StructsLieSideBySide) {
 }
 
 }  // namespace
-}  // namespace sinew::units
+}  // namespace sinew::units::pack_test

@@ -10,7 +10,7 @@
 
 #include "sinew/units/shown_table.h"
 
-namespace sinew::units {
+namespace sinew::units::shown_test {
 namespace {
 
 constexpr UnitSet all_sets[] = {UnitSet::si, UnitSet::thesis, UnitSet::metric};
@@ -177,4 +177,4 @@ TEST(ToldUnit, IsReadWithWhatAPressureCountsFrom) {
 }
 
 }  // namespace
-}  // namespace sinew::units
+}  // namespace sinew::units::shown_test

@@ -7,7 +7,7 @@
 #include "sinew/units/literals.h"
 #include "sinew/units/unit.h"
 
-namespace sinew::units {
+namespace sinew::units::units_test {
 namespace {
 
 using namespace literals;
@@ -87,4 +87,4 @@ TEST(Unit, NamesThePieceItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace sinew::units
+}  // namespace sinew::units::units_test

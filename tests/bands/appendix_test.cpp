@@ -10,7 +10,7 @@
 #include "sinew/units/constants.h"
 #include "tests/bands/shipped.h"
 
-namespace sinew {
+namespace sinew::appendix_test {
 namespace {
 
 using test::Sets;
@@ -225,4 +225,4 @@ TEST(Appendix, ADeadBandSavesAirAndSwitchingsAndThenTheWalk) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::appendix_test

@@ -10,7 +10,7 @@
 #include "sinew/units/constants.h"
 #include "tests/bands/shipped.h"
 
-namespace sinew {
+namespace sinew::bands_test {
 namespace {
 
 constexpr double inch = units::inch, degree = 3.14159265358979312 / 180;
@@ -236,4 +236,4 @@ TEST(Bands, TheLowerTheTableTheShorterTheWalkUnlessTheFootFeelsIt) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::bands_test

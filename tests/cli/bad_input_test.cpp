@@ -3,7 +3,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::bad_input_test {
 namespace {
 
 using ::testing::AllOf;
@@ -385,4 +385,4 @@ TEST(Check, AsksForSourcesInRobotsAlone) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::bad_input_test

@@ -8,7 +8,7 @@
 #include "sinew/units/literals.h"
 #include "tests/cli/json.h"
 
-namespace sinew::test {
+namespace sinew::test::calculators_test {
 namespace {
 
 using namespace units::literals;
@@ -305,4 +305,4 @@ TEST(Valve, SaysThatItsFlowIsInTheLinearPart) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::calculators_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::compare_test {
 namespace {
 
 using ::testing::AllOf;
@@ -238,4 +238,4 @@ TEST(Replay, OfTheControllerTellsOfEachValve) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::compare_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::completion_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ TEST(Completion, AShellThatThereIsNotIsWrongUsage) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::completion_test

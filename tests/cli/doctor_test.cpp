@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::doctor_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -55,4 +55,4 @@ TEST(Doctor, APlaceThatThereIsNotIsWrongUsage) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::doctor_test

@@ -7,7 +7,7 @@
 #include "sinew/log/reader.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::faults_test {
 namespace {
 
 using ::testing::AllOf;
@@ -360,4 +360,4 @@ TEST(Faults, AReversedRangeIsNamedOnce) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::faults_test

@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::figures_for_print_test {
 namespace {
 
 using ::testing::AllOf;
@@ -193,4 +193,4 @@ TEST(FiguresForPrint, WrongWordsAreToldWithTheRightOnes) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::figures_for_print_test

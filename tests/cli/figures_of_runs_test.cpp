@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::figures_of_runs_test {
 namespace {
 
 using ::testing::AllOf;
@@ -160,4 +160,4 @@ TEST(FiguresOfRuns, WrongWordsAreToldApart) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::figures_of_runs_test

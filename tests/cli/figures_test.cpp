@@ -3,7 +3,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::figures_test {
 namespace {
 
 using ::testing::AllOf;
@@ -25,4 +25,4 @@ TEST(Figures, KeepsWhatIsThereAndNamesWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::figures_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::files_test {
 namespace {
 
 using ::testing::AllOf;
@@ -167,4 +167,4 @@ TEST(Files, APartOfAUsersStays) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::files_test

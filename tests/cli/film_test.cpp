@@ -8,7 +8,7 @@
 #include "sinew/film/process.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::film_test {
 namespace {
 
 using ::testing::AllOf;
@@ -207,4 +207,4 @@ TEST(Film, OfATimeThatTheRunDoesNotHaveIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::film_test

@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_check_test {
 namespace {
 
 using ::testing::AllOf;
@@ -106,4 +106,4 @@ TEST(IdentifyCheck, StaticWarnsOfNothingInGoodData) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_check_test

@@ -9,7 +9,7 @@
 #include "sinew/units/literals.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_dynamic_test {
 namespace {
 
 using namespace units::literals;
@@ -137,4 +137,4 @@ TEST(IdentifyDynamic, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_dynamic_test

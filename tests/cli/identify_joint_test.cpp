@@ -10,7 +10,7 @@
 #include "sinew/units/constants.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_joint_test {
 namespace {
 
 using ::testing::AllOf;
@@ -163,4 +163,4 @@ TEST(IdentifyJoint, SeveralRecordingsHaveTheirZerosAndWhatIsKnownIsFrozen) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_joint_test

@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_page_test {
 namespace {
 
 using ::testing::AllOf;
@@ -190,4 +190,4 @@ TEST(IdentifyPages, TakeNobodysFileAway) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_page_test

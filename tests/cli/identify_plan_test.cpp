@@ -10,7 +10,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_plan_test {
 namespace {
 
 using ::testing::AllOf;
@@ -185,4 +185,4 @@ TEST(IdentifyPlan, OfAnActuatorsFile) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_plan_test

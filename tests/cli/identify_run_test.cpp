@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -163,4 +163,4 @@ TEST(IdentifyRun, RefusesWrongWordsInSentences) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_run_test

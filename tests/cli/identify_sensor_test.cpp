@@ -7,7 +7,7 @@
 #include "sinew/units/literals.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_sensor_test {
 namespace {
 
 using namespace units::literals;
@@ -105,4 +105,4 @@ TEST(ForceBeam, SaysWhereItEndsAndWhatItDoesNotTake) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_sensor_test

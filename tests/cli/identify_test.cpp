@@ -8,7 +8,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_test {
 namespace {
 
 using ::testing::AllOf;
@@ -278,4 +278,4 @@ TEST(Identify, OfAFileWhoseNameIsNoUtf8) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_test

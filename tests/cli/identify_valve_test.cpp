@@ -8,7 +8,7 @@
 #include "sinew/signals/pulse.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::identify_valve_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -233,4 +233,4 @@ TEST(IdentifyValve, DelaysAloneMakeNoFile) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::identify_valve_test

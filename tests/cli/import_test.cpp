@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::import_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -136,4 +136,4 @@ TEST(Import, WhatIsWrongIsToldAndLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::import_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::keys_test {
 namespace {
 
 using ::testing::AllOf;
@@ -102,4 +102,4 @@ TEST(Keys, WhatIsWrongIsToldWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::keys_test

@@ -10,7 +10,7 @@
 #include "sinew/log/reader.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::kill_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -75,4 +75,4 @@ TEST(Killed, LosesNoMoreThanTheLastMoment) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::kill_test

@@ -4,7 +4,7 @@
 #include "sinew/units/literals.h"
 #include "tests/cli/json.h"
 
-namespace sinew::test {
+namespace sinew::test::kinematics_test {
 namespace {
 
 using namespace units::literals;
@@ -122,4 +122,4 @@ TEST(Kinematics, GivesTheTorquesOfAForce) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::kinematics_test

@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::leaks_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(Leaks, NothingInternalIsSaidOfAFileThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::leaks_test

@@ -4,7 +4,7 @@
 #include "sinew/units/literals.h"
 #include "tests/cli/json.h"
 
-namespace sinew::test {
+namespace sinew::test::legs_test {
 namespace {
 
 using ::testing::AllOf;
@@ -131,4 +131,4 @@ TEST(Legs, WhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::legs_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::list_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ TEST(List, AWrongPlaceOfTheFilesOfSinewIsSaid) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::list_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::migrate_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,4 +216,4 @@ TEST(OldFiles, AreReadLeftAloneAndWalkedBy) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::migrate_test

@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::new_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -289,4 +289,4 @@ TEST(New, RobotOfAMuscleOfOnesOwnIsValidAndRuns) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::new_test

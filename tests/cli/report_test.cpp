@@ -4,7 +4,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::report_test {
 namespace {
 
 using ::testing::AllOf;
@@ -140,4 +140,4 @@ TEST(Report, WithoutNpmIsRefusedAndARunGoesWithoutIt) {
 #endif
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::report_test

@@ -6,7 +6,7 @@
 #include "sinew/log/reader.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::rig_test {
 namespace {
 
 using ::testing::AllOf;
@@ -135,4 +135,4 @@ TEST(Rig, ShowTellsWhereAValueCameFrom) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::rig_test

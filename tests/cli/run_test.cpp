@@ -7,7 +7,7 @@
 #include "sinew/log/reader.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -385,4 +385,4 @@ TEST(Replay, NamesTheFirstEdgeThatDiffers) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::run_test

@@ -6,7 +6,7 @@
 #include "tests/cli/json.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::sensitivity_test {
 namespace {
 
 using ::testing::AllOf;
@@ -69,4 +69,4 @@ TEST(Sensitivity, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::sensitivity_test

@@ -10,7 +10,7 @@
 #include "sinew/config/diagnostics.h"
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::settings_test {
 namespace {
 
 using cli::as_options;
@@ -118,4 +118,4 @@ TEST(Settings, TheOptionsExist) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::settings_test

@@ -9,7 +9,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::study_test {
 namespace {
 
 using ::testing::AllOf;
@@ -232,4 +232,4 @@ TEST_F(StudyOverMpi, IsRefusedWithoutTheModule) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::study_test

@@ -9,7 +9,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::sweep_test {
 namespace {
 
 using ::testing::AllOf;
@@ -188,4 +188,4 @@ TEST(Studies, AreInOrderAndOfToday) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::sweep_test

@@ -12,7 +12,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::terminal_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST(Terminal, AFullOrClosedStderrCostsNoResult) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::terminal_test

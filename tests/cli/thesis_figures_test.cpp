@@ -12,7 +12,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::thesis_figures_test {
 namespace {
 
 using ::testing::AllOf;
@@ -397,4 +397,4 @@ TEST(ThesisFigures, AreWhatTheirLawsSay) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::thesis_figures_test

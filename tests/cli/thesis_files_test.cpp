@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::thesis_files_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -97,4 +97,4 @@ TEST(GainFile, OfTheThesisIsTheLegs) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::thesis_files_test

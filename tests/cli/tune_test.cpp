@@ -8,7 +8,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::tune_test {
 namespace {
 
 using ::testing::AllOf;
@@ -170,4 +170,4 @@ TEST(Tuned, TheFasterWalkKeepsWhatWasAskedWithEverySeed) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::tune_test

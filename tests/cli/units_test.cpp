@@ -7,7 +7,7 @@
 
 #include "tests/cli/json.h"
 
-namespace sinew::test {
+namespace sinew::test::units_test {
 namespace {
 
 using ::testing::AllOf;
@@ -235,4 +235,4 @@ TEST(Units, ValuesAreShownAsTheyWereWritten) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::units_test

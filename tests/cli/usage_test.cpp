@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.h"
 
-namespace sinew::test {
+namespace sinew::test::usage_test {
 namespace {
 
 using ::testing::AllOf;
@@ -151,4 +151,4 @@ TEST(Usage, TopicsSayWhatAllCommandsShare) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::usage_test

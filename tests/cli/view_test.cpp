@@ -12,7 +12,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/wire.h"
 
-namespace sinew::test {
+namespace sinew::test::view_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -198,4 +198,4 @@ TEST_F(View, WhoSaysHalfOfItIsLeftAfterAWhile) {
 }
 
 }  // namespace
-}  // namespace sinew::test
+}  // namespace sinew::test::view_test

@@ -19,7 +19,7 @@
 #include "sinew/units/constants.h"
 #include "tests/reference/reference.h"
 
-namespace sinew::reference {
+namespace sinew::reference::constants_test {
 namespace {
 
 // --- constants ----------------------------------------------------------------------------------
@@ -107,4 +107,4 @@ TEST(Reference, ConstantsOfWhatIsNotModelled) {
 }
 
 }  // namespace
-}  // namespace sinew::reference
+}  // namespace sinew::reference::constants_test

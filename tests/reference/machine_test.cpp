@@ -21,7 +21,7 @@
 #include "sinew/units/constants.h"
 #include "tests/reference/reference.h"
 
-namespace sinew::reference {
+namespace sinew::reference::machine_test {
 namespace {
 
 // --- the leg ------------------------------------------------------------------------------------
@@ -372,4 +372,4 @@ TEST(Reference, NoSectionIsWithoutATest) {
 }
 
 }  // namespace
-}  // namespace sinew::reference
+}  // namespace sinew::reference::machine_test

@@ -6,7 +6,7 @@
 #include "sinew/signals/timing.h"
 #include "tests/reference/reference.h"
 
-namespace sinew::reference {
+namespace sinew::reference::predict_test {
 namespace {
 
 TEST(Reference, PredictDat) {
@@ -36,4 +36,4 @@ TEST(Reference, PredictDat) {
 }
 
 }  // namespace
-}  // namespace sinew::reference
+}  // namespace sinew::reference::predict_test

@@ -21,7 +21,7 @@
 
 #include "sinew/air/network.h"
 
-namespace sinew::reference {
+namespace sinew::reference::test_stand_test {
 namespace {
 
 using nlohmann::json;
@@ -384,4 +384,4 @@ TEST(TestStand, EverySetUpHasATest) {
 }
 
 }  // namespace
-}  // namespace sinew::reference
+}  // namespace sinew::reference::test_stand_test

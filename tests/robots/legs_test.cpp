@@ -4,7 +4,7 @@
 #include "runs.h"
 #include "sinew/units/constants.h"
 
-namespace sinew {
+namespace sinew::legs_test {
 namespace {
 
 using test::figure, test::seed, test::summary_of;
@@ -112,4 +112,4 @@ TEST(Spindles, DampTheHipOfTest2) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::legs_test

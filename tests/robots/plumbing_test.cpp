@@ -4,7 +4,7 @@
 #include "runs.h"
 #include "sinew/units/constants.h"
 
-namespace sinew {
+namespace sinew::plumbing_test {
 namespace {
 
 using test::figure, test::seed, test::summary_of;
@@ -128,4 +128,4 @@ TEST(Hoses, TakeWayAndHardlyDamp) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::plumbing_test

@@ -12,7 +12,7 @@
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 
-namespace sinew {
+namespace sinew::scale_test {
 namespace {
 
 using experiment::Experiment;
@@ -228,4 +228,4 @@ TEST(Cricket, WalksAndFeelsDelaysMoreThanWeight) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::scale_test

@@ -17,7 +17,7 @@
 #include "sinew/run/simulation/test_same.h"
 #include "tests/six_legs.h"
 
-namespace sinew {
+namespace sinew::six_legs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST_F(SixLegs, SayWhatIsTooMuch) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::six_legs_test

@@ -6,7 +6,7 @@
 #include "sinew/run/setup/installation.h"
 #include "sinew/units/constants.h"
 
-namespace sinew {
+namespace sinew::two_legs_test {
 namespace {
 
 using test::figure, test::seed, test::summary_of;
@@ -108,4 +108,4 @@ TEST(TwoLegs, ShareTheWork) {
 }
 
 }  // namespace
-}  // namespace sinew
+}  // namespace sinew::two_legs_test

@@ -8,7 +8,7 @@
 
 #include "sinew/run/simulation/run.h"
 
-namespace sinew::thesis {
+namespace sinew::thesis::out_dat_test {
 namespace {
 
 const std::string source = SINEW_SOURCE_DIR;
@@ -174,4 +174,4 @@ TEST(OutDat, NeedsAColumnsChannels) {
 }
 
 }  // namespace
-}  // namespace sinew::thesis
+}  // namespace sinew::thesis::out_dat_test

@@ -9,7 +9,7 @@
 
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air {
+namespace sinew::air::plain_air_test {
 namespace {
 
 constexpr int most = 4;
@@ -243,4 +243,4 @@ TEST(PlainAir, OnlyPlainNetworksAreFit) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::plain_air_test

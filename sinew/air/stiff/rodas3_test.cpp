@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace sinew::air {
+namespace sinew::air::rodas3_test {
 namespace {
 
 // x' = -k x^2 + a cos(t), what leaves through the second opening is k x^2.
@@ -69,4 +69,4 @@ TEST(Rodas3, ConservesWhatItsRatesConserve) {
 }
 
 }  // namespace
-}  // namespace sinew::air
+}  // namespace sinew::air::rodas3_test

@@ -8,7 +8,7 @@
 #include "sinew/analysis/align/test_motion.h"
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::align_test {
 namespace {
 
 using test::Measured;
@@ -201,4 +201,4 @@ TEST(Reclock, PutsTheOtherOnesTimesOnTheFirstOnesClock) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::align_test

@@ -4,7 +4,7 @@
 
 #include "sinew/analysis/align/test_motion.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::parting_test {
 namespace {
 
 // The simulation leaves the measured motion at `t0` by a ramp of `slope`.
@@ -49,4 +49,4 @@ TEST(Parting, CommandsAndPlansAreNoMotion) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::parting_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace sinew::analysis {
+namespace sinew::analysis::edges_test {
 namespace {
 
 signals::Series train(const std::string& topic, std::mt19937_64& random, int edges) {
@@ -123,4 +123,4 @@ TEST(CompareEdges, MovedAndLoneEdgesAreCountedByValve) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::edges_test

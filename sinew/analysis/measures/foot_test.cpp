@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sinew::analysis {
+namespace sinew::analysis::foot_test {
 namespace {
 
 constexpr robot::TwoLinks leg{0.225, 0.159};
@@ -75,4 +75,4 @@ TEST(Foot, NoMotionNoRise) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::foot_test

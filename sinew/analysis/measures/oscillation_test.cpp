@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace sinew::analysis {
+namespace sinew::analysis::oscillation_test {
 namespace {
 
 constexpr double back = 1;
@@ -109,4 +109,4 @@ TEST(TurningPoints, OfLittleOrNothingAreNone) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::oscillation_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace sinew::analysis {
+namespace sinew::analysis::statistics_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -93,4 +93,4 @@ TEST(HighPass, WindowOfTwentyOneSamplesAtTenMilliseconds) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::statistics_test

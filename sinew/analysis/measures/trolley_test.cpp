@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace sinew::analysis {
+namespace sinew::analysis::trolley_test {
 namespace {
 
 constexpr double mass = 10.8, drag = 4.5, dt = 0.01;
@@ -67,4 +67,4 @@ TEST(Trolley, APushThatIsNoNumberIsNone) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::trolley_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace sinew::analysis {
+namespace sinew::analysis::valves_test {
 namespace {
 
 constexpr double opening = 0.4e-3, closing = 1.1e-3;
@@ -85,4 +85,4 @@ TEST(Valves, DutyThroughTheDelaysOfChapter3) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::valves_test

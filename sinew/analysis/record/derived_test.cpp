@@ -9,7 +9,7 @@
 #include "sinew/analysis/record/test_log.h"
 #include "sinew/robot/kinematics.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::derived_test {
 namespace {
 
 using test::constant;
@@ -163,4 +163,4 @@ TEST(Derived, NothingComesOfNothing) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::derived_test

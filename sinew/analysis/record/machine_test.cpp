@@ -7,7 +7,7 @@
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::machine_test {
 namespace {
 
 const std::string experiments = std::string(SINEW_SOURCE_DIR) + "/experiments/";
@@ -70,4 +70,4 @@ TEST(Machine, ABadBandIsFoundWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::machine_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace sinew::analysis {
+namespace sinew::analysis::band_test {
 namespace {
 
 void expect(const Band& band, double lowest, double highest) {
@@ -82,4 +82,4 @@ TEST(Band, NumbersAreTakenFromWhatIsSaid) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::band_test

@@ -8,7 +8,7 @@
 #include "sinew/analysis/verdict/summary.h"
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::analysis {
+namespace sinew::analysis::reported_test {
 namespace {
 
 constexpr double inch = 0.0254, degree = std::numbers::pi / 180;
@@ -166,4 +166,4 @@ TEST(Reported, AWordingNeedsItsNumber) {
 }
 
 }  // namespace
-}  // namespace sinew::analysis
+}  // namespace sinew::analysis::reported_test

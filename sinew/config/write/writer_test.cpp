@@ -9,7 +9,7 @@
 #include "sinew/config/reader.h"
 #include "sinew/config/write/documenter.h"
 
-namespace sinew::config {
+namespace sinew::config::writer_test {
 namespace {
 
 enum class Law { stop, zero };
@@ -172,4 +172,4 @@ TEST(Documenter, RendersATable) {
 }
 
 }  // namespace
-}  // namespace sinew::config
+}  // namespace sinew::config::writer_test

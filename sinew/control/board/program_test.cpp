@@ -8,7 +8,7 @@
 #include "sinew/control/board/test_host.h"
 #include "sinew/signals/crc.h"
 
-namespace sinew::board {
+namespace sinew::board::program_test {
 namespace {
 
 using control::Command;
@@ -396,4 +396,4 @@ TEST(Program, UnderstandsTheThesissBytesBetweenFrames) {
 }
 
 }  // namespace
-}  // namespace sinew::board
+}  // namespace sinew::board::program_test

@@ -6,7 +6,7 @@
 #include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/test_walk.h"
 
-namespace sinew::gait {
+namespace sinew::gait::change_test {
 namespace {
 
 robot::Robot leg() { return robot::test::leg(); }
@@ -83,4 +83,4 @@ TEST(Changes, AreOfADrivenJointWithAValueOrARelease) {
 }
 
 }  // namespace
-}  // namespace sinew::gait
+}  // namespace sinew::gait::change_test

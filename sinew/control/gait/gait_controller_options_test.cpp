@@ -11,7 +11,7 @@
 #include "sinew/control/gait/path.h"
 #include "sinew/control/gait/test_walk.h"
 
-namespace sinew::gait {
+namespace sinew::gait::gait_controller_options_test {
 namespace {
 
 using test::degree;
@@ -233,4 +233,4 @@ TEST(Contradictions, OfTheNewOptions) {
 }
 
 }  // namespace
-}  // namespace sinew::gait
+}  // namespace sinew::gait::gait_controller_options_test

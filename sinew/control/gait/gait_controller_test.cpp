@@ -23,7 +23,7 @@ std::atomic<long> allocations{0};
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
-namespace sinew::gait {
+namespace sinew::gait::gait_controller_test {
 namespace {
 
 using test::degree;
@@ -262,4 +262,4 @@ TEST(GaitController, NoHeapInUpdate) {
 }
 
 }  // namespace
-}  // namespace sinew::gait
+}  // namespace sinew::gait::gait_controller_test

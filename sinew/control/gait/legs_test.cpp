@@ -7,7 +7,7 @@
 
 #include "sinew/control/gait/test_walk.h"
 
-namespace sinew::gait {
+namespace sinew::gait::legs_test {
 namespace {
 
 robot::Robot antiphase() {
@@ -160,4 +160,4 @@ TEST(Legs, ContradictionsAreSaidOnce) {
 }
 
 }  // namespace
-}  // namespace sinew::gait
+}  // namespace sinew::gait::legs_test

@@ -7,7 +7,7 @@
 
 #include "sinew/control/gait/test_walk.h"
 
-namespace sinew::gait {
+namespace sinew::gait::path_test {
 namespace {
 
 using test::degree;
@@ -110,4 +110,4 @@ TEST(Profile, NoneOneSeveral) {
 }
 
 }  // namespace
-}  // namespace sinew::gait
+}  // namespace sinew::gait::path_test

@@ -7,7 +7,7 @@
 #include "sinew/control/gait/plan.fields.h"
 #include "sinew/control/gait/test_walk.h"
 
-namespace sinew::gait {
+namespace sinew::gait::plan_test {
 namespace {
 
 using test::inch;
@@ -161,4 +161,4 @@ TEST(PlanFields, EveryKeyHasANameAndEveryQuantityAUnit) {
 }
 
 }  // namespace
-}  // namespace sinew::gait
+}  // namespace sinew::gait::plan_test

@@ -19,7 +19,7 @@
 #include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 
-namespace sinew::control {
+namespace sinew::control::appendix_test {
 namespace {
 
 using signals::Tick;
@@ -336,4 +336,4 @@ TEST(Appendix, OpenLoopDutiesOfAllJoints) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::appendix_test

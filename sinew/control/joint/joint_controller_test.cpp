@@ -25,7 +25,7 @@ std::size_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
-namespace sinew::control {
+namespace sinew::control::joint_controller_test {
 namespace {
 
 using signals::Reading;
@@ -396,4 +396,4 @@ TEST(JointController, NeverAllocates) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::joint_controller_test

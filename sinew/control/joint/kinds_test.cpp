@@ -8,7 +8,7 @@
 #include "sinew/control/joint/laws.h"
 #include "sinew/control/joint/test_bench.h"
 
-namespace sinew::control {
+namespace sinew::control::kinds_test {
 namespace {
 
 using signals::Edge;
@@ -267,4 +267,4 @@ TEST(Regulated, DisabledOrShutDownIsNoPressure) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::kinds_test

@@ -9,7 +9,7 @@
 
 #include "sinew/control/joint/test_leg.h"
 
-namespace sinew::control {
+namespace sinew::control::laws_test {
 namespace {
 
 constexpr JointControllerConfig leg = test_leg();
@@ -204,4 +204,4 @@ TEST(Laws, AnyInputGivesDuties) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::laws_test

@@ -10,7 +10,7 @@
 #include "sinew/control/joint/laws.h"
 #include "sinew/control/joint/test_bench.h"
 
-namespace sinew::control {
+namespace sinew::control::muscles_test {
 namespace {
 
 using signals::Edge;
@@ -145,4 +145,4 @@ TEST(JointControllerConfig, ProblemsOfTheKinds) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::muscles_test

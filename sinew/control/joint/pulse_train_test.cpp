@@ -9,7 +9,7 @@
 
 #include "sinew/signals/timing.h"
 
-namespace sinew::control {
+namespace sinew::control::pulse_train_test {
 namespace {
 
 using signals::Tick;
@@ -111,4 +111,4 @@ TEST(PulseTrain, PulseAndShutDropWhatWasToCome) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::pulse_train_test

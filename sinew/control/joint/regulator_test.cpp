@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace sinew::control {
+namespace sinew::control::regulator_test {
 namespace {
 
 TEST(Regulator, LevelsCoverTheRange) {
@@ -80,4 +80,4 @@ TEST(Regulator, StateStaysWithinTheRangeWhateverComes) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::regulator_test

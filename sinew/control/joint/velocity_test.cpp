@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace sinew::control {
+namespace sinew::control::velocity_test {
 namespace {
 
 constexpr float rate = 100;  // laws per second
@@ -171,4 +171,4 @@ TEST(Velocity, AnyInputGivesAFiniteSpeed) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::velocity_test

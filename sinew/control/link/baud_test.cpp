@@ -7,7 +7,7 @@
 #include "sinew/control/link/telemetry.h"
 #include "sinew/control/link/test_wire.h"
 
-namespace sinew::link {
+namespace sinew::link::baud_test {
 namespace {
 
 constexpr std::uint32_t choices[] = {2'000'000, 115'200, 460'800, 921'600, 230'400, 1'000'000};
@@ -86,4 +86,4 @@ TEST(Baud, ALineThatIsTooSlowIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::baud_test

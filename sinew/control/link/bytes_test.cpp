@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace sinew::link {
+namespace sinew::link::bytes_test {
 namespace {
 
 TEST(Bytes, AreLittleEndian) {
@@ -101,4 +101,4 @@ TEST(Bytes, WhatIsNotFiniteIsRefusedBothWays) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::bytes_test

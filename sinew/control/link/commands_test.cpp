@@ -9,7 +9,7 @@
 #include "sinew/control/link/command_queue.h"
 #include "sinew/control/link/sequence.h"
 
-namespace sinew::link {
+namespace sinew::link::commands_test {
 namespace {
 
 using signals::Tick;
@@ -143,4 +143,4 @@ TEST(CommandQueue, NothingGoesBackToACommandThatWasSucceeded) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::commands_test

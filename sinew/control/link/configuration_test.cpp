@@ -12,7 +12,7 @@
 #include "sinew/control/supervise/test_fuzz.h"
 #include "sinew/signals/crc.h"
 
-namespace sinew::link {
+namespace sinew::link::configuration_test {
 namespace {
 
 Configuration any_configuration(std::mt19937& random) {
@@ -220,4 +220,4 @@ TEST_F(Transfer, AnEndOfAnotherOneEndsIt) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::configuration_test

@@ -10,7 +10,7 @@
 #include "sinew/control/link/test_wire.h"
 #include "sinew/signals/crc.h"
 
-namespace sinew::link {
+namespace sinew::link::frame_test {
 namespace {
 
 void append(Bytes& to, const Bytes& more) { to.insert(to.end(), more.begin(), more.end()); }
@@ -244,4 +244,4 @@ TEST(Spoiled, SamplesOfEveryTypeNeverPass) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::frame_test

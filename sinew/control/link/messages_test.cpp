@@ -11,7 +11,7 @@
 
 #include "sinew/control/link/test_wire.h"
 
-namespace sinew::link {
+namespace sinew::link::messages_test {
 namespace {
 
 template <class M>
@@ -135,4 +135,4 @@ TEST(Messages, ACommandOfALegIsShort) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::messages_test

@@ -8,7 +8,7 @@
 #include "sinew/control/link/test_wire.h"
 #include "sinew/control/supervise/test_stand.h"
 
-namespace sinew::link {
+namespace sinew::link::telemetry_test {
 namespace {
 
 constexpr std::uint16_t period = 100;
@@ -156,4 +156,4 @@ TEST(Telemetry, EachPartFitsTheFaultLog) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::telemetry_test

@@ -10,7 +10,7 @@
 #include "sinew/control/joint/test_leg.h"
 #include "sinew/control/link/test_wire.h"
 
-namespace sinew::link {
+namespace sinew::link::thesis_words_test {
 namespace {
 
 using What = WordStep::What;
@@ -183,4 +183,4 @@ TEST_F(Words, AByteThatOnlyLooksLikeAFrameEndsNoWord) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::thesis_words_test

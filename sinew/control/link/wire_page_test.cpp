@@ -10,7 +10,7 @@
 #include "sinew/control/link/configuration.h"
 #include "sinew/control/link/test_wire.h"
 
-namespace sinew::link {
+namespace sinew::link::wire_page_test {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -289,4 +289,4 @@ TEST(WirePage, ExamplesAreFramesToTheByte) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::link::wire_page_test

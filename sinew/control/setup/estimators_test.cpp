@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-namespace sinew::control {
+namespace sinew::control::estimators_test {
 namespace {
 
 constexpr double period = 0.01;
@@ -116,4 +116,4 @@ TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationSays) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::estimators_test

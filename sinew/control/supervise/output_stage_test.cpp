@@ -7,7 +7,7 @@
 
 #include "sinew/control/joint/test_leg.h"
 
-namespace sinew::control {
+namespace sinew::control::output_stage_test {
 namespace {
 
 using signals::Edge;
@@ -137,4 +137,4 @@ TEST(OutputStage, AValveThatNoBoardHasDoesNothing) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::output_stage_test

@@ -8,7 +8,7 @@
 #include "sinew/control/supervise/safety.h"
 #include "sinew/control/supervise/test_bench.h"
 
-namespace sinew::control {
+namespace sinew::control::safety_faults_test {
 namespace {
 
 using signals::Reading;
@@ -170,4 +170,4 @@ TEST(Safety, WhatIsNotEmptyAfterTheLongestVentIsDumped) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::safety_faults_test

@@ -10,7 +10,7 @@
 
 #include "sinew/control/supervise/test_bench.h"
 
-namespace sinew::control {
+namespace sinew::control::safety_test {
 namespace {
 
 using signals::Edge;
@@ -333,4 +333,4 @@ TEST(Safety, WhateverComesAirGoesInOnlyWhileItRuns) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::safety_test

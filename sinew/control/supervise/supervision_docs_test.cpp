@@ -9,7 +9,7 @@
 
 #include "sinew/control/supervise/safety.h"
 
-namespace sinew::control {
+namespace sinew::control::supervision_docs_test {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -98,4 +98,4 @@ TEST(SupervisionDocs, BoundsAreTheDefaults) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::supervision_docs_test

@@ -10,7 +10,7 @@
 
 #include "sinew/control/supervise/test_stand.h"
 
-namespace sinew::control {
+namespace sinew::control::supervisor_commands_test {
 namespace {
 
 // --- commands -----------------------------------------------------------------------------------
@@ -150,4 +150,4 @@ TEST(Supervisor, AJointWhoseLawWasSkippedIsShut) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::supervisor_commands_test

@@ -10,7 +10,7 @@
 
 #include "sinew/control/supervise/test_stand.h"
 
-namespace sinew::control {
+namespace sinew::control::supervisor_test {
 namespace {
 
 // --- readings -----------------------------------------------------------------------------------
@@ -277,4 +277,4 @@ TEST(Supervisor, RefusesLimitsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace sinew::control
+}  // namespace sinew::control::supervisor_test

@@ -10,7 +10,7 @@
 #include "sinew/actuator/creep.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::creep_test {
 namespace {
 
 // Integrated by small steps of actuator::creep_rate, not by what the fit uses.
@@ -146,4 +146,4 @@ TEST(Creep, AFewRowsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::creep_test

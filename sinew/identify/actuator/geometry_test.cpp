@@ -10,7 +10,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::geometry_test {
 namespace {
 
 constexpr actuator::Braid truth{.thread_length = 0.1071372, .turns = 2.3125};
@@ -101,4 +101,4 @@ TEST(Geometry, OneLengthAndSwappedColumnsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::geometry_test

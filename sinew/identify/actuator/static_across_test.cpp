@@ -13,7 +13,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static_predict.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_across_test {
 namespace {
 
 using Points = std::vector<StaticPoint>;
@@ -311,4 +311,4 @@ TEST(AcrossMuscles, IntervalsOfDmspHoldPressuresAndLengths) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_across_test

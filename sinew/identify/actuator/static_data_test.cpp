@@ -12,7 +12,7 @@
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_data_test {
 namespace {
 
 constexpr double bar = 1e5, rest = 0.25;
@@ -231,4 +231,4 @@ TEST(StaticRefusal, AModelThatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_data_test

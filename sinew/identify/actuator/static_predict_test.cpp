@@ -9,7 +9,7 @@
 #include "sinew/identify/actuator/test_muscle.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_predict_test {
 namespace {
 
 actuator::Actuator measured_muscle() {
@@ -135,4 +135,4 @@ TEST(Predict, AFileWithoutItsRestLengthIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_predict_test

@@ -8,7 +8,7 @@
 
 #include "sinew/identify/actuator/static.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_public_test {
 namespace {
 
 StaticData dmsp() {
@@ -153,4 +153,4 @@ TEST(PublicData, RecordingsOf10MmBySettledSamples) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_public_test

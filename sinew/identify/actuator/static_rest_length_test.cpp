@@ -10,7 +10,7 @@
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/actuator/test_muscle.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_rest_length_test {
 namespace {
 
 constexpr std::array labels = {0.1, 0.16, 0.25};
@@ -223,4 +223,4 @@ TEST(RestLength, TwoMusclesPredictAThirdAsTheirFileDoes) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_rest_length_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::identify {
+namespace sinew::identify::static_settled_test {
 namespace {
 
 // Steps of 50 kPa, each of which the pressure follows with a time constant of 50 ms; 512 Hz.
@@ -85,4 +85,4 @@ TEST(Settled, APressureThatStaysHasSettled) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_settled_test

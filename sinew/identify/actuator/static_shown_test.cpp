@@ -9,7 +9,7 @@
 
 #include "sinew/identify/actuator/test_muscle.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_shown_test {
 namespace {
 
 constexpr double rest = test_rest_length;
@@ -105,4 +105,4 @@ TEST(StaticCurves, IntervalsAreOneWithinTheOtherAndWiderBeyondTheData) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_shown_test

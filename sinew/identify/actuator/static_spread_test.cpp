@@ -10,7 +10,7 @@
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/actuator/test_muscle.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_spread_test {
 namespace {
 
 // Measures muscles of some rest lengths: seven lengths, ten pressures, noise in N.
@@ -168,4 +168,4 @@ TEST(Spread, OneMuscleTellsNothingOfOthers) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_spread_test

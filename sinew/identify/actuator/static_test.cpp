@@ -12,7 +12,7 @@
 #include "sinew/identify/actuator/test_muscle.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::static_test {
 namespace {
 
 constexpr double bar = 1e5, rest = test_rest_length;
@@ -263,4 +263,4 @@ TEST(Static, OutsideTheDataItStaysBoundedAndMonotone) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::static_test

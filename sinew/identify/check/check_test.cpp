@@ -15,7 +15,7 @@
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/test_muscle.h"
 
-namespace sinew::identify {
+namespace sinew::identify::check_test {
 namespace {
 
 constexpr double rest = test_rest_length, kpa = 1e3;
@@ -310,4 +310,4 @@ TEST(Check, MeasuredMusclesHaveNoRed) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::check_test

@@ -11,7 +11,7 @@
 #include "sinew/identify/check/test_rig.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::checkup_test {
 namespace {
 
 // A table as it comes from a file.
@@ -206,4 +206,4 @@ TEST(Checkup, JsonHasAllOfIt) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::checkup_test

@@ -10,7 +10,7 @@
 #include "sinew/identify/check/label_fit.h"
 #include "sinew/identify/check/test_rig.h"
 
-namespace sinew::identify {
+namespace sinew::identify::label_test {
 namespace {
 
 constexpr double outside = 101325;  // [Pa]
@@ -172,4 +172,4 @@ TEST(Label, TheMeasuredMuscleThatIsProbably228MmIsNamedAndNoOther) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::label_test

@@ -8,7 +8,7 @@
 
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::quality_test {
 namespace {
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
@@ -63,4 +63,4 @@ TEST(Quality, ConstantsAreRefusedWithTheReason) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::quality_test

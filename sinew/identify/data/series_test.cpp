@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace sinew::identify {
+namespace sinew::identify::series_test {
 namespace {
 
 // A parabola is its own: uneven steps and ends make no difference.
@@ -33,4 +33,4 @@ TEST(Series, ADelayIsAShiftInTime) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::series_test

@@ -5,7 +5,7 @@
 
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::fit_test {
 namespace {
 
 Fit model(const std::string& name, std::size_t parameters, double percent) {
@@ -108,4 +108,4 @@ TEST(Choice, RefusesWhatNoModelExplains) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::fit_test

@@ -9,7 +9,7 @@
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::least_squares_test {
 namespace {
 
 const Parameter line_parameters[] = {{.name = "a", .unit = "N", .scale = 1},
@@ -172,4 +172,4 @@ TEST(Choice, TheSimplestModelThatIsNearlyBest) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::least_squares_test

@@ -9,7 +9,7 @@
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/thesis_actuator.h"
 
-namespace sinew::identify {
+namespace sinew::identify::provenance_test {
 namespace {
 
 TEST(Digits, AreThoseThatAreAskedFor) {
@@ -45,4 +45,4 @@ TEST(Digits, FilesAreInUnitsOfSi) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::provenance_test

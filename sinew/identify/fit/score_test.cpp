@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace sinew::identify {
+namespace sinew::identify::score_test {
 namespace {
 
 // Some residuals of rows at five lengths, in no order.
@@ -91,4 +91,4 @@ TEST(ErrorBy, OfNoRowsThereIsNoPart) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::score_test

@@ -10,7 +10,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::identify {
+namespace sinew::identify::wish_test {
 namespace {
 
 const Parameter two[] = {{.name = "a", .unit = "N", .low = -100, .high = 100, .scale = 1},
@@ -143,4 +143,4 @@ TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::wish_test

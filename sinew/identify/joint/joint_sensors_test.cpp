@@ -9,7 +9,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/joint/joint.h"
 
-namespace sinew::identify {
+namespace sinew::identify::joint_sensors_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, atmosphere = actuator::thesis_atmosphere;
@@ -195,4 +195,4 @@ TEST(JointSensors, WhatIsMissingIsTold) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::joint_sensors_test

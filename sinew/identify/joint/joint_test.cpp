@@ -14,7 +14,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/joint/hinge.h"
 
-namespace sinew::identify {
+namespace sinew::identify::joint_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, atmosphere = actuator::thesis_atmosphere;
@@ -302,4 +302,4 @@ TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::joint_test

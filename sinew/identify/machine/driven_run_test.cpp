@@ -7,7 +7,7 @@
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/test_runs.h"
 
-namespace sinew::identify {
+namespace sinew::identify::driven_run_test {
 namespace {
 
 // By the machine that was run every reading is its mean and the sensor's own noise.
@@ -79,4 +79,4 @@ TEST(MachineNumbers, SaysWhichWordIsWrong) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::driven_run_test

@@ -9,7 +9,7 @@
 #include "sinew/identify/machine/run_file.h"
 #include "sinew/identify/machine/test_runs.h"
 
-namespace sinew::identify {
+namespace sinew::identify::run_fit_test {
 namespace {
 
 const Estimate& estimate(const RunFitResult& found, const std::string& key) {
@@ -171,4 +171,4 @@ TEST(RunFit, RefusesWhatItCannotFit) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::run_fit_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace sinew::identify {
+namespace sinew::identify::run_mixture_test {
 namespace {
 
 constexpr double width = 1.959963984540054;
@@ -77,4 +77,4 @@ TEST(RunMixture, ABoxInTheTailHoldsTheNumber) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::run_mixture_test

@@ -13,7 +13,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::identify {
+namespace sinew::identify::decay_test {
 namespace {
 
 using units::inch;
@@ -224,4 +224,4 @@ TEST(Decay, ACoarseConverterIsNotTakenForAClippedOne) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::decay_test

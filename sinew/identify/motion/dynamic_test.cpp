@@ -15,7 +15,7 @@
 #include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::identify {
+namespace sinew::identify::dynamic_test {
 namespace {
 
 using actuator::Loss;
@@ -265,4 +265,4 @@ TEST(Dynamic, TimeThatRunsBackwardsIsToldWithItsLine) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::dynamic_test

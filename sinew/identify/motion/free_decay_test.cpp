@@ -14,7 +14,7 @@
 #include "sinew/identify/motion/decay.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::identify {
+namespace sinew::identify::free_decay_test {
 namespace {
 
 using units::inch;
@@ -120,4 +120,4 @@ TEST(FreeDecay, WhatLeavesTheBraidIsNoTrajectory) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::free_decay_test

@@ -10,7 +10,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/pair/pair_fixture_test.h"
 
-namespace sinew::identify {
+namespace sinew::identify::pair_law_test {
 namespace {
 
 PairRecord moved(const std::function<double(double)>& position, double seconds, double step) {
@@ -102,4 +102,4 @@ TEST(PairRecord, WhatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::pair_law_test

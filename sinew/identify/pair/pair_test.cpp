@@ -12,7 +12,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/pair/pair_fixture_test.h"
 
-namespace sinew::identify {
+namespace sinew::identify::pair_test {
 namespace {
 
 const Estimate& parameter(const PairResult& found, std::string_view name) {
@@ -215,4 +215,4 @@ TEST(Pair, WhatCannotBeIsRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::pair_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace sinew::identify {
+namespace sinew::identify::knowledge_test {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -91,4 +91,4 @@ TEST(Knowledge, MoreReadingsNeverRaiseAVariance) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::knowledge_test

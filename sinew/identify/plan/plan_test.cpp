@@ -12,7 +12,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/plan/design.h"
 
-namespace sinew::identify {
+namespace sinew::identify::plan_test {
 namespace {
 
 ExpectedMuscle muscle() { return muscle_by_size(0.25, 0.012, 6e5, 101325); }
@@ -207,4 +207,4 @@ TEST(Plan, OfPointsOfSeveralMusclesIsRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::plan_test

@@ -8,7 +8,7 @@
 
 #include "sinew/units/literals.h"
 
-namespace sinew::identify {
+namespace sinew::identify::force_beam_test {
 namespace {
 
 using namespace units::literals;
@@ -92,4 +92,4 @@ TEST(ForceBeam, OppositeGagesAddAndANotchWeakens) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::force_beam_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::identify {
+namespace sinew::identify::points_test {
 namespace {
 
 struct Readings {
@@ -126,4 +126,4 @@ TEST(SensorPoints, ZeroIsAnEndOnlyWhereTheOthersLeadBelowIt) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::points_test

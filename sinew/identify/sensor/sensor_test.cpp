@@ -12,7 +12,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/units/literals.h"
 
-namespace sinew::identify {
+namespace sinew::identify::sensor_test {
 namespace {
 
 using namespace units::literals;
@@ -221,4 +221,4 @@ TEST(Sensor, WhatIsWrongWithAFileIsTold) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::sensor_test

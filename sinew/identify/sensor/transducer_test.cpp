@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sinew::identify {
+namespace sinew::identify::transducer_test {
 namespace {
 
 Transducer thesis_transducer() {
@@ -52,4 +52,4 @@ TEST(Transducer, EachDoubtComesWithItsCause) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::transducer_test

@@ -6,7 +6,7 @@
 #include "sinew/identify/actuator/test_muscle.h"
 #include "sinew/identify/plan/plan.h"
 
-namespace sinew::identify {
+namespace sinew::identify::further_test {
 namespace {
 
 StaticResult three_mounts() {
@@ -43,4 +43,4 @@ TEST(Further, FewPointsHaveNoPlanAndNoRefusal) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::further_test

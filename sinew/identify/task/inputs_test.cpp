@@ -16,7 +16,7 @@
 #include "sinew/identify/sensor/readings.h"
 #include "sinew/identify/valve/valve.h"
 
-namespace sinew::identify {
+namespace sinew::identify::inputs_test {
 namespace {
 
 bool says(const std::string& text, const std::string& part) {
@@ -171,4 +171,4 @@ TEST(Inputs, AMethodOrKindThatThereIsNotIsTold) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::inputs_test

@@ -21,7 +21,7 @@
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/task/valve_task.h"
 
-namespace sinew::identify {
+namespace sinew::identify::task_test {
 namespace {
 
 const std::string actuator = std::string(SINEW_SOURCE_DIR) + "/robots/leg/actuator.toml";
@@ -177,4 +177,4 @@ TEST(Task, TellsASettingByItsName) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::task_test

@@ -8,7 +8,7 @@
 #include "sinew/identify/valve/chamber.h"
 #include "sinew/identify/valve/fixtures_test.h"
 
-namespace sinew::identify {
+namespace sinew::identify::added_volume_test {
 namespace {
 
 constexpr double true_conductance = 1e-8, true_volume = 5e-4;  // [m3/(s Pa)], [m3]
@@ -157,4 +157,4 @@ TEST(ValveFill, RowsOfTwoValvesThatTakeTurnsAreToldApart) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::added_volume_test

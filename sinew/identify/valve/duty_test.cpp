@@ -10,7 +10,7 @@
 #include "sinew/identify/valve/timing.h"
 #include "sinew/signals/pulse.h"
 
-namespace sinew::identify {
+namespace sinew::identify::duty_test {
 namespace {
 
 // --- duty ---
@@ -137,4 +137,4 @@ TEST(ValveTiming, WithoutDelaysItIsTheIdentity) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::duty_test

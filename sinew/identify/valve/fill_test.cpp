@@ -13,7 +13,7 @@
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/fit/refusal.h"
 
-namespace sinew::identify {
+namespace sinew::identify::fill_test {
 namespace {
 
 using enum Chamber::Shape;
@@ -333,4 +333,4 @@ TEST(ValveFill, EachOfEightMeasuredFillingsIsMetWithin3Percent) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::fill_test

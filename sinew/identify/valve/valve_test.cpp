@@ -15,7 +15,7 @@
 #include "sinew/identify/valve/timing.h"
 #include "sinew/signals/pulse.h"
 
-namespace sinew::identify {
+namespace sinew::identify::valve_test {
 namespace {
 
 // --- chart ---
@@ -277,4 +277,4 @@ TEST(Valve, ColumnsDecideWhatWasMeasured) {
 }
 
 }  // namespace
-}  // namespace sinew::identify
+}  // namespace sinew::identify::valve_test

@@ -9,7 +9,7 @@
 #include "sinew/control/link/words.h"
 #include "sinew/signals/crc.h"
 
-namespace sinew::plant {
+namespace sinew::plant::remote_board_test {
 namespace {
 
 // A board that says one thing to whatever it hears.
@@ -125,4 +125,4 @@ TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::remote_board_test

@@ -11,7 +11,7 @@
 
 #include "sinew/plant/hardware/remote_board.h"
 
-namespace sinew::plant {
+namespace sinew::plant::serial_line_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -123,4 +123,4 @@ TEST(SerialLine, NobodyAtTheLineIsSaidToBeSo) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::serial_line_test

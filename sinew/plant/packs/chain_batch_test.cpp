@@ -10,7 +10,7 @@
 
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::chain_batch_test {
 namespace {
 
 double between(std::mt19937& random, double low, double high) {
@@ -140,4 +140,4 @@ TEST(ChainBatch, OnlyPlainMachinesWithLikeRoutesStandSideBySide) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::chain_batch_test

@@ -10,7 +10,7 @@
 #include "sinew/plant/planar/chain_mechanism.h"
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::chain_lanes_test {
 namespace {
 
 using units::Pack;
@@ -234,4 +234,4 @@ TEST(ChainLanes, OnlyAlikeRoutesStandSideBySide) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::chain_lanes_test

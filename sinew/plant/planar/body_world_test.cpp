@@ -9,7 +9,7 @@
 
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::body_world_test {
 namespace {
 
 // Links from the leg's on, each a little smaller, joints that nothing pulls.
@@ -380,4 +380,4 @@ TEST(BodyWorld, CreepEndsWhereStrongerMusclesHoldTheLeg) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::body_world_test

@@ -9,7 +9,7 @@
 #include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::friction_test {
 namespace {
 
 // A random well-posed problem: W = A A^T + 0.1 I.
@@ -132,4 +132,4 @@ TEST(Friction, TheFootKeepsItsCone) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::friction_test

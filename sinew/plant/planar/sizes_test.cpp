@@ -9,7 +9,7 @@
 #include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::sizes_test {
 namespace {
 
 // The leg on its ground, which rubs, with so many passive links behind its tibia.
@@ -84,4 +84,4 @@ TEST(Sizes, LargeTreesKeepEnergyAndMomentum) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::sizes_test

@@ -13,7 +13,7 @@
 #include "sinew/plant/planar/friction_contacts_members.h"
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::steps_test {
 namespace {
 
 // A leg on a light shoe whose heel and toe reach from a hair to a hand's breadth past the ankle.
@@ -234,4 +234,4 @@ TEST(Steps, AreLongWhereNoContactChanges) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::steps_test

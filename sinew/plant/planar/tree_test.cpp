@@ -10,7 +10,7 @@
 #include "sinew/plant/planar/test_setups.h"
 #include "sinew/robot/kinematics.h"
 
-namespace sinew::plant {
+namespace sinew::plant::tree_test {
 namespace {
 
 // The setup's leg twice on one trolley, the second one at `apart` ahead of the first.
@@ -357,4 +357,4 @@ TEST(Trees, RollersCarryLegsWhereTheyHang) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::tree_test

@@ -8,7 +8,7 @@
 
 #include "sinew/plant/planar/test_setups.h"
 
-namespace sinew::plant {
+namespace sinew::plant::world_test {
 namespace {
 
 double swinging_energy(const ChainWorld<2>& world) {
@@ -172,4 +172,4 @@ TEST(World, PeeksLeaveNoTrace) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::world_test

@@ -14,7 +14,7 @@
 #include "sinew/plant/slide/stand.h"
 #include "sinew/plant/slide/test_stands.h"
 
-namespace sinew::plant {
+namespace sinew::plant::cvode_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, gamma_air = 1.4;
@@ -214,4 +214,4 @@ TEST(Cvode, AgreesOnPulsedValves) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::cvode_test

@@ -13,7 +13,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/plant/slide/test_stands.h"
 
-namespace sinew::plant {
+namespace sinew::plant::stand_test {
 namespace {
 
 double weight(const StandSetup& s) { return s.load.mass.at(0) * s.load.gravity; }
@@ -397,4 +397,4 @@ TEST(Schedule, RunsStraightBetweenPointsAndJumpsWhereTwoMeet) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::stand_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace sinew::plant {
+namespace sinew::plant::transducer_test {
 namespace {
 
 Transducer gauge() { return {.name = "gauge", .of = Transducer::Of::pressure, .high = 8e5}; }
@@ -59,4 +59,4 @@ TEST(Transducer, NoiseIsInItsUnit) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::transducer_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace sinew::plant {
+namespace sinew::plant::cut_test {
 namespace {
 
 constexpr double within = 1e-11;
@@ -80,4 +80,4 @@ TEST(Cut, EndsWhereNothingIsANumber) {
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::plant::cut_test

@@ -7,7 +7,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/report/page/test_run.h"
 
-namespace sinew::report {
+namespace sinew::report::comparison_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -228,4 +228,4 @@ TEST(Comparison, WhatOnlyASimulationKnowsStandsForASensorWithoutError) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::comparison_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace sinew::report {
+namespace sinew::report::claim_test {
 namespace {
 
 using enum StatementClass;
@@ -126,4 +126,4 @@ TEST(Claim, CountsEachVerdictOnce) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::claim_test

@@ -12,7 +12,7 @@
 #include "sinew/report/figures/figure_script.h"
 #include "sinew/report/figures/test_figure.h"
 
-namespace sinew::report {
+namespace sinew::report::figure_test {
 namespace {
 
 using ::testing::AllOf;
@@ -215,4 +215,4 @@ TEST(Script, DrawsEveryCurveOfAPlotWithADashOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::figure_test

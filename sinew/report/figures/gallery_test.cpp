@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace sinew::report {
+namespace sinew::report::gallery_test {
 namespace {
 
 using ::testing::AllOf;
@@ -119,4 +119,4 @@ TEST(Gallery, TextStaysText) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::gallery_test

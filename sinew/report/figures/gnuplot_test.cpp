@@ -12,7 +12,7 @@
 #include "sinew/report/figures/figure_script.h"
 #include "sinew/report/figures/test_figure.h"
 
-namespace sinew::report {
+namespace sinew::report::gnuplot_test {
 namespace {
 
 using test::nan;
@@ -193,4 +193,4 @@ TEST(Gnuplot, DrawsEveryStyleOfACurve) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::gnuplot_test

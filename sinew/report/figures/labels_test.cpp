@@ -7,7 +7,7 @@
 
 #include "sinew/report/figures/figure_script.h"
 
-namespace sinew::report {
+namespace sinew::report::labels_test {
 namespace {
 
 using ::testing::AllOf;
@@ -124,4 +124,4 @@ TEST(Labels, HaveAFileToBeginWithThatChangesNothing) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::labels_test

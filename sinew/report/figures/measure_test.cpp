@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace sinew::report {
+namespace sinew::report::measure_test {
 namespace {
 
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
@@ -84,4 +84,4 @@ TEST(Measure, PartsKeepTheirEnds) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::measure_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace sinew::report {
+namespace sinew::report::overlay_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -89,4 +89,4 @@ TEST(Overlay, KeepsWhatOnlyOneRunHas) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::overlay_test

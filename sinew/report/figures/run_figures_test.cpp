@@ -9,7 +9,7 @@
 #include "sinew/report/figures/figure_layout.h"
 #include "sinew/report/page/test_run.h"
 
-namespace sinew::report {
+namespace sinew::report::run_figures_test {
 namespace {
 
 using ::testing::AllOf;
@@ -151,4 +151,4 @@ TEST(RunFigures, ShadeTheTimesOfFaults) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::run_figures_test

@@ -10,7 +10,7 @@
 
 #include "sinew/log/deflate.h"
 
-namespace sinew::report {
+namespace sinew::report::blob_test {
 namespace {
 
 std::string from_base64(const std::string& text) {
@@ -181,4 +181,4 @@ TEST(Base64, PadsAsRfc4648Does) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::blob_test

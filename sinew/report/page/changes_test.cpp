@@ -8,7 +8,7 @@
 
 #include "sinew/report/page/picture.h"
 
-namespace sinew::report {
+namespace sinew::report::changes_test {
 namespace {
 
 TEST(Changes, AreThoseOfTheFileWithTheirUnits) {
@@ -66,4 +66,4 @@ TEST(Picture, IsOfTheStandOrOfARecordingWhereThereIsNoRobot) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::changes_test

@@ -10,7 +10,7 @@
 #include "sinew/log/deflate.h"
 #include "sinew/report/page/test_run.h"
 
-namespace sinew::report {
+namespace sinew::report::growing_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -188,4 +188,4 @@ TEST(Growing, APieceOfNothingHasEveryColumnEmpty) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::growing_test

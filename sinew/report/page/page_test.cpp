@@ -11,7 +11,7 @@
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/test_run.h"
 
-namespace sinew::report {
+namespace sinew::report::page_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -231,4 +231,4 @@ release = true
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::page_test

@@ -10,7 +10,7 @@
 #include "sinew/report/page/test_run.h"
 #include "sinew/robot/legs.h"
 
-namespace sinew::report {
+namespace sinew::report::scene_test {
 namespace {
 
 using robot::Point;
@@ -218,4 +218,4 @@ TEST(Pose, LengthOverACamOfAnyShapeChangesByItsRadius) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::scene_test

@@ -12,7 +12,7 @@
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/panels.h"
 
-namespace sinew::report {
+namespace sinew::report::stand_test {
 namespace {
 
 using analysis::test::constant;
@@ -163,4 +163,4 @@ TEST(StandContent, RefersOnlyToColumnsThatAreThere) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::stand_test

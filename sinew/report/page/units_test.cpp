@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace sinew::report {
+namespace sinew::report::units_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -58,4 +58,4 @@ TEST(PageUnits, ALargeNumberHasALargeUnit) {
 }
 
 }  // namespace
-}  // namespace sinew::report
+}  // namespace sinew::report::units_test

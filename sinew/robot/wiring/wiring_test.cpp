@@ -12,7 +12,7 @@
 #include "sinew/robot/robot.fields.h"
 #include "sinew/robot/wiring/wiring.fields.h"
 
-namespace sinew::robot {
+namespace sinew::robot::wiring_test {
 namespace {
 
 struct Leg {
@@ -164,4 +164,4 @@ TEST(Ports, TellEveryValveAtEveryTime) {
 }
 
 }  // namespace
-}  // namespace sinew::robot
+}  // namespace sinew::robot::wiring_test

@@ -16,7 +16,7 @@
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/wired_body.h"
 
-namespace sinew::run {
+namespace sinew::run::bring_up_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -338,4 +338,4 @@ TEST(BrokenBench, TheFolderHasAnotherRobotsSteps) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::bring_up_test

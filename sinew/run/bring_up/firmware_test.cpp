@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/bring_up/pins.h"
 
-namespace sinew::run {
+namespace sinew::run::firmware_test {
 namespace {
 
 template <class Action>
@@ -114,4 +114,4 @@ TEST(Firmware, TheWiringNamesEachPinOfTheBoardOnce) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::firmware_test

@@ -15,7 +15,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
-namespace sinew::run {
+namespace sinew::run::compared_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,4 +177,4 @@ TEST_F(Compared, AReplayWithoutWhatItNeedsNamesTheTopics) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::compared_test

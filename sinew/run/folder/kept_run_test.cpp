@@ -14,7 +14,7 @@
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
 
-namespace sinew::run {
+namespace sinew::run::kept_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST_F(KeptRunTest, FilesOfAnotherKindAreNotReplacedEvenByForce) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::kept_run_test

@@ -17,7 +17,7 @@
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/run_folder.h"
 
-namespace sinew::run {
+namespace sinew::run::long_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ TEST_F(LongRun, IsReadAsOneInMemory) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::long_run_test

@@ -12,7 +12,7 @@
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/wired_body.h"
 
-namespace sinew::run {
+namespace sinew::run::outcome_test {
 namespace {
 
 constexpr int period_of_it = 80;  // of the run; 10 ms each
@@ -85,4 +85,4 @@ TEST(MissedTicks, TenMillisecondsEndTheRunAndTheCauseSaysSo) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::outcome_test

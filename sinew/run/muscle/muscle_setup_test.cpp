@@ -11,7 +11,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
 
-namespace sinew::run {
+namespace sinew::run::muscle_setup_test {
 namespace {
 
 const std::string root = std::string(SINEW_SOURCE_DIR);
@@ -126,4 +126,4 @@ TEST(MuscleSave, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::muscle_setup_test

@@ -9,7 +9,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/installation.h"
 
-namespace sinew::run {
+namespace sinew::run::installation_test {
 namespace {
 
 const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
@@ -94,4 +94,4 @@ TEST(LowLevelKeys, ReachTheLowLevel) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::installation_test

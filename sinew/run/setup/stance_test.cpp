@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-namespace sinew::run {
+namespace sinew::run::stance_test {
 namespace {
 
 const experiment::Experiment leg =
@@ -61,4 +61,4 @@ TEST(Stance, FarFromRestAMuscleIsBeyondItsLengths) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::stance_test

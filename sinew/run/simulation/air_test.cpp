@@ -12,7 +12,7 @@
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 
-namespace sinew::run {
+namespace sinew::run::air_test {
 namespace {
 
 using Sets = std::vector<std::string>;
@@ -176,4 +176,4 @@ TEST(AirOfAFile, WhatDoesNotGoTogetherIsSaid) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::air_test

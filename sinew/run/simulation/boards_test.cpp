@@ -13,7 +13,7 @@
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
 
-namespace sinew::run {
+namespace sinew::run::boards_test {
 namespace {
 
 using control::Trip;
@@ -182,4 +182,4 @@ TEST(Boards, SayWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::boards_test

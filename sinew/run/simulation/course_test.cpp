@@ -9,7 +9,7 @@
 
 #include "sinew/run/setup/buildable.h"
 
-namespace sinew::run {
+namespace sinew::run::course_test {
 namespace {
 
 const std::string source = SINEW_SOURCE_DIR;
@@ -104,4 +104,4 @@ TEST_F(CourseTest, RefusesWhatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::course_test

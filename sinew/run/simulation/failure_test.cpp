@@ -10,7 +10,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
-namespace sinew::run {
+namespace sinew::run::failure_test {
 namespace {
 
 const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/";
@@ -124,4 +124,4 @@ TEST(Failure, LeavesNoNumberThatIsNone) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::failure_test

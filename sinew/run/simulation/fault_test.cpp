@@ -19,7 +19,7 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
 
-namespace sinew::run {
+namespace sinew::run::fault_test {
 namespace {
 
 using control::Trip;
@@ -377,4 +377,4 @@ TEST(Supervision, ACommandThatIsTooFastIsRejected) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::fault_test

@@ -12,7 +12,7 @@
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/test_same.h"
 
-namespace sinew::run {
+namespace sinew::run::lanes_test {
 namespace {
 
 using experiment::Experiment;
@@ -136,4 +136,4 @@ TEST(Lanes, FewerThanThereAreLanes) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::lanes_test

@@ -5,7 +5,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::run {
+namespace sinew::run::place_test {
 namespace {
 
 std::string refusal(const std::string& name, std::vector<std::string> sets,
@@ -109,4 +109,4 @@ TEST(Place, NothingIsOpenedForASimulation) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::place_test

@@ -12,7 +12,7 @@
 #include "sinew/run/simulation/test_log.h"
 #include "sinew/run/simulation/wired_body.h"
 
-namespace sinew::run {
+namespace sinew::run::remote_boards_test {
 namespace {
 
 using control::Trip;
@@ -299,4 +299,4 @@ TEST(RemoteBoards, SeveralBoardsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::remote_boards_test

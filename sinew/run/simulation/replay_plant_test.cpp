@@ -8,7 +8,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/setup/buildable.h"
 
-namespace sinew::run {
+namespace sinew::run::replay_plant_test {
 namespace {
 
 experiment::Experiment load(const std::string& name, std::vector<std::string> sets = {}) {
@@ -101,4 +101,4 @@ TEST(ReplayPlant, WhatIsMissingIsNamed) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::replay_plant_test

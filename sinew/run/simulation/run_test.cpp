@@ -22,7 +22,7 @@
 #include "sinew/run/simulation/test_same.h"
 #include "tests/counted_heap.h"
 
-namespace sinew::run {
+namespace sinew::run::run_test {
 namespace {
 
 using test::allocations;
@@ -297,4 +297,4 @@ TEST(Clock, PacedTimeWaits) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::run_test

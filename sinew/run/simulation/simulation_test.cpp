@@ -13,7 +13,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
-namespace sinew::run {
+namespace sinew::run::simulation_test {
 namespace {
 
 using signals::Tick;
@@ -243,4 +243,4 @@ TEST(Simulation, RefusesWhatIsNoSaveOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::simulation_test

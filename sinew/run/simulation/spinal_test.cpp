@@ -14,7 +14,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
-namespace sinew::run {
+namespace sinew::run::spinal_test {
 namespace {
 
 using Kind = control::JointKind;
@@ -260,4 +260,4 @@ TEST(Spinal, OverrunsAreCounted) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::spinal_test

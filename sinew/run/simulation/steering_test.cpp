@@ -17,7 +17,7 @@
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
 
-namespace sinew::run {
+namespace sinew::run::steering_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -384,4 +384,4 @@ TEST(SteeredClock, GoesAtThePaceThatWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace sinew::run
+}  // namespace sinew::run::steering_test

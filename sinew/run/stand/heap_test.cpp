@@ -8,7 +8,7 @@
 #include "sinew/run/stand/recorder.h"
 #include "tests/counted_heap.h"
 
-namespace sinew::rig {
+namespace sinew::rig::heap_test {
 namespace {
 
 using test::allocations;
@@ -41,4 +41,4 @@ TEST(RigRun, TakesNoMemoryInItsLoop) {
 }
 
 }  // namespace
-}  // namespace sinew::rig
+}  // namespace sinew::rig::heap_test

@@ -11,7 +11,7 @@
 #include "sinew/run/stand/run.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::rig {
+namespace sinew::rig::measured_test {
 namespace {
 
 using units::inch, units::psi, units::pound_force;
@@ -169,4 +169,4 @@ TEST(Measured, IsACsvWithUnits) {
 }
 
 }  // namespace
-}  // namespace sinew::rig
+}  // namespace sinew::rig::measured_test

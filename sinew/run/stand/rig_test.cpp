@@ -17,7 +17,7 @@
 #include "sinew/run/stand/run.h"
 #include "sinew/signals/pulse.h"
 
-namespace sinew::rig {
+namespace sinew::rig::rig_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ TEST(DriveLaws, FeedbackOpensTheValveThatHelps) {
 }
 
 }  // namespace
-}  // namespace sinew::rig
+}  // namespace sinew::rig::rig_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace sinew::tune {
+namespace sinew::tune::goals_test {
 namespace {
 
 using Is = Condition::Is;
@@ -125,4 +125,4 @@ TEST(Front, IsEmptyWhereNothingIsFeasible) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::goals_test

@@ -10,7 +10,7 @@
 
 #include "sinew/tune/sample.h"
 
-namespace sinew::tune {
+namespace sinew::tune::method_test {
 namespace {
 
 using Function = std::function<std::vector<double>(const double*)>;
@@ -122,4 +122,4 @@ TEST(Method, WhatPagmoRefusesIsSaid) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::method_test

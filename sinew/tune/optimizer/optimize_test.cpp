@@ -17,7 +17,7 @@
 #include "sinew/tune/optimizer/kept.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 
-namespace sinew::tune {
+namespace sinew::tune::optimize_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -241,4 +241,4 @@ TEST_F(OptimizeTest, SeveralGoalsHaveAFront) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::optimize_test

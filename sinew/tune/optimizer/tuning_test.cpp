@@ -9,7 +9,7 @@
 
 #include "sinew/config/diagnostics.h"
 
-namespace sinew::tune {
+namespace sinew::tune::tuning_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ TEST_F(TuningTest, SaysWhereAndWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::tuning_test

@@ -11,7 +11,7 @@
 #include "sinew/tune/page/study_view.h"
 #include "sinew/tune/results/results.h"
 
-namespace sinew::tune {
+namespace sinew::tune::study_page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ TEST_F(StudyPageTest, IsReadWithoutItsExperiment) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::study_page_test

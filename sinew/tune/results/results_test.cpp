@@ -12,7 +12,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/error.h"
 
-namespace sinew::tune {
+namespace sinew::tune::results_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -280,4 +280,4 @@ TEST_F(ResultsTest, TellsOfAFolderThatIsMissingOrMayNotBeWritten) {
 }
 
 }  // namespace
-}  // namespace sinew::tune
+}  // namespace sinew::tune::results_test
