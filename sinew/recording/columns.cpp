@@ -23,6 +23,14 @@ std::string without_number(std::string text) {
 
 bool is_pressure(std::string_view unit) { return unit.starts_with("Pa "); }
 
+// Returns the unit that the header has. Sinew's own channels have "Pa" alone: one that is called
+// pressure is absolute, unless its name says gauge.
+std::string unit_in(const Heading& h) {
+  const bool channel = h.name.starts_with('/') && h.name.ends_with("pressure");
+  if (!channel || h.file_unit != "Pa") return h.file_unit;
+  return h.name.ends_with("/gauge_pressure") ? "Pa gauge" : "Pa abs";
+}
+
 }  // namespace
 
 std::vector<Found> ColumnFinder::find(std::span<const Wanted> wanted) {
@@ -137,7 +145,7 @@ void ColumnFinder::convert(const Heading& h, const Wanted& w, Found& f) {
   if (!w.words.empty() || (w.name == "time" && stamps)) return;
   auto said = source_.units.find(h.name);
   if (said == source_.units.end()) said = source_.units.find(h.written);
-  f.unit = said != source_.units.end() ? said->second : h.file_unit;
+  f.unit = said != source_.units.end() ? said->second : unit_in(h);
   std::vector<config::Spelling> meanings = config::spellings(f.unit);
   if (meanings.empty()) meanings.push_back({f.unit});
   std::string try_this;

@@ -173,7 +173,7 @@ TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
   const fs::path folder = folder_;
   {
     log::Writer writer(folder / "log.mcap",
-                       {{"/muscle/flexor/pressure", "inside", {{"value", "Pa abs"}}},
+                       {{"/muscle/flexor/pressure", "inside, absolute", {{"value", "Pa"}}},
                         {"/muscle/flexor/tension", "it pulls with", {{"value", "N"}}}});
     for (int i = 0; i < 50; ++i) {
       writer.push(0, 10'000'000LL * i, std::vector<double>{2e5 + 1e5 / (i + 3)});
@@ -193,6 +193,10 @@ TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
   const Measured csv = read_measured(source, wanted);
   ASSERT_EQ(run.rows(), 50u);
   for (const Wanted& w : wanted) EXPECT_EQ(run[w.name], csv[w.name]) << w.name;
+  // A channel is in Pa without a word, and absolute.
+  for (std::size_t i = 0; i < run.rows(); ++i)
+    EXPECT_NEAR(run["pressure"][i], 2e5 + 1e5 / static_cast<double>(i + 3) - units::atmosphere,
+                1e-9);
 
   const auto said_of = [](const Source& asked, std::span<const Wanted> columns) {
     try {
