@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/fit/wish.h"
 
 namespace sinew::identify {
@@ -82,6 +84,14 @@ void check_result_options(const ResultOptions& options);
 
 // Writes the parameter file where one is wanted, and says so.
 void write_parameter_file(const std::string& text, const ResultOptions& options);
+
+// Calls `find` with a counter of models that have been tried, and shows it on a terminal.
+template <class Find>
+auto watched(std::size_t models, bool quiet, const Find& find) {
+  identify::Tally tried = 0;
+  const ProgressBar bar(tried, static_cast<std::int64_t>(models), {.unit = "laws"}, quiet);
+  return find(tried);
+}
 
 // Prints the report, as words or as JSON, `json` in its place, and writes the parameter file and
 // the page where they are wanted. Notes and warnings go to stderr.

@@ -24,7 +24,10 @@ void add_identify_creep(Command identify, Action& action) {
   sub.callback([options, &action] {
     action = [options] {
       check_result_options(options->result);
-      const auto found = identify::find_creep(sources_of(options->data));
+      const auto find = [&](identify::Tally& tried) {
+        return identify::find_creep(sources_of(options->data), &tried);
+      };
+      const auto found = watched(identify::creep_models().size(), options->result.quiet, find);
       tell(found.report, "", options->data, options->result, to_json(found));
       return ok;
     };

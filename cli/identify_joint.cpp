@@ -45,7 +45,12 @@ ExitCode run_joint(const IdentifyJointOptions& options) {
   const std::vector<identify::Source> sources = sources_of(options.data);
   if (!options.hold_out.empty())
     settings.held_out = identify::beside(sources, "hold_out", options.hold_out);
-  const identify::JointFound found = identify::find_joint(sources, settings);
+  const auto find = [&](identify::Tally& tried) {
+    settings.tried = &tried;
+    return identify::find_joint(sources, settings);
+  };
+  const identify::JointFound found =
+      watched(identify::joint_models().size(), options.result.quiet, find);
   tell(found.result.report, found.file(options.result.out), options.data, options.result,
        to_json(found));
   if (!options.result.json) print_combinations(found.result);

@@ -1,8 +1,6 @@
 // cli/identify_static.cpp - `sinew identify static`: the static law of an actuator.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <cstdint>
 #include <filesystem>
 
 #include "cli/identify.h"
@@ -37,18 +35,14 @@ void write_muscle(const identify::StaticMuscle& muscle, const std::string& text,
   write_parameter_file(text, other);
 }
 
-// Identifies, and shows on a terminal how many laws have been tried.
-identify::StaticFound watched(const IdentifyStaticOptions& options) {
-  std::atomic<std::int64_t> tried = 0;
-  identify::StaticSettings settings = options.settings;
-  settings.tried = &tried;
-  const auto laws = static_cast<std::int64_t>(identify::static_models().size());
-  const ProgressBar bar(tried, laws, {.unit = "laws"}, options.result.quiet);
-  return identify::find_static(sources_of(options.data), settings);
-}
-
 ExitCode run_static(const IdentifyStaticOptions& options) {
-  const identify::StaticFound found = watched(options);
+  const auto find = [&](identify::Tally& tried) {
+    identify::StaticSettings settings = options.settings;
+    settings.tried = &tried;
+    return identify::find_static(sources_of(options.data), settings);
+  };
+  const identify::StaticFound found =
+      watched(identify::static_models().size(), options.result.quiet, find);
   tell(found.result.report, found.files[0], options.data, options.result);
 
   // Others of its make, each in a file of its own.

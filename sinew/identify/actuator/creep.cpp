@@ -220,7 +220,13 @@ Held held_of(const Measured& data, Report& report) {
 
 std::span<const Wanted> creep_columns() { return creep_wanted; }
 
-CreepResult identify_creep(const Measured& data) {
+std::vector<std::string> creep_models() {
+  std::vector<std::string> out;
+  for (const Form& form : forms) out.emplace_back(form.name);
+  return out;
+}
+
+CreepResult identify_creep(const Measured& data, Tally* done) {
   if (data.rows() < least_rows)
     throw Refusal(data.file, fmt::format("{} rows", data.rows()),
                   fmt::format("at least {}", least_rows), "a longer hold");
@@ -234,8 +240,12 @@ CreepResult identify_creep(const Measured& data) {
             .notes = data.notes};
   const Held held = held_of(data, report);
   const bool both = vents(held.pressure);
+  std::vector<const Form*> tried;
   for (const Form& form : forms)
-    if (both || !form.friction) report.fits.push_back(try_form(held, form));
+    if (both || !form.friction) tried.push_back(&form);
+  report.fits.resize(tried.size());
+  side_by_side(
+      tried.size(), [&](std::size_t k) { report.fits[k] = try_form(held, *tried[k]); }, done);
   report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
   choose(report);
   const Form& best = *std::ranges::find(forms, report.best().model, &Form::name);

@@ -16,10 +16,13 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -35,8 +38,11 @@ struct CreepResult {
 
 // Tries none, one and two elements of creep; of a recording that is filled and vented each without
 // and with friction. To choose, ten stretches of time are left out by turns. Samples at which the
-// pressure moves (static_settled.h) are followed and not fitted. Throws Refusal for fewer than 12
-// rows.
-CreepResult identify_creep(const Measured& data);
+// pressure moves (static_settled.h) are followed and not fitted. `done` counts the models that have
+// been tried. Throws Refusal for fewer than 12 rows.
+CreepResult identify_creep(const Measured& data, Tally* done = nullptr);
+
+// Returns the names of the models, the simplest first.
+std::vector<std::string> creep_models();
 
 }  // namespace sinew::identify

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
@@ -17,6 +14,7 @@
 #include "sinew/identify/actuator/static_tried.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/fit/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -166,8 +164,7 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
   return out;
 }
 
-// Tries the laws side by side, the dearest of them, which come last, first. Each is found as it
-// would be alone, whatever the number of threads.
+// Tries the laws side by side.
 std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
                          const StaticOptions& options, double full_scale,
                          std::vector<Best>& found) {
@@ -175,28 +172,11 @@ std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
   for (const StaticModel& model : static_models())
     if (options.model.empty() || model.name == options.model) models.push_back(&model);
   std::vector<Fit> fits(models.size());
-  std::vector<std::exception_ptr> failed(models.size());
   found.resize(models.size());
-  std::atomic<std::size_t> begun = 0;
-  const auto work = [&] {
-    for (std::size_t i = begun++; i < models.size(); i = begun++) {
-      const std::size_t k = models.size() - 1 - i;
-      try {
-        fits[k] = try_model(*models[k], s, scales, options.hold_out, full_scale, found[k]);
-      } catch (...) {
-        failed[k] = std::current_exception();
-      }
-      if (options.tried) ++*options.tried;
-    }
+  const auto attempt = [&](std::size_t k) {
+    fits[k] = try_model(*models[k], s, scales, options.hold_out, full_scale, found[k]);
   };
-  {
-    std::vector<std::jthread> others;
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    for (std::size_t t = 1; t < std::min(cores, models.size()); ++t) others.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& error : failed)
-    if (error) std::rethrow_exception(error);
+  side_by_side(models.size(), attempt, options.tried);
   return fits;
 }
 

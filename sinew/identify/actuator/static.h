@@ -10,8 +10,6 @@
 // held out by the user (StaticPoint::fitted) has no part in it and tells how good the result is.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +18,7 @@
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -36,7 +35,7 @@ struct StaticOptions {
   HoldOut hold_out = HoldOut::none;       // beside what the points say
 
   // Counts the laws that have been tried, for whoever watches; null: nobody does.
-  std::atomic<std::int64_t>* tried = nullptr;
+  Tally* tried = nullptr;
 };
 
 // One muscle's actuator, as a file would have it.

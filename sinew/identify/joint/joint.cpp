@@ -11,6 +11,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/joint/combinations.h"
 #include "sinew/identify/joint/joint_slots.h"
 #include "sinew/identify/joint/rows.h"
@@ -302,7 +303,8 @@ std::vector<std::string> joint_models() {
 }
 
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& other,
-                           const JointSetup& setup, std::string_view model, const Wishes& wishes) {
+                           const JointSetup& setup, std::string_view model, const Wishes& wishes,
+                           Tally* done) {
   const JointTorque joint(data, setup);
   const std::optional<Measured> held_out = as_another(other, joint.recordings());
   refuse_without_torque(data, setup);
@@ -328,16 +330,19 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   report.notes = data.notes;
 
   std::vector<const Law*> tried;
-  std::vector<Solved> solved;
   for (const Law& law : laws) {
     if (!model.empty() && model != law.name) continue;
     if (setup.keep_force && law.pressure) continue;  // the force is what it is
     tried.push_back(&law);
-    solved.emplace_back();
-    report.fits.push_back(tried_fit(law, joint, some, others, !held_out, setup, wishes,
-                                    report.full_scale, solved.back()));
   }
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
+  std::vector<Solved> solved(tried.size());
+  report.fits.resize(tried.size());
+  const auto attempt = [&](std::size_t k) {
+    report.fits[k] = tried_fit(*tried[k], joint, some, others, !held_out, setup, wishes,
+                               report.full_scale, solved[k]);
+  };
+  side_by_side(tried.size(), attempt, done);
   refuse_if_all_are(report, data.file);
   report.rows = rows_of(data, joint, held_out, others);
   choose(report);

@@ -30,6 +30,7 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/fit/wish.h"
 
 namespace sinew::identify {
@@ -80,12 +81,12 @@ struct JointResult {
 };
 
 // Held out: `held_out`, or else every third row. `model`: only that one; empty: all. `wishes` are
-// for moment_arm, origin_ratio, origin_angle, flexor_length, extensor_length, c0 and c1. Throws
-// Refusal, config::Error for a wish of a parameter that there is not, and std::invalid_argument for
-// an unknown model.
+// for moment_arm, origin_ratio, origin_angle, flexor_length, extensor_length, c0 and c1. `done`
+// counts the models that have been tried. Throws Refusal, config::Error for a wish of a parameter
+// that there is not, and std::invalid_argument for an unknown model.
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& held_out,
                            const JointSetup& setup, std::string_view model = "",
-                           const Wishes& wishes = {});
+                           const Wishes& wishes = {}, Tally* done = nullptr);
 std::vector<std::string> joint_models();
 
 }  // namespace sinew::identify

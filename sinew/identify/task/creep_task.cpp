@@ -8,8 +8,8 @@
 
 namespace sinew::identify {
 
-CreepResult find_creep(const std::vector<Source>& sources) {
-  return identify_creep(read_measured(only_of(sources), creep_columns()));
+CreepResult find_creep(const std::vector<Source>& sources, Tally* tried) {
+  return identify_creep(read_measured(only_of(sources), creep_columns()), tried);
 }
 
 nlohmann::ordered_json to_json(const CreepResult& found) {

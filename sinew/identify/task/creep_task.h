@@ -9,8 +9,8 @@
 
 namespace sinew::identify {
 
-// Throws config::Error and Refusal.
-CreepResult find_creep(const std::vector<Source>& sources);
+// `tried` counts models that have been tried. Throws config::Error and Refusal.
+CreepResult find_creep(const std::vector<Source>& sources, Tally* tried = nullptr);
 
 // Returns the report with the shares, times [s] and half-width [Pa], as `--json` prints it.
 nlohmann::ordered_json to_json(const CreepResult& found);

@@ -97,11 +97,11 @@ JointFound find_joint(const std::vector<Source>& sources, const JointSettings& s
   std::optional<Measured> held_out;
   if (settings.held_out)
     held_out = read_measured(*settings.held_out, joint_columns(settings.moving));
-  JointFound out{
-      .result = identify_joint(data, held_out, setup, settings.model, Wishes(settings.wishes)),
-      .setup = setup,
-      .names = names,
-      .base = settings.base};
+  JointFound out{.result = identify_joint(data, held_out, setup, settings.model,
+                                          Wishes(settings.wishes), settings.tried),
+                 .setup = setup,
+                 .names = names,
+                 .base = settings.base};
   out.source = "sinew identify joint";
   for (const Source& source : sources) out.source += " " + source.path;
   out.source += ": " + out.result.report.best().model;

@@ -2,8 +2,6 @@
 // length and pressure.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +26,7 @@ struct StaticSettings {
                                      // not known
   bool anyway = false;               // fit where a check is red, too
   std::vector<std::string> predict;  // rest lengths nobody measured: "rest_length=120 mm"
-  std::atomic<std::int64_t>* tried = nullptr;  // counts laws that have been tried; null: nothing
+  Tally* tried = nullptr;            // counts laws that have been tried; null: nothing
 };
 
 // Holds what was found, with the actuators' files.
