@@ -109,7 +109,7 @@ judge() {  # judge WAY NAME
     echo "$2: $1 accepted"
     return
   fi
-  awk -f tools/compare.awk "$expected" "$found" || {
+  awk -f tools/numbers.awk -f tools/compare.awk "$expected" "$found" || {
     echo "$2: ${source[$1]} prints something else than $expected; if that is right:" \
       "tools/examples.sh --accept --$1 $2" >&2
     return 1

@@ -1,0 +1,115 @@
+# transcripts.awk - the two halves of tools/transcripts.sh that read a transcript.
+#
+#   awk -v work=DIR -f numbers.awk -f transcripts.awk split FILE
+#     writes DIR/<n>.command and DIR/<n>.expected for each command of FILE, DIR/<n>.fresh where a
+#     heading stands before it, and prints how many there are
+#   awk -v work=DIR -f numbers.awk -f transcripts.awk judge FILE
+#     compares DIR/<n>.found with what is expected, prints what differs, and writes FILE with what
+#     was found into DIR/accepted; exit 1 if anything differs
+
+function indented(line) { return substr(line, 1, 2) == "  " }
+function is_command(line) { return substr(line, 1, 4) == "  $ " }
+function is_continued(line) { return substr(line, 1, 4) == "  > " }
+
+# Reads FILE into lines[1..count]; block[n] is the line of the n-th command.
+function read_transcript(file,   line) {
+  while ((getline line < file) > 0) {
+    lines[++count] = line
+    if (is_command(line)) block[++blocks] = count
+  }
+  if (!count) { print file ": empty or missing"; exit 2 }
+}
+
+# The command of block n ends before this line.
+function after_command(n,   at) {
+  for (at = block[n] + 1; at <= count && is_continued(lines[at]); ++at);
+  return at
+}
+
+# What block n is expected to print ends before this line: at prose, or at the next command. A blank
+# line belongs to the output only if more output follows.
+function after_output(n,   at, last) {
+  last = after_command(n)
+  for (at = last; at <= count && (indented(lines[at]) || lines[at] == "") && !is_command(lines[at]); ++at)
+    if (lines[at] != "") last = at + 1
+  return last
+}
+
+function split_transcript(   n, at, text) {
+  for (n = 1; n <= blocks; ++n) {
+    text = substr(lines[block[n]], 5)
+    for (at = block[n] + 1; at < after_command(n); ++at) text = text "\n" substr(lines[at], 5)
+    print text > (work "/" n ".command")
+    close(work "/" n ".command")
+    for (at = (n > 1 ? block[n - 1] : 0) + 1; at < block[n]; ++at)
+      if (lines[at] ~ /^# /) { print "" > (work "/" n ".fresh"); close(work "/" n ".fresh") }
+  }
+  print blocks + 0
+}
+
+# Returns whether a line of output is as expected: "[..]" is any text, all else is as it stands but
+# for the rounding of numbers.
+function fits(expected, found,   at, part, where) {
+  at = index(expected, "[..]")
+  if (!at) return same_but_rounding(expected, found, 0)
+  part = substr(expected, 1, at - 1)
+  if (substr(found, 1, length(part)) != part) return 0
+  found = substr(found, length(part) + 1)
+  expected = substr(expected, at + 4)
+  while ((at = index(expected, "[..]")) > 0) {
+    part = substr(expected, 1, at - 1)
+    where = index(found, part)
+    if (!where) return 0
+    found = substr(found, where + length(part))
+    expected = substr(expected, at + 4)
+  }
+  return length(found) >= length(expected) && substr(found, length(found) - length(expected) + 1) == expected
+}
+
+# Returns whether the lines i… of what is expected fit the lines j… of what was found; a line "..." is
+# any number of lines.
+function fit_from(i, j,   k) {
+  while (i <= wanted) {
+    if (want[i] == "...") {
+      for (k = j; k <= have + 1; ++k) if (fit_from(i + 1, k)) return 1
+      return 0
+    }
+    if (j > have || !fits(want[i], got[j])) { if (j > farthest) farthest = j; return 0 }
+    ++i; ++j
+  }
+  if (j > have) return 1
+  if (j > farthest) farthest = j
+  return 0
+}
+
+function judge_transcript(file,   n, at, line, bad, written, next_at) {
+  written = 1
+  for (n = 1; n <= blocks; ++n) {
+    wanted = have = farthest = 0
+    for (at = after_command(n); at < after_output(n); ++at) want[++wanted] = substr(lines[at], 3)
+    while ((getline line < (work "/" n ".found")) > 0) got[++have] = line
+    close(work "/" n ".found")
+    next_at = after_output(n)
+    if (fit_from(1, 1)) {
+      for (; written < next_at; ++written) print lines[written] > (work "/accepted")
+      continue
+    }
+    ++bad
+    printf "%s:%d: $ %s\n", file, block[n], substr(lines[block[n]], 5)
+    for (at = 1; at <= wanted; ++at) print "    expected | " want[at]
+    for (at = 1; at <= have; ++at) print (at == farthest ? "  * found    | " : "    found    | ") got[at]
+    if (farthest > have) print "  * found    the end"
+    for (; written < after_command(n); ++written) print lines[written] > (work "/accepted")
+    for (at = 1; at <= have; ++at) print (got[at] == "" ? "" : "  " got[at]) > (work "/accepted")
+    written = next_at
+  }
+  for (; written <= count; ++written) print lines[written] > (work "/accepted")
+  if (bad) exit 1
+}
+
+BEGIN {
+  read_transcript(ARGV[2])
+  if (ARGV[1] == "split") split_transcript()
+  else judge_transcript(ARGV[2])
+  exit
+}
