@@ -1,15 +1,15 @@
 # transcripts.awk - the two halves of tools/transcripts.sh that read a transcript.
 #
-#   awk -v work=DIR -f numbers.awk -f transcripts.awk split FILE
-#     writes DIR/<n>.command and DIR/<n>.expected for each command of FILE, DIR/<n>.fresh where a
-#     heading stands before it, and prints how many there are
-#   awk -v work=DIR -f numbers.awk -f transcripts.awk judge FILE
-#     compares DIR/<n>.found with what is expected, prints what differs, and writes FILE with what
-#     was found into DIR/accepted; exit 1 if anything differs
+#   awk -v work=DIR -v root=REPOSITORY -f numbers.awk -f transcripts.awk split FILE
+#     writes DIR/<n>.command for each command of FILE, and DIR/<n>.fresh where a heading stands before
+#     it; prints how many commands there are
+#   awk … judge FILE
+#     compares what the commands wrote (DIR/<n>.out, .err and .code) with what FILE expects, prints what
+#     differs, and writes FILE with what was found into DIR/accepted; exit 1 if anything differs
 
 function indented(line) { return substr(line, 1, 2) == "  " }
 function is_command(line) { return substr(line, 1, 4) == "  $ " }
-function is_continued(line) { return substr(line, 1, 4) == "  > " }
+function is_continued(line) { return substr(line, 1, 4) == "  > " || line == "  >" }
 
 # Reads FILE into lines[1..count]; block[n] is the line of the n-th command.
 function read_transcript(file,   line) {
@@ -82,13 +82,37 @@ function fit_from(i, j,   k) {
   return 0
 }
 
+function replaced(text, from, to,   out, at) {
+  while ((at = index(text, from)) > 0) {
+    out = out substr(text, 1, at - 1) to
+    text = substr(text, at + length(from))
+  }
+  return out text
+}
+
+function add_found(line) {
+  line = replaced(replaced(line, work "/here", "$HERE"), root, "$ROOT")
+  sub(/ +$/, "", line)
+  got[++have] = line
+}
+
+# Reads what a command wrote, and its exit code, into got[1..have] as a transcript has it.
+function read_found(name,   line, code) {
+  have = 0
+  while ((getline line < (name ".out")) > 0) add_found(line)
+  while (have && got[have] == "") --have  # blank lines at the end look like those before prose
+  while ((getline line < (name ".err")) > 0) add_found("! " line)
+  getline code < (name ".code")
+  if (code != 0) add_found("[exit " code "]")
+  close(name ".out"); close(name ".err"); close(name ".code")
+}
+
 function judge_transcript(file,   n, at, line, bad, written, next_at) {
   written = 1
   for (n = 1; n <= blocks; ++n) {
     wanted = have = farthest = 0
     for (at = after_command(n); at < after_output(n); ++at) want[++wanted] = substr(lines[at], 3)
-    while ((getline line < (work "/" n ".found")) > 0) got[++have] = line
-    close(work "/" n ".found")
+    read_found(work "/" n)
     next_at = after_output(n)
     if (fit_from(1, 1)) {
       for (; written < next_at; ++written) print lines[written] > (work "/accepted")

@@ -18,7 +18,8 @@
 #   edit FILE FROM TO   replaces FROM, which must stand in FILE exactly once, by TO
 #   field KEY           prints the lines of a JSON text on stdin that have this key
 #
-# SINEW names the program, build/release/bin/sinew without it.
+# SINEW names the program, build/release/bin/sinew without it; wherever it is, the files that come with
+# Sinew are those of the repository.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 SINEW=$(realpath "${SINEW:-$ROOT/build/release/bin/sinew}")
@@ -28,7 +29,8 @@ accept=''
 [[ ${1:-} != --accept ]] || { accept=yes; shift; }
 (($#)) || { echo "usage: tools/transcripts.sh [--accept] FILE..." >&2; exit 2; }
 
-work=$(mktemp -d)
+# In memory, where that can be: each heading copies and removes some hundred files.
+work=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
 ln -s "$SINEW" "$work/bin/sinew"
@@ -46,31 +48,27 @@ edit() {
 field() { grep -F "\"$1\":"; }
 export -f edit field
 
-# Writes what a command prints as a transcript has it.
-run_command() {  # run_command FOLDER COMMAND_FILE
-  local code=0
-  (cd "$1" && env -u SINEW_UNITS XDG_CONFIG_HOME="$1/config" LC_ALL=C.UTF-8 PATH="$work/bin:$PATH" \
-    bash -o pipefail "$2" </dev/null >"$work/out" 2>"$work/err") || code=$?
-  { cat "$work/out"; [[ ! -s $work/out || -z $(tail -c 1 "$work/out") ]] || echo '[no newline]'
-    sed 's/^/! /' "$work/err"
-    ((code == 0)) || echo "[exit $code]"
-  } | sed "s|$1|\$HERE|g; s|$ROOT|\$ROOT|g; s/ *\$//"
-}
+# The caller's settings are none of the transcripts'.
+unset SINEW_UNITS
+export SINEW_SHARE=$ROOT XDG_CONFIG_HOME=$work/here/config LC_ALL=C.UTF-8 PATH=$work/bin:$PATH
+
+awk_on() { awk -v work="$work" -v root="$ROOT" -f "$ROOT/tools/numbers.awk" -f "$ROOT/tools/transcripts.awk" "$@"; }
 
 run_transcript() {  # run_transcript FILE
-  local blocks n folder=''
-  rm -f "$work"/*.command "$work"/*.found "$work"/*.fresh "$work/accepted"
-  blocks=$(awk -v work="$work" -f "$ROOT/tools/numbers.awk" -f "$ROOT/tools/transcripts.awk" split "$1")
+  local blocks n code folder=$work/here
+  rm -f "$work"/*.command "$work"/*.out "$work"/*.err "$work"/*.code "$work"/*.fresh "$work/accepted"
+  blocks=$(awk_on split "$1")
   for ((n = 1; n <= blocks; ++n)); do
-    if [[ ! $folder || -e $work/$n.fresh ]]; then
-      rm -rf "$work/here"
-      folder=$work/here
+    if ((n == 1)) || [[ -e $work/$n.fresh ]]; then
+      rm -rf "$folder"
       mkdir "$folder"
       cp -r "$ROOT/robots" "$ROOT/experiments" "$folder"
     fi
-    run_command "$folder" "$work/$n.command" >"$work/$n.found"
+    code=0
+    (cd "$folder" && exec bash -o pipefail "$work/$n.command" </dev/null >"$work/$n.out" 2>"$work/$n.err") || code=$?
+    echo "$code" >"$work/$n.code"
   done
-  awk -v work="$work" -f "$ROOT/tools/numbers.awk" -f "$ROOT/tools/transcripts.awk" judge "$1" >"$work/differs" ||
+  awk_on judge "$1" >"$work/differs" ||
     if [[ $accept ]]; then
       cp "$work/accepted" "$1"
       echo "$1: accepted"

@@ -1,5 +1,5 @@
-// `film`: of a machine, of the stand and of several runs, where there is a browser; and what it
-// refuses.
+// `film`: of a machine, of the stand and of several runs, where there is a browser. What is refused
+// before one starts: film.txt.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -151,51 +151,6 @@ TEST(Film, OfAComparisonRefusesARunThatCannotBeDrawn) {
             0);
   EXPECT_THAT(w.sinew({"film", "run", "blind", "-o", "a.gif"}).err,
               AllOf(StartsWith("blind: "), HasSubstr("a run without a drawing")));
-}
-
-TEST(Film, OfAComparisonTellsWhatDoesNotFitBeforeABrowserStarts) {
-  const Workspace w;
-  run_both(w);
-  EXPECT_THAT(w.sinew({"film", "simulated", "-o", "a.gif", "--align", "correlation"}).err,
-              StartsWith("--align: found one run; expected two runs or more"));
-  EXPECT_THAT(w.sinew({"film", "simulated", "-o", "a.gif", "--clock", "fit"}).err,
-              StartsWith("--clock: found one run"));
-  EXPECT_THAT(w.sinew({"film", "simulated", "measured", "-o", "a.gif", "--machine", bench}).err,
-              AllOf(StartsWith("--machine: "), HasSubstr("each says itself")));
-  EXPECT_EQ(w.sinew({"film", "simulated", "measured", "-o", "a.gif", "--align", "luck"}).code, 2);
-  if (SINEW_HAS_PAGE) {
-    EXPECT_THAT(w.sinew({"film", "simulated", "nothing", "-o", "a.gif"}).err, HasSubstr("nothing"));
-    EXPECT_THAT(w.sinew({"film", "simulated", "measured", "-o", "a.gif", "--event",
-                         "/joint/lever/angle > 1000 rad"})
-                    .err,
-                HasSubstr("/joint/lever/angle"));
-  }
-  EXPECT_FALSE(fs::exists(w / "a.gif"));
-}
-
-TEST(Film, WrongWordsAreToldBeforeABrowserStarts) {
-  const Workspace w;
-  run(w, bench, "run");
-  EXPECT_EQ(w.sinew({"film", "run"}).code, 2);
-  EXPECT_THAT(w.sinew({"film", "run", "-o", "walk.avi"}).err,
-              AllOf(StartsWith("--output: found \"walk.avi\""), HasSubstr("\"walk.gif\"")));
-  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.gif", "--from", "2 s", "--to", "1 s"}).err,
-              StartsWith("--from: found 2 s; expected a time before 1 s"));
-  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.mp4", "--width", "321"}).err,
-              StartsWith("--width: found 321; expected an even number"));
-  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.gif", "--fps", "80"}).err, StartsWith("--fps: "));
-  EXPECT_THAT(w.sinew({"film", "run", "-o", "nowhere/a.gif"}).err, HasSubstr("nowhere"));
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", "/nowhere", 1);
-  const Result no_ffmpeg = w.sinew({"film", "run", "-o", "a.mp4"});
-  const Result no_browser = w.sinew({"film", "run", "-o", "a.gif"});
-  setenv("PATH", path.c_str(), 1);
-  EXPECT_THAT(no_ffmpeg.err, HasSubstr("apt-get install ffmpeg"));
-  EXPECT_EQ(no_browser.code, 1);
-  if (SINEW_HAS_PAGE) {
-    EXPECT_THAT(no_browser.err, HasSubstr("apt-get install chromium"));
-  }
-  EXPECT_FALSE(fs::exists(w / "a.gif"));
 }
 
 TEST(Film, OfATimeThatTheRunDoesNotHaveIsRefused) {

@@ -1,4 +1,5 @@
 #include "tests/cli/program.h"
+#include "tests/places.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ fs::path fresh_folder() {
   // The settings of who runs the tests are none of theirs.
   setenv("XDG_CONFIG_HOME", (folder / "config").c_str(), 1);
   const bool ready = chdir(folder.c_str()) == 0 && to("out", STDOUT_FILENO) && to("err", 2);
-  if (ready) execv(SINEW_PROGRAM, arguments.data());
+  if (ready) execv(sinew::test::program().c_str(), arguments.data());
   _exit(126);
 }
 
@@ -49,7 +50,8 @@ pid_t start_in(const Words& words, const fs::path& folder, const fs::path& strea
 Workspace::Workspace() : path_(fresh_folder()) {
   unsetenv("SINEW_UNITS");
   for (const char* folder : {"robots", "experiments"})
-    fs::copy(fs::path(SINEW_SOURCE_DIR) / folder, path_ / folder, fs::copy_options::recursive);
+    fs::copy(fs::path(sinew::test::source_dir()) / folder, path_ / folder,
+             fs::copy_options::recursive);
 }
 
 Workspace::~Workspace() {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/cli/program.h"
+#include "tests/places.h"
 
 namespace sinew::test::terminal_test {
 namespace {
@@ -30,7 +31,7 @@ std::string on_terminal(const Workspace& w, const Words& words, unsigned short c
     arguments.push_back(nullptr);
     setenv("TERM", term, 1);
     setenv("NO_COLOR", no_color, 1);
-    if (chdir(w.path().c_str()) == 0) execv(SINEW_PROGRAM, arguments.data());
+    if (chdir(w.path().c_str()) == 0) execv(sinew::test::program().c_str(), arguments.data());
     _exit(126);
   }
   std::string out;
@@ -82,27 +83,6 @@ TEST(Terminal, TheBarIsGoneAtTheEnd) {
       on_terminal(w, {"run", "experiments/one-joint.toml", "--pace", "20", "-o", "ran"}, 100, "1");
   EXPECT_THAT(seen, HasSubstr("###"));
   EXPECT_THAT(seen.substr(seen.rfind('#')), HasSubstr("\033[K"));
-}
-
-// Who cannot be told anything keeps what was done all the same; a result without a place is none.
-TEST(Terminal, AFullOrClosedStderrCostsNoResult) {
-  const Workspace w;
-  const std::string program = std::string("cd '") + w.path().string() + "' && '" + SINEW_PROGRAM +
-                              "' run experiments/one-joint.toml --no-report -o ";
-  const auto code = [&](const std::string& words) {
-    const int status = std::system((program + words).c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  };
-  EXPECT_EQ(code("whole >/dev/null 2>/dev/null"), 0);
-  const auto names = names_in(w / "whole");
-  for (const std::string to : {"2>/dev/full", "2>&-", "<&- 2>&-"}) {
-    std::filesystem::remove_all(w / "out");
-    EXPECT_EQ(code("out >/dev/null " + to), 0) << to;
-    EXPECT_EQ(names_in(w / "out"), names) << to;
-    EXPECT_EQ(read_text(w / "out/log.mcap"), read_text(w / "whole/log.mcap")) << to;
-    EXPECT_EQ(code("out >/dev/null " + to), 1) << "what is refused ends with 1, " << to;
-  }
-  EXPECT_EQ(code("unheard >&- 2>&-"), 1);
 }
 
 }  // namespace
