@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # designs.sh [FOLDER [SEED]]   what a change of the leg's design buys: the front of faster-walk-front.toml again for each
 # design, then faster-walk-one-seed.toml from that front's fastest walk with 90 % passiveness. An hour for each seed on one
-# core. docs/studies/designs.csv has what it printed for seeds 1 and 2 (the dead times for 1 alone), docs/designs.png shows it (designs.gp).
+# core. docs/evidence/studies/designs.csv has what it printed for seeds 1 and 2 (the dead times for 1 alone), docs/pictures/designs.png shows it (designs.gp).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8

@@ -1,4 +1,4 @@
-# gnuplot -c studies/gains.gp docs/studies/one-after-the-other.csv docs/gains.png   the best so far by candidates, of four gains
+# gnuplot -c studies/gains.gp docs/evidence/studies/one-after-the-other.csv docs/pictures/gains.png   the best so far by candidates, of four gains
 # together and of joint after joint, three seeds each.
 set terminal pngcairo size 900,460 font "DejaVu Sans,11"
 set output ARG2

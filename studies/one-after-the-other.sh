@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # one-after-the-other.sh [FOLDER]   what it costs to tune joint after joint: the four gains of studies/gains-again.toml at once,
 # or the hip's two, then the knee's two with the hip's best, then the hip's again, each from where it stands. Some minutes.
-# FOLDER/history.csv has the best so far by candidates: docs/studies/one-after-the-other.csv, docs/gains.png (gains.gp).
+# FOLDER/history.csv has the best so far by candidates: docs/evidence/studies/one-after-the-other.csv, docs/pictures/gains.png (gains.gp).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8

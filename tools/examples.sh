@@ -4,7 +4,9 @@
 #
 #   --program   run.sh, which asks the program            expected.txt
 #   --cpp       main.cpp, built against an installation   expected-program.txt, of a lesson without run.sh expected.txt
-#   --python    main.py, with an installation's package   the same
+#   --python    main.py, with an installation's package   the same, or expected-python.txt where there is one
+#
+# examples/readme has the lines that README.md shows; it is run as a lesson is.
 #
 # Without one of the three: all that a lesson has. SINEW_BUILD names the build folder, build/release without it.
 # SINEW_PREFIX names an installation that is there already; without it the build is installed into a folder that is
@@ -27,7 +29,7 @@ asked=${ways[*]}
 together=''
 if ((${#names[@]} == 0)); then
   together=yes
-  for folder in examples/[0-9]*/; do names+=("$(basename "$folder")"); done
+  for folder in examples/[0-9]*/ examples/readme/; do names+=("$(basename "$folder")"); done
 fi
 
 build=$PWD/${SINEW_BUILD:-build/release} work=$(mktemp -d)
@@ -40,6 +42,7 @@ has() { [[ -e examples/$2/${source[$1]} ]]; }  # has WAY NAME
 expected_file() {  # expected_file WAY NAME
   local file=expected.txt
   [[ $1 == program ]] || ! has program "$2" || file=expected-program.txt
+  [[ $1 != python || ! -e examples/$2/expected-python.txt ]] || file=expected-python.txt
   echo "examples/$2/$file"
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# picture.sh [FILE]   draws the walk of experiments/walk-test-1.toml from the side: docs/walk.svg. One
-# of pictures.sh, which makes them all.
+# picture.sh [FILE]   draws the walk of experiments/walk-test-1.toml from the side, by default as
+# docs/pictures/walk.svg. pictures.sh calls it and makes the other pictures.
 #
 # Runs the experiment, exports its log as CSV and has gnuplot draw it (Debian: gnuplot-nox).
 # SINEW_BUILD names the build folder whose program runs; build/release without it.
@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
 
-picture=${1:-docs/walk.svg}
+picture=${1:-docs/pictures/walk.svg}
 program=${SINEW_BUILD:-build/release}/bin/sinew
 command -v gnuplot >/dev/null || { echo "picture.sh: needs gnuplot (gnuplot-nox)" >&2; exit 1; }
 

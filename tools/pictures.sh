@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pictures.sh   makes every picture of README and docs/ anew, from runs: docs/walk.gif, walk.svg,
+# pictures.sh   makes the pictures of README and docs/ from runs, in docs/pictures: walk.gif, walk.svg,
 # report.png, compare.png, stand.png, fit.png, study.png.
 #
 # Needs gnuplot, chromium and npm, as ./check does. SINEW_BUILD names the build folder whose program
@@ -13,26 +13,26 @@ tools/npm-ci.sh web
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-tools/picture.sh docs/walk.svg
+tools/picture.sh docs/pictures/walk.svg
 
 "$program" run experiments/walk-test-1.toml -o "$work/walk" --quiet >/dev/null
-node web/animation.mjs "$work/walk/report.html" docs/walk.gif 1000 530
-node web/picture.mjs "$work/walk/report.html" docs/report.png 7.4
+node web/animation.mjs "$work/walk/report.html" docs/pictures/walk.gif 1000 530
+node web/picture.mjs "$work/walk/report.html" docs/pictures/report.png 7.4
 
 "$program" run experiments/walk-test-2.toml -o "$work/faster" --quiet >/dev/null
 "$program" compare "$work/walk" "$work/faster" -o "$work/compare.html" --quiet >/dev/null
-node web/picture.mjs "$work/compare.html" docs/compare.png 3.9
+node web/picture.mjs "$work/compare.html" docs/pictures/compare.png 3.9
 
 "$program" run experiments/rig/feedback.toml -o "$work/stand" --quiet >/dev/null
-node web/picture.mjs "$work/stand/report.html" docs/stand.png 7
+node web/picture.mjs "$work/stand/report.html" docs/pictures/stand.png 7
 
-# As in docs/how-to-look-at-a-study.md.
+# As in docs/how-to/studies.md.
 "$program" sweep experiments/walk-test-1.toml --points 32 --range "joint.hip.angle_gain=0.02:0.08 %/count log" \
   --range "joint.knee.angle_gain=0.02:0.12 %/count" --range "phase.swing.duration=0.5:1 s" \
   --vary "low_level.duty_rounding=none,truncate sum" --results "$work/study.db" -o "$work/study.csv" --quiet \
   --report "trolley.mean_speed_m_per_s [in/s], joints.hip.tracking_rms_rad [deg], air_used_kg [g], joints.hip.passiveness [%]"
 "$program" report "$work/study.db" --quiet
-node web/picture.mjs "$work/study.html" docs/study.png 17 light 960
+node web/picture.mjs "$work/study.html" docs/pictures/study.png 17 light 960
 
 # As in examples/06-characterise.
 for psi in 10 20 30 40 50 60 70 80 90 100; do
@@ -46,5 +46,5 @@ cd "$work"
 "$program" identify static forces.csv --actuator mesh.toml --hold-out pressure -o static.toml \
   --quiet >/dev/null
 cd - >/dev/null
-node web/picture.mjs "$work/static.html" docs/fit.png
-ls -l docs/walk.gif docs/walk.svg docs/{report,compare,stand,fit,study}.png
+node web/picture.mjs "$work/static.html" docs/pictures/fit.png
+ls -l docs/pictures/walk.gif docs/pictures/walk.svg docs/pictures/{report,compare,stand,fit,study}.png

@@ -1,14 +1,18 @@
 #!/usr/bin/env bash
-# snippets.sh   the lines of C++ and Python in examples/*/README.md stand in main.cpp and main.py beside it, one
-# after the other; how far they are indented does not matter.
+# snippets.sh   checks that the lines of programs which pages show are the lines of programs that are run: those of
+# C++ and Python in examples/*/README.md stand in main.cpp and main.py of that folder, those of C++, Python and sh
+# in README.md in main.cpp, main.py and run.sh of examples/readme. A snippet is one piece of its file, word for word;
+# indentation does not matter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 check='
   function bare(text) { gsub(/^[ \t]+|[ \t\r]+$/, "", text); return text }
-  function source_of(language) { return folder "/main." (language == "cpp" ? "cpp" : "py") }
+  function source_of(language) {
+    return folder "/" (language == "sh" ? "run.sh" : "main." (language == "cpp" ? "cpp" : "py"))
+  }
 
-  # Does the snippet stand in the source from its line `at` on?
+  # Returns whether the snippet stands in the source from its line `at` on.
   function stands(at,   k) {
     for (k = 1; k <= lines; ++k) if (source[at + k - 1] != snippet[k]) return 0
     return 1
@@ -23,10 +27,12 @@ check='
     bad = 1
   }
 
-  FNR == 1 { folder = FILENAME; sub(/\/[^\/]*$/, "", folder); language = "" }
+  FNR == 1 { folder = FILENAME; if (!sub(/\/[^\/]*$/, "", folder)) folder = "examples/readme"; language = "" }
   /^```/ && language != "" { judge(); language = ""; next }
-  /^```(cpp|python)$/ { language = substr($0, 4); begin = FNR; lines = 0; next }
+  /^```(cpp|python)$/ || (/^```sh$/ && FILENAME == "README.md") {
+    language = substr($0, 4); begin = FNR; lines = 0; next
+  }
   language != "" { snippet[++lines] = bare($0) }
-  END { if (bad) exit 1; print "snippets: " good " in the READMEs of examples/, each stands in its program" }
+  END { if (bad) exit 1; print "snippets: " good " in README.md and examples/*/README.md, each stands in its program" }
 '
-awk "$check" examples/*/README.md
+awk "$check" README.md examples/*/README.md

@@ -1,4 +1,4 @@
-// animation.mjs REPORT FILE.gif [WIDTH HEIGHT]   one step of a walk, as an animation that loops: docs/walk.gif.
+// animation.mjs REPORT FILE.gif [WIDTH HEIGHT]   one step of a walk, as an animation that loops: docs/pictures/walk.gif.
 //
 // The step is the one whose end stands most like its beginning. The trolley is held in the middle, and
 // the ground's ticks divide the way of the step, so that nothing jumps where the loop closes.

@@ -1,5 +1,5 @@
 // picture.mjs REPORT PICTURE [SECONDS] [dark] [HEIGHT]   a page as it stands at a time, a study's with that
-// row chosen: docs/report.png, docs/fit.png, docs/study.png.
+// row chosen: docs/pictures/report.png, docs/pictures/fit.png, docs/pictures/study.png.
 import { resolve } from 'node:path';
 import { open_browser, open_page } from './test/chromium.mjs';
 

@@ -19,7 +19,7 @@ SI unit that is told here, or text with a unit, "6 lb".
 
 Functions raise RefusalError where the data support no answer, sinew.InputError for what is wrong with a
 table or a setting, and TypeError for what is none. What the numbers mean, and what is refused:
-docs/how-to-characterise.md and the pages of docs/theory that it names.
+docs/how-to/characterise.md and the pages of docs/theory that it names.
 """
 
 from sinew._sinew import RefusalError

@@ -87,8 +87,9 @@ for (const [words, where, what] of searches)
 
 test('every formula is set', async () => {
   const has_some = (name) => name.endsWith('.html') && readFileSync(join(site, 'docs', name), 'utf8').includes('"arithmatex"');
-  const folders = ['.', 'theory'].flatMap((folder) => readdirSync(join(site, 'docs', folder)).map((name) => join(folder, name)));
-  const pages = folders.filter(has_some);
+  const folders = ['.', 'learn', 'how-to', 'theory', 'reference', 'evidence'];
+  const names = folders.flatMap((folder) => readdirSync(join(site, 'docs', folder)).map((name) => join(folder, name)));
+  const pages = names.filter(has_some);
   let count = 0;
   await visit(`docs/${pages[0]}`, async (page) => {
     for (const name of pages) {

@@ -1,9 +1,10 @@
 """How comments become the reference: what stands where in a header, and in a binding of Python."""
 
 import os
+import re
 import sys
 import unittest
-from typing import Dict, List
+from typing import Dict, List, Set
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../tools/site"))
 
@@ -118,6 +119,38 @@ class Bindings(unittest.TestCase):
 
     def test_what_has_no_words_is_not_there(self) -> None:
         self.assertEqual(self.found('py::class_<A>(m, "A").def("__repr__", [](A&) { return "<A>"; });'), {})
+
+
+class Bibliography(unittest.TestCase):
+    """The keys of references.bib, the anchors of bibliography.md and what the theory pages cite are the same."""
+
+    FOLDER = os.path.join(os.path.dirname(__file__), "../../docs/theory")
+
+    def read(self, name: str) -> str:
+        with open(os.path.join(self.FOLDER, name), encoding="utf-8") as file:
+            return file.read()
+
+    def keys(self) -> List[str]:
+        return re.findall(r"^@\w+\{([^,\s]+),", self.read("references.bib"), re.M)
+
+    def cited(self) -> Dict[str, Set[str]]:
+        pages = [f for f in os.listdir(self.FOLDER) if f.endswith(".md") and f != "bibliography.md"]
+        return {page: set(re.findall(r"\]\(bibliography\.md#([^)]+)\)", self.read(page))) for page in pages}
+
+    def test_each_key_is_there_once_and_in_both(self) -> None:
+        keys = self.keys()
+        self.assertGreater(len(keys), 0)
+        self.assertEqual(len(keys), len(set(keys)))
+        self.assertEqual(sorted(keys), sorted(re.findall(r'<a name="([^"]+)">', self.read("bibliography.md"))))
+
+    def test_what_a_page_cites_is_in_the_bibliography(self) -> None:
+        for page, cited in self.cited().items():
+            self.assertEqual(cited - set(self.keys()), set(), page)
+
+    def test_every_entry_has_a_title_and_a_balanced_body(self) -> None:
+        for entry in re.split(r"^@", self.read("references.bib"), flags=re.M)[1:]:
+            self.assertIn("title ", entry)
+            self.assertEqual(entry.count("{"), entry.count("}"), entry)
 
 
 if __name__ == "__main__":

@@ -60,19 +60,19 @@ def navigation(pages: Pages, folders: List[str]) -> List[Any]:
         return [{titles.pop(p): p} for p in sorted(chosen)]
 
     titles.pop("README.md")
-    start: List[Any] = ["README.md"] + take(r"^docs/tour\.md$")
+    start: List[Any] = ["README.md"] + take(r"^docs/(README|architecture)\.md$") + take(r"^docs/learn/")
     lessons = take(r"^examples/README\.md$") + take(r"^examples/[^/]+/README\.md$")
     notebooks = [f[: -len(".ipynb")] + ".md" for f in pages.files if f.endswith(".ipynb")]
-    how = take(r"^docs/how-to-")
+    how = take(r"^docs/how-to/")
     theory = take(r"^docs/theory/")
-    results = take(r"^docs/(experiments|tuned|stability|thesis-figures|evidence|departures|calibration|performance|reliability)\.md$")
+    evidence = take(r"^docs/(evidence/.*|tuned|calibration|reliability)\.md$")
+    reference = take(r"^docs/(reference/.*|dependencies)\.md$")
     cpp = ["reference/cpp/index.md"] + [{re.sub("^sinew/", "", f): page_of(f) + ".md"} for f in folders]
     python = [{m: f"reference/python/{m.replace('.', '-')}.md"} for m in ("sinew", "sinew.gym", "sinew.identify")]
-    formats = take(r"^docs/(keys|analysis|study-file|wire|supervision|versions)\.md$")
     more = take(r"")
     return [
         {"Start": start}, {"Lessons": lessons + ([{"Notebooks": notebooks}] if notebooks else [])}, {"How to": how},
-        {"Theory": theory}, {"Results": results}, {"Keys and formats": formats}, {"C++": cpp}, {"Python": python},
+        {"Theory": theory}, {"Reference": reference}, {"Evidence": evidence}, {"C++": cpp}, {"Python": python},
         {"More": more + [{"Sources": "source/index.html"}]},
     ]
 
@@ -154,7 +154,7 @@ def build(root: str, out: str, work: str) -> None:
     pages = Pages(root, docs, shown, headers, names)
     pages.write()
     front = Prose(names, pages.titles, "sinew/air")  # all folders' pages stand beside each other
-    purposes = purposes_of(os.path.join(root, "README.md"), os.path.join(HERE, "folders.txt"), front.line)
+    purposes = purposes_of(os.path.join(root, "docs/architecture.md"), os.path.join(HERE, "folders.txt"), front.line)
     folders = write_cpp_pages(docs, headers, names, pages.titles, purposes, theory_of(root, pages.titles))
     count, bare = write_python_pages(root, docs)
     if bare:

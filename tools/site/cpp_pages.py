@@ -173,7 +173,7 @@ def write_cpp_pages(out: str, headers: Dict[str, Header], names: Names, pages: D
         own.sort(key=lambda h: (h.path.endswith(".fields.h"), os.path.basename(h.path) != f"{stem}.h", h.path))
         prose = Prose(names, pages, folder)
         if folder not in purposes:
-            raise SystemExit(f"{folder}: found no words on what it is for; expected a row in README.md's table of "
+            raise SystemExit(f"{folder}: found no words on what it is for; expected a row in docs/architecture.md's table of "
                              "folders, or a line in tools/site/folders.txt")
         purpose = purposes[folder]
         page = FolderPage(folder, purpose, own, prose, theory.get(folder, []))

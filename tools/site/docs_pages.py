@@ -168,13 +168,13 @@ class Pages:
         self.save(path[: -len(".ipynb")] + ".md", "\n\n".join(parts) + "\n")
 
 
-def purposes_of(readme: str, more: str, line: Callable[[str], str]) -> Dict[str, str]:
-    """What each folder is for: by README's table of folders, and by a list of those that it leaves out."""
+def purposes_of(page: str, more: str, line: Callable[[str], str]) -> Dict[str, str]:
+    """What each folder is for: by the page's table of folders, and by a list of those that it leaves out."""
     found = {}
-    with open(readme, encoding="utf-8") as file:
+    with open(page, encoding="utf-8") as file:
         rows = re.findall(r"^\| (\[`.*?) \| (.*?) \|$", file.read(), re.M)
     for folder_links, words in rows:
-        folders = re.findall(r"\]\((sinew/[\w/]+)\)", folder_links)
+        folders = re.findall(r"\]\((?:\.\./)?(sinew/[\w/]+)\)", folder_links)
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", words)
         # A row of two folders has two halves.
         parts = [words] if len(folders) == 1 else words.split("; ")

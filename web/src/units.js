@@ -86,7 +86,7 @@ export const signed = (value) => (value === 0 ? '=' : value > 0 ? `+${number(val
 // Of a difference between two values in that unit.
 export const difference_unit = (unit) => (unit === 'Pa' ? 'Pa diff' : unit);
 
-// "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/analysis.md.
+// "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/reference/analysis.md.
 const endings = [
   ['_Nm_per_rad', 'N m/rad'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],
   ['_kg_per_m', 'kg/m'], ['_s_per_m', 's/m'], ['_J_per_m', 'J/m'], ['_per_m', '1/m'],

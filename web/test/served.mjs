@@ -5,7 +5,7 @@ import { resolve } from 'node:path';
 import { after } from 'node:test';
 import { new_context } from './pages.mjs';
 
-if (!process.env.SINEW) throw new Error('SINEW must name the program, as build/dev/bin/sinew');
+if (!process.env.SINEW) throw new Error('SINEW must name the program, as build/release/bin/sinew');
 export const program = resolve(process.env.SINEW);
 
 const children = [];
