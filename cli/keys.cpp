@@ -60,7 +60,8 @@ void add_keys(Command app, Action& action) {
   Option schema = sub.add_option("--schema", options->schema,
                                  "a JSON schema of that kind of file, for an editor")
                       .is_one_of(kinds_with_a_schema());
-  Option page = sub.add_flag("--page", options->page, "all keys as Markdown, docs/keys.md");
+  Option page =
+      sub.add_flag("--page", options->page, "all keys as Markdown, docs/reference/keys.md");
   const Option words = sub.option("WORD");
   for (const Option& other : {kind, json, words}) {
     schema.excludes(other);

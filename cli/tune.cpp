@@ -128,7 +128,7 @@ void add_tune(Command app, Action& action) {
   auto options = std::make_shared<TuneOptions>();
   Command sub = app.subcommand("tune", "the best values of an experiment's keys",
                                "sinew tune studies/faster-walk.toml --best faster-walk.toml");
-  sub.add_option("FILE", options->file, "what is tuned, by which goals: docs/how-to-tune.md")
+  sub.add_option("FILE", options->file, "what is tuned, by which goals: docs/how-to/studies.md")
       .required();
   add_sets(sub, options->sets);
   add_keeping(sub, options->runs);

@@ -1,37 +1,34 @@
-# sinew_folder(PATH DEPS...)   the library of sinew/PATH, its tests beside its sources (*_test.cpp);
-# thesis/… and fmu/… stand beside sinew/. A folder with headers only becomes an interface library.
+# sinew_folder(PATH DEPS...)   the library of sinew/PATH; thesis/… and fmu/… are beside sinew/. Its
+# tests are beside its sources (*_test.cpp) and belong to a program of tests/CMakeLists.txt. A folder
+# with headers only becomes an interface library.
 
 function(sinew_target path out)
   string(REPLACE "/" "_" name "${path}")
   set(${out} "sinew_${name}" PARENT_SCOPE)
 endfunction()
 
-# The program's words and the tests take twice as long to build as they could ever save: headers
-# such as CLI11's and nlohmann's are code in every file. What computes stands in the folders.
-function(sinew_optimize_little target)
-  if(SINEW_SANITIZE)
-    target_compile_options(${target} PRIVATE -O0)
-  else()
-    # Where -O1 inlines half of a string's text, GCC 12 sees writes beyond it that are none.
-    set(wrong -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
-    target_compile_options(${target} PRIVATE -O1 "$<$<CXX_COMPILER_ID:GNU>:${wrong}>")
+# Everything is compiled with -O1; this is for folders that compute (the list is in CMakeLists.txt).
+# The result is the same to the last bit.
+function(sinew_optimize_much target)
+  if(NOT SINEW_SANITIZE)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
   endif()
 endfunction()
 
-# Tests are built more often than they run, and what they try is in the folders: unoptimised they
-# take a quarter less to build.
+# For tests, which are built more often than they run, and for headers of outside libraries under a
+# sanitizer, where half of the time is the optimizer's.
 function(sinew_optimize_nothing target)
   target_compile_options(${target} PRIVATE -O0)
 endfunction()
 
-# A build that is made once compiles the sources of a target some at a time (presets release, asan,
-# tsan): their headers are read and instantiated once. One that is edited compiles each alone.
-# Sources that are compiled together must not use one name for two things at namespace scope.
-option(SINEW_TOGETHER "compile the sources of a target some at a time" OFF)
+# Compiles the sources of a target several at a time: their headers are read and instantiated once.
+# -DSINEW_TOGETHER=OFF compiles each alone, which is faster after an edit of one of them. Sources that
+# are compiled together must not use one name for two things at namespace scope.
+option(SINEW_TOGETHER "compile the sources of a target several at a time" ON)
 function(sinew_together target at_a_time)
   if(SINEW_TOGETHER)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${at_a_time})
-    # It takes a source that is compiled with others for a header, which may not have types of its own.
+    # GCC takes a source that is compiled with others for a header, which may not have types of its own.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
@@ -51,7 +48,7 @@ function(sinew_folder path)
   if(sources)
     add_library(${target} STATIC ${sources} ${headers})
     set(scope PUBLIC)
-    sinew_together(${target} 6)
+    sinew_together(${target} 8)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -66,33 +63,24 @@ function(sinew_folder path)
     target_link_libraries(${target} ${scope} ${dep_target})
   endforeach()
 
-  if(SINEW_TESTS AND tests)
-    add_executable(${target}_test ${tests})
-    sinew_optimize_nothing(${target}_test)
-    sinew_precompiled(${target}_test test)
-    sinew_together(${target}_test 6)
-    target_link_libraries(${target}_test PRIVATE ${target} GTest::gtest_main)
-    target_compile_definitions(${target}_test PRIVATE SINEW_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    gtest_discover_tests(${target}_test TEST_PREFIX "${path}: " DISCOVERY_TIMEOUT 60)
+  if(tests)
+    set_property(GLOBAL APPEND PROPERTY SINEW_TESTED ${path})
+    set_property(GLOBAL PROPERTY SINEW_TESTS_OF_${path} ${tests})
+    set_property(GLOBAL PROPERTY SINEW_TEST_LIBRARIES_OF_${path} ${target})
   endif()
 endfunction()
 
-# An outside library stands behind one folder; PRIVATE keeps its headers out of everyone else's.
+# An outside library is used in one folder only; PRIVATE hides its headers from all others.
 function(sinew_uses path scope)
   sinew_target(${path} target)
   get_target_property(type ${target} TYPE)
   if(NOT type STREQUAL "INTERFACE_LIBRARY")
     target_link_libraries(${target} ${scope} ${ARGN})
   endif()
-  if(TARGET ${target}_test)
-    target_link_libraries(${target}_test PRIVATE ${ARGN})
-  endif()
+  sinew_test_uses(${path} ${ARGN})
 endfunction()
 
-# What only the tests of a folder need.
+# Libraries that only the tests of a folder need.
 function(sinew_test_uses path)
-  sinew_target(${path} target)
-  if(TARGET ${target}_test)
-    target_link_libraries(${target}_test PRIVATE ${ARGN})
-  endif()
+  set_property(GLOBAL APPEND PROPERTY SINEW_TEST_LIBRARIES_OF_${path} ${ARGN})
 endfunction()

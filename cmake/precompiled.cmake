@@ -1,15 +1,15 @@
-# sinew_precompile(KIND HEADERS [OPTIMIZED_LITTLE|UNOPTIMIZED] [LIBRARY] [USES ...])   headers that the compiler
-# reads once for all targets of a kind, instead of once for each of their sources. Every source still
-# includes what it needs and compiles without; -DSINEW_PCH=OFF does so.
+# sinew_precompile(KIND HEADERS ... [LIBRARY] [MUCH|NOTHING] [USES ...])   headers that the compiler reads
+# once for all targets of a kind, instead of once for each of their sources. Every source still includes
+# what it needs and compiles without; -DSINEW_PCH=OFF does so.
 #
-# A compiler takes a precompiled header only where flags and definitions are those it was made with,
-# so a kind is: library or program, as optimised, with or without fmt and GTest (their definitions).
+# A compiler takes a precompiled header only where flags and definitions are those it was made with, so
+# a kind is: library or program, how much it is optimized, with or without fmt.
 
 option(SINEW_PCH "precompile the headers that most sources include" ON)
 
-# Makes the target sinew_pch_<kind>, of which sinew_precompiled takes the headers.
+# Makes the target sinew_pch_<kind>, whose headers sinew_precompiled() uses.
 function(sinew_precompile kind)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY;OPTIMIZED_LITTLE;UNOPTIMIZED" "" "USES;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY;MUCH;NOTHING" "" "USES;HEADERS")
   if(NOT SINEW_PCH)
     return()
   endif()
@@ -23,21 +23,22 @@ function(sinew_precompile kind)
   else()
     add_executable(${target} EXCLUDE_FROM_ALL ${empty})
   endif()
-  if(arg_OPTIMIZED_LITTLE)
-    sinew_optimize_little(${target})
-  elseif(arg_UNOPTIMIZED)
+  if(arg_MUCH)
+    sinew_optimize_much(${target})
+  elseif(arg_NOTHING)
     sinew_optimize_nothing(${target})
   endif()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${arg_USES})
   target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
+  # Without it ccache does not see what such a header is made of.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# The target's sources begin with the headers of the kind, if there is one.
+# The target's sources begin with the headers of the kind, if it exists.
 function(sinew_precompiled target kind)
   if(TARGET sinew_pch_${kind})
     target_precompile_headers(${target} REUSE_FROM sinew_pch_${kind})
-    # Without it ccache does not see what such a header is made of.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
 endfunction()

@@ -1,5 +1,5 @@
 // firmware/board.h - all that the application wants of a board: the functions that a port writes,
-// and the three that its interrupts call. docs/how-to-port-firmware.md goes through them in order.
+// and the three that its interrupts call. docs/how-to/hardware.md goes through them in order.
 //
 //   interrupt of the timer, 10 kHz, the lower priority:   tick()
 //   interrupts of the line, the higher priority:          received(byte), next_to_send(byte)

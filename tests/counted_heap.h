@@ -1,42 +1,13 @@
-// tests/counted_heap.h - counts what one thread takes from the heap. It replaces the program's
-// operator new, so exactly one file of a test program includes it.
+// tests/counted_heap.h - counts what one thread takes from the heap. A program that uses it has its
+// own operator new (counted_heap.cpp).
 #pragma once
 
-#include <cstdlib>
-#include <new>
+#include <cstddef>
 
 namespace sinew::test {
 
-inline thread_local bool counting = false;  // set it around what must take nothing
-inline thread_local int allocations = 0;    // taken while counting
-inline thread_local std::size_t bytes = 0;  // that they were of
-
-inline void count_allocation(std::size_t size) {
-  allocations += counting ? 1 : 0;
-  bytes += counting ? size : 0;
-}
+extern thread_local bool counting;      // set it around what must take nothing
+extern thread_local int allocations;    // taken while counting
+extern thread_local std::size_t bytes;  // their size
 
 }  // namespace sinew::test
-
-// Not inlined: GCC would see malloc and delete meet, and warn.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  sinew::test::count_allocation(size);
-  if (void* p = std::malloc(size ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  sinew::test::count_allocation(size);
-  return std::malloc(size ? size : 1);
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
-  sinew::test::count_allocation(size);
-  const auto a = static_cast<std::size_t>(align);
-  if (void* p = std::aligned_alloc(a, (size + a) / a * a)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}

@@ -2,7 +2,7 @@
 # compare-results.sh keep FILE                      the results of every shipped experiment, as a table
 # compare-results.sh compare BEFORE NOW [OPTION]    which of them agree between two builds
 #
-#   SINEW=build/dev/bin/sinew tools/compare-results.sh keep before.tsv
+#   SINEW=build/release/bin/sinew tools/compare-results.sh keep before.tsv
 #   … change the code, build …
 #   tools/compare-results.sh keep now.tsv
 #   tools/compare-results.sh compare before.tsv now.tsv --tolerance 1e-6
@@ -19,7 +19,7 @@
 # compare exits 0 when all numbers, texts and verdicts agree, 1 when something differs. Logs that
 # differ are counted, and do not decide.
 #
-# SINEW: the program, build/dev/bin/sinew. JOBS: how many run at once, 1. ONLY: files in place of all
+# SINEW: the program, build/release/bin/sinew. JOBS: how many run at once, 1. ONLY: files in place of all
 # of experiments/.
 set -euo pipefail
 export LC_ALL=C.UTF-8
@@ -53,7 +53,7 @@ keep() {
   out=$(realpath "$1")
   work=$(mktemp -d)  # not local: the trap outlives this function
   trap 'rm -rf "$work"' EXIT
-  SINEW=$(realpath "${SINEW:-$here/../build/dev/bin/sinew}")
+  SINEW=$(realpath "${SINEW:-$here/../build/release/bin/sinew}")
   cd "$here/.."
   export SINEW here
   export -f result_of

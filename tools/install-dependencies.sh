@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# install-dependencies.sh [demo|quick|check|long|bench]   installs with apt what is missing, no more.
+# install-dependencies.sh [demo|check|faces|long|bench]   installs with apt what is missing, no more.
 #
 #   demo    to build and run Sinew
-#   quick   and to test it: ./check --quick
-#   check   and for everything ./check does
+#   check   and for ./check
+#   faces   and for ./check faces
 #   long    and for ./check long
 #   bench   to build Sinew and what measures it beside others (bench)
 #
@@ -27,36 +27,36 @@ list='
     demo   -                   libsqlite3-dev                   keeps studies
     demo   -                   libboost-dev                     serves pages to the browser here
     demo   -                   libminizip-dev                   packs FMUs
-    demo   -                   libpagmo-dev                     searches for better walks
     demo   node                nodejs                           bundles the page that shows a run
     demo   npm                 npm                              installs what that needs
-    quick  -                   libgtest-dev                     tests
-    quick  -                   libgmock-dev                     tests
-    quick  -                   libsundials-dev                  a second integrator in tests
-    quick  gnuplot             gnuplot-nox                      draws figures
-    quick  clang-format-14     clang-format-14                  one layout of code; versions differ
-    check  -                   libopenmpi-dev                   sweeps over the processes of mpirun
-    check  -                   libcomedi-dev                    a machine at a card
-    check  -                   libmatio-dev                     recordings in files of MATLAB
-    check  -                   pybind11-dev                     the Python package
-    check  -                   python3-dev                      what that is compiled with
-    check  -                   python3-numpy                    its arrays
-    check  -                   python3-pandas                   tables of them, in tests
-    check  -                   mypy                             types of its interface
-    check  -                   python3-nbclient                 runs notebooks
-    check  -                   python3-ipykernel                their interpreter
-    check  dpkg-shlibdeps      dpkg-dev                         finds what the .deb depend on
-    check  file                file                             tells programs from other files there
-    check  -                   mkdocs-material                  builds the docs site, with MkDocs
-    check  doxygen             doxygen                          reads the headers for its reference
-    check  -                   libjs-katex                      sets its formulas
-    check  ffmpeg              ffmpeg                           makes videos of runs, in tests
-    check  mpirun              openmpi-bin                      starts them in tests
-    check  chromium            chromium                         opens that page in tests
-    check  -                   fonts-dejavu-core                what its reference pictures are set in
-    check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
-    check  -                   libstdc++-arm-none-eabi-newlib   its headers
-    check  qemu-system-arm     qemu-system-arm                  runs it
+    check  -                   libgtest-dev                     tests
+    check  -                   libgmock-dev                     tests
+    check  -                   libsundials-dev                  a second integrator in tests
+    check  -                   libpagmo-dev                     searches for better walks
+    check  gnuplot             gnuplot-nox                      draws figures
+    check  clang-format-14     clang-format-14                  one layout of code; versions differ
+    faces  -                   libopenmpi-dev                   sweeps over the processes of mpirun
+    faces  -                   libcomedi-dev                    a machine at a card
+    faces  -                   libmatio-dev                     recordings in files of MATLAB
+    faces  -                   pybind11-dev                     the Python package
+    faces  -                   python3-dev                      what that is compiled with
+    faces  -                   python3-numpy                    its arrays
+    faces  -                   python3-pandas                   tables of them, in tests
+    faces  -                   mypy                             types of its interface
+    faces  -                   python3-nbclient                 runs notebooks
+    faces  -                   python3-ipykernel                their interpreter
+    faces  dpkg-shlibdeps      dpkg-dev                         finds what the .deb depend on
+    faces  file                file                             tells programs from other files there
+    faces  -                   mkdocs-material                  builds the docs site, with MkDocs
+    faces  doxygen             doxygen                          reads the headers for its reference
+    faces  -                   libjs-katex                      sets its formulas
+    faces  ffmpeg              ffmpeg                           makes videos of runs, in tests
+    faces  mpirun              openmpi-bin                      starts them in tests
+    faces  chromium            chromium                         opens that page in tests
+    faces  -                   fonts-dejavu-core                what its reference pictures are set in
+    long   arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
+    long   -                   libstdc++-arm-none-eabi-newlib   its headers
+    long   qemu-system-arm     qemu-system-arm                  runs it
     long   clang++-14          clang-14                         the other compiler
     long   -                   libclang-rt-14-dev               fuzzers and sanitizers for it
     long   llvm-symbolizer-14  llvm-14                          names lines in what they find
@@ -67,11 +67,11 @@ list='
 
 case ${1:-demo} in
   demo) sets=' demo ' ;;
-  quick) sets=' demo quick ' ;;
-  check) sets=' demo quick check ' ;;
-  long) sets=' demo quick check long ' ;;
+  check) sets=' demo check ' ;;
+  faces) sets=' demo check faces ' ;;
+  long) sets=' demo check faces long ' ;;
   bench) sets=' demo bench ' ;;
-  *) echo "usage: $0 [demo|quick|check|long|bench]" >&2; exit 2 ;;
+  *) echo "usage: $0 [demo|check|faces|long|bench]" >&2; exit 2 ;;
 esac
 
 if [[ ${SINEW_DEPENDENCIES:-} == present ]]; then

@@ -4,17 +4,17 @@
 #   statements.sh                 all of it against tests/claims/statements.txt; exit 1 if a line changed
 #   statements.sh experiments     only those of experiments/ and experiments/rig/; or: figures
 #   statements.sh --write         makes the list anew: look at what changed before you keep it
-#   statements.sh --count         the list's numbers by class and verdict, as docs/evidence.md has them
+#   statements.sh --count         the list's numbers by class and verdict, as docs/evidence/evidence.md has them
 #
-# SINEW: the program, build/dev/bin/sinew. RUNS: a folder with a run per experiment, named as the
+# SINEW: the program, build/release/bin/sinew. RUNS: a folder with a run per experiment, named as the
 # files are; FIGURES: a page of figures. What is not given is made.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
 
 list=tests/claims/statements.txt
-page=docs/evidence.md  # has the table of --count
-sinew=${SINEW:-build/dev/bin/sinew}
+page=docs/evidence/evidence.md  # has the table of --count
+sinew=${SINEW:-build/release/bin/sinew}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

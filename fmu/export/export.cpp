@@ -170,7 +170,7 @@ fs::path module_of(const Made& made, const std::string& folder) {
     throw std::runtime_error(
         made.module +
         ": found no such module beside the program; expected it in lib/sinew of "
-        "this installation: build and install Sinew whole");
+        "this installation; try cmake --build --preset all");
   return found;
 }
 
@@ -178,7 +178,7 @@ void add_sources(std::vector<ArchiveFile>& files, const fs::path& folder, int ve
   if (!fs::is_directory(folder))
     throw std::runtime_error(folder.string() +
                              ": found no sources of FMUs there; expected them "
-                             "beside the modules: build and install Sinew whole");
+                             "beside the modules; try cmake --build --preset all");
   std::vector<fs::path> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) found.push_back(entry.path());

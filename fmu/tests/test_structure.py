@@ -163,7 +163,7 @@ class Binary(unittest.TestCase):
                 ["objdump", "-T", fmu(*KINDS[kind]).binary], capture_output=True, text=True, check=True
             ).stdout
             newest = max(int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", versions))
-            self.assertLessEqual(newest, 35)  # what docs/how-to-fmu.md says
+            self.assertLessEqual(newest, 35)  # what docs/how-to/fmu.md says
 
     def test_start_values_are_those_of_the_description(self) -> None:
         for kind, words, version in ALL:

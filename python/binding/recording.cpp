@@ -194,7 +194,7 @@ void bind_recording(py::module_& m) {
            })
       .def("derive", &derived,
            "Returns what follows from the samples: the foot's way and forces, torques, errors\n"
-           "(docs/analysis.md). Raises ValueError for a test stand's.");
+           "(docs/reference/analysis.md). Raises ValueError for a test stand's.");
   m.def(
       "read_run",
       [](const py::object& path) {

@@ -2,7 +2,7 @@
 # run.sh [BUILD]   the Python package's tests: types, then everything in test_*.py.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-build=$PWD/${1:-build/dev}
+build=$PWD/${1:-build/release}
 python=${PYTHON:-/usr/bin/python3}
 export PYTHONPATH=$build/python:$PWD/python/tests SINEW=$build/bin/sinew PYTHONDONTWRITEBYTECODE=1
 [[ -e $build/python/sinew/_where.py ]] || { echo "$build has no Python package: is pybind11-dev installed?" >&2; exit 1; }

@@ -21,7 +21,7 @@ struct Braid {
 struct Effectiveness {
   enum class Argument { gauge, absolute };  // the text has gauge, appendix A absolute
   double c0 = 1, c1 = 0, c2 = 0;            // [1], [1/Pa], [1/Pa^2]
-  double scale = 1;                         // times the polynomial [-]
+  double scale = 1;                         // Eff_s, times the polynomial [-]
   Argument argument = Argument::gauge;
   double valid_from = 0, valid_to = 7.6e5;  // gauge pressures that were fitted [Pa]
   double threshold = 0;  // gauge pressure that the bladder needs to reach the mesh [Pa]
@@ -59,9 +59,9 @@ struct Loss {
 
 // The bladder as a spring of its own; not in the thesis, see bladder.h.
 struct Bladder {
-  double stiffness = 0;                   // k [N/m]
+  double stiffness = 0;                   // k_1 [N/m]
   double rest_length = 0;                 // L_r [m]
-  double quadratic = 0, cubic = 0;        // k2, k3 [N/m2] [N/m3]
+  double quadratic = 0, cubic = 0;        // k_2, k_3 [N/m2] [N/m3]
   double saturating_tension = 0;          // S [N]
   double saturation_length = 0;           // lambda [m]
   double valid_from = 0, valid_to = 1e3;  // lengths that were fitted [m]
@@ -74,41 +74,41 @@ struct Caps {
 
 // Ends that taper, as a larger contraction; see body.h.
 struct Taper {
-  double gain = 1;            // k [-]
-  double extra_gain = 0;      // k_low, without pressure [-]
+  double gain = 1;            // kappa_0 [-]
+  double extra_gain = 0;      // kappa_low, without pressure [-]
   double extra_pressure = 0;  // P_low, over which it goes [Pa]
   double rest_length = 0;     // L_0 [m]
 };
 
 // Of the tube; see body.h.
 struct Wall {
-  double thickness = 0;  // t [m]
+  double thickness = 0;  // h_w [m]
 };
 
 // Friction of the mesh as a pressure that is missing while it rises; not in the thesis, see
 // hysteresis.h.
 struct Hysteresis {
-  double half_width = 0;             // a [Pa]
-  double width_per_pressure = 0;     // b [-], below 1
-  double width_per_contraction = 0;  // d [Pa], contraction counted from L_max
-  double volume_pressure = 0;        // K [Pa]: pressure that turns it as the greatest volume does
+  double half_width = 0;             // w_0 [Pa]
+  double width_per_pressure = 0;     // w_P [-], below 1
+  double width_per_contraction = 0;  // w_eps [Pa], contraction counted from L_max
+  double volume_pressure = 0;        // P_V [Pa]: pressure that turns it as the greatest volume does
 };
 
 // Tension that comes late; not in the thesis, see creep.h.
 struct Creep {
   static constexpr int most = 2;     // elements
-  std::array<double, most> share{};  // c_i [-]; 0: no such element
-  std::array<double, most> time{};   // tau_i [s]
+  std::array<double, most> share{};  // chi_i [-]; 0: no such element
+  std::array<double, most> time{};   // t_i [s]
 };
 
 // What gives way between a muscle's clamps and its braid; not in the thesis, see series.h.
 struct Series {
-  double compliance = 0;  // C [m/N]
+  double compliance = 0;  // C_s [m/N]
 };
 
 // Softens where a slack muscle begins to pull; not in the thesis, see toe.h.
 struct Toe {
-  double tension = 0;  // s [N], 0: it begins at once
+  double tension = 0;  // F_toe [N], 0: it begins at once
 };
 
 // How far a measured force lies from the law's, as an identification left it in the actuator's

@@ -1,15 +1,16 @@
 // actuator/body.h - what a real tube has beside its braid: rigid ends within its length, a taper
 // towards them, a wall. The braid works at another length and holds less air.
 //
-//   x = L - d                          d  of L that does not contract: caps, clamps [m]
-//   x = L_0 - kappa (L_0 - L)          Tondu and Lopez (2000): tapering ends as a contraction that
+//   L_b = L - d                        Tondu (2012): caps and clamps, of L d does not contract [m]
+//   L_b = L_0 - kappa (L_0 - L)        Tondu and Lopez (2000): tapering ends as a contraction that
 //                                      is kappa times as large
-//   kappa = k + k_low exp(-P_g/P_low)  less of it as pressure fills the ends; Kerscher et al.
-//   (2006) V = V_braid(x) - pi t x (D - t)    t  wall, the air stands within it; D of the braid at
-//   x [m] A_t = pi t (D_0 (2 s - 1/s) - t)   tension per pressure that the wall costs or gives: the
-//   virtual
-//                                      work of V, Chou and Hannaford (1996)
-//   D_0 = b/(n pi), s = sin(theta) = D/D_0
+//   kappa = kappa_0 + kappa_low exp(-P_g/P_low)          smaller as pressure fills the ends:
+//                                                        Kerscher et al. (2006)
+//   V = V_braid(L_b) - pi h_w L_b (D - h_w)              h_w  thickness of the wall [m], the air
+//                                                        is within it; D of the braid at L_b [m]
+//   A_t = pi h_w (D_0 (2 sin(theta) - 1/sin(theta)) - h_w)   tension per pressure of the wall [m2]:
+//                                      the virtual work of V, Chou and Hannaford (1996)
+//   D_0 = b/(n pi), sin(theta) = D/D_0
 //
 // For kappa there is no volume: it is no geometry, V is that of the braid at L - d. With nothing
 // set everything here is that of braid.h, to the bit.
@@ -34,7 +35,7 @@ constexpr double taper_gain(const Taper& taper, double gauge_pressure) {
 // Does the tube narrow at its ends? Else the taper changes nothing.
 constexpr bool tapers(const Taper& taper) { return taper.gain != 1 || taper.extra_gain != 0; }
 
-// x, at which the braid pulls  [m]. A taper ends at 0, far below where it pushes.
+// Returns L_b, at which the braid pulls  [m]. A taper ends at 0, far below where it pushes.
 constexpr double working_length(const Actuator& a, double length, double gauge_pressure) {
   const double braid = length - a.caps.length;
   if (!tapers(a.taper)) return braid;
@@ -56,7 +57,7 @@ constexpr double widest_diameter(const Braid& braid) {
   return braid.thread_length / (braid.turns * std::numbers::pi);
 }
 
-// sin(theta) at x; kept off zero, where a wall would have no room  [-].
+// sin(theta) at L_b; kept off zero, where a wall would have no room  [-].
 inline double braid_sine(const Braid& braid, double x) {
   const double cosine = x / braid.thread_length;
   const double square = 1.0 - cosine * cosine;
@@ -71,7 +72,7 @@ inline double wall_area(const Actuator& a, double x) {
   return std::numbers::pi * t * (widest_diameter(a.braid) * (2.0 * s - 1.0 / s) - t);
 }
 
-// dA_t/dx  [m].
+// dA_t/dL_b  [m].
 inline double wall_area_slope(const Actuator& a, double x) {
   const double t = a.wall.thickness, b = a.braid.thread_length;
   if (!(t > 0)) return 0.0;

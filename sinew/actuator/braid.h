@@ -18,7 +18,7 @@ constexpr double braid_factor(const Braid& braid) {
   return 1.0 / (4.0 * std::numbers::pi * braid.turns * braid.turns);
 }
 
-// [17], [18]: from the opened mesh, A trapezoids lengthwise, B around, of a given side [m].
+// [17], [18]: from the opened mesh, N_A trapezoids lengthwise, N_B around, of a given side [m].
 constexpr Braid braid_from_trapezoids(double lengthwise, double around, double side) {
   return {.thread_length = 2.0 * lengthwise * side, .turns = lengthwise / around};
 }

@@ -1,17 +1,17 @@
 // actuator/creep.h - tension that goes on growing after the pressure has come to rest.
 //
-//   F = F(L, v, P) + sum c_i (F(L, 0, z_i) - F(L, 0, 0))      z_i' = (P - z_i)/tau_i
+//   F = F(L, v, P_e) + sum chi_i (F(L, 0, P_late) - F(L, 0, 0))      P_late' = (P_e - P_late)/t_i
 //
-//   P  gauge pressure that the mesh feels [Pa]   z_i  the same, late [Pa], a state
-//   c_i  share of the tension that comes late [-]   tau_i  its time constant [s]
+//   P_e    effective gauge pressure of the mesh [Pa]      P_late  the same, late [Pa], a state
+//   chi_i  share of the tension that comes late [-]       t_i     its time constant [s]
 //
-// At one pressure and length F grows to F (1 + sum c_i); where Eff is constant, exactly as
-// F (1 + sum c_i (1 - exp(-t/tau_i))) from a step of the pressure on. It is the pressure that comes
+// At one pressure and length F grows to F (1 + sum chi_i); where Eff is constant, exactly as
+// F (1 + sum chi_i (1 - exp(-t/t_i))) from a step of the pressure on. It is the pressure that comes
 // late, not the tension: a muscle whose stretch came late would give back more than was put in.
 // At one pressure, at rest, the tension is a function of length alone and loops of length are
 // closed.
 //
-// Not in the thesis. Bounded by the pressures that were; stable in steps up to 2.5 tau_i.
+// Not in the thesis. Bounded by the pressures that were; stable in steps up to 2.5 t_i.
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -26,7 +26,7 @@ constexpr bool has_creep(const Creep& creep) {
   return false;
 }
 
-// z'  [Pa/s].
+// P_late'  [Pa/s].
 constexpr double creep_rate(double time, double gauge_pressure, double late) {
   return (gauge_pressure - late) / time;
 }

@@ -1,6 +1,6 @@
 // actuator/loss.h - the bound of the dry friction between bladder and mesh, [33], [34].
 //
-//   |F_coulomb| <= Q k,  Q = mu N / k [m]
+//   |F_coulomb| <= Q k,  Q = mu F_n/k [m]
 //
 // k is the secant stiffness [34] as printed, or the sealed stiffness that Q was identified with
 // ([45]), or a constant. Below the bound the mesh sticks; which of the two it does is solved for

@@ -1,11 +1,10 @@
 // actuator/pull.h - what braid and bladder pull with at the length that the braid has, and how that
 // grows with the length.
 //
-//   B(x) = P_act Eff(p) (b^2/(4 pi n^2) (3 w^2/b^2 - 1) + A_t(w)) + bladder(x)     w(x) in body.h
+//   B = P_act Eff(p) (b^2/(4 pi n^2) (3 L_b^2/b^2 - 1) + A_t(L_b)) + bladder(L_s)
 //
-//   x  length of the braid with its caps [m]; that of the muscle but for what gives way at its
-//   ends,
-//      series.h           P_act, Eff  below
+//   L_s  length of the muscle without what its ends give way, series.h [m]
+//   L_b  length at which the braid works, of L_s as body.h has it [m]      P_act, Eff  below
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -41,7 +40,7 @@ constexpr double ideal_stiffness(const Braid& braid, double length, double gauge
   return 6.0 * gauge_pressure * length * braid_factor(braid);
 }
 
-// [22] times Eff, of the braid and its body at x  [N].
+// [22] times Eff, of the braid and its body at L_s  [N].
 inline double braid_pull(const Actuator& a, double x, double gauge_pressure, double atmosphere) {
   const double acting = acting_pressure(a.effectiveness, gauge_pressure);
   const double w = working_length(a, x, gauge_pressure);

@@ -12,6 +12,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::actuator::reference_test {
 namespace {
@@ -23,7 +24,8 @@ using units::pound_force;
 using units::psi;
 
 const json& reference() {
-  static const json data = json::parse(std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"));
+  static const json data =
+      json::parse(std::ifstream(sinew::test::source_dir() + "/data/reference.json"));
   return data;
 }
 
@@ -154,7 +156,7 @@ TEST(ReferenceActuator, EquilibriaOfTheTrappedAirTests) {
   }
 }
 
-// docs/departures.md on [33] with [45]: secant over sealed stiffness at these equilibria.
+// docs/evidence/departures.md on [33] with [45]: secant over sealed stiffness at these equilibria.
 TEST(ReferenceActuator, SecantIsWellBelowTheSealedStiffness) {
   const double pressure[] = {60, 80, 60}, load[] = {6, 11, 11}, ratio[] = {.82, .74, .62};
   for (int i = 0; i < 3; ++i) {

@@ -1,17 +1,19 @@
 // actuator/series.h - ends and bladder that give way: a spring between the clamps and the braid.
 //
-//   T(x) = (L - x)/C          F = T(x)          dF/dL = T'/(1 + C T')
+//   F_t(L_s) = (L - L_s)/C_s      F = F_t(L_s)      dF/dL = F_t'/(1 + C_s F_t')
 //
-//   L  length of the muscle [m]   x  of its braid [m]   T  what braid and bladder pull with, pull.h
-//   and toe.h; T = B and T' = B' without a toe
-//   C  compliance of both ends together [m/N], 0: they do not give way
+//   L, L_s  length of the muscle, and without what its ends give way [m]
+//   F_t  pull of braid and bladder after the toe, pull.h and toe.h [N]; F_t = B without a toe
+//   C_s  compliance of both ends together [m/N], 0: they do not give way
 //
-// One pair of ends has one C, whatever the rest length: short muscles lose a larger share of their
-// stiffness to it. Festo muscles of 10 mm have some 0.011 mm/N (docs/theory/static-models.md).
+// One pair of ends has one C_s, whatever the rest length: short muscles lose a larger share of
+// their stiffness to it. Festo muscles of 10 mm have some 0.011 mm/N
+// (docs/theory/static-models.md).
 //
-// Newton's iteration from x = L: T is convex and grows with x, so every step but the first comes
-// from above the solution and none goes past it. The air keeps the volume of the whole length: C F
-// is 2 to 4 % of the length, and of the volume at the highest force some 5 %. Not in the thesis.
+// Newton's iteration from L_s = L: F_t is convex and grows with L_s, so every step but the first
+// comes from above the solution and none goes past it. The air keeps the volume of the whole
+// length: C_s F is 2 to 4 % of the length, and of the volume at the highest force some 5 %. Not in
+// the thesis.
 #pragma once
 
 #include "sinew/actuator/pull.h"
@@ -19,7 +21,7 @@
 
 namespace sinew::actuator {
 
-// Returns x  [m]. With C = 0 it is `length` itself, to the bit.
+// Returns L_s  [m]. With C_s = 0 it is `length` itself, to the bit.
 inline double braid_length(const Actuator& a, double length, double gauge_pressure,
                            double atmosphere) {
   const double c = a.series.compliance;
@@ -48,7 +50,7 @@ inline double braid_length(const Actuator& a, double length, double gauge_pressu
 }
 
 // Returns the share of a stiffness of braid and bladder that is left of it at the muscle's ends,
-// t/(1 + C t B') with t = dT/dB of the toe  [-].
+// t/(1 + C_s t B') with t = dF_t/dB of the toe  [-].
 inline double share_of_stiffness(const Actuator& a, double x, double gauge_pressure,
                                  double atmosphere) {
   const double c = a.series.compliance;

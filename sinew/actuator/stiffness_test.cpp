@@ -113,7 +113,7 @@ TEST(Stiffness, BothAgreeAtTheShortestLengthAndWithEndlessVolume) {
               stiffness_at_constant_pressure(a, 0.08, p - atmosphere, atmosphere), 1e-5);
 }
 
-// docs/departures.md, [25]: adiabatic, without Eff, hoses of both set-ups of chapter 3.
+// docs/evidence/departures.md, [25]: adiabatic, without Eff, hoses of both set-ups of chapter 3.
 TEST(Stiffness, SealedIs123To185OfTheThesisStiffness) {
   Actuator a = thesis_actuator();
   a.effectiveness = {};

@@ -8,7 +8,7 @@
 // caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h), a soft beginning
 // (toe.h), ends that give way (series.h):
 //
-//   F = P_act Eff(p) (b^2/(4 pi n^2) (3 x^2/b^2 - 1) + A_t(x)) + ...
+//   F = P_act Eff(p) (b^2/(4 pi n^2) (3 L_b^2/b^2 - 1) + A_t(L_b)) + ...
 //
 // The dry friction of [33] is not in here: it is a force of the step, see loss.h.
 // Departures: P - P_atm keeps its sign (appendix A takes |P - 14.7|, so that vacuum would pull);

@@ -1,15 +1,15 @@
 // air/cylinder.h - a double-acting air cylinder between trolley and body, 4.2.
 //
-//   V_up   = dead_volume[up]   + A_up s         A_up = pi (bore^2 - rod^2)/4
-//   V_down = dead_volume[down] + A_down (S - s)      A_down = pi bore^2/4
-//   F = (P_up - P_atm) A_up - (P_down - P_atm) A_down
+//   V_up   = dead_volume[up]   + A_up x_c       A_up = pi (bore^2 - rod^2)/4
+//   V_down = dead_volume[down] + A_down (x_stroke - x_c)      A_down = pi bore^2/4
+//   F_cyl = (P_up - P_atm) A_up - (P_down - P_atm) A_down
 //
-//   s  travel upwards from the extended stop, 0 ... S, the stroke [m]
-//   F  of the air on the body, up > 0; the atmosphere's push on the rod is in it [N]
+//   x_c    travel upwards from the extended stop, 0 ... x_stroke [m]
+//   F_cyl  of the air on the body, up > 0; the atmosphere's push on the rod is in it [N]
 //
 // Chambers are named after the way in which they push the body; the rod is in `up`. Friction, end
-// stops and weights are not in here. Valid within 0 <= s <= S; stops that give way a little are
-// what the dead volumes have to spare.
+// stops and weights are not in here. Valid within 0 <= x_c <= x_stroke; stops that give way a
+// little are what the dead volumes have to spare.
 #pragma once
 
 #include <array>

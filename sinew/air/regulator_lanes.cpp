@@ -111,8 +111,9 @@ SINEW_WIDE void RegulatorLanes::go(int first, double h, double y_supply, const G
   const S q2 = (0.5 * h) * (in3 + inverse_h * (q0 - q1) + in_by_mass * k2);
   const S q3 = (0.5 * h) * (in4 + inverse_h * (q0 - q1 - (8.0 / 3.0) * q2) + in_by_mass * k3);
   const Mask always = gives & (third > 0.0) & (last > 0.0);
-  const Mask never = !(gives | (third > 0.0) | (last > 0.0));
-  const S came = units::select(always, gain, units::select(never, 0.0, 2.0 * q0 + q2 + q3));
+  const Mask closed_for_good = !(gives | (third > 0.0) | (last > 0.0));
+  const S came =
+      units::select(always, gain, units::select(closed_for_good, 0.0, 2.0 * q0 + q2 + q3));
 
   store(out.half, 0.5 * (start + full) + bend);
   store(out.full, full);

@@ -1,4 +1,4 @@
-// docs/analysis.md has every key of a summary.
+// docs/reference/analysis.md has every key of a summary.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +6,7 @@
 
 #include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
+#include "tests/places.h"
 
 namespace sinew::analysis::summary_docs_test {
 namespace {
@@ -42,7 +43,7 @@ test::Log everything() {
 }
 
 TEST(Summary, EveryKeyIsInTheDocs) {
-  std::ifstream file(std::string(SINEW_SOURCE_DIR) + "/docs/analysis.md");
+  std::ifstream file(sinew::test::source_dir() + "/docs/reference/analysis.md");
   const std::string docs{std::istreambuf_iterator<char>(file), {}};
   Machine m = walking_leg();
   m.robot.trolley.track_length = 10;

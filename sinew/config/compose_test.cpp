@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "sinew/config/lookup.h"
+#include "tests/places.h"
 
 namespace sinew::config::compose_test {
 namespace {
@@ -234,7 +235,7 @@ TEST_F(Compose, ANamedFileMustExistAndBeOfItsKind) {
 }
 
 TEST(ComposeLeg, TheShippedFilesCompose) {
-  const fs::path source = SINEW_SOURCE_DIR;
+  const fs::path source = sinew::test::source_dir();
   int composed = 0;
   for (const char* folder : {"robots", "experiments"}) {
     if (!fs::exists(source / folder)) continue;

@@ -158,7 +158,8 @@ void require_same_values(std::string_view old_text, const std::string& name, con
   std::ranges::sort(found);
   if (expected == found) return;
   fail({name, 0, 0}, "", "a file whose keys cannot be renamed where they stand",
-       "each of them in a line of its own", "by hand: docs/versions.md lists what has changed");
+       "each of them in a line of its own",
+       "by hand: docs/reference/versions.md lists what has changed");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "sinew/config/key_places.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/text_file.h"
+#include "tests/places.h"
 
 namespace sinew::config::migrate_test {
 namespace {
@@ -203,7 +204,8 @@ TEST(Migrate, SaysWhatItCannotDo) {
 std::vector<fs::path> shipped() {
   std::vector<fs::path> files;
   for (const char* folder : {"robots", "experiments", "studies", "tests/old"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SINEW_SOURCE_DIR) / folder))
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(sinew::test::source_dir()) / folder))
       if (entry.path().extension() == ".toml") files.push_back(entry.path());
   return files;
 }

@@ -1,6 +1,6 @@
 // config/reported.h - a figure that a source reports, as an experiment's [[reported]] says it.
-// Experiments carry it, the analysis judges by it (analysis/verdict/reported.h). docs/evidence.md
-// defines classes, wordings and verdicts.
+// Experiments carry it, the analysis judges by it (analysis/verdict/reported.h).
+// docs/evidence/evidence.md defines classes, wordings and verdicts.
 #pragma once
 
 #include <initializer_list>
@@ -118,7 +118,7 @@ void check_class(Visitor& v, const Reported& r) {
     for (const auto& choice : statement_classes)
       words += (words.empty() ? "\"" : ", \"") + std::string(choice.word) + '"';
     units::complain(v, "class", "nothing", "what agreement with " + r.key + " is worth: " + words,
-                    "docs/evidence.md");
+                    "docs/evidence/evidence.md");
   }
   if (!r.accept.empty() && r.wording != Wording::another)
     units::complain(v, "accept", "a band beside a wording, from which another follows",

@@ -8,11 +8,12 @@
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/machine_file.h"
+#include "tests/places.h"
 
 namespace sinew::experiment::load_test {
 namespace {
 
-const std::string source = std::string(SINEW_SOURCE_DIR) + "/";
+const std::string source = sinew::test::source_dir() + "/";
 const std::string walk = source + "experiments/walk-test-1.toml";
 const std::string robot = source + "robots/leg/robot.toml";
 

@@ -1,5 +1,6 @@
 // What is wrong with files, by all their kinds.
 #include "sinew/files/check.h"
+#include "tests/places.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace sinew::files::check_test {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string root = SINEW_SOURCE_DIR "/";
+const std::string root = sinew::test::source_dir() + "/";
 
 class Written {
  public:

@@ -20,7 +20,7 @@ std::string text_of(const std::vector<Key>& keys, std::size_t width = 0);
 // Returns an array of JSON, an object for each key; what a key does not have is left out.
 std::string json_of(const std::vector<Key>& keys);
 
-// Returns all keys as a page of Markdown, docs/keys.md.
+// Returns all keys as a page of Markdown, docs/reference/keys.md.
 std::string page_of_keys();
 
 // Returns a schema of JSON (draft 2020-12) by which editors complete and check a TOML file of that

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sinew/config/compose.h"
+#include "tests/places.h"
 
 namespace sinew::files {
 
@@ -14,7 +15,7 @@ namespace sinew::files {
 inline std::map<std::string, std::string> shipped_files() {
   std::map<std::string, std::string> out;
   for (const char* folder : {"robots", "experiments", "studies"}) {
-    const std::string root = std::string(SINEW_SOURCE_DIR) + "/" + folder;
+    const std::string root = sinew::test::source_dir() + "/" + folder;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
       if (entry.path().extension() != ".toml") continue;
       const config::Node file = config::parse_file(entry.path().string());

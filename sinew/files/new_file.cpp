@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kinds{
+constexpr std::array<std::string_view, 9> kinds_of_files{
     "robot", "actuator", "valves", "wiring", "experiment", "plan", "tuning", "rig", "mapping"};
 constexpr std::size_t longest_name = 64;
 
@@ -45,9 +45,9 @@ struct Subject {
   std::vector<Joint> joints{{std::string(template_joint), std::string(template_joint)}};
 };
 
-void require_kind(const std::string& kind) {
-  if (std::ranges::count(kinds, kind) > 0) return;
-  const std::vector<std::string_view> words(kinds.begin(), kinds.end());
+void require_new_kind(const std::string& kind) {
+  if (std::ranges::count(kinds_of_files, kind) > 0) return;
+  const std::vector<std::string_view> words(kinds_of_files.begin(), kinds_of_files.end());
   config::fail({"new", 0, 0}, "", config::in_quotes(kind), config::either(words),
                config::closest_in_quotes(kind, words));
 }
@@ -278,10 +278,10 @@ void make_folder(const fs::path& folder) {
 
 }  // namespace
 
-std::span<const std::string_view> new_kinds() { return kinds; }
+std::span<const std::string_view> new_kinds() { return kinds_of_files; }
 
 NewFiles write_new(const std::string& kind, const std::string& name, const NewOptions& options) {
-  require_kind(kind);
+  require_new_kind(kind);
   require_name(name);
   const std::vector<Draft> all = drafts(kind, name, options);
   for (const Draft& one : all)

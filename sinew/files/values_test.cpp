@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "sinew/config/diagnostics.h"
+#include "tests/places.h"
 
 namespace sinew::files::values_test {
 namespace {
 
-const std::string leg = SINEW_SOURCE_DIR "/robots/leg/robot.toml";
+const std::string leg = sinew::test::source_dir() + "/robots/leg/robot.toml";
 
 TEST(Values, AreThoseWhoseKeyIsAskedForOrBeginsSo) {
   const Values all = values(leg), some = values(leg, {}, {"joint.knee"});

@@ -1,10 +1,11 @@
 // gas/air.h - air in a chamber: its mass is the state, [38]-[40].
 //
-// [40] makes P (V/m)^n constant, so with the atmosphere as the reference
+// [40] makes P (V/m)^n_p constant, so with the atmosphere as the reference
 //
-//   P = P_atm (rho / rho_atm)^n,   rho = m / V,   rho_atm = P_atm / (R T)
+//   P = P_atm (rho / rho_atm)^n_p,   rho = m / V,   rho_atm = P_atm / (R T)
 //
-// n = 1.4 is the adiabatic exponent of [39], n = 1 isothermal air; any value between may be fitted.
+// n_p = 1.4 is the adiabatic exponent of [39], n_p = 1 isothermal air; any value between may be
+// fitted.
 #pragma once
 
 #include "sinew/units/math.h"

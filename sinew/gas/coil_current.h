@@ -1,20 +1,21 @@
 // gas/coil_current.h - the current that an oscilloscope sees through a valve's coil, figures 4-8
 // and 4-9.
 //
-//   L di/dt + R i = U - E      within a piece   i(t) = i_end + (i_0 - i_end) exp(-(t - t_0) R/L)
-//                                               i_end = (U - E)/R
+//   L_coil di/dt + R_coil i = V_coil - V_emf
+//   within a piece   i(t) = i_end + (i_0 - i_end) exp(-(t - t_0) R_coil/L_coil)
+//                    i_end = (V_coil - V_emf)/R_coil
 //
-//   U   boost for the first boost_time of a pulse with the speed-up drive, then hold; after the
+//   V_coil  boost for the first boost_time of a pulse with the speed-up drive, then hold; after the
 //       pulse -release, against the current, which ends at zero
-//   E   back-EMF of the shutter while it opens: motion_voltage for motion_time, which ends when the
-//       valve is open, opening_delay after the edge. It makes the dip by which 4.3 tells that the
-//       shutter has moved. A shutter that closes makes none: its current has gone (4.3).
+//   V_emf   back-EMF of the shutter while it opens: motion_voltage for motion_time, ends when the
+//       valve is open, opening_delay after the edge. It makes the dip that shows in 4.3 that the
+//       shutter has moved. A shutter that closes makes none: its current has ended (4.3).
 //
-//   R, L  resistance [ohm] and inductance [H]   i  current [A]   U, E  [V]
+//   R_coil, L_coil  resistance [ohm] and inductance [H]   i  current [A]   V_coil, V_emf  [V]
 //
-// Exact, piece by piece; no steps. Pieces end where U or E jumps, or where the current ends.
-// Departures: L does not grow with the closing gap, E does not follow the shutter's speed or the
-// current; both show in the dip's shape, not in its place.
+// Exact, piece by piece; no steps. Pieces end where V_coil or V_emf jumps, or where the current
+// ends. Departures: L_coil does not grow with the closing gap, V_emf does not follow the shutter's
+// speed or the current; both show in the dip's shape, not in its place.
 #pragma once
 
 #include <cmath>

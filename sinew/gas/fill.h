@@ -1,11 +1,11 @@
 // gas/fill.h - how long a valve takes to fill or vent a rigid volume: for design, not for the loop.
 //
-//   t = integral of V d(rho)/m'(P)  from P_1 to P_2,   d(rho)/dP = rho/(n P)             [38]-[40]
+//   t = integral of V d(rho)/m'(P)  from P_1 to P_2,   d(rho)/dP = rho/(n_p P)            [38]-[40]
 //
-// Closed forms where the flow is choked, K = A C_m / sqrt(T):
+// Closed forms where the flow is choked, G_c = A C_m / sqrt(T):
 //
-//   filling           m' = K P_supply      t = V (rho_2 - rho_1)/(K P_supply)
-//   venting, n = 1    m' = K P             t = V/(K R T) log(P_1/P_2)
+//   filling           m' = G_c P_supply      t = V (rho_2 - rho_1)/(G_c P_supply)
+//   venting, n_p = 1  m' = G_c P             t = V/(G_c R T) log(P_1/P_2)
 //
 // The rest is integrated over s = log|P - P_port|, which makes the slow end at P_port harmless, in
 // pieces that end where the law has a kink (choking, linear part), each by Simpson's rule doubled

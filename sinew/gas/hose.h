@@ -1,14 +1,15 @@
 // gas/hose.h - flow through a hose, in series with a muscle's valves. Source of the need: 3.4 puts
 // the efficiency of 85 % and the missing damping down to the hoses.
 //
-//   iso6358   C, b as for a valve: what makers give for a hose with its fittings
-//   pipe      length L, inner diameter D, isothermal:
-//               laminar    m_l = pi D^4 (P_a^2 - P_b^2)/(256 mu L R T)     (Hagen-Poiseuille)
-//               turbulent  P_a^2 - P_b^2 = f L R T m_t^2/(D A^2),  f = 0.3164/Re^(1/4)  (Blasius)
+//   iso6358   C, b_crit as for a valve: what makers give for a hose with its fittings
+//   pipe      length L_h, inner diameter D_h, isothermal:
+//               laminar    m_l = pi D_h^4 (P_a^2 - P_b^2)/(256 mu_air L_h R T) (Hagen-Poiseuille)
+//               turbulent  P_a^2 - P_b^2 = f_D L_h R T m_t^2/(D_h A^2),  f_D = 0.3164/Re^(1/4)
+//                          (Blasius)
 //               m = m_l m_t/(m_l^8 + m_t^8)^(1/8)      smooth, the lesser of the two far from Re
 //               1187 and no more than the choked flow of its area
 //
-//   mu  viscosity [Pa s]    A = pi D^2/4 [m^2]    Re = m D/(A mu)
+//   mu_air  viscosity [Pa s]    A = pi D_h^2/4 [m^2]    Re = m D_h/(A mu_air)
 //
 // Blasius holds for smooth walls up to Re 1e5. Real pipes stay laminar up to Re 2300: in between
 // the law is up to a quarter low. Entry, bends and the change of momentum are not in it (speeds
@@ -28,7 +29,7 @@ struct Hose {
   Law law = Law::none;
 
   double sonic_conductance = 0;        // iso6358: C [m^3/(s Pa)]
-  double critical_pressure_ratio = 0;  // iso6358: b [-]
+  double critical_pressure_ratio = 0;  // iso6358: b_crit [-]
 
   double length = 0;          // pipe: L [m]
   double inner_diameter = 0;  // pipe: D [m]

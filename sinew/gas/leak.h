@@ -1,11 +1,11 @@
 // gas/leak.h - what a chamber loses to the room: through a hole, and through a porous wall or a
 // seal.
 //
-//   m' = orifice(area, P, P_atm) + G (P - P_atm)
+//   m' = orifice(area, P, P_atm) + G_l (P - P_atm)
 //
-// Choked and isothermal the first empties a rigid chamber by P = P_0 exp(-t K R T/V), m' = K P; the
-// second brings P - P_atm down by exp(-t G R T/V). 6.4: three bladders burst in 200 steps; nobody
-// measured the leaks before.
+// Choked and isothermal the first empties a rigid chamber by P = P_1 exp(-t G_c R T/V), m' = G_c P;
+// the second lowers P - P_atm by exp(-t G_l R T/V). 6.4: three bladders burst in 200 steps; the
+// leaks before that were not measured.
 #pragma once
 
 #include "sinew/gas/orifice.h"

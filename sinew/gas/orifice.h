@@ -1,12 +1,13 @@
 // gas/orifice.h - mass flow through an open valve, [42]-[44] and ISO 6358.
 //
 //   orifice    m' = A C_m P_up / sqrt(T)                                             [42]-[44]
-//              choked, P_down/P_up <= r_c   C_m = sqrt(g/R (2/(g+1))^((g+1)/(g-1)))
-//              free                         C_m = sqrt(2g/(R(g-1)) (r^(2/g) - r^((g+1)/g)))
-//   ISO 6358   m' = C rho_0 P_up sqrt(T_0/T) sqrt(1 - ((r - b)/(1 - b))^2), choked for r <= b
+//              choked, r_P <= b_crit    C_m = sqrt(g/R (2/(g+1))^((g+1)/(g-1)))
+//              free                     C_m = sqrt(2g/(R(g-1)) (r_P^(2/g) - r_P^((g+1)/g)))
+//   ISO 6358   m' = C rho_0 P_up sqrt(T_0/T) sqrt(1 - ((r_P - b_crit)/(1 - b_crit))^2)
+//              choked for r_P <= b_crit, the standard's b
 //
-//   A  effective area A_p C_q [m2]     g  heat capacity ratio 1.4     C  sonic conductance
-//   r  P_down/P_up [-]                 T  upstream [K]                   [m3/(s Pa)]
+//   A    effective area A_p C_q [m2]     g  heat capacity ratio gamma, 1.4     C  sonic conductance
+//   r_P  P_down/P_up [-]                 T  upstream [K]                          [m3/(s Pa)]
 //
 // Both run from the higher to the lower port and are linear in P_a - P_b below a pressure
 // difference of `linear_below` of the upstream pressure: the true slope at zero is infinite, and a
@@ -16,7 +17,7 @@
 // The integrator's form has neither power nor division. With y = (P/P_atm)^(1/7), [44] for g = 1.4
 // is
 //
-//   m' = K P_atm d^5 u sqrt(u^2 - d^2),   u = y_up, d = max(y_down, sqrt(5/6) u)
+//   m' = C_y P_atm d^5 u sqrt(u^2 - d^2),   u = y_up, d = max(y_down, sqrt(5/6) u)
 //
 // and the maximum is the choking. y is 1/7 of a power whatever the exponent of the chamber (air.h).
 //
@@ -100,7 +101,7 @@ inline double mass_flow_iso6358(double sonic_conductance, double critical_ratio,
 }
 
 // The C that passes the same choked flow as an effective area, and back. The free parts differ:
-// an orifice's is nearest to b = 0.528, a real valve's b is 0.2 to 0.45.
+// an orifice's is nearest to b_crit = 0.528, a real valve's b_crit is 0.2 to 0.45.
 inline double sonic_conductance_of(double effective_area, const Air& air) {
   return effective_area * choked_parameter(air.gas_constant) /
          (iso_density * std::sqrt(iso_temperature));  // [m^3/(s Pa)]
@@ -157,8 +158,8 @@ template <class S>
 struct FlowConstantsOf {
   S gain = 0;         // of the root [kg/s]
   S choked_gain = 0;  // the same where it is choked: another one in appendix A alone [kg/s]
-  S choke = 1;        // orifice: r_c^(1/7) = sqrt(5/6); ISO: b [-]
-  S spread = 0;       // ISO: 1/(1 - b) [-]
+  S choke = 1;        // orifice: b_crit^(1/7) = sqrt(5/6); ISO: b_crit [-]
+  S spread = 0;       // ISO: 1/(1 - b_crit) [-]
   S linear_gain = 0;  // of y_a^7 - y_b^7 [kg/s]
   S linear_from = 1;  // y_down/y_up above which the law is linear [-]
   S iso = 0;          // 1: ISO 6358 (a double: a bool per lane would stop vectorisation)
@@ -195,7 +196,7 @@ inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
   const S d = units::select(down > limit, down, limit);
   const S d2 = d * d;
 
-  // ISO 6358: sqrt(p_up^2 - ((p_down - b p_up)/(1 - b))^2).
+  // ISO 6358: sqrt(p_up^2 - ((p_down - b_crit p_up)/(1 - b_crit))^2), p = y^7.
   const S over = p_down - c.choke * p_up;
   const S share = units::select(over > 0.0, over, 0.0) * c.spread;
 

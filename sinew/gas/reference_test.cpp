@@ -12,6 +12,7 @@
 #include "sinew/gas/orifice.h"
 #include "sinew/gas/supply.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::gas::reference_test {
 namespace {
@@ -20,7 +21,8 @@ using nlohmann::json;
 using namespace units;
 
 const json& reference() {
-  static const json data = json::parse(std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"));
+  static const json data =
+      json::parse(std::ifstream(sinew::test::source_dir() + "/data/reference.json"));
   return data;
 }
 double printed(const std::string& name) { return reference()["constants"][name]["value"]; }
@@ -83,7 +85,8 @@ TEST(ReferenceGas, FlowFactor8362) {
   EXPECT_NEAR(to_si * printed("Cm_free_code") / si("Cm_free_code"), 1, 1e-12);
 }
 
-// docs/departures.md: .38 % jump at the limit in the code; none with the exact coefficients.
+// docs/evidence/departures.md: .38 % jump at the limit in the code; none with the exact
+// coefficients.
 TEST(ReferenceGas, RoundedCoefficientsJumpWhereTheCodeSwitches) {
   const double r = si("critical_ratio_code");
   const double free = 0.064 * std::sqrt(std::pow(r, 2 / 1.4) - std::pow(r, 2.4 / 1.4));
@@ -117,7 +120,7 @@ TEST(ReferenceGas, LawOfAppendixAIsItsListing) {
   EXPECT_GT(choked, 500);
 }
 
-// docs/departures.md: R = 53.34 as printed lacks g_c = 32.174 under the root.
+// docs/evidence/departures.md: R = 53.34 as printed lacks g_c = 32.174 under the root.
 TEST(ReferenceGas, GasConstantAsPrintedIsWrongBy567) {
   const double slug_constant = si("R_air") * slug * rankine / (foot * pound_force);
   EXPECT_NEAR(slug_constant, 1716, 0.5);
@@ -131,8 +134,8 @@ TEST(ReferenceGas, DensityOfTheCodeIsAirAt529DegR) {
   EXPECT_NEAR(si("density") * foot * foot * foot / pound_mass, 0.0750, 5e-5);
 }
 
-// docs/departures.md: on the adiabat through the atmosphere, air at 100 psi gauge would be at 950
-// degR.
+// docs/evidence/departures.md: on the adiabat through the atmosphere, air at 100 psi gauge would be
+// at 950 degR.
 TEST(ReferenceGas, AdiabaticSupplyWouldBeHot) {
   const Air air;
   const double p = si("supply_text");

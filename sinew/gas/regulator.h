@@ -1,11 +1,10 @@
-// gas/regulator.h - a proportional pressure regulator in a valve's place: it takes a set point
+// gas/regulator.h - a proportional pressure regulator instead of a valve: it takes a setpoint
 // instead of pulses.
 //
 //   p_set = P_atm + share range           share 0..1, the controller's
-//   p' = (p_set - p)/tau                  outlet pressure at no flow, tau = 0: at once
-//   m' = flow law of the valve from min(p, line) to the muscle; what comes back is relieved into
-//   the
-//        room by the same law
+//   P_out' = (p_set - P_out)/t_r          outlet pressure at no flow, t_r = 0: at once
+//   m' = flow law of the valve from min(P_out, line) to the muscle; what comes back is
+//        relieved into the room by the same law
 //
 // Air that a regulator bleeds all the time is a leak of the muscle's table, not of this one.
 #pragma once
@@ -23,7 +22,7 @@ constexpr double set_point(const Regulator& r, double share, double atmosphere) 
   return atmosphere + inside * r.range;
 }
 
-// p'  [Pa/s].
+// P_out'  [Pa/s].
 constexpr double outlet_rate(const Regulator& r, double outlet, double set) {
   return r.time_constant > 0 ? (set - outlet) / r.time_constant : 0.0;
 }

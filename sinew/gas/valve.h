@@ -23,7 +23,7 @@ struct Flow {
 
   // Law::iso6358
   double sonic_conductance = 0;        // C [m^3/(s Pa)] at the ISO reference air
-  double critical_pressure_ratio = 0;  // b [-]
+  double critical_pressure_ratio = 0;  // b_crit [-]
 
   double linear_below = 1e-3;  // of pressure difference / upstream pressure: dQ/dP is infinite at 0
 };

@@ -176,7 +176,7 @@ void look_for_parts(const DoctorAsked& asked, Findings& out) {
   add(has_program(asked, "arm-none-eabi-gcc"), "arm-none-eabi-gcc", "emulated",
       "compiles the board's program", "gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib");
   add(has_library(asked, "libcomedi.so"), "libcomedi", "comedi", "speaks to the card",
-      "libcomedi-dev   # then build again");
+      "libcomedi-dev   # then cmake --preset release && cmake --build --preset all");
 }
 
 }  // namespace

@@ -135,7 +135,9 @@ TEST_F(Doctor, APartOfACardIsNoCardAndOneDeviceThatMayBeUsedIsEnough) {
 
 TEST_F(Doctor, WhatIsNotPluggedInOrNotInstalledIsMissing) {
   fs::remove(root_ / "usr/lib/libcomedi.so.0");
-  EXPECT_EQ(only("libcomedi").todo, "sudo apt-get install libcomedi-dev   # then build again");
+  EXPECT_EQ(only("libcomedi").todo,
+            "sudo apt-get install libcomedi-dev   # then cmake --preset release && cmake --build "
+            "--preset all");
   EXPECT_FALSE(is_ready(look(), "comedi"));
   put("usr/lib/x86_64-linux-gnu/libcomedi.so.0", "");
   EXPECT_TRUE(is_ready(look(), "comedi"));

@@ -13,6 +13,7 @@
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
+#include "tests/places.h"
 
 namespace sinew::live::live_test {
 namespace {
@@ -23,7 +24,7 @@ using run::Steering;
 using Json = nlohmann::json;
 
 Experiment in_air() {
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/leg-in-air.toml",
+  return experiment::load(sinew::test::source_dir() + "/experiments/leg-in-air.toml",
                           {"sequence.repeat=1"});
 }
 

@@ -21,7 +21,6 @@
 namespace sinew::live {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 std::vector<fs::path> runs_below(const fs::path& folder) {
   std::vector<std::pair<fs::file_time_type, fs::path>> found;
@@ -72,10 +71,11 @@ std::string text_at(const config::Node& node, std::string_view key) {
 }
 
 // Returns what summary.json says; nothing where the run was not finished.
-Json summary_in(const fs::path& folder) {
+nlohmann::ordered_json summary_in(const fs::path& folder) {
   std::ifstream in(folder / run::summary_name);
-  Json out = in ? Json::parse(in, nullptr, false) : Json();
-  return out.is_object() ? out : Json::object();
+  nlohmann::ordered_json out =
+      in ? nlohmann::ordered_json::parse(in, nullptr, false) : nlohmann::ordered_json();
+  return out.is_object() ? out : nlohmann::ordered_json::object();
 }
 
 }  // namespace
@@ -109,14 +109,15 @@ std::string RunsPages::told_of(std::size_t run) {
   const fs::file_time_type written = fs::last_write_time(run::recorded_run(runs_[run]).log, gone);
   Told& told = told_[run];
   if (told.written == written && !told.json.empty()) return told.json;
-  const Json summary = summary_in(folder);
+  const nlohmann::ordered_json summary = summary_in(folder);
   config::Node top;
   try {
     top = config::parse_text(top_of(folder / run::resolved_name), "resolved.toml");
   } catch (const config::Error&) {
     // The run's own page says what is wrong with the file; the list names the folder.
   }
-  Json out = {{"run", run}, {"folder", runs_[run].string()}, {"date", date_of(written)}};
+  nlohmann::ordered_json out = {
+      {"run", run}, {"folder", runs_[run].string()}, {"date", date_of(written)}};
   out["title"] = summary.value("title", text_at(top, "title"));
   out["about"] = summary.value("reproduces", text_at(top, "reproduces"));
   out["robot"] = text_at(top, "robot_name");

@@ -32,9 +32,9 @@ Served of_runs(std::shared_ptr<RunsPages> pages) {
   return {.get = [pages](std::string_view path) { return pages->get(path); },
           .in_words =
               [pages](const std::string& url) {
-                const std::size_t count = pages->runs().size();
+                const std::size_t runs = pages->runs().size();
                 return fmt::format("{}; Ctrl-C ends{}", pages->runs().front().string(),
-                                   count > 1 ? fmt::format("; {} runs at {}runs", count, url) : "");
+                                   runs > 1 ? fmt::format("; {} runs at {}runs", runs, url) : "");
               }};
 }
 

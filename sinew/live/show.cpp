@@ -14,7 +14,6 @@
 namespace sinew::live {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using What = gait::Setting::What;
 
 constexpr double whole_turn = 2 * std::numbers::pi;  // [rad]
@@ -100,7 +99,7 @@ Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::S
       set_(settings_.size()) {}
 
 std::string Show::controls() const {
-  Json out = Json::array();
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (const gait::Setting& s : settings_) {
     const double most = largest(experiment_.plan, s);
     out.push_back({{"key", s.key},
@@ -119,7 +118,8 @@ std::string Show::page(std::string_view server) const {
 }
 
 std::string Show::state() const {
-  Json values = Json::array(), overridden = Json::array();
+  nlohmann::ordered_json values = nlohmann::ordered_json::array(),
+                         overridden = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < settings_.size(); ++i) {
     values.push_back(steering_.value(i));
     overridden.push_back(steering_.overridden(i));

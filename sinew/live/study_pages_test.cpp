@@ -11,6 +11,7 @@
 #include "sinew/live/study_pages.h"
 #include "sinew/report/page/page.h"
 #include "sinew/tune/results/results.h"
+#include "tests/places.h"
 
 namespace sinew::live::study_pages_test {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const std::string lever = std::string(SINEW_SOURCE_DIR) + "/experiments/one-joint.toml";
+const std::string lever = sinew::test::source_dir() + "/experiments/one-joint.toml";
 
 tune::Sweep a_sweep() {
   return {.experiment = lever,

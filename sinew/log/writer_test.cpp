@@ -9,27 +9,11 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <new>
 #include <thread>
 
 #include "sinew/log/fixtures_test.h"
 #include "sinew/log/reader.h"
-
-// Counts what this thread allocates, for the test that push() allocates nothing.
-namespace {
-thread_local std::size_t allocations = 0;
-}
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* at = std::malloc(size)) return at;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* at) noexcept { std::free(at); }
-[[gnu::noinline]] void operator delete(void* at, std::size_t) noexcept { std::free(at); }
+#include "tests/counted_heap.h"
 
 namespace sinew::log::writer_test {
 namespace {
@@ -125,11 +109,13 @@ TEST(Writer, ManyChunks) {
 TEST(Writer, PushTakesNoMemory) {
   const Folder folder;
   Writer writer(folder / "log.mcap", kForce, {}, {.ring = 64});
-  const std::size_t before = allocations;
+  test::allocations = 0;
+  test::counting = true;
   for (int i = 0; i < 10'000; ++i) writer.push(0, i, std::array{0.1 * i, -0.1 * i});
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, 0);
   writer.finish();
-  EXPECT_GT(allocations, before);  // the counter counts
+  test::counting = false;
+  EXPECT_GT(test::allocations, 0);  // the counter counts
 }
 
 TEST(Writer, FullRingWaitsAndLosesNothing) {

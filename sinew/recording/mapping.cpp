@@ -237,7 +237,7 @@ std::string text_of(const Mapping& mapping) {
   Lines out;
   out.put("format", "\"sinew.mapping/1\"");
   out.comment("What the columns of a recording mean: value = scale x number [unit] + offset.");
-  out.comment("docs/keys.md tells every key.");
+  out.comment("docs/reference/keys.md tells every key.");
   if (mapping.keep_others) out.head("keep_others = true  # columns without a channel: /recorded/…");
   put_table(mapping.table, out);
   put_clock(mapping.clock, out);

@@ -60,7 +60,8 @@ Variables variables_of(const std::string& path) {
   if (!functions)
     config::fail({path, 0, 0}, "", "a MAT file, and a sinew that was built without libmatio",
                  "a build with libmatio-dev, or the recording as CSV",
-                 "writetable(…) in MATLAB; docs/dependencies.md");
+                 "writetable(…) in MATLAB; or apt-get install libmatio-dev, then cmake --preset "
+                 "release && cmake --build --preset all");
   Variables out;
   const SinewMatlabSink sink{&out, take_matrix, take_text, take_other};
   const bool whole = functions()->read(path.c_str(), &sink);

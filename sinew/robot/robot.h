@@ -288,7 +288,7 @@ struct LowLevel {
   double interrupt_time = 0;  // longest interrupt of the thesis's program, 5.2; 0: not known [s]
 };
 
-// The thesis's own quirks, on or off (docs/departures.md).
+// The thesis's own quirks, on or off (docs/evidence/departures.md).
 struct Thesis {
   bool knee_lengths_swapped = false;  // B.1 lengthens the flexor when a knee's angle falls
 };

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "sinew/tune/sweep.h"
+#include "tests/places.h"
 
 namespace sinew::tune::notes_test {
 namespace {
 
-const std::string root = SINEW_SOURCE_DIR;
+const std::string root = sinew::test::source_dir();
 const std::string walk = root + "/experiments/walk-test-1.toml";
 const std::string lever = root + "/experiments/one-joint.toml";
 

@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
+#include "tests/places.h"
 
 namespace sinew::tune::sensitivity_table_test {
 namespace {
 
-const std::string lever = std::string(SINEW_SOURCE_DIR) + "/experiments/one-joint.toml";
+const std::string lever = sinew::test::source_dir() + "/experiments/one-joint.toml";
 
 Sweep base() {
   return {.experiment = lever,

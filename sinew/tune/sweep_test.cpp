@@ -11,11 +11,12 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
+#include "tests/places.h"
 
 namespace sinew::tune::sweep_test {
 namespace {
 
-const std::string root = SINEW_SOURCE_DIR;
+const std::string root = sinew::test::source_dir();
 const std::string lever = root + "/experiments/one-joint.toml";
 const std::string leg = root + "/experiments/leg-in-air.toml";
 

@@ -8,7 +8,7 @@
 //   metric,pressure=kPa gauge,length=cm            the same set but for two quantities
 //
 // Every table, figure, page and calculator asks here, so a unit that is chosen once is shown
-// everywhere. The table itself is units/shown_table.h, and docs/units.md shows it.
+// everywhere. The table itself is units/shown_table.h, and docs/reference/units.md shows it.
 #pragma once
 
 #include <limits>

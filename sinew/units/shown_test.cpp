@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sinew/units/shown_table.h"
+#include "tests/places.h"
 
 namespace sinew::units::shown_test {
 namespace {
@@ -116,9 +117,9 @@ TEST(ShownUnits, ChoicesWithoutASetStandOnTopOfWhatWouldHold) {
   EXPECT_EQ(read_shown_units("thesis", below).units.text(), "thesis") << "a set begins anew";
 }
 
-// docs/units.md has the table, row for row.
+// docs/reference/units.md has the table, row for row.
 TEST(ShownUnits, AreThoseOfTheDocs) {
-  std::ifstream file(SINEW_SOURCE_DIR "/docs/units.md");
+  std::ifstream file(sinew::test::source_dir() + "/docs/reference/units.md");
   const std::string docs(std::istreambuf_iterator<char>(file), {});
   const auto cell = [](const ShownChoice& c) {
     std::string out;
@@ -129,7 +130,7 @@ TEST(ShownUnits, AreThoseOfTheDocs) {
   for (const ShownQuantity& q : shown_quantities) {
     const std::string row = "| " + std::string(q.name) + " | " + cell(q.si) + " | " +
                             cell(q.thesis) + " | " + cell(q.metric) + " |\n";
-    EXPECT_NE(docs.find(row), docs.npos) << "docs/units.md lacks " << row;
+    EXPECT_NE(docs.find(row), docs.npos) << "docs/reference/units.md lacks " << row;
   }
 }
 

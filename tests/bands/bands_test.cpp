@@ -9,6 +9,7 @@
 #include "sinew/analysis/summary.h"
 #include "sinew/units/constants.h"
 #include "tests/bands/shipped.h"
+#include "tests/places.h"
 
 namespace sinew::bands_test {
 namespace {
@@ -67,7 +68,7 @@ TEST(Bands, Test2IsFasterPlannedAndWorse) {
 }
 
 const std::string lightly_damped =
-    "robot=" + std::string(SINEW_SOURCE_DIR) + "/robots/leg-lightly-damped/robot.toml";
+    "robot=" + sinew::test::source_dir() + "/robots/leg-lightly-damped/robot.toml";
 
 // 6.3: about 9 in/s without the foam. What drag the umbilicals leave, up to the printed 0.8 lb of
 // both, is not published. The calibrated leg comes near only with none at all; the lightly damped

@@ -9,11 +9,13 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::test {
 
-inline const std::string experiments = std::string(SINEW_SOURCE_DIR) + "/experiments";
+inline const std::string experiments = sinew::test::source_dir() + "/experiments";
 
 using Sets = std::vector<std::string>;  // key=value
 
@@ -21,7 +23,7 @@ inline std::string file_of(const std::string& name) { return experiments + "/" +
 
 inline analysis::Summary summary_of(const std::string& name, const Sets& sets = {}) {
   const config::Node root = config::compose(file_of(name), sets);
-  const run::Outcome out = run::run(experiment::load(root, file_of(name)));
+  const run::Outcome out = run::run(run::buildable(root, file_of(name)));
   EXPECT_EQ(out.status, signals::Status::ok) << name;
   return analysis::summarize(out.table, analysis::read_machine(root));
 }

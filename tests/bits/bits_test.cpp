@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew {
 namespace {
@@ -68,12 +69,12 @@ std::vector<std::string> of_the_first_day(const std::string& experiment) {
 }
 
 TEST(Bits, OfFirstLightAreKept) {
-  std::ifstream golden(std::string(SINEW_SOURCE_DIR) + "/tests/bits/golden.txt");
+  std::ifstream golden(sinew::test::source_dir() + "/tests/bits/golden.txt");
   std::string name, wanted;
   int experiments = 0;
   for (; golden >> name >> wanted; ++experiments) {
-    const auto e =
-        experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", of_the_first_day(name));
+    const auto e = experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml",
+                                    of_the_first_day(name));
     char found[17];
     std::snprintf(found, sizeof found, "%016llx",
                   static_cast<unsigned long long>(hash_of(run::run(e).table)));

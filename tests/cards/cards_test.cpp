@@ -12,6 +12,7 @@
 #include "sinew/log/reader.h"
 #include "sinew/robot/wiring/wiring.h"
 #include "tests/cli/program.h"
+#include "tests/places.h"
 
 namespace sinew::test {
 namespace {
@@ -36,7 +37,8 @@ class Cards : public ::testing::Test {
              const std::string& experiment = "kick") {
     card.insert({{"CARD_COUNTS", at_rest}, {"CARD_LOG", (w_ / "writes").string()}});
     // A sanitizer's library would be the first; it is not in that of a test's card.
-    card.insert({{"LD_PRELOAD", SINEW_STAND_IN}, {"ASAN_OPTIONS", "verify_asan_link_order=0"}});
+    card.insert({{"LD_PRELOAD", test::build_dir() + "/tests/sinew_cards_stand_in.so"},
+                 {"ASAN_OPTIONS", "verify_asan_link_order=0"}});
     for (const auto& [name, value] : card) setenv(name.c_str(), value.c_str(), 1);
     Words words = {"run",        "experiments/" + experiment + ".toml",
                    "--port",     "comedi:" + device,
@@ -58,7 +60,7 @@ class Cards : public ::testing::Test {
   // The leg's valves, by the bits that the robot's file gives them.
   std::vector<robot::ValveBit> bits() const {
     const experiment::Experiment e =
-        experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", {});
+        experiment::load(sinew::test::source_dir() + "/experiments/kick.toml", {});
     return robot::bits_of(e.robot, e.wiring);
   }
   unsigned mask_of(const std::string& which) const {

@@ -3,13 +3,15 @@
 
 #include <string>
 
+#include "tests/places.h"
+
 namespace sinew::firmware {
 
 inline std::string image(const std::string& name) {
-  return SINEW_FIRMWARE_IMAGES "/" + name + ".elf";
+  return test::build_dir() + "/tests/firmware/images/firmware/" + name + ".elf";
 }
 
-inline bool missing() { return std::string(SINEW_FIRMWARE_IMAGES).empty(); }
+inline bool missing() { return SINEW_HAS_FIRMWARE == 0; }
 inline constexpr const char* what_is_missing =
     "not installed: qemu-system-arm or arm-none-eabi-g++ (Debian: gcc-arm-none-eabi, "
     "libstdc++-arm-none-eabi-newlib)";

@@ -5,6 +5,7 @@
 #include "sinew/run/simulation/place.h"
 #include "sinew/run/simulation/test_log.h"
 #include "tests/firmware/images.h"
+#include "tests/places.h"
 
 namespace sinew::firmware {
 namespace {
@@ -16,7 +17,8 @@ struct Script {
 
 experiment::Experiment loaded(const Script& script) {
   return experiment::load(
-      SINEW_SOURCE_DIR "/experiments/" + std::string(script.experiment) + ".toml", script.sets);
+      sinew::test::source_dir() + "/experiments/" + std::string(script.experiment) + ".toml",
+      script.sets);
 }
 
 run::Outcome run_at(const std::string& port, const experiment::Experiment& e) {

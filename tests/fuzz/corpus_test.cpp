@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/fuzz/law.h"
+#include "tests/places.h"
 
 namespace sinew::fuzz {
 namespace {
@@ -34,7 +35,8 @@ std::string text_of(const fs::path& file) {
 class Corpus : public ::testing::TestWithParam<Harness> {};
 
 TEST_P(Corpus, KeepsTheLaws) {
-  const fs::path folder = fs::path(SINEW_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  const fs::path folder =
+      fs::path(sinew::test::source_dir()) / "tests/fuzz/corpus" / GetParam().name;
   std::vector<fs::path> files;
   for (const fs::directory_entry& e : fs::directory_iterator(folder)) files.push_back(e.path());
   ASSERT_GE(files.size(), 2u) << folder;

@@ -7,6 +7,7 @@
 #include "sinew/live/request.h"
 #include "sinew/run/controllers/steering.h"
 #include "tests/fuzz/law.h"
+#include "tests/places.h"
 
 namespace sinew::fuzz {
 namespace {
@@ -15,7 +16,7 @@ using Kind = live::Request::Kind;
 
 const std::vector<gait::Setting>& settings() {
   static const std::vector<gait::Setting> all = gait::settings(
-      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml").plan);
+      experiment::load(sinew::test::source_dir() + "/experiments/walk-test-1.toml").plan);
   return all;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tests/fuzz/law.h"
+#include "tests/places.h"
 #include "thesis/out_dat/out_dat.h"
 
 namespace sinew::fuzz {
@@ -9,7 +10,7 @@ namespace {
 
 const experiment::Experiment& walk() {
   static const experiment::Experiment e =
-      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml");
+      experiment::load(sinew::test::source_dir() + "/experiments/walk-test-1.toml");
   return e;
 }
 

@@ -3,12 +3,13 @@
 #include "sinew/config/compose.h"
 #include "sinew/experiment/experiment.h"
 #include "tests/fuzz/law.h"
+#include "tests/places.h"
 
 namespace sinew::fuzz {
 namespace {
 
 const std::string& file() {
-  static const std::string path = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+  static const std::string path = sinew::test::source_dir() + "/experiments/walk-test-1.toml";
   return path;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sinew/experiment/fault_parts.h"
+#include "tests/places.h"
 
 namespace sinew::run {
 
@@ -111,9 +112,11 @@ Case of_script(unsigned seed, std::mt19937& random) {
 
 const std::vector<Experiment>& board_scripts() {
   static const std::vector<Experiment> all{
-      experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml"),
-      experiment::load(SINEW_SOURCE_DIR "/experiments/leg-in-air.toml", {"sequence.repeat=1"}),
-      experiment::load(SINEW_SOURCE_DIR "/experiments/one-joint.toml", {"sequence.repeat=1"})};
+      experiment::load(sinew::test::source_dir() + "/experiments/kick.toml"),
+      experiment::load(sinew::test::source_dir() + "/experiments/leg-in-air.toml",
+                       {"sequence.repeat=1"}),
+      experiment::load(sinew::test::source_dir() + "/experiments/one-joint.toml",
+                       {"sequence.repeat=1"})};
   return all;
 }
 

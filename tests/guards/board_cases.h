@@ -1,5 +1,5 @@
 // tests/guards/board_cases.h - what can go wrong between a host, a board and its machine, drawn
-// from a seed, and what docs/supervision.md promises then.
+// from a seed, and what docs/reference/supervision.md promises then.
 //
 // A case is run by a test that has a board: boards_test.cpp the program in a thread of its own,
 // boards_emulated_test.cpp the real firmware in QEMU.
@@ -77,7 +77,8 @@ struct Told {
 // command or misses a period of telemetry is none of it where `by_clock`.
 bool was_noticed(const Outcome& out, const plant::RemoteBoard& remote, bool by_clock);
 
-// Holds what the wires have seen against docs/supervision.md. Commands go `lead` periods ahead.
+// Holds what the wires have seen against docs/reference/supervision.md. Commands go `lead` periods
+// ahead.
 Told judge(const Case& c, const Outcome& out, const plant::RemoteBoard& remote,
            const Monitor& monitor, const Proxy& proxy, int lead);
 

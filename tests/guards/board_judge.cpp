@@ -1,4 +1,4 @@
-// Holds what the wires have seen against the table of docs/supervision.md.
+// Holds what the wires have seen against the table of docs/reference/supervision.md.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -13,7 +13,8 @@ using signals::Tick;
 
 namespace {
 
-// docs/supervision.md  [ticks]; a period more, in which what is silent or lies is not yet seen.
+// docs/reference/supervision.md  [ticks]; a period more, in which what is silent or lies is not yet
+// seen.
 constexpr Tick hold_bound = 1'000, vent_bound = 10'000, sensor_bound = 300, period = 100;
 constexpr Tick forever = std::numeric_limits<Tick>::max();
 

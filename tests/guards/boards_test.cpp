@@ -1,7 +1,7 @@
 // A board at a line that loses, changes, doubles, cuts and delays bytes, a board that is reset,
 // sensors and air that fail: whatever happens, no muscle is open to both sides, its valves come to
-// rest, and what docs/supervision.md promises is kept in its time. And where nothing is wrong,
-// nothing is tripped.
+// rest, and what docs/reference/supervision.md promises is kept in its time. And where nothing is
+// wrong, nothing is tripped.
 //
 // The board is its program, in a thread of this process that waits for the host in each period.
 // boards_emulated_test.cpp has the real firmware.

@@ -17,6 +17,7 @@
 #include "sinew/run/simulation/logged.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/stand/run.h"
+#include "tests/places.h"
 
 namespace sinew {
 namespace {
@@ -26,7 +27,7 @@ using Patterns = std::vector<std::string>;
 
 std::vector<std::string> shipped() {
   std::vector<std::string> out;
-  const fs::path all = fs::path(SINEW_SOURCE_DIR) / "experiments";
+  const fs::path all = fs::path(sinew::test::source_dir()) / "experiments";
   for (const fs::path& folder : {all, all / "rig"})
     for (const auto& entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".toml") out.push_back(entry.path().string());

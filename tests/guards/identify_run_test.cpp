@@ -23,6 +23,7 @@
 #include "sinew/identify/machine/run_fit.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/signals/tick.h"
+#include "tests/places.h"
 
 namespace sinew::guards {
 namespace {
@@ -191,7 +192,7 @@ std::vector<Trial> try_side_by_side(const Experiment& shipped, const std::vector
 
 void try_all(const std::string& name, int trials, const std::vector<std::string>& sets = {}) {
   Experiment shipped =
-      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+      experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
   std::vector<Number> numbers;
   for (const std::string& key : identify::machine_keys(shipped, {})) {
     if (key == "trolley.drag") continue;  // in the air no reading depends on it

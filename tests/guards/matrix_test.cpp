@@ -18,6 +18,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "tests/cli/program.h"
 #include "tests/guards/subjects.h"
+#include "tests/places.h"
 
 namespace sinew::guards {
 namespace {
@@ -146,7 +147,7 @@ std::set<std::string> usual_of(const Subject& s) {
 
 // "reason: …" and below it lines "robot pattern cell cell …"
 std::map<std::string, std::string> listed() {
-  std::ifstream in(SINEW_SOURCE_DIR "/tests/guards/matrix_accepted.txt");
+  std::ifstream in(sinew::test::source_dir() + "/tests/guards/matrix_accepted.txt");
   std::map<std::string, std::string> out;
   std::string line, reason;
   while (std::getline(in, line)) {

@@ -10,6 +10,7 @@
 
 #include "sinew/run/setup/buildable.h"
 #include "tests/guards/subjects.h"
+#include "tests/places.h"
 
 namespace sinew::guards {
 namespace {
@@ -165,7 +166,7 @@ TEST(Robots, AtRandomAreRefusedOrWalk) {
   for (const char* name : {"walk-test-1", "cricket", "one-joint", "three-muscles", "walk-3-way",
                            "walk-with-ankle", "walk-with-hoses", "walk-with-pressures",
                            "walk-with-regulators", "cylinder-following", "leg-in-air"})
-    subjects.push_back(subject(std::string(SINEW_SOURCE_DIR "/experiments/") + name + ".toml"));
+    subjects.push_back(subject((sinew::test::source_dir() + "/experiments/") + name + ".toml"));
 
   const char* asked = std::getenv("SINEW_GUARD_COUNT");
   const std::uint64_t tries = asked ? std::strtoull(asked, nullptr, 10) : 300;

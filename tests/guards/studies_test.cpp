@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/guards/writers.h"
+#include "tests/places.h"
 
 namespace sinew::test {
 namespace {
@@ -54,7 +55,8 @@ bool has_mpi() { return SINEW_HAS_MPI && std::system("command -v mpirun >/dev/nu
   // A process that dies while it begins may leave a lock of PMIx's shared memory taken, for which
   // mpirun then waits forever: once in 130 kills. Without that memory there is no such lock.
   setenv("PMIX_MCA_gds", "hash", 1);
-  std::vector<const char*> arguments{"mpirun", "--oversubscribe", "-n", "3", SINEW_PROGRAM};
+  const std::string program = sinew::test::program();
+  std::vector<const char*> arguments{"mpirun", "--oversubscribe", "-n", "3", program.c_str()};
   for (const std::string& word : words) arguments.push_back(word.c_str());
   arguments.push_back(nullptr);
   execvp("mpirun", const_cast<char**>(arguments.data()));

@@ -18,6 +18,7 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/stand/run.h"
 #include "tests/guards/numeric_fields.h"
+#include "tests/places.h"
 
 namespace sinew::guards {
 
@@ -56,7 +57,7 @@ inline std::vector<std::filesystem::path> shipped() {
   std::set<std::filesystem::path> files;
   for (const char* folder : {"/experiments", "/experiments/rig"})
     for (const auto& entry :
-         std::filesystem::directory_iterator(SINEW_SOURCE_DIR + std::string(folder)))
+         std::filesystem::directory_iterator(sinew::test::source_dir() + std::string(folder)))
       if (entry.path().extension() == ".toml") files.insert(entry.path());
   return {files.begin(), files.end()};
 }

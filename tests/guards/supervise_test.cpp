@@ -12,6 +12,7 @@
 #include "sinew/control/setup/supervision.h"
 #include "sinew/control/supervise/test_fuzz.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::experiment {
 namespace {
@@ -61,12 +62,12 @@ double in(std::mt19937& random, double low, double high) {
 // The bench's lever, up and down once; and the leg's two joints in the air.
 const Experiment& bench() {
   static const Experiment e =
-      load(SINEW_SOURCE_DIR "/experiments/one-joint.toml", {"sequence.repeat=1"});
+      load(sinew::test::source_dir() + "/experiments/one-joint.toml", {"sequence.repeat=1"});
   return e;
 }
 const Experiment& leg() {
   static const Experiment e =
-      load(SINEW_SOURCE_DIR "/experiments/leg-in-air.toml", {"sequence.repeat=1"});
+      load(sinew::test::source_dir() + "/experiments/leg-in-air.toml", {"sequence.repeat=1"});
   return e;
 }
 

@@ -1,4 +1,5 @@
 #include "tests/guards/writers.h"
+#include "tests/places.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -143,7 +144,7 @@ Started start(const Workspace& w, const Words& words, const std::function<void()
     for (const int end : ends) close(end);
     if (chdir(w.path().c_str()) != 0) _exit(126);
     if (before) before();
-    execv(SINEW_PROGRAM, arguments.data());
+    execv(sinew::test::program().c_str(), arguments.data());
     _exit(126);
   }
   close(ends[1]);

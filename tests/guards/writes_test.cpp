@@ -19,7 +19,7 @@ bool failed(const Workspace& w, const Writer& writer, int n, Ended& end) {
   const std::string told = (w / "told").string();
   fs::remove(told);
   end = run(w, writer.fresh, [&] {
-    setenv("LD_PRELOAD", SINEW_FAIL_WRITE, 1);
+    setenv("LD_PRELOAD", (test::build_dir() + "/tests/sinew_fail_write.so").c_str(), 1);
     setenv("SINEW_FAIL_WRITE", std::to_string(n).c_str(), 1);
     setenv("SINEW_FAIL_TOLD", told.c_str(), 1);
   });

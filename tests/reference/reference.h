@@ -8,6 +8,7 @@
 
 #include "sinew/experiment/experiment.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::reference {
 
@@ -16,7 +17,8 @@ using units::inch;
 using units::pound_force;
 
 inline const json& reference() {
-  static const json data = json::parse(std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"));
+  static const json data =
+      json::parse(std::ifstream(sinew::test::source_dir() + "/data/reference.json"));
   return data;
 }
 
@@ -24,7 +26,7 @@ inline double printed(const std::string& name) { return reference()["constants"]
 inline double si(const std::string& name) { return reference()["constants"][name]["si"]; }
 
 inline experiment::Experiment load(const std::string& name, std::vector<std::string> sets = {}) {
-  return experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", sets);
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 inline const experiment::Experiment& leg() {
@@ -34,7 +36,8 @@ inline const experiment::Experiment& leg() {
 
 inline const experiment::Experiment& as_printed() {
   static const experiment::Experiment e =
-      load("walk-test-1", {"robot=\"" SINEW_SOURCE_DIR "/robots/leg-as-printed/robot.toml\""});
+      load("walk-test-1",
+           {"robot=\"" + sinew::test::source_dir() + "/robots/leg-as-printed/robot.toml\""});
   return e;
 }
 

@@ -20,6 +20,7 @@
 #include <string>
 
 #include "sinew/air/network.h"
+#include "tests/places.h"
 
 namespace sinew::reference::test_stand_test {
 namespace {
@@ -27,7 +28,8 @@ namespace {
 using nlohmann::json;
 
 const json& summary() {
-  static const json data = json::parse(std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"));
+  static const json data =
+      json::parse(std::ifstream(sinew::test::source_dir() + "/data/reference.json"));
   return data["verification_summary"];
 }
 

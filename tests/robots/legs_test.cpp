@@ -3,6 +3,7 @@
 
 #include "runs.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::legs_test {
 namespace {
@@ -102,8 +103,7 @@ TEST(Dampers, CostQuickness) {
 // A joint's law may take its speed from a sensor; the hip then shakes less, as with an estimate.
 TEST(Spindles, DampTheHipOfTest2) {
   const auto shakes = [](const char* gain) {
-    const std::string robot =
-                          std::string(SINEW_SOURCE_DIR) + "/robots/leg-with-spindles/robot.toml",
+    const std::string robot = sinew::test::source_dir() + "/robots/leg-with-spindles/robot.toml",
                       velocity = std::string("joint.hip.velocity_gain=") + gain;
     return figure(summary_of("walk-test-2", {"robot=" + robot, velocity}),
                   "joints.hip.swing_oscillation_rms_rad");

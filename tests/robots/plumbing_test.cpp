@@ -3,6 +3,7 @@
 
 #include "runs.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::plumbing_test {
 namespace {
@@ -88,7 +89,7 @@ TEST(Endurance, TheTankLosesWhatTheMusclesTake) {
 
 TEST(Endurance, PlumbingDecidesHowFarATankLasts) {
   const auto steps = [](const char* name) {
-    const std::string robot = std::string(SINEW_SOURCE_DIR) + "/robots/" + name + "/robot.toml";
+    const std::string robot = sinew::test::source_dir() + "/robots/" + name + "/robot.toml";
     return figure(summary_of("endurance", {"sequence.repeat=25", "robot=" + robot}),
                   "supply.full_steps");
   };

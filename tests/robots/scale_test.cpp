@@ -11,6 +11,7 @@
 #include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::scale_test {
 namespace {
@@ -92,7 +93,7 @@ void expect_alike(const std::vector<plant::Truth>& large, const std::vector<plan
 }
 
 Experiment load(const std::string& name, const std::vector<std::string>& sets = {}) {
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 template <class World>

@@ -15,6 +15,7 @@
 #include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
+#include "tests/places.h"
 #include "tests/six_legs.h"
 
 namespace sinew::six_legs_test {
@@ -26,7 +27,7 @@ class SixLegs : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = fs::temp_directory_path() / ("sinew-six-legs-" + std::to_string(getpid()));
-    path = test::write_six_legs(folder, SINEW_SOURCE_DIR);
+    path = test::write_six_legs(folder, sinew::test::source_dir());
   }
   static void TearDownTestSuite() { fs::remove_all(folder); }
 

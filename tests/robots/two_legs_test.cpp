@@ -5,6 +5,7 @@
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::two_legs_test {
 namespace {
@@ -13,7 +14,7 @@ using test::figure, test::seed, test::summary_of;
 using units::inch;
 
 experiment::Experiment load(const std::string& name) {
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml");
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml");
 }
 
 // At least four fifths of one leg's speed, each foot loaded for more than a third of the time, and

@@ -6,6 +6,7 @@
 
 #include "tests/cli/program.h"
 #include "tests/cli/wire.h"
+#include "tests/places.h"
 #include "tests/serial/board_on_pty.h"
 
 namespace sinew::test {
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 experiment::Experiment loaded() {
-  return experiment::load(SINEW_SOURCE_DIR "/experiments/walk-test-1.toml", {});
+  return experiment::load(sinew::test::source_dir() + "/experiments/walk-test-1.toml", {});
 }
 
 Words view_at(const BoardOnPty& board) {

@@ -9,6 +9,7 @@
 
 #include "sinew/run/bring_up/bring_up.h"
 #include "tests/cli/program.h"
+#include "tests/places.h"
 #include "tests/serial/board_on_pty.h"
 
 namespace sinew::test {
@@ -21,7 +22,7 @@ using ::testing::HasSubstr;
 constexpr std::uint32_t inlets = 0x55555555;
 
 experiment::Experiment loaded(const std::string& name) {
-  return experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", {});
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", {});
 }
 
 Words run_at(const BoardOnPty& board, const std::string& name) {
@@ -246,7 +247,7 @@ struct AtTerminal {
       std::vector<char*> arguments{const_cast<char*>("sinew")};
       for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
       arguments.push_back(nullptr);
-      if (::chdir(w.path().c_str()) == 0) ::execv(SINEW_PROGRAM, arguments.data());
+      if (::chdir(w.path().c_str()) == 0) ::execv(sinew::test::program().c_str(), arguments.data());
       ::_exit(126);
     }
     EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 20));

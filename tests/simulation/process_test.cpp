@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/simulation/seen.h"
 
 namespace sinew::test {
@@ -17,7 +18,7 @@ namespace {
 
 TEST(Save, GoesOnInAnotherProcess) {
   namespace fs = std::filesystem;
-  const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+  const std::string walk = sinew::test::source_dir() + "/experiments/walk-test-1.toml";
   const fs::path folder = fs::temp_directory_path() / ("sinew-save-" + std::to_string(getpid()));
   fs::create_directory(folder);
   const experiment::Experiment e = experiment::load(walk);
@@ -31,7 +32,7 @@ TEST(Save, GoesOnInAnotherProcess) {
     instants.push_back(static_cast<signals::Tick>(
         random() % static_cast<unsigned long>(straight.last() - straight.last() / 20)));
   std::ranges::sort(instants);
-  std::string command = std::string(SINEW_GO_ON) + " " + walk;
+  std::string command = sinew::test::build_dir() + "/tests/sinew_go_on" + " " + walk;
   for (int i = 0; i < saves; ++i) {
     straight.advance_to(instants[static_cast<std::size_t>(i)]);
     const std::vector<std::byte> saved = straight.save();

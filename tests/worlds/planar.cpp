@@ -10,6 +10,7 @@
 #include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 #include "tests/six_legs.h"
 #include "tests/worlds/body.h"
 #include "tests/worlds/breaks.h"
@@ -236,7 +237,7 @@ using Sets = std::vector<std::string>;
 // A shipped experiment by its name, or any by its path.
 Experiment load(const std::string& name, const Sets& sets) {
   if (name.starts_with("/")) return experiment::load(name, sets);
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 Subject of_setup(const std::string& name, const Setup& s) {
@@ -303,7 +304,7 @@ Setup with_memory() {
 Subject six_legs() {
   const auto folder =
       std::filesystem::temp_directory_path() / ("sinew-worlds-" + std::to_string(getpid()));
-  Subject out = of_experiment("six_legs", test::write_six_legs(folder, SINEW_SOURCE_DIR));
+  Subject out = of_experiment("six_legs", test::write_six_legs(folder, sinew::test::source_dir()));
   std::filesystem::remove_all(folder);
   return out;
 }

@@ -7,6 +7,7 @@
 #include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/faulty_setup.h"
 #include "sinew/run/stand/run.h"
+#include "tests/places.h"
 #include "tests/worlds/body.h"
 
 namespace sinew::worlds {
@@ -81,12 +82,12 @@ class OnStand final : public Body {
     tell(stand_.truth(t), [&](const char*, Kind, double x) { out[n++] = x; });
   }
 
-  // Air that a tank gives stays within the stand.
+  // Air that a has_tank gives stays within the stand.
   std::vector<Account> air(double t) override {
     const StandTruth x = stand_.truth(t);
-    const bool tank = setup_.supply.kind == gas::Supply::Kind::tank;
+    const bool has_tank = setup_.supply.kind == gas::Supply::Kind::tank;
     std::vector<Account> out{
-        {"stand", stand_.air_mass(), tank ? 0.0 : x.air_in, x.air_out, x.air_leaked}};
+        {"stand", stand_.air_mass(), has_tank ? 0.0 : x.air_in, x.air_out, x.air_leaked}};
     if (!(setup_.muscle.hose.volume > 0))
       out.push_back({"element", x.air, x.air_in, x.air_out, x.air_leaked});
     return out;
@@ -142,11 +143,11 @@ std::vector<experiment::Fault> broken() {
   };
 }
 
-Subject of_experiment(const std::string& name, const std::string& file, Sets sets = {},
-                      const std::vector<experiment::Fault>& faults = {}) {
+Subject of_stand_experiment(const std::string& name, const std::string& file, Sets sets = {},
+                            const std::vector<experiment::Fault>& faults = {}) {
   const auto load = [file, faults](const Sets& with) {
     rig::Experiment e =
-        rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/" + file + ".toml", with);
+        rig::load(sinew::test::source_dir() + "/experiments/rig/" + file + ".toml", with);
     e.faults = faults;
     return e;
   };
@@ -163,9 +164,9 @@ Subject of_experiment(const std::string& name, const std::string& file, Sets set
 // The cylinder of 6.3 with a weight on its rod, filled and vented through two valves.
 StandSetup hanging_cylinder() {
   StandSetup s = rig::setup_of(
-      rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/sealed-cylinder.toml", {}));
-  const StandSetup valves = rig::setup_of(
-      rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/feedback.toml", {}));
+      rig::load(sinew::test::source_dir() + "/experiments/rig/sealed-cylinder.toml", {}));
+  const StandSetup valves =
+      rig::setup_of(rig::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml", {}));
   s.cylinder->inlet[air::up] = valves.muscle.inlet;
   s.cylinder->exhaust[air::up] = valves.muscle.exhaust;
   s.load = valves.load;
@@ -180,7 +181,7 @@ StandSetup hanging_cylinder() {
 // A tensile machine pulls to and fro while the regulator's set point moves and jumps.
 StandSetup regulated() {
   StandSetup s = rig::setup_of(
-      rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/length-sweep.toml", {}));
+      rig::load(sinew::test::source_dir() + "/experiments/rig/length-sweep.toml", {}));
   s.load.length = plant::Schedule({{0, 0.075}, {0.3003, 0.085}, {0.5003, 0.085}, {0.9003, 0.07}});
   s.charge.pressure =
       plant::Schedule({{0, 2e5}, {0.4, 5e5}, {0.6003, 5e5}, {0.6003, 3e5}, {1, 4e5}});
@@ -219,21 +220,21 @@ std::vector<Subject> stand_subjects() {
                   "air.supply.initial_pressure=80 psi gauge"};
   const std::string pipe = "law = \"pipe\", length = \"0.5 m\", inner_diameter = \"2.5 mm\"";
   std::vector<Subject> all{
-      of_experiment("sealed", "trapped-60-6"),
-      of_experiment("3_way", "pwm-25hz-5lb"),
-      of_experiment("hanging", "feedback"),
-      of_experiment("driven", "isometric"),
-      of_experiment("length_sweep", "length-sweep"),
+      of_stand_experiment("sealed", "trapped-60-6"),
+      of_stand_experiment("3_way", "pwm-25hz-5lb"),
+      of_stand_experiment("hanging", "feedback"),
+      of_stand_experiment("driven", "isometric"),
+      of_stand_experiment("length_sweep", "length-sweep"),
       of_setup("regulated", regulated()),
-      of_experiment("driven_cylinder", "sealed-cylinder"),
+      of_stand_experiment("driven_cylinder", "sealed-cylinder"),
       of_setup("hanging_cylinder", hanging_cylinder()),
-      of_experiment("hose_with_air", "feedback",
-                    {"element.hose={ " + pipe + ", volume = \"2.45e-6 m3\" }"}),
-      of_experiment("hose_without_air", "feedback", {"element.hose={ " + pipe + " }"}),
-      of_experiment("tank", "feedback", tank),
-      of_experiment("leak", "feedback", {"element.leak={ area = \"1e-9 m2\" }"}),
-      of_experiment("heat", "feedback", {"air.wall_time=0.3 s"}),
-      of_experiment("broken", "feedback", {}, broken()),
+      of_stand_experiment("hose_with_air", "feedback",
+                          {"element.hose={ " + pipe + ", volume = \"2.45e-6 m3\" }"}),
+      of_stand_experiment("hose_without_air", "feedback", {"element.hose={ " + pipe + " }"}),
+      of_stand_experiment("tank", "feedback", tank),
+      of_stand_experiment("leak", "feedback", {"element.leak={ area = \"1e-9 m2\" }"}),
+      of_stand_experiment("heat", "feedback", {"air.wall_time=0.3 s"}),
+      of_stand_experiment("broken", "feedback", {}, broken()),
   };
   for (Subject& s : all) s.limits = limits_of(s.name);
   return all;

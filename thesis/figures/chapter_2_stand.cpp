@@ -334,7 +334,7 @@ Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
                       .why = "our stand was made with [30]"}),
        report::not_applicable("[30] and appendix A", "Which pressure the function takes", "",
                               "text and code contradict each other; both are drawn "
-                              "(docs/departures.md)")}};
+                              "(docs/evidence/departures.md)")}};
 }
 
 Exhibit figure_2_12(const std::vector<Loop>& loops) {

@@ -27,7 +27,7 @@ report::Gallery gallery(const Sources& from, std::atomic<std::int64_t>& done) {
           "class says what agreement is worth: only what is predicted tests the model. What was "
           "fitted (docs/calibration.md) shows that one leg can do all of it at once; agreement of "
           "what was put in, is true by construction or is the same equations twice shows only "
-          "that nothing is broken (docs/evidence.md).",
+          "that nothing is broken (docs/evidence/evidence.md).",
       .prefix = "Figure "};
   for (const auto make : makers) {
     for (Exhibit& e : make(from)) out.exhibits.push_back(std::move(e));

@@ -7,11 +7,12 @@
 #include <sstream>
 
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::thesis::out_dat_test {
 namespace {
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 experiment::Experiment walk(std::vector<std::string> sets = {}) {
   sets.push_back("sequence.repeat=2");

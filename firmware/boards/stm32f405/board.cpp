@@ -1,7 +1,7 @@
 // firmware/boards/stm32f405/board.cpp - STM32F405RG, a Cortex-M4F at 168 MHz (ST RM0090, DS8626),
 // as it stands on small boards that are sold. Never run on one by us: it boots in qemu-system-arm's
 // `netduinoplus2`, which has its serial line and timers, and neither its clocks nor its pins,
-// watchdog and noise source (docs/how-to-port-firmware.md).
+// watchdog and noise source (docs/how-to/hardware.md).
 //
 //   inputs 0 … 7      PA0 … PA7      the converter's inputs 0 … 7
 //          8 … 13     PC0 … PC5                          10 … 15

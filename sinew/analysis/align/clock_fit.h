@@ -4,13 +4,13 @@
 // (correlation.h), starting from that of the piece beside it, so that a slow clock is followed
 // through any number of periods of a walk.
 //
-//   d_k = s + rho·t_k          d_k shift of piece k, t_k its middle, by least squares with weights
-//                              1/u_k^2, u_k of correlation.h (a hundredth of a sample's step at
-//                              least), times Huber's min(1, 1.345·scale/|e_k|); e_k = residual/u_k,
-//                              scale 1.4826·median |e_k|
+//   t_sk = t_s + rho·t_k       t_sk shift of piece k, t_k its middle, by least squares with weights
+//                              1/se_k^2, se_k of correlation.h (a hundredth of a sample's step at
+//                              least), times Huber's min(1, 1.345·scale/|e_k|); e_k =
+//                              residual/se_k, scale 1.4826·median |e_k|
 //   cov = q (X'WX)^-1          q = max(1, sum w·e^2/(n - 2)): its square roots are the standard
-//                              uncertainties of s and rho
-//   known rate                 the same with s alone, n - 1
+//                              uncertainties of t_s and rho
+//   known rate                 the same with t_s alone, n - 1
 #pragma once
 
 #include <cstddef>

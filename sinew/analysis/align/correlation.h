@@ -1,21 +1,22 @@
 // analysis/align/correlation.h - the shift of a clock at which two recordings are most alike.
 //
-// The other recording's clock shows t_B = s + (1 + rho)·t where the first one's shows t.
+// The other recording's clock shows t_b = t_s + (1 + rho)·t where the first one's shows t.
 //
-//   r(s, rho) = cov(a, b')/sqrt(var(a)·var(b'))     b'(t) = b(s + (1 + rho)·t), over all samples of
-//                                                   a at which there is a b; mean of the channels
+//   r(t_s, rho) = cov(a, b')/sqrt(var(a)·var(b'))   b'(t) = b(t_s + (1 + rho)·t)
 //
-// Normalised like this r is 1 for equal shapes, whatever their scales and offsets. Where both
-// overlap by less than half of the shorter one, r says nothing.
+// over all samples of a at which there is a b; mean of the channels. Normalised like this r, the
+// correlation, is 1 for equal shapes, whatever their scales and offsets. Where both overlap by less
+// than half of the shorter one, r has no meaning.
 //
 //   search    on a grid of at most 4096 steps r of all shifts and of rates within 2 %
-//   vertex    of the parabola through r(s - w), r(s), r(s + w); w is a quarter of the peak's half
-//             width, at least a sample's step
-//   refine    from there a ~ alpha·b' + beta + gamma·db'/ds by least squares, s += gamma/alpha,
-//   until
-//             it stays: the top of r exactly, also where the peak is lopsided; db'/ds over +-w
-//   u(s)      sigma/(alpha·sqrt(S)), sigma that of the residuals, S = sum (db'/ds)^2 of what is no
-//             combination of b' and 1. A ramp, which is like itself at every shift, has S = 0
+//   vertex    of the parabola through r(t_s - w), r(t_s), r(t_s + w); w is a quarter of the peak's
+//             half width, at least a sample's step
+//   refine    from there a ~ alpha_1·b' + alpha_0 + alpha_2·db'/dt_s by least squares,
+//             t_s += alpha_2/alpha_1, until it stays: the top of r exactly, also where the peak is
+//             lopsided; db'/dt_s over +-w
+//   se(t_s)   sigma_a/(alpha_1·sqrt(S)), sigma_a that of the residuals, S = sum (db'/dt_s)^2 of the
+//             part that is not a combination of b' and 1. A ramp, which has the same shape at every
+//             shift, has S = 0
 #pragma once
 
 #include <optional>

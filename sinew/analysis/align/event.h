@@ -1,15 +1,15 @@
 // analysis/align/event.h - the instant at which something happens in a recording: a channel crosses
 // a level, or begins to move.
 //
-//   crossing   first t with x(t) = level, x below before it and above after it (">"; "<":
+//   crossing   first t with u(t) = level, u below before it and above after it (">"; "<":
 //   reversed),
 //              on the straight line between the two samples around
-//   motion     first t with |x(t) - x_0| = band that is followed by two more samples beyond it;
-//              x_0 is the median of the first five samples
+//   motion     first t with |u(t) - u_0| = band that is followed by two more samples beyond it;
+//              u_0 is the median of the first five samples
 //   band       max(5 % of range, 8 sigma), the greater one of both recordings (signal.h)
-//   u(t)       max(sigma/|slope there|, step/sqrt(12)): how well a recording knows the instant
+//   se(t)      max(sigma/|slope there|, step/sqrt(12)): how well a recording knows the instant
 //
-// Without a wish the channel is taken whose instants are the surest: least u_A^2 + u_B^2.
+// Without a wish the channel is taken whose instants are the surest: least se_a^2 + se_b^2.
 #pragma once
 
 #include <optional>

@@ -1,9 +1,9 @@
 // analysis/align/parting.h - where a simulation parts from what was measured, channel by channel.
 //
-//   d_i = simulated - measured       where their samples meet (verdict/compare.h)
+//   e_i = simulated - measured       where their samples meet (verdict/compare.h)
 //   band = max(share·range, 4 sigma) of what was measured; sigma its noise (signal.h)
-//   parts at                         the first d beyond the band that is followed by two more
-//   growth                           rms of d in each tenth of the measured channel's time
+//   parts at                         the first e beyond the band that is followed by two more
+//   growth                           rms of e in each tenth of the measured channel's time
 #pragma once
 
 #include <array>

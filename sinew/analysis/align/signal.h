@@ -1,9 +1,10 @@
 // analysis/align/signal.h - a channel as a function of time, for laws that lay two recordings on
 // each other.
 //
-//   x(t)      the straight line between the two samples around t
-//   noise     sigma^2 = mean (x_{i-1} - 2 x_i + x_{i+1})^2 / 6, which white noise of that sigma
-//   gives moves     sigma^2 < var(x)/4: neither constant nor nothing but noise
+//   u(t)      the straight line between the two samples around t
+//   noise     sigma^2 = mean (u_{i-1} - 2 u_i + u_{i+1})^2 / 6, which white noise of that sigma
+//             gives
+//   moves     sigma^2 < var(u)/4: neither constant nor nothing but noise
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// analysis/measures/laws.h - the small formulas of docs/analysis.md.
+// analysis/measures/laws.h - the small formulas of docs/reference/analysis.md.
 #pragma once
 
 #include <cmath>

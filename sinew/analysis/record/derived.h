@@ -14,10 +14,10 @@
 //   /true/joint/<j>/stiffness   of the true lengths and pressures
 //   /true/foot/slip      velocity of the foot's lowest point along the ground
 //
-// Formulas: docs/analysis.md. A series is absent where the table lacks what it needs: a hardware
-// log gives all but those under /true. All series stand at the times of the plan's samples; other
-// topics are held from one of their samples to the next. Where a reading is not a number the result
-// is not a number.
+// Formulas: docs/reference/analysis.md. A series is absent where the table lacks what it needs: a
+// hardware log gives all but those under /true. All series stand at the times of the plan's
+// samples; other topics are held from one of their samples to the next. Where a reading is not a
+// number the result is not a number.
 #pragma once
 
 #include "sinew/analysis/record/machine.h"

@@ -6,11 +6,12 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
+#include "tests/places.h"
 
 namespace sinew::analysis::machine_test {
 namespace {
 
-const std::string experiments = std::string(SINEW_SOURCE_DIR) + "/experiments/";
+const std::string experiments = sinew::test::source_dir() + "/experiments/";
 
 Machine read(const std::string& name, const std::vector<std::string>& sets = {}) {
   return read_machine(config::compose(experiments + name, sets));

@@ -14,8 +14,8 @@
 //   identity(15)           the same by definition: rounding, a billionth of the range
 //   another(27, 33)          by none of these; whoever writes it says why
 //
-// A band is made before anybody looks at what ours is; docs/evidence.md has the rule and its
-// reasons. Numbers may be in any unit, the band is in the same one. A reading error is of the
+// A band is made before anybody looks at what ours is; docs/evidence/evidence.md has the rule and
+// its reasons. Numbers may be in any unit, the band is in the same one. A reading error is of the
 // source's own figure.
 #pragma once
 

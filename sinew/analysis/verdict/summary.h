@@ -1,8 +1,9 @@
 // analysis/verdict/summary.h - a run in numbers: summary.json.
 //
 // Keys are dotted, "joints.hip.min_angle_rad", values SI with the unit in the key; what each means
-// stands in docs/analysis.md. A key that does not apply, or whose topics the log lacks, is absent.
-// Means, extremes and shares are over the phases of the sequence; settling and finish are left out.
+// stands in docs/reference/analysis.md. A key that does not apply, or whose topics the log lacks,
+// is absent. Means, extremes and shares are over the phases of the sequence; settling and finish
+// are left out.
 #pragma once
 
 #include <string>

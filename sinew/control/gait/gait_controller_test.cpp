@@ -2,26 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <map>
-#include <new>
 
 #include "sinew/control/gait/path.h"
 #include "sinew/control/gait/test_walk.h"
-
-// Every allocation of this program is counted.
-namespace {
-std::atomic<long> allocations{0};
-}
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/counted_heap.h"
 
 namespace sinew::gait::gait_controller_test {
 namespace {
@@ -255,9 +241,11 @@ TEST(GaitController, NoHeapInUpdate) {
   plan.joints[1].range = {5, 6};
   GaitController brain(robot, plan);
   const Measured measured = standing(robot, {0, 0});
-  const long before = allocations;
+  sinew::test::allocations = 0;
+  sinew::test::counting = true;
   for (std::int64_t p = 0; p < 2000; ++p) brain.update(measured, p);
-  EXPECT_EQ(allocations, before);
+  sinew::test::counting = false;
+  EXPECT_EQ(sinew::test::allocations, 0);
   EXPECT_TRUE(brain.finished());
 }
 

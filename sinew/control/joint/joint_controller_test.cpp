@@ -4,26 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <functional>
-#include <new>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "sinew/control/joint/test_leg.h"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  std::abort();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/counted_heap.h"
 
 namespace sinew::control::joint_controller_test {
 namespace {
@@ -382,7 +369,8 @@ TEST(JointController, NeverAllocates) {
   const World world{.bad_per_thousand = 5};
   JointControllerConfig config = test_leg();
   config.startup_vent = 300;
-  const std::size_t before = allocations;
+  test::allocations = 0;
+  test::counting = true;
   JointController spine(config);
   std::size_t edges = 0;
   for (Tick t = 0; t < 100'000; t = spine.next_event(t)) {
@@ -391,7 +379,8 @@ TEST(JointController, NeverAllocates) {
     if (const signals::Conversion* c = spine.due(t)) spine.take(*c, world.read(c->channel, t), t);
     if (t == 90'000) spine.shut_down(t);
   }
-  EXPECT_EQ(allocations, before);
+  test::counting = false;
+  EXPECT_EQ(test::allocations, 0);
   EXPECT_GT(edges, 1000u);
 }
 

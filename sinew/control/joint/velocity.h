@@ -1,18 +1,19 @@
 // control/joint/velocity.h - a joint's speed from counts: what [59]'s velocity term gets.
 //
-//   difference        (theta_0 - theta_1)/T                       6.5; one count is 1/T counts/s
-//   weighted average  sum of w_i (theta_i - theta_0)              7.3; w_i of a least-squares line:
-//                     w_i = 12 ((n - 1)/2 - i)/(n (n^2 - 1) T)    noise falls as 12/(n (n^2 - 1))
+//   difference        (theta_0 - theta_1)/t_p                     6.5; one count is 1/t_p counts/s
+//   weighted average  sum of psi_i (theta_i - theta_0)          7.3; of a least-squares line of
+//                     n_s readings, whose noise falls as 12/(n_s (n_s^2 - 1)):
+//                     psi_i = 12 ((n_s - 1)/2 - i)/(n_s (n_s^2 - 1) t_p)
 //   bounded observer  the difference, but within a margin of      7.3; and never beyond the limit
 //                     what the joint's model gives,  a v + c F
 //   Kalman            theta' = theta + g v + d F                  then corrected by constant shares
 //                     v'     = a v + c F                          of  theta_0 - theta'
 //   sensor            (reading - its zero) times a scale          7.3's muscle spindle
 //
-// theta_i is the reading i periods ago [count], T the period [s], v the last estimate [count/s], F
-// the tension that raises the angle less the one that lowers it, mean of this reading and the last
-// [count]. The constants a, c, d, g are the motion of the joint over a period; who describes the
-// machine computes them (control/setup/estimators.h). All speeds are in counts of the angle's
+// theta_i is the reading i periods ago [count], t_p the period [s], v the last estimate [count/s],
+// F the tension that raises the angle less the one that lowers it, mean of this reading and the
+// last [count]. The constants a, c, d, g are the motion of the joint over a period; who describes
+// the machine computes them (control/setup/estimators.h). All speeds are in counts of the angle's
 // converter per second. Pure functions.
 #pragma once
 

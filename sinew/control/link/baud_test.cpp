@@ -67,7 +67,7 @@ TEST(Baud, TheSlowestThatCarriesAllIsChosen) {
     }
 }
 
-// Figures of docs/wire.md.
+// Figures of docs/reference/wire.md.
 TEST(Baud, OfTheLegAndOfTheLargestBoard) {
   EXPECT_EQ(load_of(control::test_leg(), false).to_host, 482u);
   EXPECT_EQ(load_of(control::test_leg(), false).to_board, 128u);

@@ -1,10 +1,10 @@
 // control/link/configuration_fields.h - what a board must know of its machine, field by field, in
-// the order of the wire (docs/wire.md).
+// the order of the wire (docs/reference/wire.md).
 //
 // Not a struct's memory: compilers lay that out as they like. All joints, conversions and sensors
 // that there is room for are written, so that a configuration has one size. Who adds a field to one
 // of these structs is stopped here by an assertion: list it, raise configuration_layout and tell
-// docs/wire.md.
+// docs/reference/wire.md.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// control/link/frame.h - frames on the wire between a host and a controller board (docs/wire.md).
+// control/link/frame.h - frames on the wire between a host and a controller board
+// (docs/reference/wire.md).
 //
 //   AA 55  type  sequence  length  payload ...  CRC-16
 //

@@ -1,5 +1,5 @@
-// docs/wire.md says what the code does: its tables have the fields of each message at their places,
-// its examples are frames to the byte.
+// docs/reference/wire.md says what the code does: its tables have the fields of each message at
+// their places, its examples are frames to the byte.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -9,6 +9,7 @@
 
 #include "sinew/control/link/configuration.h"
 #include "sinew/control/link/test_wire.h"
+#include "tests/places.h"
 
 namespace sinew::link::wire_page_test {
 namespace {
@@ -18,7 +19,7 @@ using Lines = std::vector<std::string>;
 const Lines& page() {
   static const Lines lines = [] {
     Lines out;
-    std::ifstream in(SINEW_SOURCE_DIR "/docs/wire.md");
+    std::ifstream in(sinew::test::source_dir() + "/docs/reference/wire.md");
     for (std::string line; std::getline(in, line);) out.push_back(line);
     return out;
   }();

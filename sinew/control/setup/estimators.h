@@ -1,17 +1,19 @@
 // control/setup/estimators.h - the constants of a joint's velocity estimator, from what the robot's
 // file says of the joint. Worked out once, before the run, in double; the low level gets floats.
 //
-//   J theta'' = tau - D theta' + J w     over a period T in which tau and w are constant:
+//   I theta'' = tau - c theta' + I alpha_w     over a period t_p, tau and alpha_w constant:
 //
-//   theta' = theta + g v + d (tau/J + w)       k = D/J,  a = exp(-k T)
-//   v'     = a v + g (tau/J + w)               g = (1 - a)/k,  d = (T - g)/k;  k = 0: T, T^2/2
+//   theta' = theta + g v + h (tau/I + alpha_w)    k = c/I,  a = exp(-k t_p)
+//   v'     = a v + g (tau/I + alpha_w)            g = (1 - a)/k,  h = (t_p - g)/k
+//                                                 k = 0: g = t_p, h = t_p^2/2
 //
-//   tau  r F c_F, of the measured tensions [N m]      J, D  inertia [kg m^2], damping [N m s/rad]
-//   w    what the model does not know [rad/s^2]
+//   tau      r F c_F, of the measured tensions [N m]     I  inertia [kg m^2]
+//   alpha_w  acceleration by causes outside the model    c  damping [N m s/rad]
+//            [rad/s^2]
 //
 // Kalman's shares are those of the steady state: the covariance P of the Riccati equation
 // P- = A P A^T + Q,  K = P- H^T/(H P- H^T + R),  P = (I - K H) P-  run until it stands still, with
-// Q of w's deviation and R = noise^2 + 1/12, rounding to whole counts.
+// Q of alpha_w's deviation and R = noise^2 + 1/12, rounding to whole counts.
 #pragma once
 
 #include <array>
@@ -21,11 +23,11 @@
 
 namespace sinew::control {
 
-// A joint over one period: a, g, d above.
+// A joint over one period: a, g, h above.
 struct JointMotion {
   double decay = 1;        // [-]
   double travel = 0;       // g [s]
-  double travel_gain = 0;  // d [s^2]
+  double travel_gain = 0;  // h [s^2]
 };
 JointMotion joint_motion(double inertia, double damping, double period);
 

@@ -1,5 +1,6 @@
 // control/supervise/safety.h - a board's states, from power-up to the next one: when valves may
-// move at all, what ends that, and how far it goes (docs/supervision.md has the table of faults).
+// move at all, what ends that, and how far it goes (docs/reference/supervision.md has the table of
+// faults).
 //
 //   fault --clear--> idle --arm, twice--> armed --command--> running
 //                                                    running < hold < vent < dump

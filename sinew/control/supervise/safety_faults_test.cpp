@@ -1,4 +1,4 @@
-// Sensors, clock, memory and air that go wrong: rows of docs/supervision.md.
+// Sensors, clock, memory and air that go wrong: rows of docs/reference/supervision.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ TEST(Safety, ASensorThatFailsVentsInThreeScans) {
   leg.hold_limit = 3;
   for (const Reading wrong : {Reading{0, Status::ok}, Reading{4095, Status::ok},
                               Reading{2600, Status::ok}, Reading{0, Status::late}}) {
-    Bench b({}, limits(), leg);
+    SupervisedBench b({}, limits(), leg);
     b.start();
     b.run(1'000);
     const Tick from = b.now;
@@ -42,7 +42,7 @@ TEST(Safety, ASensorThatFailsVentsInThreeScans) {
 TEST(Safety, OneMissedTickIsCountedTwoShutTheInletsAndTenMillisecondsVent) {
   constexpr OpenMask inlets = 0x055;  // of hip and knee
   for (const Tick missed : {1, 2, 30, 99, 100, 5'000}) {
-    Bench b;
+    SupervisedBench b;
     for (JointCommand& c : b.command.joint) c.duties = {100, 0, 0, 100};
     b.start();
     b.run(1'000 + 20);
@@ -69,7 +69,7 @@ TEST(Safety, OneMissedTickIsCountedTwoShutTheInletsAndTenMillisecondsVent) {
 TEST(Safety, OneChangedBitOfTheParametersDumpsWithinTwoLooks) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 24; ++trial) {
-    Bench b;
+    SupervisedBench b;
     b.start();
     b.run(2'500);
     const Supervisor& run = *b.board.controller();
@@ -100,7 +100,7 @@ TEST(Safety, OneChangedBitOfTheParametersDumpsWithinTwoLooks) {
 }
 
 TEST(Safety, OnlyATickThatWasWorkedOffFeedsTheWatchdog) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.run(100);
   EXPECT_TRUE(b.fed);
@@ -135,7 +135,7 @@ TEST(Safety, AVentLastsUntilTheMusclesAreEmptyAndAsLongAsTheControllersOwn) {
   SafetyConfig config;
   for (const std::uint8_t channel : {3, 4, 5, 6}) config.empty_at[channel] = 300;
   for (const Tick empty_after : {500, 8'000, 30'000}) {
-    Bench b(config);
+    SupervisedBench b(config);
     b.start();
     b.run(500);
     b.board.shut_down(b.now);
@@ -159,7 +159,7 @@ TEST(Safety, WhatIsNotEmptyAfterTheLongestVentIsDumped) {
   SafetyConfig config;
   config.empty_at[3] = 300;
   config.vent_limit = 20'000;
-  Bench b(config);
+  SupervisedBench b(config);
   b.start();
   b.run(500);
   b.board.shut_down(b.now);

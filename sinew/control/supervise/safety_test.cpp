@@ -19,7 +19,7 @@ using signals::Reading;
 // --- from power-up to a run ---------------------------------------------------------------------
 
 TEST(Safety, PowerUpIsAFaultThatOnlyARisingEdgeLeaves) {
-  Bench b;
+  SupervisedBench b;
   b.commands = true;
   EXPECT_EQ(b.board.state(), BoardState::fault);
   EXPECT_EQ(b.board.fault(), BoardFault::power_up);
@@ -41,7 +41,7 @@ TEST(Safety, PowerUpIsAFaultThatOnlyARisingEdgeLeaves) {
 TEST(Safety, AFaultIsNotClearedWhileASensorIsMissing) {
   for (const Reading wrong :
        {Reading{0, Status::late}, Reading{4095, Status::ok}, Reading{1895, Status::invalid}}) {
-    Bench b;
+    SupervisedBench b;
     b.lie = [&](std::uint8_t channel, Tick, Reading r) { return channel == hip_angle ? wrong : r; };
     b.board.clear(false, b.now);
     b.run(1'000);
@@ -56,7 +56,7 @@ TEST(Safety, AFaultIsNotClearedWhileASensorIsMissing) {
 }
 
 TEST(Safety, ArmingTakesTwoFramesInTime) {
-  Bench b;
+  SupervisedBench b;
   b.board.clear(false, b.now);
   b.run(1'200);
   ASSERT_TRUE(b.board.clear(true, b.now));
@@ -76,7 +76,7 @@ TEST(Safety, ArmingTakesTwoFramesInTime) {
 }
 
 TEST(Safety, AnArmedBoardWithoutAHostIsIdleAfterASecond) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.board.shut_down(b.now);
   b.commands = false;
@@ -133,7 +133,7 @@ TEST(Safety, WithoutAFaultItIsTheSupervisedController) {
     const JointControllerConfig leg = any_leg(random);
     const SuperviseConfig anything;
 
-    Bench b({}, anything, leg);
+    SupervisedBench b({}, anything, leg);
     std::vector<Edge> edges;
     b.on_edge = [&](const Edge& e) { edges.push_back(e); };
     b.lie = [&](std::uint8_t channel, Tick now, Reading) {
@@ -178,7 +178,7 @@ TEST(Safety, WithoutAFaultItIsTheSupervisedController) {
 // --- the host -----------------------------------------------------------------------------------
 
 TEST(Safety, AHostThatIsSilentFor100MillisecondsHoldsAndForASecondVents) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.run(999);
   const Tick last = b.now - 100;  // it commands at every 100th tick; the last one was so long ago
@@ -201,7 +201,7 @@ TEST(Safety, AHostThatIsSilentFor100MillisecondsHoldsAndForASecondVents) {
 }
 
 TEST(Safety, AHostThatComesBackFromAHoldGoesOn) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.run(1'000);
   b.commands = false;
@@ -214,7 +214,7 @@ TEST(Safety, AHostThatComesBackFromAHoldGoesOn) {
 }
 
 TEST(Safety, ThreeBadCommandsHoldAndSixVent) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.run(499);
   b.command.joint[hip].stiffness = std::numeric_limits<float>::quiet_NaN();
@@ -229,7 +229,7 @@ TEST(Safety, ThreeBadCommandsHoldAndSixVent) {
 }
 
 TEST(Safety, AHoldLastsNoLongerThanTwoSeconds) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.commands = false;
   Command bad = b.command;
@@ -247,7 +247,7 @@ TEST(Safety, AHoldLastsNoLongerThanTwoSeconds) {
 }
 
 TEST(Safety, ShutDownVentsInTheSameTickAndEndsIdle) {
-  Bench b;
+  SupervisedBench b;
   b.start();
   b.run(1'234);
   b.board.shut_down(b.now);
@@ -285,7 +285,7 @@ TEST(Safety, WhateverComesAirGoesInOnlyWhileItRuns) {
     config.refractory = trial % 3 == 0 ? 2 : 0;
     if (trial % 4 == 1) config.empty_at[3] = 900;
     if (trial % 4 == 2) config.empty_at[3] = 100, config.vent_limit = 2'000;
-    Bench b(config);
+    SupervisedBench b(config);
     b.lie = [&](std::uint8_t, Tick, Reading r) {
       if (one_in(400)) r.counts = static_cast<std::uint16_t>(random() % 4096);
       if (one_in(400)) r.status = Status::late;

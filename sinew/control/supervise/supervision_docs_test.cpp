@@ -1,4 +1,5 @@
-// docs/supervision.md names tests and bounds: the tests are there, the bounds are the defaults.
+// docs/reference/supervision.md names tests and bounds: the tests are there, the bounds are the
+// defaults.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "sinew/control/supervise/safety.h"
+#include "tests/places.h"
 
 namespace sinew::control::supervision_docs_test {
 namespace {
@@ -21,7 +23,7 @@ std::string trimmed(const std::string& text) {
 
 // The rows of the table of faults.
 std::vector<Row> faults() {
-  std::ifstream file(std::string(SINEW_SOURCE_DIR) + "/docs/supervision.md");
+  std::ifstream file(sinew::test::source_dir() + "/docs/reference/supervision.md");
   std::vector<Row> rows;
   bool here = false;
   for (std::string line; std::getline(file, line);) {
@@ -55,7 +57,7 @@ std::string cell(const std::string& fault, std::size_t column) {
 
 // [ticks] without a round of run(), that end feeding.
 std::uint32_t patience_of_the_application() {
-  std::ifstream file(std::string(SINEW_SOURCE_DIR) + "/firmware/application.cpp");
+  std::ifstream file(sinew::test::source_dir() + "/firmware/application.cpp");
   const std::string before = "std::uint32_t patience = ";
   for (std::string line; std::getline(file, line);)
     if (const std::size_t at = line.find(before); at != std::string::npos)

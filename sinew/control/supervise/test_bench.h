@@ -17,9 +17,10 @@ namespace sinew::control {
 // 1, 3.
 inline constexpr OpenMask leg_inlets = 0x555, leg_exhausts = 0xaaa;
 
-struct Bench {
-  explicit Bench(const SafetyConfig& safety = {}, const SuperviseConfig& sensors = limits(),
-                 const JointControllerConfig& leg = test_leg()) {
+struct SupervisedBench {
+  explicit SupervisedBench(const SafetyConfig& safety = {},
+                           const SuperviseConfig& sensors = limits(),
+                           const JointControllerConfig& leg = test_leg()) {
     command = rest_command(leg);
     for (JointCommand& c : command.joint) {
       c.enabled = c.open_loop = true;  // valves work, whatever the readings are

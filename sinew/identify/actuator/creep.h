@@ -1,16 +1,16 @@
 // identify/actuator/creep.h - creep and dry friction together, from force at one length while a
 // muscle is filled, held and vented.
 //
-//   F = A (max(f - P0, 0) + sum c_i max(z_i - P0, 0))      z_i' = (f - z_i)/tau_i
-//   f = play of half-width w behind p: |p - f| <= w, and f moves only where p drags it
+//   F = F_p (max(P_e - P_0, 0) + sum chi_i max(P_late - P_0, 0))     P_late' = (P_e - P_late)/t_i
+//   P_e = play of half-width w behind p: |p - P_e| <= w, and P_e moves only where p drags it
 //
-//   p  gauge pressure [Pa]   f  what the mesh feels of it [Pa]   A  slope at this length [N/Pa]
-//   P0  threshold [Pa]   c_i  share that comes late [-]   tau_i  its time [s]   w  [Pa]
+//   p      gauge pressure [Pa]     P_e  effective pressure [Pa]   F_p  slope at this length [N/Pa]
+//   chi_i  share that comes late   t_i  its time constant [s]     P_0  threshold [Pa]    w  [Pa]
 //
 // The laws of actuator/creep.h and actuator/hysteresis.h with a static law that is a straight line
-// over pressure, A and P0 of this length. Each looks like the other where there is only a part of
-// the data: after a fill creep lifts the force, and friction holds it down; the vent parts them, as
-// friction then holds it up at once and creep only for a while. So they are searched together.
+// over pressure, F_p and P_0 of this length. Each looks like the other where there is only a part
+// of the data: after a fill creep lifts the force, and friction holds it down; the vent parts them,
+// as friction then holds it up at once and creep only for a while. So they are searched together.
 // While the pressure still moves, a slow creep and a threshold that is a little off look alike: the
 // report says how much of the growth a law without creep explains.
 #pragma once

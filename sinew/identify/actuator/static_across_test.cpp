@@ -12,6 +12,7 @@
 #include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static_predict.h"
+#include "tests/places.h"
 
 namespace sinew::identify::static_across_test {
 namespace {
@@ -43,7 +44,8 @@ Points filling(const std::string& path) {
 
 // The muscle whose force map ships in data/.
 Points dmsp() {
-  Source source{.path = SINEW_SOURCE_DIR "/data/martens_boblan_2017/DMSP-10-250_force_map.csv"};
+  Source source{.path = sinew::test::source_dir() +
+                        "/data/martens_boblan_2017/DMSP-10-250_force_map.csv"};
   source.names = {{"force", "F_N"}, {"pressure", "P_gauge_Pa"}, {"length", "L_m"}};
   source.units = {{"F_N", "N"}, {"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}};
   StaticData data;

@@ -5,10 +5,10 @@
 //
 // A slack point is censored: it says that the muscle does not pull, not how much it would push. So
 // counts whatever is within the scatter of no force. Two passes: the first finds how far the points
-// scatter (s, by its median), the second takes what is beyond 4 s for outliers and holds every
-// parameter to its prior, (value - mean)/deviation x s, which counts less beyond 4 deviations as a
-// point does. Of several muscles the errors of their rest lengths are fitted as well
-// (static_labels.h).
+// scatter (sigma, by its median), the second takes what is beyond 4 sigma for outliers and holds
+// every parameter to its prior, (value - mean)/deviation x sigma, which counts less beyond 4
+// deviations as a point does. Of several muscles the errors of their rest lengths are fitted as
+// well (static_labels.h).
 #pragma once
 
 #include <span>

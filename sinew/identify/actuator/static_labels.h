@@ -1,19 +1,19 @@
 // identify/actuator/static_labels.h - rest lengths that may be labelled wrong, of several muscles
 // of one make: where the fittings begin is a matter of taste, and a ruler has its error.
 //
-//   F = F(L', p; L_0 + delta)      L' = L_0 + delta at the mount that is labelled as the rest
-//   length,
-//                                  L at the others
+//   F = F(L', p; L_0 + e_L)    L' = L_0 + e_L at the mount that is labelled as the rest length,
+//                              L at the others
 //
-//   delta       what the label is short by, 0 +- (0.5 mm and 0.5 % of L_0) beforehand [m]
-//   sum delta/L_0 = 0 +- 0.1 %     what all labels have in common is what the law misses at rest,
-//                                  not an error of labels
+//   e_L                        error of the label, positive where it is too short,
+//                              0 +- (0.5 mm and 0.5 % of L_0) beforehand [m]
+//   sum e_L/L_0 = 0 +- 0.1 %   an error that all labels share is the law's error at rest, not one
+//                              of labels
 //
 // Both are priors that count less where the data insist, as all of them do (static_fit.h). As the
 // common part is held, an error is one beside the other muscles: its interval is wider by what the
 // mean of so many labels may be off. A label is doubted where the muscle has a mount at rest and
 // another one, none of them within 2 % of the label: of a sweep in small steps nobody can say which
-// of its lengths the label's error is in. One muscle alone has no delta.
+// of its lengths the label's error is in. One muscle alone has no e_L.
 #pragma once
 
 #include <span>

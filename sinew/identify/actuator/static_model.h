@@ -6,11 +6,12 @@
 // the longest is the reference; the others are its like: same braid angle, same diameter, same
 // strains,
 //
-//   b, n, lambda ~ L_0     k, s ~ 1/L_0   k2 ~ 1/L_0^2   k3 ~ 1/L_0^3     Eff x (1 - c/L_0)
+//   b, n, lambda ~ L_0    k_1, F_toe ~ 1/L_0    k_2 ~ 1/L_0^2    k_3 ~ 1/L_0^3
+//   Eff x (1 - L_e/L_0)
 //
-// c, the rest length's own effect, is what the ends take from every muscle alike; no geometric law
-// gives it. Laws whose ends give way (actuator/series.h) need no c: C is that of the ends, the same
-// for every muscle, and takes more from a short one by itself.
+// L_e, the rest length's own effect, is what the ends take from every muscle alike; no geometric
+// law gives it. Laws whose ends give way (actuator/series.h) need no L_e: C_s is that of the ends,
+// the same for every muscle, and takes more from a short one by itself.
 //
 // Nobody knows a rest length to the last bit: of several muscles each may have another one than its
 // label says, which is fitted with the law (static_labels.h).

@@ -7,12 +7,14 @@
 #include <filesystem>
 
 #include "sinew/identify/actuator/static.h"
+#include "tests/places.h"
 
 namespace sinew::identify::static_public_test {
 namespace {
 
 StaticData dmsp() {
-  Source source{.path = SINEW_SOURCE_DIR "/data/martens_boblan_2017/DMSP-10-250_force_map.csv"};
+  Source source{.path = sinew::test::source_dir() +
+                        "/data/martens_boblan_2017/DMSP-10-250_force_map.csv"};
   source.names = {{"force", "F_N"}, {"pressure", "P_gauge_Pa"}, {"length", "L_m"}};
   source.units = {{"F_N", "N"}, {"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}};
   StaticData data;

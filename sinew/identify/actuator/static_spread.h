@@ -1,36 +1,39 @@
 // identify/actuator/static_spread.h - how far a force that is measured lies from the predicted one.
 //
-//   w^2 = s^2 + g' Cov g + (h sigma)^2  half-width = q w
+//   sigma_F^2 = sigma^2 + g' Cov g + (g_L sigma_L)^2        half-width = q sigma_F
 //
-//   s  scatter of the points that were fitted [N]       g  dF/d(parameter) at the point
-//   h  dF/d(rest length) of a muscle that was not fitted, sigma what its label may be off
-//      (static_labels.h); 0 for those that were
-//   Cov  covariance of the parameters                   w  what the fit itself expects [N]
-//   q  quantile of |measured - predicted|/w over points that a fit had not seen  [-]
+//   sigma  scatter of the points that were fitted [N]       g  dF/d(parameter) at the point
+//   g_L    dF/d(rest length) of a muscle that was not fitted, sigma_L the deviation of its label
+//          (static_labels.h); 0 for those that were
+//   Cov    covariance of the parameters                     sigma_F  deviation by the fit [N]
+//   q      quantile of |measured - predicted|/sigma_F over points that were not fitted  [-]
 //
-// w says where a guess is safer and where less so, and grows outside the data; q says how large it
-// is, from what went wrong when parts of the data were left out. There are three kinds of guess,
-// each with a q of its own: between the ends of the data, beyond them, and of a muscle of another
-// rest length. No law of errors is assumed: the quantiles are those of the points that were left
-// out (split-conformal prediction; of muscles the worst one, as points of one muscle err together).
+// sigma_F describes where a guess is safer and where less so, and grows outside the data; q says
+// how large it is, from what went wrong when parts of the data were left out. There are three kinds
+// of guess, each with a q of its own: between the ends of the data, beyond them, and of a muscle of
+// another rest length. No law of errors is assumed: the quantiles are those of the points that were
+// left out (split-conformal prediction; of muscles the worst one, as points of one muscle err
+// together).
 //
 // Between two lengths the form of the law errs besides, at all pressures alike, by the more the
 // further the nearest one is:
 //
-//   half-width^2 = (q w)^2 + (t c a F)^2    c^2 = (nu_0 c_0^2 + sum e_k^2/a_k^2) / (nu_0 + n)
+//   half-width^2 = (q sigma_F)^2 + (q_t kappa_d eps_d F_max)^2
+//   kappa_d^2 = (nu_0 kappa_d0^2 + sum e_k^2/eps_dk^2) / (nu_0 + n_L)
 //
-//   a  distance of the nearest length that was measured, of the rest length; 0 beyond the ends, as
-//      the ends that were left out hold it in their q [-]
-//   F  largest force [N]         t  Student's factor of nu_0 + n degrees of freedom
-//   e_k^2  mean square of what the k-th of n lengths that were left out was missed by, less that of
-//      pressures that were left out, in shares of F [-]; the sum is no less than 0    a_k  its a
-//   c_0 = 0.08, nu_0 = 1  what is believed of any law on any muscle before; both were chosen so
+//   eps_d  distance of the nearest measured length, as a share of the rest length; 0 beyond the
+//      ends, as the ends that were left out have it in their q [-]
+//   F_max  largest force [N]         q_t  Student's factor of nu_0 + n_L degrees of freedom
+//   e_k^2  mean square of the error at the k-th of n_L lengths that were left out, less that at
+//      pressures that were left out, in shares of F_max [-]; the sum is no less than 0
+//      eps_dk  its eps_d
+//   kappa_d0 = 0.08, nu_0 = 1  assumed for any law on any muscle beforehand; both were chosen so
 //      that intervals hold on seven muscles (docs/theory/static-models.md)
 //
-// c is the scale of a normal law of errors with a conjugate prior; few muscles have more than two
-// lengths between their ends, and a quantile of two says nothing. Beyond the longest length nothing
-// is told where no mount is within 1 % of the rest length: the bladder's first pull is steepest
-// there, and no shorter one shows it (of five muscles 100 of 201 forces lay in 95 %).
+// kappa_d is the scale of a normal law of errors with a conjugate prior; few muscles have more than
+// two lengths between their ends, and a quantile of two says nothing. Beyond the longest length
+// nothing is told where no mount is within 1 % of the rest length: the bladder's first pull is
+// steepest there, and no shorter one shows it (of five muscles 100 of 201 forces lay in 95 %).
 #pragma once
 
 #include <cstddef>

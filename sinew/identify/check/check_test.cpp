@@ -14,6 +14,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/test_muscle.h"
+#include "tests/places.h"
 
 namespace sinew::identify::check_test {
 namespace {
@@ -277,8 +278,7 @@ TEST(Check, TheShippedMapHasNoRed) {
   source.names = {{"force", "F_N"}, {"pressure", "P_gauge_Pa"}, {"length", "L_m"}};
   source.units = {{"F_N", "N"}, {"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}};
   const auto checks = checked_file(
-      std::string(SINEW_SOURCE_DIR) + "/data/martens_boblan_2017/DMSP-10-250_force_map.csv",
-      source);
+      sinew::test::source_dir() + "/data/martens_boblan_2017/DMSP-10-250_force_map.csv", source);
   EXPECT_FALSE(has_red(checks)) << words(checks);
 }
 

@@ -1,14 +1,16 @@
-// identify/joint/hinge.h - how a muscle's cord runs over a joint: its moment arm and what the
-// muscle loses in length, over the joint's angle q from rest, positive where the muscle shortens.
+// identify/joint/hinge.h - how a muscle's tendon runs over a joint: its moment arm and the
+// muscle's shortening, over the joint's angle q (Delta theta) from rest, positive where it
+// shortens.
 //
-//   round   r(q) = r                          s(q) = r q
-//   hinge   r(q) = a d sin(phi)/D(phi)        s(q) = D(phi_0) - D(phi),  phi = phi_0 - q
-//           D^2 = a^2 + d^2 - 2 a d cos(phi)
+//   round   r(q) = r                          DL(q) = r q
+//   hinge   r(q) = l_a l_d sin(theta_h)/l_D   DL(q) = l_D(q = 0) - l_D,  theta_h = theta_h0 - q
+//           l_D^2 = l_a^2 + l_d^2 - 2 l_a l_d cos(theta_h)
 //
-//   r  moment arm [m]     s  shortening [m], s' = r     a, d  from the joint to the two points that
-//   the muscle is fixed to [m]     phi  angle between them, seen from the joint [rad]
+//   r   moment arm [m]               l_a, l_d  from the joint to both ends of the muscle [m]
+//   DL  shortening [m], DL' = r      theta_h   angle between them, seen from the joint [rad]
 //
-// A hinge is described by r = r(0), phi_0 and a sin(phi_0)/r, which is above 1; d follows.
+// A hinge is described by r = r(0), theta_h0 and l_a sin(theta_h0)/r, which is above 1; l_d
+// follows.
 #pragma once
 
 #include <cmath>

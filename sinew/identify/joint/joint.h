@@ -1,15 +1,15 @@
 // identify/joint/joint.h - force law and moment arm of a joint's muscles from its angle, the
 // pressures and a known load at rest, without measuring a length or a force.
 //
-//   T + sign N (r(q) F(L_f, P_f) - r(-q) F(L_e, P_e)) = 0,   q = sign (theta - theta_rest)
-//   L_f = L_mf - s(q),   L_e = L_me - s(-q)
+//   tau_load + sign N (r(q) F(L_flex, P_flex) - r(-q) F(L_ext, P_ext)) = 0
+//   q = sign (theta - theta_rest)     L_flex = L_m,flex - DL(q),   L_ext = L_m,ext - DL(-q)
 //   F = P_g b^2/(4 pi n^2) (3 L^2/b^2 - 1)(c0 + c1 P_g) + bladder, not below 0
-//   T = - g (m l + m_limb l_limb) sin(theta - theta_down), or as measured
+//   tau_load = - g (m l + m_limb l_limb) sin(theta - theta_down), or as measured
 //
-//   theta  joint's angle [rad]         T     torque of the load, raises the angle > 0 [N m]
-//   r, s   hinge.h                     L_m   lengths at the rest angle [m]
-// A joint that moves, and sensors that are not told: T = bias + gain G(t - delay), where G is the
-// torque that holds the above and D sign(d theta/dt) + c d theta/dt besides.
+//   theta  joint's angle [rad]         tau_load  torque of the load, raises the angle > 0 [N m]
+//   r, DL  hinge.h                     L_m       lengths at the rest angle [m]
+// A joint that moves, and unknown sensors: tau = bias + gain tau_m(t - delay), where tau_m is the
+// torque of the above with tau_c sign(d theta/dt) + c_j d theta/dt.
 //
 //   sign   +1 if flexion raises the angle, else -1      N  actuators side by side
 //   m, l   load [kg] and its lever [m], straight down at theta_down

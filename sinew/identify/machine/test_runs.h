@@ -11,12 +11,13 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::identify {
 
 inline experiment::Experiment shipped(const std::string& name,
                                       const std::vector<std::string>& sets = {}) {
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 inline signals::Table recorded(const experiment::Experiment& e) { return run::run(e).table; }

@@ -12,6 +12,7 @@
 
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::identify::decay_test {
 namespace {
@@ -68,7 +69,7 @@ std::string refused(const Samples& s) {
 
 TEST(TwoPoint, AsPrintedItGivesChapter3sConstants) {
   const auto data = nlohmann::json::parse(
-      std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"))["verification_summary"];
+      std::ifstream(sinew::test::source_dir() + "/data/reference.json"))["verification_summary"];
   const std::pair<const char*, double> tests[] = {
       {"A 60psi 6lb", 6}, {"B 80psi 11lb", 11}, {"C 60psi 11lb", 11}};
   for (const auto& [name, pounds] : tests)

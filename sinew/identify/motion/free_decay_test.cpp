@@ -13,6 +13,7 @@
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/identify/motion/decay.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::identify::free_decay_test {
 namespace {
@@ -45,7 +46,7 @@ std::vector<double> lengths(const Hanging& h, double length, double velocity,
 
 TEST(FreeDecay, HasThePeaksAndPeriodsOfTheThreeTrappedAirTests) {
   const auto data = nlohmann::json::parse(
-      std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"))["verification_summary"];
+      std::ifstream(sinew::test::source_dir() + "/data/reference.json"))["verification_summary"];
   struct Case {
     const char* name;
     double psi, pounds;

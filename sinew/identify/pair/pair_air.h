@@ -1,14 +1,15 @@
 // identify/pair/pair_air.h - the air that a sealed pair traps, from its pressures and the position.
 //
-//   P_i = P_0i exp(-+ s_i (x - x_0) - l_i (t - t_0)),   s_i = n A_i/V_i
+//   P_j = P_start,j exp(-+ a_j (x - x_0) - omega_j (t - t_0)),   a_j = n_p A_j/V_j,   j = a, b
 //
-//   P   absolute pressure [Pa]      s   its relative change with the position [1/m] or [1/rad]
-//   n   polytropic exponent         A   -dV/dL of the muscle [m2]; of a joint with the arm: [m3]
-//   V   its air, hoses included     l   leak [1/s]
+//   P     absolute pressure [Pa]     a      its relative change with the position [1/m] or [1/rad]
+//   n_p   polytropic exponent        A      -dV/dL of the muscle [m2]; of a joint times the arm
+//   V     its air, hoses included    omega  leak [1/s]
 //
-// `alike` has one s for both muscles, `each` two, `leaking` two and leaks. Only the product n A/V
-// is told: it is the first order of V^-n for strokes small against V/A, which a pressure does not
-// take apart. With the area A from the effort the trapped air's stiffness is A (s_1 P_1 + s_2 P_2).
+// `alike` has one a for both muscles, `each` two, `leaking` two and leaks. Only the product
+// n_p A/V is determined: it is the first order of V^-n_p for strokes small against V/A, which a
+// pressure does not take apart. With the area A from the effort the trapped air's stiffness is A
+// (a_a P_a + a_b P_b).
 #pragma once
 
 #include <span>

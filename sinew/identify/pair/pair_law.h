@@ -1,19 +1,21 @@
 // identify/pair/pair_law.h - what holds back a sealed antagonistic pair that is moved.
 //
-//   F(t) = bias + gain G(t - delay)
-//   G = k x + A (P_b - P_a) + c v + m a + D w
+//   Phi(t) = bias + gain Phi_m(t - delay)
+//   Phi_m = k x + A (P_b - P_a) + c x' + M x'' + Phi_c phi
 //
-//   k  elastic stiffness               A  force per pressure, -dV/dL of a muscle
-//   c  viscous loss                    m  mass that is moved
-//   D  dry friction, w its share       a, b: the muscle whose pressure falls, rises with x
+//   k      elastic stiffness             A  effort per pressure, -dV/dL of a muscle
+//   c      viscous loss                  M  mass that is moved
+//   Phi_c  dry friction, phi its share   a, b: the muscle whose pressure falls, rises with x
 //
-//   dry       w = sign v
-//   bristle   w follows x with slope 1/d, kept within +-1: a spring of D/d that slips at D
-//   fading    the same, and w forgets itself: dw/dt = v/d - w/T, within +-1
+//   dry       phi = sign x'
+//   bristle   phi follows x with slope 1/x_slip, kept within +-1: a spring of Phi_c/x_slip that
+//             slips at Phi_c
+//   fading    the same, and phi decays: phi' = x'/x_slip - phi/t_fade, within +-1
 //
-// Nothing that stands still tells how it is loaded: its friction may be anything within +-D, and a
-// motion does not say what. `fading` has the best guess go to zero with time T; a slow steady slip
-// v then has D v T/d, up to D. `bristle` is one element of Maxwell's slip model.
+// The load of a pair at rest is unknown: its friction may be anything within +-Phi_c, and the
+// motion does not determine it. `fading` lets the best guess go to zero with the time t_fade; a
+// slow steady slip then has Phi_c x' t_fade/x_slip, up to Phi_c. `bristle` is one element of
+// Maxwell's slip model.
 #pragma once
 
 #include <array>

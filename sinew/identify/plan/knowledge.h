@@ -1,15 +1,15 @@
 // identify/plan/knowledge.h - what readings are worth, before anybody has taken them.
 //
-//   M = P + sum over mounts J' S^-1 J         S = s^2 1 + U U'         var(x) = g(x)' M^-1 g(x)
+//   Q = P + sum over mounts J' (sigma^2 1 + U U')^-1 J         var F = g' Q^-1 g
 //
-//   J  slopes of a mount's readings, dF/d(parameter)           g  the same where force is asked for
-//   s  noise of one reading                                    P  what is known beforehand
+//   J      slopes of a mount's readings, dF/d(parameter)       g  the same at the force predicted
+//   sigma  noise of one reading                                P  information beforehand
 //   U  errors that all readings of a mount share, such as that of its length: measuring on at the
 //      same mount does not average them away
 //
 // Linear in the parameters about what is expected of them; generalised least squares, so that
 // another reading never makes a prediction worse. With one error only and no P this is
-// s^2 x'(X'X)^-1 x of a linear law.
+// sigma^2 x'(X'X)^-1 x of a linear law.
 #pragma once
 
 #include <cstddef>

@@ -1,25 +1,25 @@
 // identify/sensor/force_beam.h - a cantilever with strain gages as a force transducer, its bridge
 // and its amplifier.
 //
-//   |<--------- L --------->|        F  load at the free end  [N]
-//   F   x -> gages     mount ]       x  from the load to the middle of the gages
+//   |<------- l_beam ------->|       F    load at the free end  [N]
+//   F   x_g -> gages    mount ]      x_g  from the load to the middle of the gages
 //
-//   s(x)  F x/(w h^2/6)              stress at the surface, w wide and h high  [Pa]
-//   e     s(x)/E                     strain under the gages  [-]
-//   d     F L^3/(3 E I)              deflection of the load, I = w h^3/12  [m]
-//   V     G Vex k B e                after the amplifier: gain G, gage factor k, bridge factor B
+//   sigma_b  F x_g/(w h^2/6)              stress at the surface, w_beam wide and h_beam high  [Pa]
+//   eps_g    sigma_b/E                    strain under the gages  [-]
+//   y_b      F l_beam^3/(3 E w h^3/12)    deflection of the load  [m]
+//   V_out    G_amp V_ex k_gage f_B eps_g  after the amplifier: its gain, gage and bridge factor
 //
 // Source: Colbrunn 4.4, which prints dimensions and results; the equations are the elastic theory
-// of slender beams. Bridge factors B of gages in bending, nu Poisson's ratio:
+// of slender beams. Bridge factors f_B of gages in bending, nu Poisson's ratio:
 //
 //   quarter  1/4          one gage along the beam (slightly nonlinear: 1 % at 10000e-6)
 //   half     1/2          one above, one below
 //   poisson  (1 + nu)/2   above and below one along and one across
 //   bending  1            two above, two below
 //
-// Valid below the yield, for L >= 5 h. Departures: the flange's notch (radius 0.063 in in the
-// thesis, from finite elements) is one factor on the stress at the mount; gages measure the strain
-// at their middle; no temperature, no lead resistance.
+// Valid below the yield, for l_beam >= 5 h_beam. Departures: the flange's notch (radius 0.063 in in
+// the thesis, from finite elements) is one factor on the stress at the mount; gages measure the
+// strain at their middle; no temperature, no lead resistance.
 #pragma once
 
 namespace sinew::identify {

@@ -1,13 +1,13 @@
 // identify/sensor/sensor.h - calibration: what a sensor gives per newton, radian or pascal, and how
 // well.
 //
-//   V = s x               proportional      x  the known value from rest (the rest angle, no load)
-//   V = V0 + s x          line              V0 what the sensor gives there
-//   V = V0 + s x + c x^2  quadratic         s  sensitivity at rest, V/N, V/rad, ...
+//   V_out = S_V x                    proportional    x    known value from rest (angle, no load)
+//   V_out = V_0 + S_V x              line            V_0  output of the sensor there
+//   V_out = V_0 + S_V x + S_2 x^2    quadratic       S_V  sensitivity at rest, V/N, V/rad, ...
 //
 // Fitted to the mean of the readings at every known value, each way by itself; errors are the
 // output's, in percent of its span. The known values are taken for exact. Source: 4.4, 4.5,
-// table 4-1 of Colbrunn, whose "% error from average" is (average - s)/s.
+// table 4-1 of Colbrunn, whose "% error from average" is (average - S_V)/S_V.
 #pragma once
 
 #include <optional>

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // One line of the answer: key of the JSON, words, value, SI unit and the thesis's.
-struct Line {
+struct TransducerLine {
   const char* key;
   const char* words;
   double value;
@@ -23,7 +23,7 @@ struct Line {
   const char* display;
 };
 
-std::vector<Line> answer(const Transducer& s) {
+std::vector<TransducerLine> answer(const Transducer& s) {
   const TransducerPoint p = evaluate(s);
   return {
       {"load_N", "load", s.load, "N", "lbf"},
@@ -60,7 +60,7 @@ std::string text_of(const Transducer& s, const units::ShownUnits* shown) {
   using Align = report::TextTable::Align;
   if (shown) {
     report::TextTable table({"", ""}, {Align::left, Align::right});
-    for (const Line& line : answer(s)) {
+    for (const TransducerLine& line : answer(s)) {
       const bool is_own = std::string_view(line.unit) == "1" || std::string_view(line.unit) == "V";
       table.add({line.words, is_own ? config::format_quantity(line.value, line.unit, line.display)
                                     : shown->text(line.value, line.unit, 6)});
@@ -68,7 +68,7 @@ std::string text_of(const Transducer& s, const units::ShownUnits* shown) {
     return table.text().substr(1);
   }
   report::TextTable table({"", "SI", "in, lbf, psi"}, {Align::left, Align::right, Align::right});
-  for (const Line& line : answer(s))
+  for (const TransducerLine& line : answer(s))
     table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),
                std::string_view(line.unit) == "1"
                    ? ""
@@ -90,7 +90,7 @@ std::string text_of_places(const Transducer& s, double wanted, const units::Show
 
 std::string json_of(const Transducer& s, std::optional<double> wanted) {
   Json out;
-  for (const Line& line : answer(s)) out[line.key] = line.value;
+  for (const TransducerLine& line : answer(s)) out[line.key] = line.value;
   if (wanted)
     for (const auto& [name, distance] : places(s, *wanted))
       out["gage_distance_m"][name] = distance ? Json(*distance) : Json();

@@ -20,11 +20,12 @@
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/task/valve_task.h"
+#include "tests/places.h"
 
 namespace sinew::identify::task_test {
 namespace {
 
-const std::string actuator = std::string(SINEW_SOURCE_DIR) + "/robots/leg/actuator.toml";
+const std::string actuator = sinew::test::source_dir() + "/robots/leg/actuator.toml";
 
 std::vector<Source> table(const std::string& text, const std::string& name = "numbers") {
   return {{.path = name, .text = text}};

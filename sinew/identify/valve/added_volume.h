@@ -1,11 +1,11 @@
 // identify/valve/added_volume.h - conductance and volume told apart: the same valve fills the same
 // chamber, once as it is and once with a known volume joined to it.
 //
-//   k_i = C/(V + dV_i)          1/k_2 - 1/k_1 = (dV_2 - dV_1)/C          V = C/k_1 - dV_1
+//   k_V,i = C/(V + dV_i)      1/k_V,2 - 1/k_V,1 = (dV_2 - dV_1)/C        V = C/k_V,1 - dV_1
 //
-// One curve has k alone. All curves are fitted at once: C, V, b and the exponent are common to
-// them, the port's pressure and the opening instant each curve's own. V does not ask what is wrong
-// with all k alike, such as an exponent; C does.
+// One curve has k_V alone. All curves are fitted at once: C, V, b_crit and the exponent are common
+// to them, the port's pressure and the opening instant each curve's own. V does not depend on an
+// error of all k_V alike, such as that of an exponent; C does.
 #pragma once
 
 #include <span>

@@ -1,13 +1,13 @@
 // identify/valve/chamber.h - pressure in a chamber behind a valve, as a fit has to predict it.
 //
-//   rho = rho_atm (P/P_atm)^(1/n)          dP/dt = m'/(V d rho/dP + rho dV/dP)            [38]-[40]
+//   rho = rho_atm (P/P_atm)^(1/n_p)        dP/dt = m'/(V d rho/dP + rho dV/dP)            [38]-[40]
 //   m'  = orifice [42]-[44] or ISO 6358 (gas/orifice.h), from the port's constant pressure
 //
 // in three shapes:
 //
 //   rigid   V constant
-//   soft    V = V_end (1 - s exp(-(P - P_start)/P_s)): a muscle that swells as it fills
-//   hose    a share s of V lies before a hose of conductance h C, and the sensor with it
+//   soft    V = V_end (1 - eps_V exp(-(P - P_start)/P_s)): a muscle that swells as it fills
+//   hose    a share eps_h of V is before a hose of conductance kappa_h C, and so is the sensor
 //
 // All flows are per volume (V or V_end = 1), so only C/V matters. Integrated in y =
 // (P/P_atm)^(1/7), by RK4 with steps that stay stable where the flow turns linear.
@@ -30,7 +30,7 @@ struct Chamber {
   Shape shape = Shape::rigid;
   gas::Flow::Law law = gas::Flow::Law::iso6358;
   double conductance = 0;     // C/V, of an orifice that of its choked flow [1/(s Pa)]
-  double critical_ratio = 0;  // b, ISO 6358 only [-]
+  double critical_ratio = 0;  // b_crit, ISO 6358 only [-]
   double exponent = 1;        // n [-]
   double port = 0;            // pressure on the valve's other side [Pa abs]
   double start = 0;           // pressure before the valve opens [Pa abs]

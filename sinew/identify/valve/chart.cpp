@@ -1,4 +1,4 @@
-// A chart of pressure and flow: the area of [44], or C and b of ISO 6358.
+// A chart of pressure and flow: the area of [44], or C and b_crit of ISO 6358.
 #include <fmt/format.h>
 
 #include <algorithm>

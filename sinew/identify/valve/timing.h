@@ -1,10 +1,11 @@
 // identify/valve/timing.h - predict.dat for a valve: when to switch its coil, so that the valve
 // itself is open for the duty.
 //
-//   open = 100 - t_o f 100,  close = d - t_c f 100   in hundredths of the period, rounded      B.4
+//   open = 100 - t_o f_pwm 100,  close = delta - t_c f_pwm 100
+//   in hundredths of the period, rounded                                                       B.4
 //
-// Where the delays take too much of the period a duty cannot be had: the nearest that can is taken,
-// nothing and everything among them.
+// Where the delays take too much of the period a duty is not possible: the nearest possible one is
+// taken, 0 and 100 % among them.
 #pragma once
 
 #include <array>

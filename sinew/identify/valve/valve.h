@@ -1,6 +1,6 @@
 // identify/valve/valve.h - a valve's flow and delays, from whatever was measured of it.
 //
-//   chart    upstream, downstream, flow         area or C and b            valve_chart.cpp
+//   chart    upstream, downstream, flow         area or C and b_crit       valve_chart.cpp
 //   fill     time, pressure                     C/V, exponent; C or V      valve_fill.h
 //   pulses   time, pressure, command            delays, C/V                valve_pulses.cpp
 //   coil     time, current                      opening delay              valve_coil.cpp

@@ -17,7 +17,8 @@ using signals::Tick;
 
 namespace {
 
-// So much later than its tick a loop drives no machine any more (docs/supervision.md)  [ticks].
+// So much later than its tick a loop drives no machine any more (docs/reference/supervision.md)
+// [ticks].
 constexpr Tick too_late = 100;
 // Conversions of a channel without a good one between them that end a run.
 constexpr int too_many = 3;
@@ -59,7 +60,7 @@ const SinewCard& card_functions() {
   if (!module)
     throw CardError(
         "this program was built without comedi, or libcomedi is not installed; try: apt-get "
-        "install libcomedi-dev, and build again");
+        "install libcomedi-dev, then cmake --preset release && cmake --build --preset all");
   const auto get =
       reinterpret_cast<const SinewCard* (*)()>(host::function_of(module, "sinew_card_1"));
   if (!get)

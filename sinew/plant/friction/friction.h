@@ -2,10 +2,10 @@
 //
 // The slip velocities at the end of a step of length h are, to first order in the forces,
 //
-//   s = s0 + W f,   s0 = J (v + h a),   W = h J M^-1 J^T,   |f_i| <= bound_i
+//   v_s = v_s0 + W f,   v_s0 = J_s (v + h a),   W = h J_s M^-1 J_s^T,   |f_i| <= f_b,i
 //
-// and each contact either sticks (s_i = 0) or slides (f_i = -sign(s_i) bound_i). What stuck in the
-// last step is tried first and nearly always right; contacts then change sides until all agree.
+// and each contact either sticks (v_s,i = 0) or slides (f_i = -sign(v_s,i) f_b,i). What stuck in
+// the last step is tried first and nearly always right; contacts then change sides until all agree.
 //
 // More contacts can stick than the machine has freedoms (foot, trolley and both joints of a
 // standing leg); their shares of the load are then not determined by rigid bodies. The forces
@@ -21,7 +21,7 @@ namespace sinew::plant {
 
 template <int C, class S = double>
 struct FrictionProblem {
-  std::array<S, C> slip;                     // s0, without friction
+  std::array<S, C> slip;                     // v_s0, without friction
   std::array<std::array<S, C>, C> response;  // W, symmetric, slip per force
   std::array<S, C> bound;                    // >= 0; a contact with bound 0 carries nothing
 };

@@ -6,7 +6,7 @@
 //   board.command({.from = 0, ...});           // starts the run
 //   while (const link::Telemetry* t = board.next(1.0)) ...
 //
-// docs/wire.md has the messages, docs/supervision.md the board's states.
+// docs/reference/wire.md has the messages, docs/reference/supervision.md the board's states.
 #pragma once
 
 #include <array>

@@ -1,18 +1,18 @@
 // plant/planar/body.h - a planar tree of links under a trolley that slides and a body
 // that a cylinder moves up and down: the equations of chain.h with one coordinate more.
 //
-//   q = (x, y, phi_1 ... phi_N)      trolley, lift, absolute link angles
+//   q = (x_t, x_c, phi_1 ... phi_N)      trolley, lift, absolute link angles
 //
-//   M x'' - sum_i c_i sin(phi_i) phi_i''                    = F_x + sum_i c_i cos(phi_i) phi_i'^2
-//   L y'' + sum_i c_i cos(phi_i) phi_i'' = F_y - L g              + sum_i c_i sin(phi_i) phi_i'^2
-//   -c_i sin(phi_i) x'' + c_i cos(phi_i) y'' + sum_j A_ij cos(phi_i - phi_j) phi_j''
-//                         = Q_i - g c_i cos(phi_i) - sum_j A_ij sin(phi_i - phi_j) phi_j'^2
+//   M x_t'' - sum_i S_i sin(phi_i) phi_i''                  = F_x + sum_i S_i cos(phi_i) phi_i'^2
+//   m_L x_c'' + sum_i S_i cos(phi_i) phi_i''      = F_y - m_L g   + sum_i S_i sin(phi_i) phi_i'^2
+//   -S_i sin(phi_i) x_t'' + S_i cos(phi_i) x_c'' + sum_j I_ij cos(phi_i - phi_j) phi_j''
+//                         = tau_i - g S_i cos(phi_i) - sum_j I_ij sin(phi_i - phi_j) phi_j'^2
 //
-//   c_i   first moment of link i and all that hangs on it, about its joint           [kg m]
-//   A_ij  d_ij c_j where j hangs on i, d_ij along i up to where the way to j leaves it; 0 where
-//         neither hangs on the other: branches meet at the body alone  [kg m^2]
-//   A_ii  moment of inertia of link i about its joint, with what hangs on it as points [kg m^2]
-//   M     all that slides [kg]    L  all that lifts [kg]
+//   S_i   first moment of link i and all links beyond it, about its joint   [kg m]
+//   I_ij  l_ij S_j where j is beyond i, l_ij along i up to where the path to j leaves it; 0 where
+//         neither is beyond the other: branches are joined at the body alone  [kg m^2]
+//   I_ii  moment of inertia of link i about its joint, with links beyond it as points [kg m^2]
+//   M     mass that slides [kg]    m_L  mass that is lifted [kg]    tau_i  generalised force [N m]
 //
 // A chain is the tree whose links hang at each other's ends, with the same bits. A coordinate that
 // is held (no trolley, locked cylinder) keeps its place with the acceleration 0. What hangs on

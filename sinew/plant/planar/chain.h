@@ -3,16 +3,18 @@
 //
 // With absolute link angles phi the equations of motion are short for any N (Lagrange):
 //
-//   T = 1/2 M x'^2 - x' sum_i c_i sin(phi_i) phi_i' + 1/2 sum_ij A_ij cos(phi_i - phi_j) phi_i'
-//   phi_j' U = g sum_i c_i sin(phi_i)
+//   E_k = 1/2 M x_t'^2 - x_t' sum_i S_i sin(phi_i) phi_i'
+//         + 1/2 sum_ij I_ij cos(phi_i - phi_j) phi_i' phi_j'
+//   E_p = g sum_i S_i sin(phi_i)
 //
-//   M x''              - sum_i c_i sin(phi_i) phi_i''      = F   + sum_i c_i cos(phi_i) phi_i'^2
-//   -c_i sin(phi_i) x'' + sum_j A_ij cos(phi_i-phi_j) phi_j'' = Q_i - g c_i cos(phi_i)
-//                                                            - sum_j A_ij sin(phi_i-phi_j) phi_j'^2
+//   M x_t'' - sum_i S_i sin(phi_i) phi_i''                   = F_x + sum_i S_i cos(phi_i) phi_i'^2
+//   -S_i sin(phi_i) x_t'' + sum_j I_ij cos(phi_i-phi_j) phi_j'' = tau_i - g S_i cos(phi_i)
+//                                                            - sum_j I_ij sin(phi_i-phi_j) phi_j'^2
 //
-//   c_i  = m_i r_i + l_i (masses beyond link i)       first moment about joint i   [kg m]
-//   A_ii = I_i + m_i r_i^2 + l_i^2 (masses beyond i),  A_ij = l_i c_j for i < j    [kg m^2]
-//   M    all that moves along the track [kg];  x trolley [m];  F, Q generalised forces [N], [N m]
+//   S_i  = m_i l_ci + l_i (masses beyond link i)       first moment about joint i [kg m]
+//   I_ii = I_i + m_i l_ci^2 + l_i^2 (masses beyond i),  I_ij = l_i S_j for i < j    [kg m^2]
+//   M    mass that moves along the track [kg];  x_t  trolley [m];  F_x, tau_i  generalised forces
+//        [N], [N m]
 //
 // Solved by eliminating the trolley and an LDL^T of the N x N rest; for N = 2 by Cramer's rule,
 // which has one division to wait for in place of two. Without trolley 1/M = 0.
@@ -127,7 +129,7 @@ class Chain {
     return k_.inertia[i][j] * cosine - lever_[i] * lever_[j] * k_.inverse_total_mass;
   }
 
-  // LDL^T of A_ij cos(phi_i - phi_j) - c_i sin(phi_i) c_j sin(phi_j)/M.
+  // LDL^T of I_ij cos(phi_i - phi_j) - S_i sin(phi_i) S_j sin(phi_j)/M.
   // For N = 2 the matrix itself and 1/det.
   void factor() {
     if constexpr (N == 2) {

@@ -1,11 +1,11 @@
 // plant/planar/muscle_routing.h - muscles over cams of any shape, across one joint or two.
 //
-//   L = mount - sum_k s_k S_k(theta_k),   S_k = integral of r_k from the rest angle to theta_k
-//   torque_k = s_k r_k(theta_k) F         the same r: virtual work
+//   L = L_m - sum_j s_j S_j(theta_j),     S_j = integral of r_j from the rest angle to theta_j
+//   tau_j = s_j r_j(theta_j) F            the same r: virtual work
 //
-//   r_k  radius of the cam at joint k [m]: constant, or straight between the points of a table and
+//   r_j  radius of the cam at joint j [m]: constant, or straight between the points of a table and
 //        constant beyond them, so that S is exact: parabolas and straight lines
-//   s_k  +1 where tension raises the angle
+//   s_j  +1 where tension raises the angle
 #pragma once
 
 #include <array>

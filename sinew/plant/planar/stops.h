@@ -1,7 +1,7 @@
 // plant/planar/stops.h - what holds a joint within its range: a spring and a damper at either end.
 //
-//   tau = -(k (theta - high) + c theta')   beyond the highest angle, never pulling it on
-//   tau =   k (low - theta)  - c theta'    below the lowest one, the same way round
+//   tau = -(k_stop (theta - high) + c_stop theta')   beyond the highest angle, never pulling it on
+//   tau =   k_stop (low - theta)  - c_stop theta'    below the lowest one, the same way round
 #pragma once
 
 #include <limits>

@@ -10,7 +10,8 @@
 
 namespace sinew::plant {
 
-inline constexpr double inch = units::inch, pound = units::pound_mass;
+inline constexpr double pound = units::pound_mass;
+using units::inch;
 
 // The leg's two links under its trolley, in the air, and nothing that pulls or rubs.
 inline Setup leg_without_muscles(double hip, double knee) {

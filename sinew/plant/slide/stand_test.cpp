@@ -260,7 +260,11 @@ TEST(Stand, ARegulatorKeepsTheBookOfItsAir) {
 // A load that is added in steps comes to rest after each, and the book of the force is right.
 TEST(Stand, WeightsMayBeAddedAndTakenAway) {
   StandSetup s = trapped(60, 1);
-  s.load.mass = Schedule({{0, pound}, {3, pound}, {3, 2 * pound}, {6, 2 * pound}, {6, pound}});
+  s.load.mass = Schedule({{0, units::pound_mass},
+                          {3, units::pound_mass},
+                          {3, 2 * units::pound_mass},
+                          {6, 2 * units::pound_mass},
+                          {6, units::pound_mass}});
   s.muscle.actuator.loss.viscous *= 5;
   s.start.displacement = 0;
   Stand stand(s);
@@ -303,11 +307,11 @@ TEST(Stand, ASealedCylinderIsAPolytropicSpring) {
 
 TEST(Stand, ACylinderOscillatesAsItsStiffnessSays) {
   StandSetup s = with_cylinder();
-  s.load = {.mass = 5 * pound};
+  s.load = {.mass = 5 * units::pound_mass};
   const double ring = air::area(*s.cylinder, air::up);
   s.start = {.pressure = s.air.atmosphere + weight(s) / ring, .length = 0.02, .displacement = 1e-5};
   const double stiffness = 1.4 * s.start.pressure * ring * ring / (2e-6 + ring * (0.05 - 0.02));
-  const double period = 2 * std::numbers::pi * std::sqrt(5 * pound / stiffness);
+  const double period = 2 * std::numbers::pi * std::sqrt(5 * units::pound_mass / stiffness);
   Stand stand(s);
   EXPECT_NEAR(stand.truth(0.5 * period).length, 0.02 - 1e-5, 1e-8);
   EXPECT_NEAR(stand.truth(period).length, 0.02 + 1e-5, 1e-8);

@@ -7,14 +7,15 @@
 
 namespace sinew::plant {
 
-inline constexpr double psi = units::psi, inch = units::inch, pound = units::pound_mass;
+using units::inch;
+using units::psi;
 
 // Trapped air, figures 3-6 to 3-11: sealed at rest under the load, let go 0.2 in below.
 inline StandSetup trapped(double gauge_psi, double load_pounds) {
   StandSetup s;
   s.muscle.actuator = actuator::thesis_actuator();
   s.muscle.external_volume = 0.114 * inch * inch * inch;
-  s.load.mass = load_pounds * pound;
+  s.load.mass = load_pounds * units::pound_mass;
   s.start = {.pressure = s.air.atmosphere + gauge_psi * psi, .displacement = 0.2 * inch};
   return s;
 }

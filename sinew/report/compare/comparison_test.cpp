@@ -6,13 +6,14 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/report/page/test_run.h"
+#include "tests/places.h"
 
 namespace sinew::report::comparison_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string experiments = std::string(SINEW_SOURCE_DIR) + "/experiments/";
+const std::string experiments = sinew::test::source_dir() + "/experiments/";
 
 config::Node resolved(const std::vector<std::string>& sets = {}) {
   return config::compose(experiments + "walk-test-1.toml", sets);

@@ -7,7 +7,7 @@
 //
 // A verdict is always computed, from the curves as they are drawn or from a run's summary. What no
 // number can settle says so and why. Its class says what agreement is worth, its band follows from
-// the wording (analysis/verdict/band.h); docs/evidence.md defines both.
+// the wording (analysis/verdict/band.h); docs/evidence/evidence.md defines both.
 #pragma once
 
 #include <array>

@@ -8,6 +8,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/report/figures/figure_layout.h"
 #include "sinew/report/page/test_run.h"
+#include "tests/places.h"
 
 namespace sinew::report::run_figures_test {
 namespace {
@@ -18,7 +19,7 @@ using ::testing::Not;
 using Kind = Curve::Kind;
 
 config::Node walk() {
-  return config::compose(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml", {});
+  return config::compose(sinew::test::source_dir() + "/experiments/walk-test-1.toml", {});
 }
 
 // With the units that a run writes.
@@ -121,7 +122,7 @@ TEST(RunFigures, HaveNamesOfTheirOwnAndShadeStance) {
 // Where a part is broken on purpose is shaded between lines, and the caption says which.
 TEST(RunFigures, ShadeTheTimesOfFaults) {
   const config::Node broken = config::compose(
-      std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml",
+      sinew::test::source_dir() + "/experiments/walk-test-1.toml",
       {R"(fault=[{ at = "0.4 s", for = "200 ms", of = "knee_extensor.inlet", what = "stuck open" },)"
        R"( { at = "0.9 s", of = "supply", what = "failed" },)"
        R"( { at = "1 h", of = "hip_flexor", what = "blocked" }])"});

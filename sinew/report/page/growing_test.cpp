@@ -9,6 +9,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/log/deflate.h"
 #include "sinew/report/page/test_run.h"
+#include "tests/places.h"
 
 namespace sinew::report::growing_test {
 namespace {
@@ -18,7 +19,7 @@ using signals::Table;
 
 const config::Node& resolved() {
   static const config::Node node =
-      config::compose(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml");
+      config::compose(sinew::test::source_dir() + "/experiments/walk-test-1.toml");
   return node;
 }
 
@@ -124,7 +125,7 @@ TEST(Growing, ThePageKnowsTheFaults) {
   const Table all = table();
   EXPECT_FALSE(Json::parse(growing(all).content("{}").json).contains("faults"));
   const config::Node broken =
-      config::compose(std::string(SINEW_SOURCE_DIR) + "/experiments/faults/valve-stuck-open.toml");
+      config::compose(sinew::test::source_dir() + "/experiments/faults/valve-stuck-open.toml");
   const Growing page(topics(all), {.resolved = broken, .name = "broken", .duration = 12.5});
   const Json faults = Json::parse(page.content("{}").json)["faults"];
   ASSERT_EQ(faults.size(), 1u);

@@ -10,13 +10,14 @@
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/parameters.h"
 #include "sinew/report/page/test_run.h"
+#include "tests/places.h"
 
 namespace sinew::report::page_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+const std::string walk = sinew::test::source_dir() + "/experiments/walk-test-1.toml";
 
 config::Node resolved(const std::vector<std::string>& sets = {}) {
   return config::compose(walk, sets);

@@ -11,6 +11,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/panels.h"
+#include "tests/places.h"
 
 namespace sinew::report::stand_test {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using analysis::test::constant;
 
 std::string path_of(const std::string& experiment) {
-  return std::string(SINEW_SOURCE_DIR).append("/experiments/rig/").append(experiment);
+  return sinew::test::source_dir().append("/experiments/rig/").append(experiment);
 }
 constexpr double pound = 4.4482216152605;
 

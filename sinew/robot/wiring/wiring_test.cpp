@@ -11,6 +11,7 @@
 #include "sinew/config/reader.h"
 #include "sinew/robot/robot.fields.h"
 #include "sinew/robot/wiring/wiring.fields.h"
+#include "tests/places.h"
 
 namespace sinew::robot::wiring_test {
 namespace {
@@ -22,7 +23,7 @@ struct Leg {
 
 Leg leg() {
   Leg out;
-  const auto root = config::compose(SINEW_SOURCE_DIR "/robots/leg/robot.toml");
+  const auto root = config::compose(sinew::test::source_dir() + "/robots/leg/robot.toml");
   config::Reader reader(root);
   fields(reader, out.robot);
   fields(reader, out.wiring);

@@ -15,6 +15,7 @@
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/wired_body.h"
+#include "tests/places.h"
 
 namespace sinew::run::bring_up_test {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using signals::Reading;
 
-const std::string leg = SINEW_SOURCE_DIR "/robots/leg/robot.toml";
+const std::string leg = sinew::test::source_dir() + "/robots/leg/robot.toml";
 
 struct Folder {
   Folder() {
@@ -127,7 +128,7 @@ TEST(BringUp, AWholeBenchPassesEveryStepAndItsRobotsFileIsLearned) {
 TEST(BringUp, OtherRobotsPassAsWell) {
   for (const char* name :
        {"one-joint", "leg-with-pressures", "three-muscle-leg", "cricket", "leg-3-way"}) {
-    Day day({}, std::string(SINEW_SOURCE_DIR "/robots/") + name + "/robot.toml");
+    Day day({}, (sinew::test::source_dir() + "/robots/") + name + "/robot.toml");
     EXPECT_TRUE(day.go()) << name << "\n" << day.said;
   }
 }
@@ -218,7 +219,7 @@ TEST(BringUp, ACylindersValvesClickAndWhatIsNotTriedWithAirIsSaid) {
 }
 
 TEST(BringUp, AThreeWayValveIsOneWireAndItsMuscleIsNotHeld) {
-  Day day({}, SINEW_SOURCE_DIR "/robots/leg-3-way/robot.toml");
+  Day day({}, sinew::test::source_dir() + "/robots/leg-3-way/robot.toml");
   EXPECT_TRUE(day.go()) << day.said;
   EXPECT_TRUE(day.has_said("the inlet of hip_flexor (output 0"));
   EXPECT_FALSE(day.has_said("the exhaust of")) << day.said;
@@ -226,7 +227,8 @@ TEST(BringUp, AThreeWayValveIsOneWireAndItsMuscleIsNotHeld) {
 }
 
 TEST(BringUp, ABoardThatForgetsItsConfigurationIsNoBoardToReadFrom) {
-  const experiment::Experiment e = experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", {});
+  const experiment::Experiment e =
+      experiment::load(sinew::test::source_dir() + "/experiments/kick.toml", {});
   WiredBody body(e);
   BoardInThread board(body.wires());
   plant::RemoteBoard remote(board.line(), 1, 100);
@@ -326,7 +328,7 @@ TEST(BrokenBench, TheEmergencyStopLetsNoAirOut) {
 TEST(BrokenBench, TheFolderHasAnotherRobotsSteps) {
   Day day;
   EXPECT_TRUE(day.go());
-  day.robot = SINEW_SOURCE_DIR "/robots/one-joint/robot.toml";
+  day.robot = sinew::test::source_dir() + "/robots/one-joint/robot.toml";
   try {
     day.go();
     FAIL() << day.said;

@@ -8,6 +8,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/bring_up/pins.h"
+#include "tests/places.h"
 
 namespace sinew::run::firmware_test {
 namespace {
@@ -23,7 +24,7 @@ std::string refusal(Action action) {
 }
 
 std::string robot(const std::string& name) {
-  return SINEW_SOURCE_DIR "/robots/" + name + "/robot.toml";
+  return sinew::test::source_dir() + "/robots/" + name + "/robot.toml";
 }
 
 TEST(Firmware, OfEveryBoardTakesTheThesissLeg) {
@@ -89,13 +90,13 @@ TEST(Firmware, AFileThatTheBoardIsNotLoadedWithIsRefusedBeforeItIsBuilt) {
   const std::string expected = "found \".elf\"; expected \".hex\", which is what teensy41";
   const std::string shown = refusal([&] { flash_command(board, "leg.elf"); });
   EXPECT_NE(shown.find(expected), std::string::npos) << shown;
-  const std::string built =
-      refusal([&] { build_firmware(SINEW_SOURCE_DIR, board, "not-written.elf", false, false); });
+  const std::string built = refusal(
+      [&] { build_firmware(sinew::test::source_dir(), board, "not-written.elf", false, false); });
   EXPECT_NE(built.find(expected), std::string::npos) << built;
 }
 
 TEST(Firmware, TheWiringNamesEachPinOfTheBoardOnce) {
-  const std::string leg = SINEW_SOURCE_DIR "/robots/leg/robot.toml";
+  const std::string leg = sinew::test::source_dir() + "/robots/leg/robot.toml";
   for (const Pins& pins : all_pins()) {
     const FirmwareBoard& board = firmware_board(std::string(pins.board));
     EXPECT_EQ(pins.inputs.size(), board.inputs);

@@ -14,6 +14,7 @@
 #include "sinew/run/folder/replayed.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::run::compared_test {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-const std::string bench = std::string(SINEW_SOURCE_DIR) + "/experiments/one-joint.toml";
+const std::string bench = sinew::test::source_dir() + "/experiments/one-joint.toml";
 
 // How a laboratory would have recorded it: angle and tensions alone, at its own rate, by a clock
 // that began earlier and goes 0.3 % fast, with noise.

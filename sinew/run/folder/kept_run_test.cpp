@@ -13,6 +13,7 @@
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
+#include "tests/places.h"
 
 namespace sinew::run::kept_run_test {
 namespace {
@@ -30,7 +31,7 @@ class KeptRunTest : public ::testing::Test {
   ~KeptRunTest() override { fs::remove_all(root_); }
 
   RunRequest request(const std::string& name) const {
-    return {.experiment = std::string(SINEW_SOURCE_DIR) + "/experiments/leg-in-air.toml",
+    return {.experiment = sinew::test::source_dir() + "/experiments/leg-in-air.toml",
             .folder = (root_ / name).string(),
             .sets = {"sequence.repeat=1"}};
   }

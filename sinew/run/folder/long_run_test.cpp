@@ -16,6 +16,7 @@
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/run_folder.h"
+#include "tests/places.h"
 
 namespace sinew::run::long_run_test {
 namespace {
@@ -49,7 +50,7 @@ class LongRun : public ::testing::Test {
   ~LongRun() override { fs::remove_all(folder_); }
 
   RunRequest request(const std::string& name) const {
-    return {.experiment = std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml",
+    return {.experiment = sinew::test::source_dir() + "/experiments/" + name + ".toml",
             .folder = folder_.string(),
             .sets = {"sequence.repeat=30", "log.period=1 ms"},
             .report = false};

@@ -11,6 +11,7 @@
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/wired_body.h"
+#include "tests/places.h"
 
 namespace sinew::run::outcome_test {
 namespace {
@@ -19,7 +20,7 @@ constexpr int period_of_it = 80;  // of the run; 10 ms each
 
 struct Missed {
   Missed(std::uint32_t ticks, const std::vector<std::string>& sets)
-      : experiment(experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", sets)) {
+      : experiment(experiment::load(sinew::test::source_dir() + "/experiments/kick.toml", sets)) {
     WiredBody body(experiment);
     BoardInThread board(body.wires());
     plant::RemoteBoard remote(board.line(), 1, 100);

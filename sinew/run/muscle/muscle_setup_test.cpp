@@ -10,11 +10,12 @@
 #include "sinew/run/muscle/save.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "tests/places.h"
 
 namespace sinew::run::muscle_setup_test {
 namespace {
 
-const std::string root = std::string(SINEW_SOURCE_DIR);
+const std::string root = sinew::test::source_dir();
 const std::string rig_file = root + "/examples/08-your-own-loop/muscle.toml";
 const std::string robot_file = root + "/robots/leg-with-hoses/robot.toml";
 const std::string walk = root + "/experiments/walk-test-1.toml";

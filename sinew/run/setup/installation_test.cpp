@@ -8,11 +8,12 @@
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/installation.h"
+#include "tests/places.h"
 
 namespace sinew::run::installation_test {
 namespace {
 
-const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+const std::string walk = sinew::test::source_dir() + "/experiments/walk-test-1.toml";
 
 control::JointConfig hip_of(const std::vector<std::string>& sets) {
   return control::joint_controller_config(installation(buildable(walk, sets))).joint[0];

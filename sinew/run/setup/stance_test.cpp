@@ -1,4 +1,5 @@
 #include "sinew/run/setup/stance.h"
+#include "tests/places.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@ namespace sinew::run::stance_test {
 namespace {
 
 const experiment::Experiment leg =
-    experiment::load(SINEW_SOURCE_DIR "/experiments/walk-test-1.toml");
+    experiment::load(sinew::test::source_dir() + "/experiments/walk-test-1.toml");
 
 std::vector<double> rest() {
   std::vector<double> out;

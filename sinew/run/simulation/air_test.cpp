@@ -11,6 +11,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::run::air_test {
 namespace {
@@ -19,7 +20,7 @@ using Sets = std::vector<std::string>;
 
 experiment::Experiment walk(Sets sets = {}) {
   sets.push_back("sequence.repeat=1");
-  return buildable(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml", sets);
+  return buildable(sinew::test::source_dir() + "/experiments/walk-test-1.toml", sets);
 }
 
 std::string refusal(const Sets& sets) {

@@ -12,6 +12,7 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
+#include "tests/places.h"
 
 namespace sinew::run::boards_test {
 namespace {
@@ -26,7 +27,7 @@ const Sets once{"sequence.repeat=1"},
 
 experiment::Experiment load(const std::string& name, Sets sets = once, const Sets& more = {}) {
   sets.insert(sets.end(), more.begin(), more.end());
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 // Readings, laws and edges of a joint depend on nothing but its own ticks: on a board of its own

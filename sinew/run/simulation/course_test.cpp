@@ -8,11 +8,12 @@
 #include <stdexcept>
 
 #include "sinew/run/setup/buildable.h"
+#include "tests/places.h"
 
 namespace sinew::run::course_test {
 namespace {
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 experiment::Experiment walk() {
   return buildable(source + "/experiments/walk-test-1.toml", {"sequence.repeat=1"});

@@ -9,11 +9,12 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::run::failure_test {
 namespace {
 
-const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/";
+const std::string folder = sinew::test::source_dir() + "/experiments/";
 
 std::string refusal(const std::string& name, const std::vector<std::string>& sets) {
   try {

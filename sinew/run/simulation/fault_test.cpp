@@ -18,6 +18,7 @@
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
+#include "tests/places.h"
 
 namespace sinew::run::fault_test {
 namespace {
@@ -28,7 +29,7 @@ using signals::Status;
 using signals::Tick;
 using What = experiment::Fault::What;
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 experiment::Experiment bench(std::vector<std::string> sets = {}) {
   sets.push_back("sequence.repeat=1");

@@ -11,13 +11,14 @@
 #include "sinew/plant/packs/batch.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/test_same.h"
+#include "tests/places.h"
 
 namespace sinew::run::lanes_test {
 namespace {
 
 using experiment::Experiment;
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 // Legs that go in lanes: walks, legs in the air, on a fixed base, with sensors that lie or measure
 // pressures, at other periods, in other steps; and some that cannot.

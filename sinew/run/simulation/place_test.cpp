@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sinew/config/diagnostics.h"
+#include "tests/places.h"
 
 namespace sinew::run::place_test {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 std::string refusal(const std::string& name, std::vector<std::string> sets,
                     const std::string& place) {
   const experiment::Experiment e =
-      experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", sets);
+      experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
   try {
     const Place there(place, e);
   } catch (const std::exception& error) {
@@ -64,7 +65,8 @@ TEST(Place, WhatNoCardCanDriveIsRefusedBeforeItIsOpened) {
 // What stands in wiring.toml is what a card is told: B.1's bits of the leg, table C-1's on request.
 TEST(Place, ACardHasTheRobotsChannelsAndBits) {
   const auto machine = [](std::vector<std::string> sets) {
-    return card_machine(experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", sets), "");
+    return card_machine(
+        experiment::load(sinew::test::source_dir() + "/experiments/kick.toml", sets), "");
   };
   const plant::CardMachine leg = machine({});
   ASSERT_EQ(leg.inputs.size(), 7u);
@@ -99,7 +101,8 @@ TEST(Place, WithoutARateItIsTheFirmwaresOrNone) {
 }
 
 TEST(Place, NothingIsOpenedForASimulation) {
-  const experiment::Experiment e = experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", {});
+  const experiment::Experiment e =
+      experiment::load(sinew::test::source_dir() + "/experiments/kick.toml", {});
   const Place here("simulated", e);
   RunOptions options;
   here.apply(options);

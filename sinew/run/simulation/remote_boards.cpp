@@ -19,7 +19,7 @@ using signals::Tick;
 namespace {
 
 // For how long a board may say nothing until the host gives it up; it has vented itself by then
-// (docs/supervision.md).
+// (docs/reference/supervision.md).
 constexpr double silence = 1.5;
 // A frame may be lost, and the next one as well.
 constexpr std::uint8_t good_for = 3;

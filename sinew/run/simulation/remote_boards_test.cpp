@@ -11,6 +11,7 @@
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/test_log.h"
 #include "sinew/run/simulation/wired_body.h"
+#include "tests/places.h"
 
 namespace sinew::run::remote_boards_test {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using control::Trip;
 
 experiment::Experiment loaded(const std::string& name, std::vector<std::string> sets = {}) {
-  return experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", sets);
+  return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 // A board at the wires of a simulated body, ready to run.

@@ -7,12 +7,13 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/setup/buildable.h"
+#include "tests/places.h"
 
 namespace sinew::run::replay_plant_test {
 namespace {
 
 experiment::Experiment load(const std::string& name, std::vector<std::string> sets = {}) {
-  return buildable(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
+  return buildable(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
 bool is_of_plant(const std::string& topic) {

@@ -21,6 +21,7 @@
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
 #include "tests/counted_heap.h"
+#include "tests/places.h"
 
 namespace sinew::run::run_test {
 namespace {
@@ -28,7 +29,7 @@ namespace {
 using test::allocations;
 using test::counting;
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 experiment::Experiment walk(std::vector<std::string> sets = {}) {
   sets.push_back("sequence.repeat=1");  // one step is enough for these

@@ -12,13 +12,14 @@
 #include "sinew/config/node.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::run::simulation_test {
 namespace {
 
 using signals::Tick;
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 // Every law of this file is tried on these: every mechanism, every air, a controller with a memory,
 // and sensors that lie.

@@ -13,13 +13,14 @@
 #include "sinew/experiment/check.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/places.h"
 
 namespace sinew::run::spinal_test {
 namespace {
 
 using Kind = control::JointKind;
 
-const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+const std::string walk = sinew::test::source_dir() + "/experiments/walk-test-1.toml";
 
 experiment::Experiment one_step(std::vector<std::string> sets = {}) {
   sets.push_back("sequence.repeat=1");
@@ -145,7 +146,7 @@ TEST(Spinal, RegulatorsFollowTheirSetPoints) {
 // The leg's cylinder in its loop: last joint, valves behind the muscles', duties of B.1. With B.1's
 // gain it swings; damped, and with a ninth of the gain, it goes where the plan wants it.
 TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
-  const std::string air = std::string(SINEW_SOURCE_DIR) + "/experiments/leg-in-air.toml";
+  const std::string air = sinew::test::source_dir() + "/experiments/leg-in-air.toml";
   const experiment::Experiment e = experiment::load(
       air, {"sequence.repeat=1", "cylinder.mode=valves", "cylinder.position_gain=0.1 %/count",
             "cylinder.damping=3 lbf s/in", R"(phase.swing.cylinder={ position = ["0.7 in"] })"});

@@ -16,13 +16,14 @@
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
+#include "tests/places.h"
 
 namespace sinew::run::steering_test {
 namespace {
 
 using std::chrono::milliseconds;
 
-const std::string source = SINEW_SOURCE_DIR;
+const std::string source = sinew::test::source_dir();
 
 experiment::Experiment in_air() {
   return experiment::load(source + "/experiments/leg-in-air.toml",

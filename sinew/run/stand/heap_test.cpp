@@ -7,6 +7,7 @@
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/stand/recorder.h"
 #include "tests/counted_heap.h"
+#include "tests/places.h"
 
 namespace sinew::rig::heap_test {
 namespace {
@@ -15,7 +16,7 @@ using test::allocations;
 using test::counting;
 
 TEST(RigRun, TakesNoMemoryInItsLoop) {
-  const std::string folder = SINEW_SOURCE_DIR "/experiments/rig/";
+  const std::string folder = sinew::test::source_dir() + "/experiments/rig/";
   for (const char* name : {"feedback.toml", "feed-forward.toml", "pwm-25hz-15lb.toml",
                            "pressure-steps.toml", "trapped-60-6.toml"}) {
     const Experiment e = load(folder + name);

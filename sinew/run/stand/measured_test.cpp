@@ -10,6 +10,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/run/stand/run.h"
 #include "sinew/units/constants.h"
+#include "tests/places.h"
 
 namespace sinew::rig::measured_test {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using units::inch, units::psi, units::pound_force;
 using Of = plant::Transducer::Of;
 
-const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/rig/";
+const std::string folder = sinew::test::source_dir() + "/experiments/rig/";
 
 struct Done {
   Experiment experiment;

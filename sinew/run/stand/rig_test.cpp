@@ -16,13 +16,14 @@
 #include "sinew/run/stand/drive_laws.h"
 #include "sinew/run/stand/run.h"
 #include "sinew/signals/pulse.h"
+#include "tests/places.h"
 
 namespace sinew::rig::rig_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/rig/";
+const std::string folder = sinew::test::source_dir() + "/experiments/rig/";
 
 std::vector<fs::path> all_files() {
   std::vector<fs::path> out;
@@ -218,7 +219,7 @@ TEST(RigFiles, OtherFormatsAreRefused) {
     EXPECT_NE(std::string(e.what()).find("\"sinew.rig/1\" or older"), std::string::npos);
   }
   try {
-    load(std::string(SINEW_SOURCE_DIR) + "/robots/leg/valves.toml");
+    load(sinew::test::source_dir() + "/robots/leg/valves.toml");
     ADD_FAILURE();
   } catch (const config::Error& e) {
     EXPECT_NE(std::string(e.what()).find("expected \"sinew.rig/1\""), std::string::npos);

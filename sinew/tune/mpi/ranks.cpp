@@ -37,7 +37,8 @@ void* module_with_mpi() {
   if (void* module = host::open_module("sinew_mpi.so")) return module;
   fail(
       "started by mpirun, and this program was built without MPI; try: apt-get install "
-      "libopenmpi-dev, and build again; or shards, which need none");
+      "libopenmpi-dev, then cmake --preset release && cmake --build --preset all; or shards, which "
+      "need none");
 }
 
 }  // namespace

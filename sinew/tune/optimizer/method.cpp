@@ -14,7 +14,7 @@ const SinewMethods* methods() {
   if (!module)
     throw std::runtime_error(
         "this program was built without pagmo, which tuning needs; try: apt-get install "
-        "libpagmo-dev, and build again");
+        "libpagmo-dev, then cmake --preset release && cmake --build --preset all");
   const auto get =
       reinterpret_cast<const SinewMethods* (*)()>(host::function_of(module, "sinew_methods_1"));
   if (!get)

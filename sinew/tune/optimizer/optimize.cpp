@@ -12,8 +12,6 @@
 namespace sinew::tune {
 namespace {
 
-constexpr double below_one = 1 - 0x1p-53;
-
 double number_in(const std::string& cell) {
   double out = 0;
   std::from_chars(cell.data(), cell.data() + cell.size(), out);

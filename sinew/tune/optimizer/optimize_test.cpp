@@ -16,13 +16,14 @@
 #include "sinew/tune/optimizer/candidate_file.h"
 #include "sinew/tune/optimizer/kept.h"
 #include "sinew/tune/optimizer/tuned_text.h"
+#include "tests/places.h"
 
 namespace sinew::tune::optimize_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string root = SINEW_SOURCE_DIR;
+const std::string root = sinew::test::source_dir();
 const std::string lever = root + "/experiments/one-joint.toml";
 
 TuningFile lever_file() {

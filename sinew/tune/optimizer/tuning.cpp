@@ -17,8 +17,6 @@
 namespace sinew::tune {
 namespace {
 
-constexpr double below_one = 1 - 0x1p-53;
-
 config::Location where(const TuningFile& file, const char* key) {
   const config::Origin* origin = config::find_origin(file.origins, key);
   return origin ? origin->where : config::Location{};

@@ -24,6 +24,9 @@
 
 namespace sinew::tune {
 
+// The largest share of a range: the next number below one.
+inline constexpr double below_one = 1 - 0x1p-53;
+
 // The file's words.
 struct TuningFile {
   std::string title, reproduces, experiment;

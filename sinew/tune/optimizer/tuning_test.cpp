@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "sinew/config/diagnostics.h"
+#include "tests/places.h"
 
 namespace sinew::tune::tuning_test {
 namespace {
@@ -24,7 +25,8 @@ class TuningTest : public ::testing::Test {
     std::string text =
         "format = \"sinew.tuning/1\"\n"
         "title = \"t\"\n"
-        "experiment = \"" SINEW_SOURCE_DIR
+        "experiment = \"" +
+        sinew::test::source_dir() +
         "/experiments/one-joint.toml\"\n"
         "tune = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]\n"
         "minimize = [\"joints.lever.tracking_rms_rad [deg]\"]\n"

@@ -10,6 +10,7 @@
 #include "sinew/report/page/page.h"
 #include "sinew/tune/page/study_view.h"
 #include "sinew/tune/results/results.h"
+#include "tests/places.h"
 
 namespace sinew::tune::study_page_test {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Role = StudyColumn::Role;
 
-const std::string root = SINEW_SOURCE_DIR;
+const std::string root = sinew::test::source_dir();
 const std::string lever = root + "/experiments/one-joint.toml";
 
 Sweep a_sweep() {

@@ -7,7 +7,7 @@
 //
 // Whoever writes it is one process; anybody may read meanwhile. A row is a transaction: killed at
 // any moment, the process leaves every row that was added, and the next one goes on behind it.
-// docs/study-file.md has the tables.
+// docs/reference/study-file.md has the tables.
 #pragma once
 
 #include <exception>

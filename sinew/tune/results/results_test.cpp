@@ -11,13 +11,14 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/error.h"
+#include "tests/places.h"
 
 namespace sinew::tune::results_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string root = SINEW_SOURCE_DIR;
+const std::string root = sinew::test::source_dir();
 const std::string lever = root + "/experiments/one-joint.toml";
 
 Sweep study(int seeds_of = 4) {

@@ -1,4 +1,4 @@
-// tune/results/tables.h - the tables of a study's file, as docs/study-file.md has them.
+// tune/results/tables.h - the tables of a study's file, as docs/reference/study-file.md has them.
 #pragma once
 
 #include <filesystem>
