@@ -52,7 +52,7 @@ class HeldMuscle {
 };
 
 using Held = std::shared_ptr<HeldMuscle>;
-using Use = HeldMuscle::Use;
+using UseMuscle = HeldMuscle::Use;
 
 // --- made, copied, saved ---
 
@@ -90,21 +90,21 @@ Held make(const py::object& where, const std::string& name, const std::optional<
 
 // Another muscle of the same description, at the same instant.
 Held copied(HeldMuscle& of) {
-  const Use use(of);
+  const UseMuscle use(of);
   auto copy =
       std::make_shared<HeldMuscle>(of.path, of.setup, of.start_length, of.setup.air.atmosphere);
-  Use(*copy)->restore(use->state());
+  UseMuscle(*copy)->restore(use->state());
   return copy;
 }
 
 py::bytes saved(HeldMuscle& m) {
-  const std::vector<std::byte> bytes = run::save(*Use(m), m.setup);
+  const std::vector<std::byte> bytes = run::save(*UseMuscle(m), m.setup);
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 void restore(HeldMuscle& m, const py::bytes& given) {
   const auto bytes = static_cast<std::string_view>(given);
-  run::restore(*Use(m), m.setup, std::as_bytes(std::span(bytes)));
+  run::restore(*UseMuscle(m), m.setup, std::as_bytes(std::span(bytes)));
 }
 
 py::tuple pickled(HeldMuscle& m) {
@@ -141,7 +141,7 @@ void refuse_failed(const air::DrivenMuscle& m) {
 void advance(HeldMuscle& m, double step, double length) {
   check_step(step);
   check_length(m.setup, length);
-  const Use use(m);
+  const UseMuscle use(m);
   refuse_failed(*use);
   use->advance(step, length);
   refuse_failed(*use);
@@ -183,7 +183,7 @@ py::tuple follow(HeldMuscle& m, double step, const py::object& given, const py::
   Numbers tension(steps), pressure(steps);
   double* const pulls = tension.mutable_data();
   double* const presses = pressure.mutable_data();
-  const Use use(m);
+  const UseMuscle use(m);
   refuse_failed(*use);
   const auto at_once = static_cast<py::ssize_t>(std::ceil(std::fmin(slice / step, 1e4)));
   for (py::ssize_t k = 0; k < steps && !use->failed();) {
@@ -207,11 +207,11 @@ void set_point(HeldMuscle& m, double share) {
   if (!(share >= 0 && share <= 1))
     throw std::invalid_argument(
         fmt::format("share: found {}; expected 0 to 1 of the regulator's range", share));
-  Use(m)->set_point(share);
+  UseMuscle(m)->set_point(share);
 }
 
 py::dict account(HeldMuscle& m) {
-  const air::Account a = Use(m)->account();
+  const air::Account a = UseMuscle(m)->account();
   py::dict out;
   out["mass"] = a.mass;
   out["in"] = a.in;
@@ -227,7 +227,7 @@ using Class = py::class_<HeldMuscle, Held>;
 template <class Of>
 void add_look(Class& c, const char* name, Of of, const char* doc) {
   c.def_property_readonly(
-      name, [of](HeldMuscle& m) { return of(*Use(m)); }, doc);
+      name, [of](HeldMuscle& m) { return of(*UseMuscle(m)); }, doc);
 }
 
 void bind_looks(Class& c) {
@@ -264,10 +264,10 @@ void bind_looks(Class& c) {
 
 void bind_motion(Class& c) {
   c.def(
-       "inlet", [](HeldMuscle& m, bool on) { Use(m)->inlet(on); }, py::arg("on"),
+       "inlet", [](HeldMuscle& m, bool on) { UseMuscle(m)->inlet(on); }, py::arg("on"),
        "Current of the inlet's coil from now on; also a 3-way valve's.")
       .def(
-          "exhaust", [](HeldMuscle& m, bool on) { Use(m)->exhaust(on); }, py::arg("on"),
+          "exhaust", [](HeldMuscle& m, bool on) { UseMuscle(m)->exhaust(on); }, py::arg("on"),
           "Current of the exhaust's coil from now on.")
       .def("set_point", &set_point, py::arg("share"),
            "Sets a regulator in the inlet's place, from now on: 0 to 1 of its range. Raises\n"
@@ -315,7 +315,7 @@ void bind_muscle(py::module_& m) {
   bind_saves(c);
   c.def("__repr__", [](HeldMuscle& held) {
     return fmt::format("<sinew.DrivenMuscle {} of {} at {:g} s>", held.setup.muscle.name, held.path,
-                       Use(held)->time());
+                       UseMuscle(held)->time());
   });
 }
 

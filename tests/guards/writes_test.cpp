@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "tests/guards/writers.h"
+#include "tests/places.h"
 
 namespace sinew::test {
 namespace {
