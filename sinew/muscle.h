@@ -10,7 +10,7 @@
 //   pull_with(muscle.tension());                 // [N]
 //
 // find_package(sinew COMPONENTS muscle) and sinew::muscle need a C++20 compiler and no library;
-// docs/how-to/install.md says how it is built alone.
+// docs/how-to/install.md describes how it is built alone.
 //
 // air/driven_muscle.h      one muscle, which a loop of yours moves: begin here
 // air/network.h            many muscles as half of an equation that your integrator solves

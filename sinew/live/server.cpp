@@ -48,7 +48,7 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
 
   explicit Impl(Handlers h) : handlers(std::move(h)) {}
 
-  // Makes a WebSocket of the connection that asked for one.
+  // Makes a WebSocket of the connection that requested one.
   void upgrade(beast::tcp_stream&& stream, const HttpRequest& request);
   void send_frames();    // to each that is done with the last one
   void leave_sockets();  // without another word

@@ -91,7 +91,7 @@ Jacobian jacobian(const TwoLinks&, double theta1, double theta2);
 // The force on the foot by the ground, from the torques of the muscles  [N]:
 //
 //   F = -(J^T)^-1 T                                             [71], [75];
-// docs/evidence/departures.md says where ours differs.
+// docs/evidence/departures.md lists where ours differs.
 //
 // Static: inertia and weight of the links are left out, as in 6.3. Near a straight or a folded knee
 // the pose carries any force along the leg: singular, and no force is given.

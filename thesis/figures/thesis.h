@@ -4,7 +4,7 @@
 // A curve is computed (a law or a simulation, as the thesis drew it) or synthetic (in the place of
 // a measurement that is lost: our stand with stated losses, transducers, noise and seed). What can
 // be neither is named as missing. Verdicts are computed here, from the curves as they are drawn
-// and from summaries of runs; docs/evidence/thesis-figures.md tells which bands are ours.
+// and from summaries of runs; docs/evidence/thesis-figures.md lists which bands are ours.
 #pragma once
 
 #include <atomic>

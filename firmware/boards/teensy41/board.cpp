@@ -1,6 +1,6 @@
 // firmware/boards/teensy41/board.cpp - PJRC's Teensy 4.1: an i.MX RT1062, a Cortex-M7 (NXP i.MX
 // RT1060 reference manual; ARMv7-M). Never run on one by us, and no emulator here knows the chip
-// (docs/reference/firmware.md says what to check first). It takes no more than 3.3 V at any pin.
+// (docs/reference/firmware.md has what to check first). It takes no more than 3.3 V at any pin.
 //
 //   inputs 0 … 9      pins 14 … 23            A0 … A9
 //          10, 11     pins 24, 25             A10, A11

@@ -1,4 +1,4 @@
-// control/link/messages.h - what a host asks of a board (docs/reference/wire.md has the bytes).
+// control/link/messages.h - messages of a host to a board (docs/reference/wire.md has the bytes).
 //
 // A message is a struct; fields() beside it lists what goes over the wire, in order. encode() and
 // decode() go over that list, so that neither end can have another one. What cannot be, a flag of

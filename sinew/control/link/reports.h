@@ -1,4 +1,4 @@
-// control/link/reports.h - what a board tells a host (docs/reference/wire.md has the bytes).
+// control/link/reports.h - reports of a board to a host (docs/reference/wire.md has the bytes).
 //
 // Telemetry of a period is several messages with the same tick, numbered among themselves: together
 // they are all of control::Seen and control::Supervised, bit for bit, for the board's joints and

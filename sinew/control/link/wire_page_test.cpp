@@ -1,4 +1,4 @@
-// docs/reference/wire.md says what the code does: its tables have the fields of each message at
+// docs/reference/wire.md agrees with the code: its tables have the fields of each message at
 // their places, its examples are frames to the byte.
 #include <gtest/gtest.h>
 

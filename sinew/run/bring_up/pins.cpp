@@ -3,7 +3,7 @@
 namespace sinew::run {
 namespace {
 
-// By firmware/boards/<board>/board.cpp; docs/reference/firmware.md has them as a table.
+// Implemented in firmware/boards/<board>/board.cpp; docs/reference/firmware.md has them as a table.
 constexpr std::string_view stm32f405_inputs[] = {"PA0", "PA1", "PA2", "PA3", "PA4", "PA5", "PA6",
                                                  "PA7", "PC0", "PC1", "PC2", "PC3", "PC4", "PC5"};
 constexpr std::string_view stm32f405_outputs[] = {"PB4",  "PB5",  "PB6",  "PB7",  "PB8",  "PB9",
