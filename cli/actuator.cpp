@@ -4,24 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/json/json.h"
 #include "sinew/run/setup/actuator_text.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ActuatorOptions {
   std::string file, name, length, pressure, velocity, external_volume = "0 m3", units;
@@ -78,7 +75,7 @@ ExitCode run_actuator(const ActuatorOptions& options) {
              {"shortest_length_m", actuator::shortest_length(a)},
              {"greatest_length_m", a.long_end.length}};
     for (const Point& p : points) out["points"].push_back(Json::parse(run::json_of(p)));
-    fmt::print("{}\n", json_text(out, 2));
+    fmt::print("{}\n", out.text(2));
     return ok;
   }
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);

@@ -1,17 +1,14 @@
 // cli/check.cpp - `sinew check`: everything that is wrong with files, without running anything.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "sinew/files/check.h"
+#include "sinew/json/json.h"
 
 namespace sinew::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using files::Finding;
 
 struct CheckOptions {
@@ -33,7 +30,7 @@ ExitCode check_all(const CheckOptions& options) {
           {{"key", one.key}, {"value", one.value}, {"file", one.file}, {"line", one.line}});
     if (!options.json) fmt::print("{}", files::text_of(finding));
   }
-  if (options.json) fmt::print("{}\n", json_text(report, 2));
+  if (options.json) fmt::print("{}\n", report.text(2));
   return good ? ok : failed;
 }
 

@@ -1,13 +1,11 @@
 // cli/doctor.cpp - `sinew doctor`: is this computer ready to drive a machine, and what to do.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/host/doctor.h"
 #include "sinew/host/realtime.h"
+#include "sinew/json/json.h"
 
 namespace sinew::cli {
 
@@ -38,19 +36,19 @@ void print(const std::vector<host::Finding>& findings) {
 
 void print_json(const std::vector<host::Finding>& findings, const DoctorOptions& options,
                 bool ready) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  Json list = Json::array();
   for (const host::Finding& f : findings) {
-    nlohmann::ordered_json item{
+    Json item{
         {"subject", f.subject}, {"verdict", word(f.verdict)}, {"found", f.found}, {"why", f.why}};
     if (!f.place.empty()) item["place"] = f.place;
     if (!f.todo.empty()) item["todo"] = f.todo;
     list.push_back(std::move(item));
   }
-  const nlohmann::ordered_json all{{"format", "sinew.doctor/1"},
-                                   {"place", options.place},
-                                   {"ready", ready},
-                                   {"findings", std::move(list)}};
-  fmt::print("{}\n", json_text(all, 2));
+  const Json all{{"format", "sinew.doctor/1"},
+                 {"place", options.place},
+                 {"ready", ready},
+                 {"findings", std::move(list)}};
+  fmt::print("{}\n", all.text(2));
 }
 
 // As the loop itself would run.

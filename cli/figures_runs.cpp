@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "cli/arguments.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/units/constants.h"
@@ -17,7 +16,6 @@ namespace sinew::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 report::RunFigureOptions options_of(const RunFiguresRequest& request) {
   report::RunFigureOptions out;
@@ -76,11 +74,11 @@ std::vector<std::pair<fs::path, std::string>> folders_of(const RunFiguresRequest
 
 void print(const Json& runs) {
   for (const Json& run : runs) {
-    fmt::print("{}\n", run["folder"].get<std::string>());
+    fmt::print("{}\n", run["folder"].string());
     report::TextTable table({"figure", "", "curves"},
                             {report::TextTable::Align::left, report::TextTable::Align::left});
     for (const Json& f : run["figures"])
-      table.add({f["figure"], f["title"], std::to_string(f["curves"].size())});
+      table.add({f["figure"].string(), f["title"].string(), std::to_string(f["curves"].size())});
     fmt::print("{}", table.text());
   }
 }
@@ -108,7 +106,7 @@ ExitCode draw_runs(const RunFiguresRequest& request) {
       add(folder, run::draw_run(named, folder, drawing, messages.notices()));
   }
   if (request.json)
-    fmt::print("{}\n", json_text(out, 2));
+    fmt::print("{}\n", out.text(2));
   else
     print(out["runs"]);
   return ok;

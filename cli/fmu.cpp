@@ -1,19 +1,15 @@
 // cli/fmu.cpp - `sinew fmu export`: a file of ours as an FMU for somebody else's co-simulation.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "fmu/export/export.h"
+#include "sinew/json/json.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct FmuOptions {
   fmu::Asked asked;
@@ -45,7 +41,7 @@ void print_json(const fmu::Fmu& made, const std::string& file) {
     entry["meaning"] = v.doc;
     out["variables"].push_back(entry);
   }
-  fmt::print("{}\n", json_text(out, 2));
+  fmt::print("{}\n", out.text(2));
 }
 
 void print_text(const fmu::Fmu& made, const std::string& file) {

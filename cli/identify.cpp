@@ -10,7 +10,6 @@
 
 #include "cli/identify_columns.h"
 #include "cli/identify_page.h"
-#include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
@@ -19,6 +18,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
@@ -27,8 +27,6 @@
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // "force=F_N"
 void add_pair(std::string_view option, const std::string& text,
@@ -269,7 +267,7 @@ void tell(const identify::Report& report, const std::string& parameter_file,
   for (const std::string& note : report.notes) messages.note(note);
   for (const std::string& warning : report.warnings) messages.warning(warning);
   if (options.json) {
-    fmt::print("{}\n", json_text(json.is_null() ? to_json(report) : json, 2));
+    fmt::print("{}\n", (json.is_null() ? to_json(report) : json).text(2));
   } else {
     print(report, units_asked(options.units, units::UnitSet::si),
           identify::atmosphere_setting(data.atmosphere));

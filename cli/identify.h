@@ -6,7 +6,6 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/fit/wish.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 struct StaticSettings;
@@ -96,7 +96,6 @@ auto watched(std::size_t models, bool quiet, const Find& find) {
 // Prints the report, as words or as JSON, `json` in its place, and writes the parameter file and
 // the page where they are wanted. Notes and warnings go to stderr.
 void tell(const identify::Report& report, const std::string& parameter_file,
-          const DataOptions& data, const ResultOptions& options,
-          const nlohmann::ordered_json& json = {});
+          const DataOptions& data, const ResultOptions& options, const Json& json = {});
 
 }  // namespace sinew::cli

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cli/identify.h"
-#include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
 #include "sinew/identify/task/static_task.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::cli {
@@ -86,7 +85,7 @@ ExitCode run_check(const IdentifyCheckOptions& options) {
   const identify::Checkup found =
       identify::check_before_static(sources_of(options.data), options.settings);
   if (options.json) {
-    fmt::print("{}\n", json_text(to_json(found), 2));
+    fmt::print("{}\n", to_json(found).text(2));
   } else {
     print_files(found.recognised.files);
     print_mounts(found.recognised.mounts);

@@ -8,13 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/task/inputs.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
 
@@ -74,7 +73,7 @@ ExitCode run_columns(const IdentifyColumnsOptions& options) {
   const std::string text = identify::template_of(inputs, options.kind);  // is the kind one?
   if (options.file.empty()) {
     if (options.json)
-      fmt::print("{}\n", json_text(to_json(inputs), 2));
+      fmt::print("{}\n", to_json(inputs).text(2));
     else
       print(inputs);
     return ok;

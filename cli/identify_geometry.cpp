@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "cli/identify.h"
-#include "cli/json_text.h"
 #include "cli/units.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/config/quantity.h"
@@ -27,7 +26,7 @@ ExitCode from_pairs(const IdentifyGeometryOptions& options) {
 ExitCode from_trapezoids(const IdentifyGeometryOptions& options) {
   const auto found = identify::count_geometry(options.settings);
   if (options.result.json) {
-    fmt::print("{}\n", json_text(to_json(found), 2));
+    fmt::print("{}\n", to_json(found).text(2));
   } else {
     const config::UnitsToShow asked = units_asked(options.result.units, units::UnitSet::si);
     const std::string unit = asked.asked ? asked.units.of("m").name : "mm";

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "cli/identify.h"
-#include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
@@ -129,7 +128,7 @@ ExitCode run_plan(const IdentifyPlanOptions& options) {
   const Messages messages(options.quiet);
   for (const std::string& note : found.notes) messages.note(as_options(note));
   if (options.json)
-    fmt::print("{}\n", json_text(to_json(found), 2));
+    fmt::print("{}\n", to_json(found).text(2));
   else
     print(found, {units_asked(options.units, units::UnitSet::metric), atmosphere});
   if (options.out.empty()) return ok;

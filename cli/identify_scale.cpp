@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "cli/identify.h"
-#include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
 #include "sinew/actuator/prediction.h"
@@ -34,7 +33,7 @@ ExitCode run_scale(const IdentifyScaleOptions& options) {
   check_result_options(options.result);
   const identify::ScaleFound found = identify::find_scaled(options.settings);
   if (options.result.json)
-    fmt::print("{}\n", json_text(identify::to_json(found), 2));
+    fmt::print("{}\n", (identify::to_json(found)).text(2));
   else
     print_scaled(found);
   if (!(found.actuator.prediction.inside_95 > 0))

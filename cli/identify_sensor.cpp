@@ -5,7 +5,6 @@
 
 #include "cli/identify.h"
 #include "cli/identify_page.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
 #include "sinew/config/diagnostics.h"
@@ -102,7 +101,7 @@ ExitCode run(const IdentifySensorOptions& options) {
   const Messages messages(options.result.quiet);
   for (const std::string& note : c.notes) messages.note(note);
   if (options.result.json)
-    fmt::print("{}\n", json_text(to_json(c), 2));
+    fmt::print("{}\n", to_json(c).text(2));
   else
     print(c, found.display, options.result);
   for (const std::string& warning : c.warnings) messages.warning(warning);

@@ -1,19 +1,15 @@
 // cli/keys.cpp - `sinew keys`: every key that a file can have.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/files/key_text.h"
 #include "sinew/files/keys.h"
+#include "sinew/json/json.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct KeysOptions {
   std::vector<std::string> words;
@@ -36,7 +32,7 @@ ExitCode keys(const KeysOptions& options) {
     fmt::print("{}", files::schema_of(options.schema));
   } else if (options.json) {
     const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
-    fmt::print("{}\n", json_text(Json::parse(files::json_of(found)), 2));
+    fmt::print("{}\n", (Json::parse(files::json_of(found))).text(2));
   } else if (all) {
     fmt::print("{}", files::overview_of_keys(width_of_output()));
   } else {

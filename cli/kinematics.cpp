@@ -7,23 +7,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/units.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/json/json.h"
 #include "sinew/robot/legs.h"
 #include "sinew/run/setup/stance_text.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct KinematicsOptions {
   std::string file, leg, foot, angles, force, units;
@@ -145,7 +142,7 @@ ExitCode run_kinematics(const KinematicsOptions& options) {
     if (!options.leg.empty()) out["leg"] = options.leg;
     for (const run::Stance& b : branches)
       out["branches"].push_back(Json::parse(json_of(e.robot, b)));
-    fmt::print("{}\n", json_text(out, 2));
+    fmt::print("{}\n", out.text(2));
     return ok;
   }
   for (std::size_t i = 0; i < branches.size(); ++i) {

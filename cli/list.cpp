@@ -1,18 +1,14 @@
 // cli/list.cpp - `sinew list`: robots, experiments and more, with Sinew and in this folder.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/files/list.h"
+#include "sinew/json/json.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ListOptions {
   std::string kind;
@@ -35,7 +31,7 @@ Json json_of(const files::Listing& listing) {
 ExitCode list(const ListOptions& options) {
   const files::Listing listing = files::list(options.kind);
   if (options.json)
-    fmt::print("{}\n", json_text(json_of(listing), 2));
+    fmt::print("{}\n", json_of(listing).text(2));
   else
     fmt::print("{}", files::text_of(listing, options.kind));
   const Messages messages(false);

@@ -1,18 +1,14 @@
 // cli/migrate.cpp - `sinew migrate`: files of older formats become files of today's.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/files/migrate.h"
+#include "sinew/json/json.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct MigrateCommandOptions {
   std::vector<std::string> files;
@@ -43,7 +39,7 @@ ExitCode migrate_all(const MigrateCommandOptions& options) {
       error(e.what());
     }
   }
-  if (options.json) fmt::print("{}\n", json_text(report, 2));
+  if (options.json) fmt::print("{}\n", report.text(2));
   if (options.dry_run) Messages(false).note("nothing was written");
   return good ? ok : failed;
 }

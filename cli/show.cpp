@@ -1,16 +1,14 @@
 // cli/show.cpp - `sinew show`: every value as it is used, and where it came from.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/units.h"
 #include "sinew/files/values.h"
+#include "sinew/json/json.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ShowOptions {
   std::string file;
@@ -24,7 +22,7 @@ ExitCode show(const ShowOptions& options) {
   const files::Values values = files::values(options.file, options.sets, options.keys);
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si, &values.in_si);
   if (options.json)
-    fmt::print("{}\n", Json::parse(files::json_of(values)).dump(2));
+    fmt::print("{}\n", Json::parse(files::json_of(values)).text(2));
   else
     fmt::print("{}", files::text_of(values, asked.asked ? &asked.units : nullptr));
   return ok;

@@ -4,25 +4,21 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
 #include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
 #include "sinew/gas/valve_flow.h"
+#include "sinew/json/json.h"
 #include "sinew/run/setup/valve_text.h"
 #include "sinew/signals/pulse.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ValveOptions {
   std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz", units;
@@ -63,7 +59,7 @@ ExitCode run_valve(const ValveOptions& options) {
   if (const std::string doubt = run::doubt_of(valve, f); !doubt.empty())
     Messages(options.quiet).warning(doubt);
   if (options.json) {
-    fmt::print("{}\n", json_text(Json::parse(run::json_of(valve, f, times, duties)), 2));
+    fmt::print("{}\n", (Json::parse(run::json_of(valve, f, times, duties))).text(2));
     return ok;
   }
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);

@@ -1,10 +1,10 @@
 // python/binding/force_beam.cpp - a beam with strain gages, as `sinew force-beam` reckons it.
-#include <nlohmann/json.hpp>
 
 #include "python/binding/bind.h"
 #include "python/binding/settings.h"
 #include "sinew/identify/sensor/transducer_settings.h"
 #include "sinew/identify/sensor/transducer_text.h"
+#include "sinew/json/json.h"
 
 namespace sinew::python {
 

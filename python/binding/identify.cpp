@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "python/binding/numbers.h"
@@ -12,6 +11,7 @@
 #include "sinew/identify/check/check.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 
 namespace sinew::python {
 
@@ -85,7 +85,7 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
   for (std::size_t i = 0; i < found->muscles.size(); ++i)
     files.append(identify::static_file(*found, found->muscles[i], name, source, ""));
   return py::make_tuple(
-      py::module_::import("json").attr("loads")(identify::to_json(found->report).dump()), files);
+      py::module_::import("json").attr("loads")(identify::to_json(found->report).text()), files);
 }
 
 }  // namespace

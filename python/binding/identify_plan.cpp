@@ -2,11 +2,10 @@
 // which lengths and pressures are worth the time.
 #include <pybind11/stl.h>
 
-#include <nlohmann/json.hpp>
-
 #include "python/binding/settings.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/plan_task.h"
+#include "sinew/json/json.h"
 
 namespace sinew::python {
 
@@ -18,7 +17,7 @@ py::object loaded(const std::string& json) {
 
 // Returns what `sinew identify METHOD --columns --json` prints.
 py::object inputs(const std::string& method) {
-  return loaded(to_json(identify::inputs_of(method)).dump());
+  return loaded(to_json(identify::inputs_of(method)).text());
 }
 
 // Returns what `--template` writes.
@@ -57,7 +56,7 @@ py::tuple plan(const py::list& tables, const py::dict& given) {
   do_interruptibly(unstoppable, [&] {
     found = sources.empty() ? identify::find_plan(s) : identify::find_next(sources, how, s);
   });
-  return py::make_tuple(loaded(to_json(*found).dump()), identify::plan_table(*found));
+  return py::make_tuple(loaded(to_json(*found).text()), identify::plan_table(*found));
 }
 
 }  // namespace

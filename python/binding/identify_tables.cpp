@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "python/binding/recording.h"
@@ -25,6 +24,7 @@
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/task/valve_task.h"
+#include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
 
 namespace sinew::python {
@@ -77,7 +77,7 @@ Identified geometry(const Sources& sources, const Settings& given) {
   const auto found = away([&] {
     return s.trapezoids.empty() ? identify::find_geometry(sources, s) : identify::count_geometry(s);
   });
-  Identified out{.report = to_json(found).dump(), .files = {fixed(found.file)}};
+  Identified out{.report = to_json(found).text(), .files = {fixed(found.file)}};
   if (found.report) out.reports = {*found.report};
   return out;
 }
@@ -102,7 +102,7 @@ identify::StaticSettings static_settings(const Settings& given) {
 Identified of_static(const Sources& sources, const Settings& given) {
   const identify::StaticSettings s = static_settings(given);
   const auto found = away([&] { return identify::find_static(sources, s); });
-  Identified out{.report = to_json(found.result.report).dump(), .reports = {found.result.report}};
+  Identified out{.report = to_json(found.result.report).text(), .reports = {found.result.report}};
   for (const std::string& file : found.files) out.files.push_back(fixed(file));
   for (const std::string& file : found.predicted_files) out.files.push_back(fixed(file));
   return out;
@@ -116,7 +116,7 @@ Identified scaled(const Sources&, const Settings& given) {
   given.text("reading", s.reading);
   given.text("name", s.name);
   const auto found = away([&] { return identify::find_scaled(s); });
-  return {.report = to_json(found).dump(), .files = {fixed(found.file)}};
+  return {.report = to_json(found).text(), .files = {fixed(found.file)}};
 }
 
 Identified of_run(const Sources&, const Settings& given) {
@@ -132,7 +132,7 @@ Identified of_run(const Sources&, const Settings& given) {
   given.integer("threads", s.threads);
   given.path("base", s.base);
   const auto found = away([&] { return identify::find_run_fit(s); });
-  return {.report = to_json(found).dump(),
+  return {.report = to_json(found).text(),
           .files = {fixed(found.file(""))},
           .reports = {found.result.report}};
 }
@@ -140,7 +140,7 @@ Identified of_run(const Sources&, const Settings& given) {
 Identified check_of(const Sources& sources, const Settings& given) {
   const identify::StaticSettings s = static_settings(given);
   return {.report =
-              to_json(away([&] { return identify::check_before_static(sources, s); })).dump()};
+              to_json(away([&] { return identify::check_before_static(sources, s); })).text()};
 }
 
 Identified dynamic(const Sources& sources, const Settings& given) {
@@ -156,14 +156,14 @@ Identified dynamic(const Sources& sources, const Settings& given) {
   given.text("model", s.model);
   wishes_of(given, s.wishes);
   const auto found = away([&] { return identify::find_dynamic(sources, s); });
-  return {.report = to_json(found).dump(),
+  return {.report = to_json(found).text(),
           .files = {fixed(found.file)},
           .reports = {found.result.report}};
 }
 
 Identified creep(const Sources& sources, const Settings&) {
   const auto found = away([&] { return identify::find_creep(sources); });
-  return {.report = to_json(found).dump(), .reports = {found.report}};
+  return {.report = to_json(found).text(), .reports = {found.report}};
 }
 
 Identified joint(const Sources& sources, const Settings& given) {
@@ -194,7 +194,7 @@ Identified joint(const Sources& sources, const Settings& given) {
   given.path("base", s.base);
   const auto found = std::make_shared<identify::JointFound>(
       away([&] { return identify::find_joint(sources, s); }));
-  return {.report = to_json(*found).dump(),
+  return {.report = to_json(*found).text(),
           .files = {[found](const std::string& out) { return found->file(out); },
                     fixed(found->actuator_file)},
           .reports = {found->result.report}};
@@ -212,7 +212,7 @@ Identified pair(const Sources& sources, const Settings& given) {
   given.path("base", s.base);
   const auto found =
       std::make_shared<identify::PairFound>(away([&] { return identify::find_pair(sources, s); }));
-  Identified out{.report = to_json(*found).dump(),
+  Identified out{.report = to_json(*found).text(),
                  .files = {[found](const std::string& at) { return found->file(at); }},
                  .reports = {found->result.report}};
   if (found->result.air) out.reports.push_back(found->result.air->report);
@@ -234,7 +234,7 @@ Identified sensor(const Sources& sources, const Settings& given) {
   given.path("base", s.base);
   const auto found = std::make_shared<identify::SensorFound>(
       away([&] { return identify::find_sensors(sources, s); }));
-  Identified out{.report = to_json(found->calibration).dump(),
+  Identified out{.report = to_json(found->calibration).text(),
                  .files = {[found](const std::string& at) { return found->file(at); }},
                  .title = "calibration of sensors from " + found->calibration.file};
   for (const auto& one : found->calibration.sensors) out.reports.push_back(one.report);
@@ -257,7 +257,7 @@ Identified valve(const Sources& sources, const Settings& given) {
   given.table("held_out", s.held_out);
   const auto found = std::make_shared<identify::ValveFound>(
       away([&] { return identify::find_valve(sources, s); }));
-  return {.report = to_json(*found).dump(),
+  return {.report = to_json(*found).text(),
           .files = {[found](const std::string& out) { return found->file(out); }},
           .refused = found->result.refused,
           .timing =

@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/files/key_text.h"
+#include "sinew/json/json.h"
 
 namespace sinew::files {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Keys by their place: what stands in a table, and the rows of a key that is several.
 struct Place {
@@ -206,7 +204,7 @@ std::string schema_of(std::string_view kind) {
   out.update(file);
   out["required"] = {"format"};
   out["$defs"] = definitions();
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.text(2) + "\n";
 }
 
 }  // namespace sinew::files

@@ -5,17 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::files {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A kind in words, and where its files stand; no place for what all of them have.
 struct Title {
@@ -184,7 +182,7 @@ std::string text_of(const std::vector<Key>& keys, std::size_t width) {
 std::string json_of(const std::vector<Key>& keys) {
   Json out = Json::array();
   for (const Key& key : keys) out.push_back(to_json(key));
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return out.text();
 }
 
 std::string page_of_keys() {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/lookup.h"
@@ -14,6 +12,7 @@
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
+#include "sinew/json/json.h"
 #include "sinew/recording/mapping.fields.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/runnable.h"
@@ -21,8 +20,6 @@
 namespace sinew::files {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string si_text(const config::Node& values, const config::Origin& origin) {
   if (origin.unit.empty()) return "";
@@ -155,7 +152,7 @@ std::string text_of(const Values& v, const units::ShownUnits* shown) {
 std::string json_of(const Values& v) {
   Json out = Json::array();
   for (const config::Origin& origin : v.origins) out.push_back(to_json(origin, v.in_si));
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return out.text();
 }
 
 }  // namespace sinew::files

@@ -6,16 +6,15 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sinew/film/process.h"
+#include "sinew/json/json.h"
 
 namespace sinew::film {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto patience = std::chrono::seconds(60);  // with an answer, on a slow machine
@@ -152,15 +151,15 @@ std::string Chromium::Impl::next_message() {
 Json Chromium::Impl::ask(const char* method, Json parameters) {
   Json command{{"id", ++last}, {"method", method}, {"params", std::move(parameters)}};
   if (!session.empty()) command["sessionId"] = session;
-  std::string text = command.dump();
+  std::string text = command.text();
   text += '\0';
   if (!write_all(to.file(), text)) fail("ended");
   while (true) {
-    Json answer = Json::parse(next_message(), nullptr, false);
-    if (answer.is_discarded()) fail("says what is no JSON");
-    if (answer.value("id", 0) != last) continue;
+    Json answer;
+    if (!Json::parse(next_message(), answer)) fail("says what is no JSON");
+    if (!answer.contains("id") || answer["id"] != last) continue;
     if (answer.contains("error"))
-      fail(fmt::format("refuses {}: {}", method, answer["error"].value("message", "")));
+      fail(fmt::format("refuses {}: {}", method, answer["error"].string("message", "")));
     return std::move(answer["result"]);
   }
 }
@@ -178,7 +177,7 @@ void Chromium::open(const fs::path& page) {
   const Json target = impl_->ask("Target.createTarget", {{"url", url_of(page)}});
   const Json attached =
       impl_->ask("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}});
-  impl_->session = attached["sessionId"];
+  impl_->session = attached["sessionId"].string();
 }
 
 std::string Chromium::evaluate(std::string_view script) {
@@ -187,17 +186,19 @@ std::string Chromium::evaluate(std::string_view script) {
                  {{"expression", script}, {"awaitPromise", true}, {"returnByValue", true}});
   if (answer.contains("exceptionDetails")) {
     const Json& details = answer["exceptionDetails"];
-    const Json exception = details.value("exception", Json::object());
-    throw std::runtime_error("the run's page met an error: " +
-                             exception.value("description", details.value("text", std::string())));
+    const Json* exception = details.find("exception");
+    const std::string text = details.string("text", "");
+    throw std::runtime_error(
+        "the run's page met an error: " +
+        (exception != nullptr ? exception->string("description", text) : text));
   }
   const Json& result = answer["result"];
-  return result.contains("value") ? result["value"].dump() : "null";
+  return result.contains("value") ? result["value"].text() : "null";
 }
 
 std::string Chromium::text(std::string_view script) {
   const Json value = Json::parse(evaluate(script));
-  return value.is_string() ? value.get<std::string>() : std::string();
+  return value.is_string() ? value.string() : std::string();
 }
 
 }  // namespace sinew::film

@@ -6,11 +6,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/film/video.h"
+#include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/page_template.h"
 #include "sinew/run/folder/compared.h"
@@ -21,7 +21,6 @@ namespace sinew::film {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr int most_frames = 20000;
 constexpr int smallest = 100, largest = 3840;  // a side [pixels]
@@ -99,7 +98,7 @@ std::vector<double> times_of(const FilmOptions& options, double begin, double en
                "a run of a robot or of the test stand whose file says where its parts are");
 }
 
-std::string number(double value) { return Json(value).dump(); }
+std::string number(double value) { return Json(value).text(); }
 
 }  // namespace
 
@@ -163,13 +162,13 @@ void Filming::open(const std::string& page) {
 void Filming::prepare() {
   browser_->evaluate(report::film_script());
   const Json span = Json::parse(browser_->evaluate("window.sinew_span()"));
-  times_ = times_of(options_, span[0], span[1]);
+  times_ = times_of(options_, span[0].number(), span[1].number());
   browser_->evaluate(
       fmt::format("window.sinew_film({})", Json{{"size", {options_.width, options_.height}},
                                                 {"dark", options_.dark},
                                                 {"still", options_.still},
                                                 {"speed", options_.speed}}
-                                               .dump()));
+                                               .text()));
 }
 
 void Filming::make(const fs::path& file, std::atomic<std::int64_t>& done) {
@@ -186,7 +185,7 @@ void Filming::make_gif(const fs::path& file, std::atomic<std::int64_t>& done) {
   const std::size_t n = times_.size();
   for (std::size_t i = 0; i < palette_frames; ++i)
     looked_at.push_back(times_[i * n / palette_frames]);
-  browser_->evaluate(fmt::format("window.film.choose_palette({})", Json(looked_at).dump()));
+  browser_->evaluate(fmt::format("window.film.choose_palette({})", Json(looked_at).text()));
   std::string bytes;
   for (std::size_t i = 0; i < n; ++i) {
     // A GIF counts hundredths of a second: rounded so that the film does not drift.

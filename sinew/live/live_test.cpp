@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
 #include "sinew/config/compose.h"
+#include "sinew/json/json.h"
 #include "sinew/live/feed.h"
 #include "sinew/live/request.h"
 #include "sinew/live/show.h"
@@ -21,7 +21,6 @@ namespace {
 using experiment::Experiment;
 using run::Outcome;
 using run::Steering;
-using Json = nlohmann::json;
 
 Experiment in_air() {
   return experiment::load(sinew::test::source_dir() + "/experiments/leg-in-air.toml",
@@ -289,7 +288,7 @@ TEST(Show, AMachineIsStoppedAndNotPaused) {
 TEST(Show, WhatIsWrongIsAnsweredAndChangesNothing) {
   Stage stage(in_air());
   const Json answer = Json::parse(stage.show.answer(R"({"do":"set","key":"seed","value":1})"));
-  EXPECT_NE(answer["error"].get<std::string>().find("unknown key"), std::string::npos);
+  EXPECT_NE(answer["error"].string().find("unknown key"), std::string::npos);
   EXPECT_TRUE(stage.run().changes.empty());
 }
 

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sinew/json/json.h"
 #include "sinew/run/controllers/steering.h"
 
 namespace sinew::live {
 namespace {
 
-using Json = nlohmann::json;
 using Kind = Request::Kind;
 
 [[noreturn]] void refuse(const std::string& found, const std::string& expected) {
@@ -36,14 +35,13 @@ const Form& form_of(const Json& json) {
   const auto word = json.find("do");
   if (word == json.end() || !word->is_string()) refuse("no \"do\"", "what is to be done");
   for (const Form& form : forms)
-    if (form.word == word->get<std::string>()) return form;
-  refuse(word->dump(-1, ' ', true, Json::error_handler_t::replace),
-         "pause, resume, pace, stop, set, release or release all");
+    if (form.word == word->string()) return form;
+  refuse(word->text(), "pause, resume, pace, stop, set, release or release all");
 }
 
 double number(const Json& json, double least, double most, bool or_zero = false) {
   if (!json.is_number()) refuse("a value that is no number", "a number");
-  const double value = json.get<double>();
+  const double value = json.number();
   if ((or_zero && value == 0) || (value >= least && value <= most)) return value;
   refuse(fmt::format("{}", value), fmt::format("{}{} to {}", or_zero ? "0, or " : "", least, most));
 }
@@ -53,7 +51,8 @@ double number(const Json& json, double least, double most, bool or_zero = false)
 Request read_request(std::string_view text, const std::vector<gait::Setting>& settings) {
   if (text.size() > longest_request)
     refuse("a long message", fmt::format("{} bytes", longest_request));
-  const Json json = Json::parse(text, nullptr, false);
+  Json json;
+  (void)Json::parse(text, json);
   if (!json.is_object()) refuse("no JSON object", "{\"do\": …}");
   const Form& form = form_of(json);
   const std::size_t members = 1u + form.key + form.value;
@@ -65,7 +64,7 @@ Request read_request(std::string_view text, const std::vector<gait::Setting>& se
   Request out{.kind = form.kind};
   if (form.key) {
     const int setting =
-        json["key"].is_string() ? gait::find_setting(settings, json["key"].get<std::string>()) : -1;
+        json["key"].is_string() ? gait::find_setting(settings, json["key"].string()) : -1;
     if (setting < 0) refuse("an unknown key", "one of the run's gains or desired stiffnesses");
     out.setting = static_cast<std::size_t>(setting);
   }

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/node.h"
+#include "sinew/json/json.h"
 #include "sinew/live/path_numbers.h"
 #include "sinew/live/text.h"
 #include "sinew/report/compare/comparison.h"
@@ -71,11 +71,10 @@ std::string text_at(const config::Node& node, std::string_view key) {
 }
 
 // Returns what summary.json says; nothing where the run was not finished.
-nlohmann::ordered_json summary_in(const fs::path& folder) {
+Json summary_in(const fs::path& folder) {
   std::ifstream in(folder / run::summary_name);
-  nlohmann::ordered_json out =
-      in ? nlohmann::ordered_json::parse(in, nullptr, false) : nlohmann::ordered_json();
-  return out.is_object() ? out : nlohmann::ordered_json::object();
+  Json out;
+  return in && Json::parse(in, out) && out.is_object() ? out : Json::object();
 }
 
 }  // namespace
@@ -109,21 +108,20 @@ std::string RunsPages::told_of(std::size_t run) {
   const fs::file_time_type written = fs::last_write_time(run::recorded_run(runs_[run]).log, gone);
   Told& told = told_[run];
   if (told.written == written && !told.json.empty()) return told.json;
-  const nlohmann::ordered_json summary = summary_in(folder);
+  const Json summary = summary_in(folder);
   config::Node top;
   try {
     top = config::parse_text(top_of(folder / run::resolved_name), "resolved.toml");
   } catch (const config::Error&) {
     // The run's own page says what is wrong with the file; the list names the folder.
   }
-  nlohmann::ordered_json out = {
-      {"run", run}, {"folder", runs_[run].string()}, {"date", date_of(written)}};
-  out["title"] = summary.value("title", text_at(top, "title"));
-  out["about"] = summary.value("reproduces", text_at(top, "reproduces"));
+  Json out = {{"run", run}, {"folder", runs_[run].string()}, {"date", date_of(written)}};
+  out["title"] = summary.string("title", text_at(top, "title"));
+  out["about"] = summary.string("reproduces", text_at(top, "reproduces"));
   out["robot"] = text_at(top, "robot_name");
   out["seed"] = text_at(top, "seed");
   if (summary.contains("duration_s")) out["duration_s"] = summary["duration_s"];
-  told = {written, json_text(out)};
+  told = {written, out.text()};
   return told.json;
 }
 
@@ -138,7 +136,7 @@ Reply RunsPages::list() {
   report::Content content;
   content.title = "Runs";
   content.json = fmt::format(R"({{"folder":{},"most":{},"runs":[{}]}})",
-                             json_text(folder_.string()), most_compared, runs);
+                             Json(folder_.string()).text(), most_compared, runs);
   content.connect = " 'self'";  // the pictures come from here
   return {200, report::fill(report::run_list_template(), content)};
 }

@@ -1,10 +1,10 @@
 #include "sinew/live/show.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
+#include "sinew/json/json.h"
 #include "sinew/live/request.h"
 #include "sinew/live/text.h"
 #include "sinew/report/page/page_template.h"
@@ -99,7 +99,7 @@ Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::S
       set_(settings_.size()) {}
 
 std::string Show::controls() const {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  Json out = Json::array();
   for (const gait::Setting& s : settings_) {
     const double most = largest(experiment_.plan, s);
     out.push_back({{"key", s.key},
@@ -108,7 +108,7 @@ std::string Show::controls() const {
                    {"unit", s.unit},
                    {"most", most > 0 ? 3 * most : usual(s.what)}});
   }
-  return json_text({{"controls", std::move(out)}});
+  return Json{{"controls", std::move(out)}}.text();
 }
 
 std::string Show::page(std::string_view server) const {
@@ -118,22 +118,22 @@ std::string Show::page(std::string_view server) const {
 }
 
 std::string Show::state() const {
-  nlohmann::ordered_json values = nlohmann::ordered_json::array(),
-                         overridden = nlohmann::ordered_json::array();
+  Json values = Json::array(), overridden = Json::array();
   for (std::size_t i = 0; i < settings_.size(); ++i) {
     values.push_back(steering_.value(i));
     overridden.push_back(steering_.overridden(i));
   }
-  return json_text(
-      {{"time", static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds},
-       {"machine", stop_ != nullptr},
-       {"stopping", stop_ != nullptr && stop_->load(std::memory_order_relaxed)},
-       {"paused", steering_.paused()},
-       {"pace", steering_.pace()},
-       {"values", std::move(values)},
-       {"overridden", std::move(overridden)},
-       {"refused", steering_.refused()},
-       {"left_out", feed_.left_out()}});
+  return Json{
+      {"time", static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds},
+      {"machine", stop_ != nullptr},
+      {"stopping", stop_ != nullptr && stop_->load(std::memory_order_relaxed)},
+      {"paused", steering_.paused()},
+      {"pace", steering_.pace()},
+      {"values", std::move(values)},
+      {"overridden", std::move(overridden)},
+      {"refused", steering_.refused()},
+      {"left_out", feed_.left_out()}}
+      .text();
 }
 
 std::string Show::frame(Position& position) {
@@ -178,7 +178,7 @@ std::string Show::refusal(Request::Kind kind) const {
 
 std::string Show::answer(std::string_view text) {
   using Kind = Request::Kind;
-  const auto error = [](std::string_view what) { return json_text({{"error", what}}); };
+  const auto error = [](std::string_view what) { return Json{{"error", what}}.text(); };
   Request r;
   try {
     r = read_request(text, settings_);

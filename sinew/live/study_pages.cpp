@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "sinew/json/json.h"
 #include "sinew/live/path_numbers.h"
 #include "sinew/live/text.h"
 #include "sinew/report/page/page.h"
@@ -63,9 +62,7 @@ Reply StudyPages::rows(Study& study, std::size_t known) {
   try {
     study.feed.look();
   } catch (const std::exception& wrong) {
-    error = fmt::format(",\"error\":{}",
-                        nlohmann::json(wrong.what())
-                            .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    error = fmt::format(",\"error\":{}", Json(wrong.what()).text());
   }
   return {200,
           fmt::format("{{\"known\":{},\"expected\":{},\"rows\":{}{}}}", study.feed.changes(),

@@ -3,9 +3,9 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "sinew/json/json.h"
 #include "sinew/live/served.h"
 #include "sinew/live/study_feed.h"
 #include "sinew/live/study_pages.h"
@@ -17,7 +17,6 @@ namespace sinew::live::study_pages_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 const std::string lever = sinew::test::source_dir() + "/experiments/one-joint.toml";
 
@@ -98,7 +97,7 @@ TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
   StudyPages pages({file_}, {});
   fs::remove(file_);
   const Json json = Json::parse(pages.get("/rows/1").body);
-  EXPECT_NE(json["error"].get<std::string>().find("study.db"), std::string::npos);
+  EXPECT_NE(json["error"].string().find("study.db"), std::string::npos);
   EXPECT_EQ(json["known"], 1);
 }
 

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
+#include "sinew/json/json.h"
 #include "sinew/log/names.h"
 
 namespace sinew::log {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keeps the fields' order
-
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string text_or_empty(const Json& object, const char* key) {
-  const auto it = object.find(key);
-  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+  const Json* found = object.find(key);
+  return found != nullptr && found->is_string() ? found->string() : std::string();
 }
 
 bool holds_number(const Json& property) {
@@ -25,8 +23,8 @@ bool holds_number(const Json& property) {
 }
 
 double number(const Json& value) {
-  if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
-  return value.is_number() ? value.get<double>() : kNaN;
+  if (value.is_boolean()) return value.boolean() ? 1.0 : 0.0;
+  return value.is_number() ? value.number() : kNaN;
 }
 
 // The instant of a message, which its log time says too: {"sec": …, "nsec": …}.
@@ -46,19 +44,18 @@ void add_fields(const Json& properties, const std::string& prefix,
       out.push_back({prefix + name, text_or_empty(property, "unit")});
       continue;
     }
-    const auto within = property.find("properties");
-    if (within == property.end() || !within->is_object() || is_timestamp(*within)) continue;
+    const Json* within = property.find("properties");
+    if (within == nullptr || !within->is_object() || is_timestamp(*within)) continue;
     add_fields(*within, prefix + name + ".", out);
   }
 }
 
 // The value of a field by its name, in the object or within those in it; nullptr: it has none.
 const Json* value_of(const Json& object, std::string_view name) {
-  if (!object.is_object()) return nullptr;
-  if (const auto it = object.find(name); it != object.end()) return &*it;
+  if (const Json* found = object.find(name)) return found;
   for (std::size_t dot = name.find('.'); dot != name.npos; dot = name.find('.', dot + 1)) {
-    const auto within = object.find(name.substr(0, dot));
-    if (within == object.end()) continue;
+    const Json* within = object.find(name.substr(0, dot));
+    if (within == nullptr) continue;
     if (const Json* found = value_of(*within, name.substr(dot + 1))) return found;
   }
   return nullptr;
@@ -86,7 +83,7 @@ std::string to_schema(const signals::Topic& topic) {
                        {"description", topic.description},
                        {"properties", std::move(properties)},
                        {"required", std::move(required)}};
-  return schema.dump();
+  return schema.exact_text();
 }
 
 std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topic& topic) {
@@ -97,10 +94,11 @@ std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topi
 }
 
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic) {
-  const Json json = Json::parse(schema, nullptr, /*allow_exceptions=*/false);
+  Json json;
+  (void)Json::parse(schema, json);
   if (!json.is_object()) return std::nullopt;
-  const auto properties = json.find("properties");
-  if (properties == json.end() || !properties->is_object()) return std::nullopt;
+  const Json* properties = json.find("properties");
+  if (properties == nullptr || !properties->is_object()) return std::nullopt;
 
   signals::Topic result{std::string(topic), text_or_empty(json, "description"), {}};
   add_fields(*properties, "", result.fields);
@@ -112,7 +110,7 @@ MessageFormat::MessageFormat(const signals::Topic& topic) {
   for (const signals::Field& field : topic.fields) {
     names_.push_back(field.name);
     std::string& key = keys_.emplace_back(keys_.empty() ? "{" : ",");
-    key += Json(field.name).dump();
+    key += Json(field.name).exact_text();
     key += ':';
   }
 }
@@ -145,7 +143,8 @@ bool MessageFormat::parse_own(std::string_view text, std::span<double> values) c
 }
 
 bool MessageFormat::parse_any(std::string_view text, std::span<double> values) const {
-  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  Json json;
+  (void)Json::parse(text, json);
   if (!json.is_object()) return false;
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const Json* const value = value_of(json, names_[i]);

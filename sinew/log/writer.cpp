@@ -6,10 +6,10 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
+#include "sinew/json/json.h"
 #include "sinew/log/file.h"
 #include "sinew/log/index.h"
 #include "sinew/log/mcap.h"
@@ -57,7 +57,7 @@ std::string front(const path& file, const Topics& topics, const Pairs& metadata,
     try {
       const std::string schema = to_schema(topic);
       put_schema(out, {id, topic.name, kSchemaEncoding, schema});
-    } catch (const nlohmann::json::exception&) {
+    } catch (const JsonError&) {
       throw Error(file, fmt::format("topic {} has text that is not UTF-8", i + 1),
                   "write its name, description and units in UTF-8");
     }

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/tune/table.h"
 
 namespace sinew::tune {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A column: its heading, and what of an effect stands in it.
 struct ShownNumber {
@@ -129,7 +127,7 @@ std::string sensitivity_json(const Design& design, const Sweep& runs,
     }
     out["figures"].push_back(std::move(figure));
   }
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.text(2) + "\n";
 }
 
 }  // namespace sinew::tune

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/config/diagnostics.h"
+#include "sinew/json/json.h"
 #include "tests/places.h"
 
 namespace sinew::tune::sensitivity_table_test {
@@ -49,7 +48,7 @@ TEST(SensitivityTable, ASequenceIsAsLongAsItsPhases) {
   EXPECT_EQ(table[0][1], "phase.up.duration [s]");
   EXPECT_EQ(table[2][2], "");
 
-  const auto json = nlohmann::json::parse(sensitivity_json(ends, runs, all));
+  const auto json = Json::parse(sensitivity_json(ends, runs, all));
   EXPECT_EQ(json["runs"], 5);
   EXPECT_EQ(json["figures"][0]["ranges"][0]["to the high end"], longer);
   EXPECT_FALSE(json["figures"][1].contains("ranges"));

@@ -3,22 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/json/json.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::tune {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // A number or a flag as such.
 Json json_cell(const std::string& cell) {
   if (cell.empty()) return nullptr;
-  return Json::accept(cell) ? Json::parse(cell) : Json(cell);
+  Json out;
+  return Json::parse(cell, out) ? out : Json(cell);
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ std::string json_of(const std::vector<std::string>& headings, const std::vector<
     for (std::size_t i = 0; i < headings.size(); ++i) entry[headings[i]] = json_cell(row.cells[i]);
     out["rows"].push_back(std::move(entry));
   }
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.text(2) + "\n";
 }
 
 TableFile::TableFile(const std::filesystem::path& file, std::vector<std::string> headings,

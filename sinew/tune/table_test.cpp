@@ -6,9 +6,9 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/json/json.h"
 
 namespace sinew::tune::table_test {
 namespace {
@@ -70,7 +70,7 @@ TEST_F(TableFileTest, AFailureIsKeptUntilItIsAskedFor) {
 
 TEST(Table, JsonHasNumbersAndFlagsAsSuch) {
   const std::vector<Row> rows{{.cells = {"0.25", "true", "walks", ""}, .ok = true}};
-  const auto json = nlohmann::json::parse(json_of({"x", "flag", "word", "none"}, rows));
+  const auto json = Json::parse(json_of({"x", "flag", "word", "none"}, rows));
   EXPECT_EQ(json["format"], "sinew.sweep/1");
   EXPECT_EQ(json["rows"][0]["x"], 0.25);
   EXPECT_EQ(json["rows"][0]["flag"], true);

@@ -10,7 +10,6 @@
 // SINEW_GUARD_FIRST: number of the first of them, to look at one again that has failed.
 #include <gmock/gmock.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -77,8 +76,7 @@ Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, 
 // Standard deviations that no unbiased estimate goes below: of (J^T J)^-1 in noises.
 std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
                           const std::vector<Number>& numbers) {
-  const auto rows = static_cast<Eigen::Index>(run.samples());
-  Eigen::MatrixXd j(rows, static_cast<Eigen::Index>(numbers.size()));
+  identify::Matrix j(run.samples(), numbers.size());
   std::vector<double> noise;
   for (const identify::RunChannel& c : run.channels())
     noise.insert(noise.end(), c.value.size(), c.noise);
@@ -91,18 +89,13 @@ std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
     value = was - step;
     EXPECT_TRUE(run.predict(truth, down, run.duration()));
     value = was;
-    for (Eigen::Index k = 0; k < rows; ++k) {
-      const auto s = static_cast<std::size_t>(k);
-      j(k, static_cast<Eigen::Index>(i)) = (up[s] - down[s]) / (2e-5 * noise[s]);
-    }
+    for (std::size_t k = 0; k < run.samples(); ++k) j(k, i) = (up[k] - down[k]) / (2e-5 * noise[k]);
   }
-  const Eigen::MatrixXd covariance =
-      (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(j.cols(), j.cols()));
+  const identify::Matrix covariance =
+      solved(transposed_product(j, j), identify::Matrix::unit(numbers.size()));
   std::vector<double> out;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    out.push_back(std::sqrt(covariance(k, k)) * numbers[i].scale);
-  }
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    out.push_back(std::sqrt(covariance(i, i)) * numbers[i].scale);
   return out;
 }
 

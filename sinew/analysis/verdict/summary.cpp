@@ -1,14 +1,12 @@
 #include "sinew/analysis/verdict/summary.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 
 namespace sinew::analysis {
 namespace {
-
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
 
 // "a.b.c" becomes { a: { b: { c: value } } }.
 void put(Json& root, std::string_view key, double value) {
@@ -20,18 +18,21 @@ void put(Json& root, std::string_view key, double value) {
 
 // Our own printing, for numbers with the fewest digits; nlohmann's may have one more.
 std::string text_of(const Json& json, const std::string& indent) {
-  if (json.is_number_float()) return config::format_number(json.get<double>());
-  if (!json.is_structured()) return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (json.is_real()) return config::format_number(json.number());
+  if (!json.is_array() && !json.is_object()) return json.text();
   const bool list = json.is_array();
   if (json.empty()) return list ? "[]" : "{}";
 
   std::string out = list ? "[" : "{";
   const char* before = "\n";
-  for (const auto& [key, value] : json.items()) {
-    const std::string name = list ? "" : Json(key).dump() + ": ";
+  const auto add = [&](const std::string& name, const Json& value) {
     out += before + indent + "  " + name + text_of(value, indent + "  ");
     before = ",\n";
-  }
+  };
+  if (list)
+    for (const Json& item : json) add("", item);
+  else
+    for (const auto& [key, value] : json.items()) add(Json(key).text() + ": ", value);
   return out + "\n" + indent + (list ? "]" : "}");
 }
 

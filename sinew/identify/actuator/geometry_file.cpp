@@ -1,15 +1,12 @@
 #include "sinew/identify/actuator/geometry_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/actuator/actuator.h"
 #include "sinew/identify/fit/provenance.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Fills in what a braid leaves open, so that the file can be read: the mesh ends where its threads
 // lie straight, and nothing is lost yet.

@@ -1,11 +1,11 @@
 // identify/actuator/geometry_file.h - a braid as an actuator's parameter file, and for programs.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -16,6 +16,6 @@ std::string braid_file(const actuator::Braid& braid, const std::string& name,
                        const std::string& source, const Report* report = nullptr);
 
 // Returns thread length, turns and shortest length; SI, with the unit in the key.
-nlohmann::ordered_json describe(const actuator::Braid& braid);
+Json describe(const actuator::Braid& braid);
 
 }  // namespace sinew::identify

@@ -1,5 +1,4 @@
-// identify/actuator/static_widen.h - intervals of a static fit whose points scatter differently. It
-// is a file of its own for the sake of Eigen, which takes a compiler long.
+// identify/actuator/static_widen.h - intervals of a static fit whose points scatter differently.
 #pragma once
 
 #include <cstddef>

@@ -1,31 +1,28 @@
 #include "sinew/identify/check/checkup.h"
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
 namespace {
 
-using CheckJson = nlohmann::ordered_json;
-
-CheckJson json_of_checks(const std::vector<Check>& checks) {
-  CheckJson out = CheckJson::array();
+Json json_of_checks(const std::vector<Check>& checks) {
+  Json out = Json::array();
   for (const Check& c : checks) {
-    CheckJson one{{"name", c.name}, {"light", word(c.light)}, {"evidence", c.evidence}};
+    Json one{{"name", c.name}, {"light", word(c.light)}, {"evidence", c.evidence}};
     if (!c.advice.empty()) one["advice"] = c.advice;
     out.push_back(one);
   }
   return out;
 }
 
-CheckJson json_of_files(const std::vector<RecognisedFile>& files) {
-  CheckJson out = CheckJson::array();
+Json json_of_files(const std::vector<RecognisedFile>& files) {
+  Json out = Json::array();
   for (const RecognisedFile& f : files) {
-    CheckJson one{{"file", f.file}, {"rows", f.rows}, {"recording", f.is_recording}};
+    Json one{{"file", f.file}, {"rows", f.rows}, {"recording", f.is_recording}};
     if (f.is_recording) one["settled_share"] = f.settled;
-    one["columns"] = CheckJson::array();
+    one["columns"] = Json::array();
     for (const RecognisedColumn& c : f.columns)
       one["columns"].push_back({{"name", c.name}, {"lowest", c.lowest}, {"highest", c.highest}});
     out.push_back(one);
@@ -33,10 +30,10 @@ CheckJson json_of_files(const std::vector<RecognisedFile>& files) {
   return out;
 }
 
-CheckJson json_of_mounts(const std::vector<RecognisedMount>& mounts) {
-  CheckJson out = CheckJson::array();
+Json json_of_mounts(const std::vector<RecognisedMount>& mounts) {
+  Json out = Json::array();
   for (const RecognisedMount& m : mounts) {
-    CheckJson one;
+    Json one;
     if (m.rest_length > 0) one["rest_length_m"] = m.rest_length;
     one["length_m"] = m.length;
     if (!m.branches.empty()) one["branches"] = m.branches;
@@ -51,19 +48,19 @@ CheckJson json_of_mounts(const std::vector<RecognisedMount>& mounts) {
   return out;
 }
 
-CheckJson json_of_noise(const ForceNoise& noise) {
+Json json_of_noise(const ForceNoise& noise) {
   return {{"force_N", noise.deviation},
           {"share_of_largest_force", noise.share},
           {"readings", noise.readings},
           {"from", noise.from}};
 }
 
-CheckJson json_of_law(const DeterminedLaw& law) {
-  CheckJson out{{"model", law.model}, {"law", law.law}};
+Json json_of_law(const DeterminedLaw& law) {
+  Json out{{"model", law.model}, {"law", law.law}};
   if (!law.refused.empty()) out["refused"] = law.refused;
-  out["parameters"] = CheckJson::array();
+  out["parameters"] = Json::array();
   for (const Determined& d : law.parameters) {
-    CheckJson one{{"name", d.name}, {"unit", d.unit}, {"determined_by", word(d.by)}};
+    Json one{{"name", d.name}, {"unit", d.unit}, {"determined_by", word(d.by)}};
     if (d.value != 0) one["value"] = d.value;
     one["half_width_95"] = finite_or_null(d.half_width);
     one["words"] = d.words;
@@ -84,8 +81,8 @@ Checkup check_up(const CheckInput& input) {
   return out;
 }
 
-nlohmann::ordered_json to_json(const Checkup& checkup) {
-  CheckJson out{{"format", "sinew.check/1"}, {"red", has_red(checkup.checks)}};
+Json to_json(const Checkup& checkup) {
+  Json out{{"format", "sinew.check/1"}, {"red", has_red(checkup.checks)}};
   out["recognised"] = {{"files", json_of_files(checkup.recognised.files)},
                        {"mounts", json_of_mounts(checkup.recognised.mounts)}};
   if (checkup.recognised.noise.readings > 0) out["noise"] = json_of_noise(checkup.recognised.noise);

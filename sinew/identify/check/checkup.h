@@ -1,13 +1,13 @@
 // identify/check/checkup.h - all that can be said of measurements before a static law is fitted.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/check/check.h"
 #include "sinew/identify/check/determined.h"
 #include "sinew/identify/check/recognised.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -23,6 +23,6 @@ struct Checkup {
 Checkup check_up(const CheckInput& input);
 
 // Returns it as `sinew identify check --json` prints it, sinew.check/1.
-nlohmann::ordered_json to_json(const Checkup& checkup);
+Json to_json(const Checkup& checkup);
 
 }  // namespace sinew::identify

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/identify/check/noise.h"
 #include "sinew/identify/check/test_rig.h"
 #include "sinew/identify/fit/refusal.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify::checkup_test {
 namespace {

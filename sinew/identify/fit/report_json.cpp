@@ -1,13 +1,12 @@
 #include "sinew/identify/fit/report_json.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json to_json(const Score& score) {
   Json out{{"points", score.points},

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "sinew/identify/fit/matrix.h"
 
 namespace sinew::identify {
 
@@ -11,9 +10,6 @@ namespace {
 
 // A direction that moves the residuals less than this share of what the best seen one does.
 constexpr double unseen_below = 1e-8;
-
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
 
 // 1 + 2 sum of the autocorrelation, up to where it is lost in noise.
 double inflation_of(std::span<const double> r) {
@@ -66,14 +62,11 @@ class Uncertainty {
 
   Matrix weighted_jacobian(const std::vector<double>& u, const std::vector<std::size_t>& free,
                            std::span<const double> residuals) const {
-    const auto rows = static_cast<Eigen::Index>(model_.count());
-    Matrix j(rows, static_cast<Eigen::Index>(free.size()));
-    std::vector<double> column(model_.count());
+    Matrix j(model_.count(), free.size());
     for (std::size_t i = 0; i < free.size(); ++i) {
+      const std::span<double> column = j.column(i);
       if (!model_.column(u, free[i], column.data())) std::fill(column.begin(), column.end(), 0.0);
-      for (std::size_t k = 0; k < column.size(); ++k)
-        j(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
-            column[k] * std::sqrt(weight(residuals[k]));
+      for (std::size_t k = 0; k < column.size(); ++k) column[k] *= std::sqrt(weight(residuals[k]));
     }
     return j;
   }
@@ -96,37 +89,36 @@ class Uncertainty {
   // Of the free scaled parameters; infinite where the data say nothing.
   Matrix covariance(const Matrix& jacobian, const std::vector<std::size_t>& free,
                     Solution& out) const {
-    const Eigen::Index n = jacobian.cols();
-    Matrix cov = Matrix::Zero(n, n);
+    const std::size_t n = jacobian.columns();
+    Matrix cov(n, n);
     if (n == 0) return cov;
     // By the triangle of its QR: squaring J would lose half the digits.
-    const Eigen::HouseholderQR<Matrix> qr(jacobian);
-    const Matrix triangle = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
-    const Eigen::JacobiSVD<Matrix, Eigen::NoQRPreconditioner> svd(triangle, Eigen::ComputeFullV);
-    const Vector& seen = svd.singularValues();
+    const Axes seen = singular_axes(triangle_of(jacobian));
     const double s2 = out.standard_deviation * out.standard_deviation * out.inflation;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Vector v = svd.matrixV().col(k);
-      if (seen(k) > unseen_below * seen(0)) {
-        cov += s2 / (seen(k) * seen(k)) * v * v.transpose();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::span<const double> v = seen.axes.column(k);
+      if (seen.values[k] > unseen_below * seen.values[0]) {
+        const double variance = s2 / (seen.values[k] * seen.values[k]);
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t l = 0; l < n; ++l) cov(i, l) += variance * v[i] * v[l];
         continue;
       }
       out.unseen.push_back(combination(v, free));
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (std::abs(v(i)) > 1e-3) cov(i, i) = unbounded;
+      for (std::size_t i = 0; i < n; ++i)
+        if (std::abs(v[i]) > 1e-3) cov(i, i) = unbounded;
     }
     return cov;
   }
 
   // "0.71 scale - 0.71 moment_arm", in the parameters' scales.
-  std::string combination(const Vector& v, const std::vector<std::size_t>& free) const {
+  std::string combination(std::span<const double> v, const std::vector<std::size_t>& free) const {
     std::string out;
-    for (Eigen::Index i = 0; i < v.size(); ++i) {
-      if (std::abs(v(i)) < 1e-3) continue;
-      const bool minus = v(i) < 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (std::abs(v[i]) < 1e-3) continue;
+      const bool minus = v[i] < 0;
       const char* sign = out.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
-      const Parameter& p = parameters_[free[static_cast<std::size_t>(i)]];
-      out += fmt::format("{}{:.2g} {}/({:g} {})", sign, std::abs(v(i)), p.name, p.scale, p.unit);
+      const Parameter& p = parameters_[free[i]];
+      out += fmt::format("{}{:.2g} {}/({:g} {})", sign, std::abs(v[i]), p.name, p.scale, p.unit);
     }
     return out;
   }
@@ -138,8 +130,7 @@ class Uncertainty {
     for (std::size_t i = 0; i < free.size(); ++i)
       for (std::size_t k = 0; k < free.size(); ++k)
         out.covariance[free[i] * n + free[k]] =
-            cov(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) *
-            parameters_[free[i]].scale * parameters_[free[k]].scale;
+            cov(i, k) * parameters_[free[i]].scale * parameters_[free[k]].scale;
 
     const double t = t_quantile(std::max(1, out.freedom));
     for (std::size_t i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
 // identify/fit/uncertainty.h - what is known of a solution besides its values. least_squares.cpp
-// alone includes it: Ceres there and Eigen here each take a compiler long.
+// alone includes it.
 #pragma once
 
 #include <algorithm>

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+
+#include "sinew/identify/fit/matrix.h"
 
 namespace sinew::identify {
 
@@ -21,39 +22,36 @@ bool of_the_joint(std::string_view name) {
 }  // namespace
 
 std::vector<Combination> combinations_of(const Solution& s) {
-  std::vector<Eigen::Index> which;
+  std::vector<std::size_t> which;
   const std::size_t n = s.estimates.size();
   for (std::size_t i = 0; i < n; ++i)
     if (s.estimates[i].value > 0 && s.estimates[i].free && of_the_joint(s.estimates[i].name) &&
         !s.estimates[i].at_bound && s.estimates[i].name != "c1")
-      which.push_back(static_cast<Eigen::Index>(i));
-  const auto m = static_cast<Eigen::Index>(which.size());
-  Eigen::MatrixXd relative(m, m);
-  for (Eigen::Index i = 0; i < m; ++i)
-    for (Eigen::Index k = 0; k < m; ++k) {
-      const auto a = static_cast<std::size_t>(which[static_cast<std::size_t>(i)]);
-      const auto b = static_cast<std::size_t>(which[static_cast<std::size_t>(k)]);
-      relative(i, k) = s.covariance[a * n + b] / (s.values[a] * s.values[b]);
-    }
+      which.push_back(i);
+  const std::size_t m = which.size();
+  Matrix relative(m, m);
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t k = 0; k < m; ++k)
+      relative(i, k) =
+          s.covariance[which[i] * n + which[k]] / (s.values[which[i]] * s.values[which[k]]);
   std::vector<Combination> out;
-  if (!relative.allFinite()) {
+  if (!relative.is_finite()) {
     for (const std::string& text : s.unseen) out.push_back({text, unbounded});
     return out;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(relative);
-  for (Eigen::Index k = 0; k < m; ++k) {
+  const Axes axes = symmetric_axes(relative);
+  for (std::size_t k = 0; k < m; ++k) {
     Combination c;
-    Eigen::VectorXd v = axes.eigenvectors().col(k);
-    Eigen::Index largest_power = 0;
-    v.cwiseAbs().maxCoeff(&largest_power);
-    if (v[largest_power] < 0) v = -v;
-    for (Eigen::Index i = 0; i < m; ++i)
-      if (std::abs(v[i]) > 0.05)
-        c.text += fmt::format(
-            "{}{}^{:.2f}", c.text.empty() ? "" : " ",
-            s.estimates[static_cast<std::size_t>(which[static_cast<std::size_t>(i)])].name, v[i]);
+    const std::span<const double> power = axes.axes.column(k);
+    const double largest =
+        *std::ranges::max_element(power, {}, [](double x) { return std::abs(x); });
+    const double sign = largest < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < m; ++i)
+      if (std::abs(power[i]) > 0.05)
+        c.text += fmt::format("{}{}^{:.2f}", c.text.empty() ? "" : " ", s.estimates[which[i]].name,
+                              sign * power[i]);
     c.relative_error =
-        t_quantile(std::max(1, s.freedom)) * std::sqrt(std::max(0.0, axes.eigenvalues()[k]));
+        t_quantile(std::max(1, s.freedom)) * std::sqrt(std::max(0.0, axes.values[k]));
     out.push_back(std::move(c));
   }
   return out;

@@ -1,5 +1,5 @@
 // identify/joint/combinations.h - which products of a joint's parameters the data determine, and
-// how well. It is a file of its own for the sake of Eigen, which takes a compiler long.
+// how well.
 #pragma once
 
 #include <vector>

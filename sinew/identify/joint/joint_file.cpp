@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::identify {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using robot::Joint;
 using robot::Muscle;
 

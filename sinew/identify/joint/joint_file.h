@@ -1,13 +1,13 @@
 // identify/joint/joint_file.h - what a joint's data tell as parameter files, and for programs.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/config/node.h"
 #include "sinew/config/origin.h"
 #include "sinew/identify/joint/joint.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -29,6 +29,6 @@ std::string effectiveness_file(const config::Origins& start, const std::string& 
                                bool keep_force, const std::string& source);
 
 // Returns moment arm, lengths and what the data tell apart; SI, with the unit in the key.
-nlohmann::ordered_json describe(const JointResult& found);
+Json describe(const JointResult& found);
 
 }  // namespace sinew::identify

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/quantity.h"
 #include "sinew/config/short_quantity.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -47,8 +47,7 @@ std::string run_file(const RunFitResult& found, const std::string& source, confi
   return config::to_toml(robot);
 }
 
-nlohmann::ordered_json describe(const RunFitResult& found) {
-  using Json = nlohmann::ordered_json;
+Json describe(const RunFitResult& found) {
   Json out{{"simulations", found.simulations},
            {"rms_at_start", finite_or_null(found.at_start)},
            {"not_determined", found.undetermined},

@@ -1,11 +1,11 @@
 // identify/machine/run_file.h - what a fit of a run has found, as a robot's file and as numbers.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sinew/config/node.h"
 #include "sinew/identify/machine/run_fit.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -14,6 +14,6 @@ namespace sinew::identify {
 std::string run_file(const RunFitResult& found, const std::string& source, config::Node robot);
 
 // Returns what the report does not say: channels, what is not determined, and what it took.
-nlohmann::ordered_json describe(const RunFitResult& found);
+Json describe(const RunFitResult& found);
 
 }  // namespace sinew::identify

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/machine/run_file.h"
 #include "sinew/identify/machine/test_runs.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify::run_fit_test {
 namespace {
@@ -110,7 +110,7 @@ TEST(RunFit, GivesIntervalsInTheAirAndSaysSo) {
   const RunFitResult found = fit_run(e, driven, {.fit = {"damping"}});
   EXPECT_LT(found.roughness, 0.005);
   EXPECT_EQ(found.landings, 0);
-  const nlohmann::ordered_json out = describe(found);
+  const Json out = describe(found);
   EXPECT_EQ(out["rough"], false);
   EXPECT_EQ(out["intervals"], true);
   EXPECT_FALSE(out.contains("no_intervals_because"));

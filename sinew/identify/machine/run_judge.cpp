@@ -1,5 +1,3 @@
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +9,6 @@ namespace sinew::identify {
 
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-
 // By how much the readings' derivatives over a longer step differ from these, as a share of them;
 // the median of the numbers.
 double roughness(const RunResiduals& residuals, std::span<const Parameter> parameters,
@@ -21,9 +17,11 @@ double roughness(const RunResiduals& residuals, std::span<const Parameter> param
   if (!run_tangent(residuals, parameters, at.cells, at.p, threads, far, long_difference))
     return unbounded;
   std::vector<double> share;
-  for (Eigen::Index i = 0; i < near.j.cols(); ++i) {
-    const double norm = near.j.col(i).norm();
-    if (norm > 0) share.push_back((far.j.col(i) - near.j.col(i)).norm() / norm);
+  for (std::size_t i = 0; i < near.j.columns(); ++i) {
+    const std::span<const double> column = near.j.column(i);
+    std::vector<double> other(column.begin(), column.end());
+    for (std::size_t k = 0; k < other.size(); ++k) other[k] -= far.j(k, i);
+    if (square(column) > 0) share.push_back(std::sqrt(square(other) / square(column)));
   }
   if (share.empty()) return 0;
   const auto middle = share.begin() + static_cast<std::ptrdiff_t>(share.size() / 2);
@@ -32,19 +30,15 @@ double roughness(const RunResiduals& residuals, std::span<const Parameter> param
 }
 
 // The numbers whose columns a run sees, those with cells behind the others.
-std::vector<Eigen::Index> seen_columns(const Matrix& j, std::span<const RunCell> cells) {
+std::vector<std::size_t> seen_columns(const Matrix& j, std::span<const RunCell> cells) {
   constexpr double unseen = 1e-9, has_part = 1e-3;
-  const Eigen::HouseholderQR<Matrix> qr(j);
-  const Matrix triangle = qr.matrixQR().topRows(j.cols()).triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<Matrix> svd(triangle, Eigen::ComputeFullV);
-  std::vector<Eigen::Index> plain, in_cells;
-  for (Eigen::Index i = 0; i < j.cols(); ++i) {
+  const auto [stretch, axes] = singular_axes(triangle_of(j));
+  std::vector<std::size_t> plain, in_cells;
+  for (std::size_t i = 0; i < j.columns(); ++i) {
     bool seen = true;
-    for (Eigen::Index k = 0; k < j.cols(); ++k)
-      if (!(svd.singularValues()(k) > unseen * svd.singularValues()(0)) &&
-          std::abs(svd.matrixV()(i, k)) > has_part)
-        seen = false;
-    const bool bounded = std::isfinite(cells[static_cast<std::size_t>(i)].high);
+    for (std::size_t k = 0; k < j.columns(); ++k)
+      if (!(stretch[k] > unseen * stretch[0]) && std::abs(axes(i, k)) > has_part) seen = false;
+    const bool bounded = std::isfinite(cells[i].high);
     if (seen) (bounded ? in_cells : plain).push_back(i);
   }
   plain.insert(plain.end(), in_cells.begin(), in_cells.end());
@@ -54,23 +48,22 @@ std::vector<Eigen::Index> seen_columns(const Matrix& j, std::span<const RunCell>
 // Returns what the tangent at a place says of those numbers, in units of the residuals; these
 // become what is left where it ends.
 RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const RunSearched& at,
-                  const std::vector<Eigen::Index>& columns) {
-  const auto m = static_cast<Eigen::Index>(columns.size());
-  const Matrix j = t.j(Eigen::all, columns);
-  const Eigen::HouseholderQR<Matrix> qr(j);
-  const Matrix triangle = qr.matrixQR().topRows(m).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd along = (qr.householderQ().transpose() * t.r).head(m);
-  t.r -= qr.householderQ() *
-         (Eigen::VectorXd(t.r.size()) << along, Eigen::VectorXd::Zero(t.r.size() - m)).finished();
-  RunPiece out{.cost = 0.5 * t.r.squaredNorm()};
-  out.spread = triangle.triangularView<Eigen::Upper>().solve(Matrix::Identity(m, m));
-  out.middle = -out.spread * along;
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const auto i = static_cast<std::size_t>(columns[static_cast<std::size_t>(k)]);
+                  const std::vector<std::size_t>& columns) {
+  const std::size_t m = columns.size();
+  const auto [basis, triangle] = triangular(t.j.chosen(columns));
+  const std::vector<double> along = transposed_product(basis, t.r);
+  const std::vector<double> explained = product(basis, along);
+  for (std::size_t k = 0; k < t.r.size(); ++k) t.r[k] -= explained[k];
+  RunPiece out{.cost = 0.5 * square(t.r)};
+  out.spread = inverse_of_triangle(triangle);
+  out.middle = product(out.spread, along);
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::size_t i = columns[k];
     const Parameter& p = parameters[i];
-    out.middle(k) = at.p[i] + p.scale * out.middle(k);
-    out.spread.row(k) *= p.scale;
-    if (out.spread(k, k) < 0) out.spread.col(k) *= -1;
+    out.middle[k] = at.p[i] - p.scale * out.middle[k];
+    for (std::size_t l = 0; l < m; ++l) out.spread(k, l) *= p.scale;
+    if (out.spread(k, k) < 0)
+      for (double& x : out.spread.column(k)) x = -x;
     out.box.push_back({std::max(p.low, at.cells[i].low - off_the_jump),
                        std::min(p.high, at.cells[i].high + off_the_jump)});
   }
@@ -79,13 +72,13 @@ RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const Ru
 
 // Writes the deviation of what is left in readings that no converter's end cuts. Returns its
 // freedom.
-int set_deviation(const RunResiduals& residuals, const Eigen::VectorXd& left, int numbers,
+int set_deviation(const RunResiduals& residuals, std::span<const double> left, int numbers,
                   RunJudged& out) {
   double squares = 0;
   int count = 0;
-  for (Eigen::Index k = 0; k < left.size(); ++k) {
-    if (residuals.is_cut(static_cast<std::size_t>(k), left(k))) continue;
-    squares += left(k) * left(k);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (residuals.is_cut(k, left[k])) continue;
+    squares += left[k] * left[k];
     ++count;
   }
   const int freedom = count - numbers;
@@ -95,19 +88,21 @@ int set_deviation(const RunResiduals& residuals, const Eigen::VectorXd& left, in
 
 // The estimates of all numbers, by the intervals of those that are seen.
 void write_estimates(std::span<const Parameter> parameters, const RunSearched& at,
-                     const std::vector<Eigen::Index>& columns, const RunPiece& best,
+                     const std::vector<std::size_t>& columns, const RunPiece& best,
                      const std::vector<RunCell>& middle, RunJudged& out) {
   const std::size_t n = parameters.size();
   out.covariance.assign(n * n, 0.0);
   std::vector<RunCell> interval(n);
   for (std::size_t i = 0; i < n; ++i) out.covariance[i * n + i] = unbounded;
-  const Matrix covariance = best.spread * best.spread.transpose();
   for (std::size_t a = 0; a < columns.size(); ++a) {
-    const auto i = static_cast<std::size_t>(columns[a]);
+    const std::size_t i = columns[a];
     interval[i] = middle[a];
-    for (std::size_t b = 0; b < columns.size(); ++b)
-      out.covariance[i * n + static_cast<std::size_t>(columns[b])] =
-          covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+    for (std::size_t b = 0; b < columns.size(); ++b) {
+      double& covariance = out.covariance[i * n + columns[b]];
+      covariance = 0;
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        covariance += best.spread(a, k) * best.spread(b, k);
+    }
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Parameter& p = parameters[i];
@@ -127,8 +122,8 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
   RunJudged out;
   RunTangent t;
   (void)run_tangent(residuals, parameters, at.cells, at.p, threads, t);
-  const std::vector<Eigen::Index> columns = seen_columns(t.j, at.cells);
-  out.rms = std::sqrt(t.r.squaredNorm() / static_cast<double>(residuals.count()));
+  const std::vector<std::size_t> columns = seen_columns(t.j, at.cells);
+  out.rms = std::sqrt(square(t.r) / static_cast<double>(residuals.count()));
   out.roughness = roughness(residuals, parameters, at, threads, t);
   std::vector<RunPiece> pieces{piece_of(t, parameters, at, columns)};
   const int freedom = set_deviation(residuals, t.r, static_cast<int>(columns.size()), out);
@@ -137,19 +132,20 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
       pieces.push_back(piece_of(t, parameters, other, columns));
 
   const double s = out.standard_deviation;
-  std::erase_if(pieces, [](const RunPiece& p) { return !p.spread.allFinite(); });
+  std::erase_if(pieces, [](const RunPiece& p) { return !p.spread.is_finite(); });
   for (RunPiece& piece : pieces) {
-    piece.spread *= s;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (double& x : piece.spread.column(k)) x *= s;
     piece.cost /= s * s;
   }
   const bool known = !pieces.empty() && s > 0;
   std::vector<double> value;
-  for (const Eigen::Index i : columns) value.push_back(at.p[static_cast<std::size_t>(i)]);
+  for (const std::size_t i : columns) value.push_back(at.p[i]);
   const std::vector<RunCell> middle =
       known ? middle_of_pieces(pieces, value, t_quantile(std::max(1, freedom)))
             : std::vector<RunCell>(columns.size());
-  const auto m = static_cast<Eigen::Index>(columns.size());
-  RunPiece none{.middle = Eigen::VectorXd::Zero(m), .spread = Matrix::Zero(m, m)};
+  const std::size_t m = columns.size();
+  const RunPiece none{.middle = std::vector<double>(m), .spread = Matrix(m, m)};
   write_estimates(parameters, at, columns, known ? pieces[0] : none, middle, out);
   return out;
 }

@@ -49,26 +49,32 @@ class Draws {
 
 // Draws of all pieces together: a row of numbers each, and its weight.
 struct Drawn {
-  std::vector<Eigen::VectorXd> at;
+  std::vector<std::vector<double>> at;
   std::vector<double> weight;
 };
 
+// Returns the logarithm of the spread's determinant.
+double log_volume(const RunPiece& piece) {
+  double sum = 0;
+  for (std::size_t i = 0; i < piece.middle.size(); ++i) sum += std::log(piece.spread(i, i));
+  return sum;
+}
+
 void draw(const RunPiece& piece, double stretch, double least_cost, double largest, Draws& draws,
           Drawn& out) {
-  const Eigen::Index n = piece.middle.size();
-  const double height =
-      std::exp(least_cost - piece.cost + piece.spread.diagonal().array().log().sum() - largest);
-  Eigen::VectorXd z(n), x(n);
+  const std::size_t n = piece.middle.size();
+  const double height = std::exp(least_cost - piece.cost + log_volume(piece) - largest);
+  std::vector<double> z(n), x(n);
   for (int k = 0; k < draws_of_a_piece; ++k) {
     double weight = height;
-    for (Eigen::Index i = n - 1; i >= 0; --i) {
-      const RunCell& box = piece.box[static_cast<std::size_t>(i)];
+    for (std::size_t i = n; i-- > 0;) {
+      const RunCell& box = piece.box[i];
       const double deviation = stretch * piece.spread(i, i);
-      double middle = piece.middle(i);
-      for (Eigen::Index b = i + 1; b < n; ++b) middle += stretch * piece.spread(i, b) * z(b);
-      z(i) = draws.normal_between((box.low - middle) / deviation, (box.high - middle) / deviation,
+      double middle = piece.middle[i];
+      for (std::size_t b = i + 1; b < n; ++b) middle += stretch * piece.spread(i, b) * z[b];
+      z[i] = draws.normal_between((box.low - middle) / deviation, (box.high - middle) / deviation,
                                   weight);
-      x(i) = middle + deviation * z(i);
+      x[i] = middle + deviation * z[i];
     }
     if (!(weight > 0)) continue;
     out.at.push_back(x);
@@ -77,32 +83,32 @@ void draw(const RunPiece& piece, double stretch, double least_cost, double large
 }
 
 bool is_cut(const RunPiece& piece) {
-  for (Eigen::Index i = 0; i < piece.middle.size(); ++i) {
-    const RunCell& box = piece.box[static_cast<std::size_t>(i)];
-    const double far = outside * piece.spread.row(i).norm();
-    if (box.low > piece.middle(i) - far || box.high < piece.middle(i) + far) return true;
+  for (std::size_t i = 0; i < piece.middle.size(); ++i) {
+    const RunCell& box = piece.box[i];
+    const double far = outside * piece.spread.row_norm(i);
+    if (box.low > piece.middle[i] - far || box.high < piece.middle[i] + far) return true;
   }
   return false;
 }
 
 // The middle 95 % of number i, or those that reach up to its value.
-RunCell middle_of(const Drawn& drawn, Eigen::Index i, double value) {
+RunCell middle_of(const Drawn& drawn, std::size_t i, double value) {
   constexpr double tail = 0.025;
   std::vector<std::size_t> order(drawn.at.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(drawn.at[k](i), k); });
+  std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(drawn.at[k][i], k); });
   double all = 0, below = 0;
   for (std::size_t k = 0; k < drawn.at.size(); ++k) {
     all += drawn.weight[k];
-    below += drawn.at[k](i) < value ? drawn.weight[k] : 0;
+    below += drawn.at[k][i] < value ? drawn.weight[k] : 0;
   }
   const auto quantile = [&](double share) {
     double sum = 0;
     for (const std::size_t k : order) {
       sum += drawn.weight[k];
-      if (sum >= share * all) return drawn.at[k](i);
+      if (sum >= share * all) return drawn.at[k][i];
     }
-    return drawn.at[order.back()](i);
+    return drawn.at[order.back()][i];
   };
   const double from = below < tail * all         ? below / all
                       : below > (1 - tail) * all ? below / all - (1 - 2 * tail)
@@ -114,7 +120,7 @@ RunCell middle_of(const Drawn& drawn, Eigen::Index i, double value) {
 
 std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces,
                                       std::span<const double> value, double width) {
-  const auto n = static_cast<std::size_t>(pieces[0].middle.size());
+  const auto n = pieces[0].middle.size();
   std::vector<RunCell> out(n);
   Drawn drawn;
   if (pieces.size() > 1 || is_cut(pieces[0])) {
@@ -122,16 +128,15 @@ std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces,
     double least = unbounded, largest = -unbounded;
     for (const RunPiece& p : pieces) {
       least = std::min(least, p.cost);
-      largest = std::max(largest, p.spread.diagonal().array().log().sum());
+      largest = std::max(largest, log_volume(p));
     }
     for (const RunPiece& p : pieces) draw(p, width / normal_width, least, largest, draws, drawn);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
     const RunPiece& only = pieces[0];
-    const double reach = width * only.spread.row(k).norm();
-    out[i] = drawn.at.empty() ? RunCell{only.middle(k) - reach, only.middle(k) + reach}
-                              : middle_of(drawn, k, value[i]);
+    const double reach = width * only.spread.row_norm(i);
+    out[i] = drawn.at.empty() ? RunCell{only.middle[i] - reach, only.middle[i] + reach}
+                              : middle_of(drawn, i, value[i]);
   }
   return out;
 }

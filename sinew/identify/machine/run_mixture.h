@@ -11,18 +11,18 @@
 // leaves of it, with the box's share as weight (Geweke, Hajivassiliou, Keane).
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/machine/run_search.h"
 
 namespace sinew::identify {
 
 // One of the distributions.
 struct RunPiece {
-  Eigen::VectorXd middle;
-  Eigen::MatrixXd spread;    // its diagonal > 0
+  std::vector<double> middle;
+  Matrix spread;             // its diagonal > 0
   std::vector<RunCell> box;  // of each number
   double cost = 0;           // c
 };

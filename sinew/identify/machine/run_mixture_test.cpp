@@ -17,8 +17,9 @@ std::vector<RunCell> middle(std::span<const RunPiece> pieces, double value = 0.5
 
 // Two numbers of which the readings know the difference to 0.01 and the sum to 1.
 RunPiece bound_pair(double low, double high, double cost = 0) {
-  RunPiece out{.middle = Eigen::Vector2d(0, 0), .spread = Eigen::Matrix2d(), .cost = cost};
-  out.spread << 0.01, 0.5, 0, 0.5;
+  RunPiece out{.middle = {0, 0}, .spread = Matrix(2, 2), .cost = cost};
+  out.spread(0, 0) = 0.01;
+  out.spread(0, 1) = out.spread(1, 1) = 0.5;
   out.box = {{}, {low, high}};
   return out;
 }
@@ -59,7 +60,7 @@ TEST(RunMixture, PiecesThatFitTogetherAreTheWhole) {
 
 TEST(RunMixture, APieceThatFitsBadlyHasNoWeight) {
   RunPiece far = bound_pair(10, 11, 20);
-  far.middle = Eigen::Vector2d(10.5, 10.5);
+  far.middle = {10.5, 10.5};
   const RunPiece pieces[] = {bound_pair(-unbounded, 10), far};
   EXPECT_NEAR(middle(pieces)[1].high, width * 0.5, 0.05);
   RunPiece near = far;

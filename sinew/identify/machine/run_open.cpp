@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/machine/run_search.h"
 
 namespace sinew::identify {
@@ -28,25 +28,24 @@ std::vector<std::string> open_directions(RunJudged& judged, std::span<const Para
       out.push_back(parameters[i].name + ": only together with others");
   }
   // The axes of what is uncertain, each number in its own size.
-  const auto m = static_cast<Eigen::Index>(seen.size());
-  Eigen::MatrixXd c(m, m);
-  for (Eigen::Index a = 0; a < m; ++a)
-    for (Eigen::Index b = 0; b < m; ++b) {
-      const std::size_t i = seen[static_cast<std::size_t>(a)],
-                        k = seen[static_cast<std::size_t>(b)];
+  const std::size_t m = seen.size();
+  Matrix c(m, m);
+  for (std::size_t a = 0; a < m; ++a)
+    for (std::size_t b = 0; b < m; ++b) {
+      const std::size_t i = seen[a], k = seen[b];
       c(a, b) = judged.covariance[i * n + k] / (size(i) * size(k));
     }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(c);
+  const Axes axes = symmetric_axes(c);
   std::vector<bool> told(n, false);
-  for (Eigen::Index a = m - 1; a >= 0; --a) {
-    if (!(half_width * std::sqrt(std::max(0.0, axes.eigenvalues()(a))) > 0.5)) continue;
+  for (std::size_t a = m; a-- > 0;) {
+    if (!(half_width * std::sqrt(std::max(0.0, axes.values[a])) > 0.5)) continue;
     std::string words;
     bool is_open = false;
     std::vector<std::size_t> members;
-    for (Eigen::Index b = 0; b < m; ++b) {
-      const double share = axes.eigenvectors()(b, a);
+    for (std::size_t b = 0; b < m; ++b) {
+      const double share = axes.axes(b, a);
       if (std::abs(share) < part) continue;
-      const std::size_t i = seen[static_cast<std::size_t>(b)];
+      const std::size_t i = seen[b];
       members.push_back(i);
       is_open = is_open || wide(i);
       words += fmt::format("{}{:.2g} {}/({:.3g} {})",

@@ -1,5 +1,3 @@
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,38 +10,44 @@ namespace sinew::identify {
 
 namespace {
 
+// Adds `times` the column to a vector.
+void add(std::span<const double> column, double times, std::vector<double>& to) {
+  for (std::size_t k = 0; k < to.size(); ++k) to[k] += times * column[k];
+}
+
 // The step from p on under this damping, the bounds kept.
 std::vector<double> stepped(const RunTangent& t, std::span<const Parameter> parameters,
                             std::span<const RunCell> cells, const std::vector<double>& p,
                             double mu) {
   const std::size_t n = p.size();
-  const Eigen::VectorXd gradient = t.j.transpose() * t.r;
-  std::vector<Eigen::Index> free;
+  const std::vector<double> gradient = transposed_product(t.j, t.r);
+  std::vector<std::size_t> free;
   const auto low = [&](std::size_t i) { return std::max(parameters[i].low, cells[i].low); };
   const auto high = [&](std::size_t i) { return std::min(parameters[i].high, cells[i].high); };
   for (std::size_t i = 0; i < n; ++i) {
-    const double g = gradient(static_cast<Eigen::Index>(i));
+    const double g = gradient[i];
     const bool held = (p[i] <= low(i) && g > 0) || (p[i] >= high(i) && g < 0);
-    if (!held) free.push_back(static_cast<Eigen::Index>(i));
+    if (!held) free.push_back(i);
   }
   std::vector<double> q = p;
   // What runs into a bound is held there, and the others go on without it.
   while (!free.empty()) {
-    const Eigen::MatrixXd j = t.j(Eigen::all, free);
-    Eigen::MatrixXd a = j.transpose() * j;
-    const double least = 1e-12 * a.diagonal().maxCoeff() + 1e-300;
-    for (Eigen::Index i = 0; i < a.rows(); ++i) a(i, i) += mu * a(i, i) + least;
-    Eigen::VectorXd rest = t.r;  // with what is held already at its bound
+    const Matrix j = t.j.chosen(free);
+    Matrix a = transposed_product(j, j);
+    double least = 0;
+    for (std::size_t i = 0; i < a.rows(); ++i) least = std::max(least, 1e-12 * a(i, i));
+    for (std::size_t i = 0; i < a.rows(); ++i) a(i, i) += mu * a(i, i) + least + 1e-300;
+    std::vector<double> rest = t.r;  // with what is held already at its bound
     for (std::size_t i = 0; i < n; ++i)
-      if (std::ranges::find(free, static_cast<Eigen::Index>(i)) == free.end())
-        rest += t.j.col(static_cast<Eigen::Index>(i)) * ((q[i] - p[i]) / parameters[i].scale);
-    const Eigen::VectorXd s = a.ldlt().solve(-j.transpose() * rest);
-    std::vector<Eigen::Index> inside;
+      if (std::ranges::find(free, i) == free.end())
+        add(t.j.column(i), (q[i] - p[i]) / parameters[i].scale, rest);
+    const std::vector<double> s = solved(a, transposed_product(j, rest));  // against the gradient
+    std::vector<std::size_t> inside;
     for (std::size_t k = 0; k < free.size(); ++k) {
-      const auto i = static_cast<std::size_t>(free[k]);
-      const double to = p[i] + s(static_cast<Eigen::Index>(k)) * parameters[i].scale;
+      const std::size_t i = free[k];
+      const double to = p[i] - s[k] * parameters[i].scale;
       q[i] = std::clamp(to, low(i), high(i));
-      if (q[i] == to) inside.push_back(free[k]);
+      if (q[i] == to) inside.push_back(i);
     }
     if (inside.size() == free.size()) break;
     free = inside;
@@ -51,18 +55,13 @@ std::vector<double> stepped(const RunTangent& t, std::span<const Parameter> para
   return q;
 }
 
-double half_square(const Eigen::VectorXd& r) { return 0.5 * r.squaredNorm(); }
-
 }  // namespace
 
 bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> parameters,
                  std::span<const RunCell> cells, const std::vector<double>& p, int threads,
                  RunTangent& out, double by) {
-  const auto rows = static_cast<Eigen::Index>(residuals.count());
   const std::size_t n = parameters.size();
-  out.r.resize(rows);
-  out.j.resize(rows, static_cast<Eigen::Index>(n));
-  std::vector<Eigen::VectorXd> moved(n + 1, Eigen::VectorXd(rows));
+  std::vector<std::vector<double>> moved(n + 1, std::vector<double>(residuals.count()));
   std::vector<char> answered(n + 1);
   std::vector<double> step(n);
   in_threads(n + 1, threads, [&](std::size_t i) {
@@ -73,16 +72,17 @@ bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> param
       if (p[i] + step[i] > high) step[i] = -step[i];
       q[i] += step[i];
     }
-    answered[i] = residuals(q, {moved[i].data(), residuals.count()}) ? 1 : 0;
+    answered[i] = residuals(q, moved[i]) ? 1 : 0;
   });
   if (!answered[n]) return false;
   out.r = moved[n];
+  out.j = Matrix(residuals.count(), n);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    if (answered[i])
-      out.j.col(k) = (moved[i] - out.r) * (parameters[i].scale / step[i]);
-    else
-      out.j.col(k).setZero();
+    if (!answered[i]) continue;
+    const double per_scale = parameters[i].scale / step[i];
+    const std::span<double> column = out.j.column(i);
+    for (std::size_t k = 0; k < column.size(); ++k)
+      column[k] = (moved[i][k] - out.r[k]) * per_scale;
   }
   return true;
 }
@@ -111,7 +111,7 @@ RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Param
   for (int step = 0; step < steps; ++step) {
     RunTangent t;
     if (!run_tangent(residuals, parameters, out.cells, out.p, threads, t)) break;
-    cost = half_square(t.r);
+    cost = 0.5 * square(t.r);
     std::vector<std::vector<double>> to;
     std::vector<double> there(dampings.size());
     for (const double times : dampings)
@@ -133,13 +133,11 @@ std::vector<double> made_up_costs(const RunResiduals& residuals,
   std::vector<double> out(places.size(), unbounded);
   RunTangent t;
   if (!run_tangent(residuals, parameters, at.cells, at.p, threads, t)) return out;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(t.j);
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(t.j.rows(), t.j.cols());
+  const Matrix basis = triangular(t.j).basis;
   in_threads(places.size(), threads, [&](std::size_t k) {
-    Eigen::VectorXd r(t.r.size());
-    if (!residuals(places[k], {r.data(), residuals.count()})) return;
-    out[k] = 0.5 * std::max(0.0, r.squaredNorm() - (basis.transpose() * r).squaredNorm());
+    std::vector<double> r(t.r.size());
+    if (!residuals(places[k], r)) return;
+    out[k] = 0.5 * std::max(0.0, square(r) - square(transposed_product(basis, r)));
   });
   return out;
 }

@@ -2,10 +2,10 @@
 // them, run_judge.cpp says what they leave open.
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/machine/run_search.h"
 
 namespace sinew::identify {
@@ -16,8 +16,8 @@ inline constexpr double short_difference = 1e-4, long_difference = 2e-3;
 
 // The residuals about a point, by the scaled parameters.
 struct RunTangent {
-  Eigen::VectorXd r;
-  Eigen::MatrixXd j;
+  std::vector<double> r;
+  Matrix j;
 };
 
 // Writes the tangent at p, of derivatives within the cells. Its columns are forward differences: a

@@ -1,15 +1,13 @@
 #include "sinew/identify/motion/dynamic_file.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/identify/fit/provenance.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json describe(const Damping& d) {
   return {{"coulomb_length_m", d.coulomb_length},

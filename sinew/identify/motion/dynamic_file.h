@@ -1,13 +1,13 @@
 // identify/motion/dynamic_file.h - damping and dry friction as a parameter file, and for programs.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/config/origin.h"
 #include "sinew/identify/motion/dynamic.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -19,6 +19,6 @@ std::string loss_file(const config::Origins& start, const std::string& start_fil
 
 // Returns what each record says by itself, by two points and by all turning points; SI, with the
 // unit in the key.
-nlohmann::ordered_json describe(const DynamicResult& found);
+Json describe(const DynamicResult& found);
 
 }  // namespace sinew::identify

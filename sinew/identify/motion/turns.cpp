@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
@@ -87,20 +87,19 @@ double period_of(std::span<const double> time, const std::vector<Extreme>& at) {
 // Least squares of samples by a polynomial of fourth order in u = (t - origin)/reach.
 class Quartic {
  public:
-  using Vector = Eigen::Matrix<double, 5, 1>;
-
   void add(double u, double x) {
-    Vector row;
-    row << 1, u, u * u, u * u * u, u * u * u * u;
-    normal_ += row * row.transpose();
-    right_ += row * x;
+    const std::array<double, 5> row = {1, u, u * u, u * u * u, u * u * u * u};
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      for (std::size_t k = 0; k < row.size(); ++k) normal_(i, k) += row[i] * row[k];
+      right_[i] += row[i] * x;
+    }
     ++count_;
   }
 
   // Where between -1 and 1 it turns, from u = 0; none where it bends the other way.
   std::optional<double> vertex(bool upper) const {
     if (count_ < 6) return std::nullopt;
-    const Vector p = normal_.ldlt().solve(right_);
+    const std::vector<double> p = solved(normal_, right_);
     double u = 0;
     for (int k = 0; k < 20; ++k) {
       const double slope = p[1] + u * (2 * p[2] + u * (3 * p[3] + u * 4 * p[4]));
@@ -113,21 +112,20 @@ class Quartic {
   // The value at a vertex. Noise of the slope finds a vertex that is too far out, on average by its
   // variance over twice the bend.
   double at_vertex(double u, double noise) const {
-    const Vector p = normal_.ldlt().solve(right_);
-    Vector slope;
-    slope << 0, 1, 2 * u, 3 * u * u, 4 * u * u * u;
-    const double variance = noise * noise * slope.dot(normal_.ldlt().solve(slope));
+    const std::vector<double> p = solved(normal_, right_);
+    const std::array<double, 5> slope = {0, 1, 2 * u, 3 * u * u, 4 * u * u * u};
+    const double variance = noise * noise * dot(slope, solved(normal_, slope));
     return p[0] + u * (p[1] + u * (p[2] + u * (p[3] + u * p[4]))) + variance / (2 * bend(p, u));
   }
 
  private:
-  static double bend(const Vector& p, double u) {
+  static double bend(std::span<const double> p, double u) {
     return 2 * p[2] + u * (6 * p[3] + u * 12 * p[4]);
   }
 
   int count_ = 0;
-  Eigen::Matrix<double, 5, 5> normal_ = Eigen::Matrix<double, 5, 5>::Zero();
-  Vector right_ = Vector::Zero();
+  Matrix normal_ = Matrix(5, 5);
+  std::array<double, 5> right_{};
 };
 
 struct Record {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 
 #include "sinew/config/compose.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 #include "sinew/report/page/fit_page.h"
 
 namespace sinew::identify {
@@ -270,10 +270,8 @@ std::vector<Chart> charts_of(const Report& report) {
 std::string page(const Page& page) {
   report::FitPage fit{.title = page.title, .version = page.version, .data = page.data};
   fit.atmosphere = page.atmosphere;
-  using Json = nlohmann::ordered_json;
   for (const Report* r : page.reports)
-    fit.parts.push_back({.report = to_json(*r).dump(-1, ' ', false, Json::error_handler_t::replace),
-                         .charts = charts_of(*r)});
+    fit.parts.push_back({.report = to_json(*r).text(), .charts = charts_of(*r)});
   if (!page.parameter_file.empty())
     fit.values = report::parameters(config::parse_text(page.parameter_file, "the parameter file"));
   return report::page(fit);

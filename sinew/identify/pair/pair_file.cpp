@@ -2,19 +2,17 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // What a joint of a robot's file has of it.
 struct JointLosses {

@@ -16,6 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "sinew/identify/fit/matrix.h"
+
 namespace sinew::identify {
 
 // One reading that is planned, or one that there is.
@@ -39,15 +41,14 @@ class Knowledge {
   Knowledge& operator+=(const Knowledge& other);
 
   // Returns how many parameters there are.
-  std::size_t parameters() const { return size_; }
+  std::size_t parameters() const { return matrix_.rows(); }
 
   // Returns the variance of the force at each place, whose slopes are told  [N2]. Infinite in all
   // of them where the parameters are not determined.
   std::vector<double> variances(std::span<const std::vector<double>> places) const;
 
  private:
-  std::size_t size_ = 0;
-  std::vector<double> matrix_;  // row by row
+  Matrix matrix_;
 };
 
 }  // namespace sinew::identify

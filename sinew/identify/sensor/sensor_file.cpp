@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/json/json.h"
 #include "sinew/robot/sensor.fields.h"
 
 namespace sinew::identify {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Potentiometers are given per volt, transducers in volts.

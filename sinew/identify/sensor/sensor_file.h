@@ -1,11 +1,11 @@
 // identify/sensor/sensor_file.h - a calibration as the sensors of a robot's file, and for programs.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sinew/config/node.h"
 #include "sinew/identify/sensor/sensor.h"
+#include "sinew/json/json.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::identify {
@@ -29,6 +29,6 @@ std::string sensor_file(const Calibration& c, const CountScale& converter, bool 
 
 // Returns format sinew.identification/1 of a calibration; what there is of a single sensor stands
 // where other methods have it.
-nlohmann::ordered_json to_json(const Calibration& c);
+Json to_json(const Calibration& c);
 
 }  // namespace sinew::identify

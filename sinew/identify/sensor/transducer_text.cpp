@@ -2,17 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::identify {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // One line of the answer: key of the JSON, words, value, SI unit and the thesis's.
 struct TransducerLine {
@@ -95,7 +93,7 @@ std::string json_of(const Transducer& s, std::optional<double> wanted) {
     for (const auto& [name, distance] : places(s, *wanted))
       out["gage_distance_m"][name] = distance ? Json(*distance) : Json();
   out["beyond"] = doubts(s);
-  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+  return out.text(2);
 }
 
 }  // namespace sinew::identify

@@ -1,10 +1,10 @@
 #include "sinew/identify/task/creep_task.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -12,8 +12,8 @@ CreepResult find_creep(const std::vector<Source>& sources, Tally* tried) {
   return identify_creep(read_measured(only_of(sources), creep_columns()), tried);
 }
 
-nlohmann::ordered_json to_json(const CreepResult& found) {
-  nlohmann::ordered_json out = to_json(found.report);
+Json to_json(const CreepResult& found) {
+  Json out = to_json(found.report);
   out["creep"] = {{"share", found.creep.share}, {"time_s", found.creep.time}};
   const bool tried = std::ranges::any_of(found.report.fits, [](const Fit& fit) {
     return std::ranges::find(fit.parameters, "half_width", &Estimate::name) != fit.parameters.end();

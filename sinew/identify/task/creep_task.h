@@ -2,10 +2,10 @@
 // vent.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "sinew/identify/actuator/creep.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -13,6 +13,6 @@ namespace sinew::identify {
 CreepResult find_creep(const std::vector<Source>& sources, Tally* tried = nullptr);
 
 // Returns the report with the shares, times [s] and half-width [Pa], as `--json` prints it.
-nlohmann::ordered_json to_json(const CreepResult& found);
+Json to_json(const CreepResult& found);
 
 }  // namespace sinew::identify

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
@@ -12,6 +11,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/motion/dynamic_file.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -87,8 +87,8 @@ DynamicFound find_dynamic(const std::vector<Source>& sources, const DynamicSetti
   return out;
 }
 
-nlohmann::ordered_json to_json(const DynamicFound& found) {
-  nlohmann::ordered_json out = to_json(found.result.report);
+Json to_json(const DynamicFound& found) {
+  Json out = to_json(found.result.report);
   out.update(describe(found.result));
   return out;
 }

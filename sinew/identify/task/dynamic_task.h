@@ -2,11 +2,11 @@
 // mass that swings on trapped air.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/motion/dynamic.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -34,6 +34,6 @@ struct DynamicFound {
 DynamicFound find_dynamic(const std::vector<Source>& sources, const DynamicSettings& settings);
 
 // Returns the report with what each record says by itself, as `--json` prints it.
-nlohmann::ordered_json to_json(const DynamicFound& found);
+Json to_json(const DynamicFound& found);
 
 }  // namespace sinew::identify

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/actuator/geometry_file.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -49,8 +48,8 @@ GeometryFound count_geometry(const GeometrySettings& settings) {
   return {braid, {}, braid_file(braid, settings.name, source)};
 }
 
-nlohmann::ordered_json to_json(const GeometryFound& found) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+Json to_json(const GeometryFound& found) {
+  Json out = Json::object();
   if (found.report) out = to_json(*found.report);
   out.update(describe(found.braid));
   return out;

@@ -2,12 +2,12 @@
 // from lengths and diameters or from counted trapezoids.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/actuator/geometry.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -30,6 +30,6 @@ GeometryFound find_geometry(const std::vector<Source>& sources, const GeometrySe
 GeometryFound count_geometry(const GeometrySettings& settings);
 
 // Returns the report, if there is one, with the braid, as `--json` prints it.
-nlohmann::ordered_json to_json(const GeometryFound& found);
+Json to_json(const GeometryFound& found);
 
 }  // namespace sinew::identify

@@ -6,13 +6,13 @@
 // example rows. A new method adds its row there; a test asks every method for it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sinew/identify/data/measured.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -50,7 +50,7 @@ std::string quantity_of(const Wanted& column);
 std::string need_of(const MethodInputs& inputs, std::string_view column);
 
 // Returns all of it, as `--columns --json` prints it.
-nlohmann::ordered_json to_json(const MethodInputs& inputs);
+Json to_json(const MethodInputs& inputs);
 
 // Returns a CSV that the method reads as it is, with comments that say what to fill in. `kind` is
 // one of its kinds of tables; empty: the usual one. Throws config::Error for one that there is not.

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sinew/config/diagnostics.h"
@@ -15,6 +14,7 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/sensor/readings.h"
 #include "sinew/identify/valve/valve.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify::inputs_test {
 namespace {
@@ -23,7 +23,7 @@ bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-bool contains(const nlohmann::ordered_json& list, const std::string& text) {
+bool contains(const Json& list, const std::string& text) {
   return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one == text; });
 }
 
@@ -149,11 +149,11 @@ TEST(Inputs, AreToldAsJson) {
   const auto named = [&](const std::string& name) {
     for (const auto& column : json["columns"])
       if (column["name"] == name) return column;
-    return nlohmann::ordered_json();
+    return Json();
   };
   EXPECT_TRUE(contains(named("rest_length")["units"], "mm"));
   EXPECT_TRUE(contains(named("pressure")["units"], "psi gauge"));
-  EXPECT_EQ(named("branch")["words"], (nlohmann::ordered_json{"fill", "vent"}));
+  EXPECT_EQ(named("branch")["words"], (Json{"fill", "vent"}));
   EXPECT_EQ(named("time")["quantity"], "time");
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/identify/task/inputs.h"
+#include "sinew/json/json.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::identify {
@@ -65,13 +65,13 @@ const TableKind& table_kind_called(const MethodInputs& inputs, std::string_view 
                config::closest_in_quotes(name, names));
 }
 
-nlohmann::ordered_json json_of_column(const MethodInputs& inputs, const Wanted& w) {
-  nlohmann::ordered_json out{{"name", w.name},
-                             {"quantity", quantity_of(w)},
-                             {"si_unit", w.unit},
-                             {"units", accepted_units(w)},
-                             {"needed", need_of(inputs, w.name)},
-                             {"meaning", w.doc}};
+Json json_of_column(const MethodInputs& inputs, const Wanted& w) {
+  Json out{{"name", w.name},
+           {"quantity", quantity_of(w)},
+           {"si_unit", w.unit},
+           {"units", accepted_units(w)},
+           {"needed", need_of(inputs, w.name)},
+           {"meaning", w.doc}};
   if (w.most > 0) out["largest_value"] = {{"least", w.least}, {"most", w.most}};
   for (const auto& [word, value] : w.words) out["words"].push_back(word);
   return out;
@@ -133,12 +133,12 @@ std::string need_of(const MethodInputs& inputs, std::string_view column) {
   return out;
 }
 
-nlohmann::ordered_json to_json(const MethodInputs& inputs) {
-  nlohmann::ordered_json out{{"format", "sinew.columns/1"}, {"method", inputs.method}};
-  out["columns"] = nlohmann::ordered_json::array();
+Json to_json(const MethodInputs& inputs) {
+  Json out{{"format", "sinew.columns/1"}, {"method", inputs.method}};
+  out["columns"] = Json::array();
   for (const Wanted& w : inputs.columns()) out["columns"].push_back(json_of_column(inputs, w));
   for (const TableKind& kind : inputs.kinds) {
-    nlohmann::ordered_json one{{"row", kind.row}};
+    Json one{{"row", kind.row}};
     if (!kind.name.empty()) one["name"] = kind.name;
     for (const std::string& group : config::at_commas(std::string(kind.needed)))
       one["needed"].push_back(alternatives_in(group));

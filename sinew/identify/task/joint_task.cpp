@@ -1,6 +1,5 @@
 #include "sinew/identify/task/joint_task.h"
 
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "sinew/config/diagnostics.h"
@@ -11,6 +10,7 @@
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -114,8 +114,8 @@ std::string JointFound::file(const std::string& out) const {
   return joint_file(result, setup, names, source, robot_over(base, out));
 }
 
-nlohmann::ordered_json to_json(const JointFound& found) {
-  nlohmann::ordered_json out = to_json(found.result.report);
+Json to_json(const JointFound& found) {
+  Json out = to_json(found.result.report);
   out.update(describe(found.result));
   return out;
 }

@@ -2,13 +2,13 @@
 // muscles, without a length rig.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/joint/joint.h"
 #include "sinew/identify/joint/joint_file.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -50,6 +50,6 @@ struct JointFound {
 JointFound find_joint(const std::vector<Source>& sources, const JointSettings& settings);
 
 // Returns the report with moment arm, lengths and what the data tell apart, as `--json` prints it.
-nlohmann::ordered_json to_json(const JointFound& found);
+Json to_json(const JointFound& found);
 
 }  // namespace sinew::identify

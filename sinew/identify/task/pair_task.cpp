@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
@@ -12,6 +11,7 @@
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/pair/pair_file.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -94,8 +94,8 @@ std::string PairFound::file(const std::string& out) const {
   return pair_file(result, joint, source, robot_over(base, out));
 }
 
-nlohmann::ordered_json to_json(const PairFound& found) {
-  nlohmann::ordered_json out = to_json(found.result.report);
+Json to_json(const PairFound& found) {
+  Json out = to_json(found.result.report);
   out.update(describe(found.result));
   return out;
 }

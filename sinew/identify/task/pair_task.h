@@ -2,13 +2,13 @@
 // effort, position and pressures over time.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sinew/identify/fit/wish.h"
 #include "sinew/identify/pair/pair.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -40,6 +40,6 @@ bool is_time_range(std::string_view text);
 PairFound find_pair(const std::vector<Source>& sources, const PairSettings& settings);
 
 // Returns the report with stiffness, sensors and trapped air, as `--json` prints it.
-nlohmann::ordered_json to_json(const PairFound& found);
+Json to_json(const PairFound& found);
 
 }  // namespace sinew::identify

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
@@ -12,6 +11,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/refusal.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -137,7 +137,7 @@ void give_longest(std::vector<StaticPoint>& points, std::vector<std::string>& no
       fmt::format("No rest length given: the longest, {:.4g} mm, stands for it.", 1e3 * longest));
 }
 
-nlohmann::ordered_json json_of_error(const PlanError& error) {
+Json json_of_error(const PlanError& error) {
   return {{"rms_percent", 100 * error.rms}, {"half_width_95_percent", 100 * error.half_width}};
 }
 
@@ -218,22 +218,22 @@ std::string plan_table(const PlanFound& found) {
   return out;
 }
 
-nlohmann::ordered_json to_json(const PlanFound& found) {
+Json to_json(const PlanFound& found) {
   const MeasurementPlan& plan = found.plan;
-  nlohmann::ordered_json out{{"format", "sinew.plan/1"},
-                             {"for", found.subject},
-                             {"largest_force_N", found.muscle.scales.full_scale},
-                             {"rest_length_m", found.muscle.scales.rest_length},
-                             {"noise_N", found.options.noise},
-                             {"law_error_percent", 100 * found.options.law_error},
-                             {"wanted_percent", 100 * found.options.error},
-                             {"measured_readings", found.measured}};
+  Json out{{"format", "sinew.plan/1"},
+           {"for", found.subject},
+           {"largest_force_N", found.muscle.scales.full_scale},
+           {"rest_length_m", found.muscle.scales.rest_length},
+           {"noise_N", found.options.noise},
+           {"law_error_percent", 100 * found.options.law_error},
+           {"wanted_percent", 100 * found.options.error},
+           {"measured_readings", found.measured}};
   out["region"] = {{"shortest_m", plan.region.shortest},
                    {"longest_m", plan.region.longest},
                    {"lowest_Pa", plan.region.lowest},
                    {"highest_Pa", plan.region.highest}};
   out["before"] = json_of_error(plan.before);
-  out["mounts"] = nlohmann::ordered_json::array();
+  out["mounts"] = Json::array();
   for (const PlannedMount& m : plan.mounts)
     out["mounts"].push_back({{"length_m", m.length},
                              {"gauge_pressures_Pa", m.pressures},

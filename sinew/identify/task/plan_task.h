@@ -2,12 +2,12 @@
 // a static law is known well enough, and how long that takes.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/plan/plan.h"
 #include "sinew/identify/task/static_task.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -49,6 +49,6 @@ PlanFound find_next(const std::vector<Source>& sources, const StaticSettings& ho
 std::string plan_table(const PlanFound& found);
 
 // Returns the plan as `--json` prints it.
-nlohmann::ordered_json to_json(const PlanFound& found);
+Json to_json(const PlanFound& found);
 
 }  // namespace sinew::identify

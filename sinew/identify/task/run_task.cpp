@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_file.h"
+#include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/setup/buildable.h"
@@ -143,8 +143,8 @@ RunFitFound find_run_fit(const RunFitSettings& settings) {
   return out;
 }
 
-nlohmann::ordered_json to_json(const RunFitFound& found) {
-  nlohmann::ordered_json out = to_json(found.result.report);
+Json to_json(const RunFitFound& found) {
+  Json out = to_json(found.result.report);
   out.update(describe(found.result));
   return out;
 }

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/machine/run_fit.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -39,6 +39,6 @@ struct RunFitFound {
 RunFitFound find_run_fit(const RunFitSettings& settings);
 
 // Returns the report with channels and what is not determined, as `--json` prints it.
-nlohmann::ordered_json to_json(const RunFitFound& found);
+Json to_json(const RunFitFound& found);
 
 }  // namespace sinew::identify

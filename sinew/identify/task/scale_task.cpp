@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
@@ -14,6 +13,7 @@
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -90,8 +90,7 @@ ScaleFound find_scaled(const ScaleSettings& s) {
   return out;
 }
 
-nlohmann::ordered_json to_json(const ScaleFound& found) {
-  using Json = nlohmann::ordered_json;
+Json to_json(const ScaleFound& found) {
   const actuator::Prediction& p = found.actuator.prediction;
   Json out{{"format", "sinew.scaled/1"},
            {"rest_length_m", p.rest_length},

@@ -2,10 +2,10 @@
 // measured, from the file of one of its make and another rest length.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -34,6 +34,6 @@ struct ScaleFound {
 ScaleFound find_scaled(const ScaleSettings& settings);
 
 // Returns it as `--json` prints it, in SI; null where nobody knows.
-nlohmann::ordered_json to_json(const ScaleFound& found);
+Json to_json(const ScaleFound& found);
 
 }  // namespace sinew::identify

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 
@@ -20,6 +19,7 @@
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/task/valve_task.h"
+#include "sinew/json/json.h"
 #include "tests/places.h"
 
 namespace sinew::identify::task_test {
@@ -82,7 +82,7 @@ TEST(Task, FindsTheBraidOfATable) {
   EXPECT_NEAR(found.braid.thread_length, 0.1, 1e-6);
   EXPECT_NEAR(found.braid.turns, 1, 1e-5);
   EXPECT_NE(found.file.find("sinew identify geometry numbers"), std::string::npos);
-  const nlohmann::ordered_json json = to_json(found);
+  const Json json = to_json(found);
   EXPECT_EQ(json["format"], "sinew.identification/1");
   EXPECT_EQ(json["thread_length_m"], found.braid.thread_length);
 }
@@ -133,7 +133,7 @@ TEST(Task, FindsAPairAndWritesItsJoint) {
   EXPECT_NE(file.find("dry_friction"), std::string::npos) << file;
   EXPECT_NE(file.find("knee"), std::string::npos) << file;
   EXPECT_EQ(file.find("damping"), std::string::npos) << file;
-  const nlohmann::ordered_json json = to_json(found);
+  const Json json = to_json(found);
   EXPECT_FALSE(json.contains("stiffness_N_per_m"));
   EXPECT_EQ(json["stiffness_Nm_per_rad"], found.result.stiffness.value);
   EXPECT_TRUE(json["held_out"].contains("r_squared"));

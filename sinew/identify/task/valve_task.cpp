@@ -1,7 +1,6 @@
 #include "sinew/identify/task/valve_task.h"
 
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
@@ -13,6 +12,7 @@
 #include "sinew/identify/task/valve_tables.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/timing.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -126,8 +126,8 @@ std::string ValveFound::file(const std::string& out) const {
   return valve_file(result.valve, result.provenance);
 }
 
-nlohmann::ordered_json to_json(const ValveFound& found) {
-  nlohmann::ordered_json out = to_json(found.result.report);
+Json to_json(const ValveFound& found) {
+  Json out = to_json(found.result.report);
   if (!found.result.refused.empty()) out["refused"] = found.result.refused;
   return out;
 }

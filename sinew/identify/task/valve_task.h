@@ -2,12 +2,12 @@
 // filling, pulses, a coil's current or a map of duties.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/valve/valve.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -39,7 +39,7 @@ struct ValveFound {
 ValveFound find_valve(const std::vector<Source>& sources, const ValveSettings& settings);
 
 // Returns the report, with `refused` where the data do not support all, as `--json` prints it.
-nlohmann::ordered_json to_json(const ValveFound& found);
+Json to_json(const ValveFound& found);
 
 // predict.dat, compensated for the valve's delays.
 struct TimingFile {

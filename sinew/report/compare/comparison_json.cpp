@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <nlohmann/json.hpp>
 
+#include "sinew/json/json.h"
 #include "sinew/report/compare/comparison.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/page_template.h"
@@ -10,11 +10,7 @@
 namespace sinew::report {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
-
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json, int indent) { return json.text(indent); }
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 

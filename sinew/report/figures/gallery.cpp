@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "sinew/json/json.h"
 #include "sinew/report/figures/gallery_style.h"
 #include "sinew/report/page/html.h"
 
 namespace sinew::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 bool holds_kind(const Figure& figure, Curve::Kind kind) {
   for (const Plot& plot : figure.plots)
@@ -304,7 +301,7 @@ std::string index_json(const Gallery& gallery) {
   }
   out["figures"] = Json::array();
   for (const Exhibit& e : gallery.exhibits) out["figures"].push_back(json_of(e, gallery));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.text(2) + "\n";
 }
 
 Tally tally(const Gallery& gallery) {

@@ -1,9 +1,8 @@
 // The page says what its figures and claims say, and nothing in them can leave its place.
 #include "sinew/report/figures/gallery.h"
+#include "sinew/json/json.h"
 
 #include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 
 namespace sinew::report::gallery_test {
 namespace {
@@ -11,7 +10,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Json = nlohmann::json;
 
 Gallery gallery() {
   Curve line{.label = "40 psi", .xs = {1, 2}, .ys = {3, 4}, .source = "[22]"};

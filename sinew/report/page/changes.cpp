@@ -1,7 +1,6 @@
 #include "sinew/report/page/changes.h"
 
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "sinew/config/quantity.h"
@@ -59,19 +58,6 @@ std::vector<PageChange> changes_of(const config::Node& resolved) {
   for (const config::Node& table : list->children)
     if (const std::optional<PageChange> change = change_of(table)) out.push_back(*change);
   return out;
-}
-
-std::string to_json(const std::vector<PageChange>& changes) {
-  using Json = nlohmann::ordered_json;
-  Json out = Json::array();
-  for (const PageChange& c : changes) {
-    Json one = {{"time", c.time}, {"key", c.key}};
-    one["value"] = c.release ? Json() : Json(c.value);
-    if (!c.release) one["unit"] = c.unit;
-    if (!c.leg.empty()) one["leg"] = c.leg;
-    out.push_back(std::move(one));
-  }
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace sinew::report

@@ -1,19 +1,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "sinew/json/json.h"
+#include "sinew/report/page/changes.h"
 #include "sinew/report/page/content.h"
+#include "sinew/report/page/fit_page.h"
 
 namespace sinew::report {
 namespace {
 
 using robot::Point;
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json) { return json.text(); }
 
 // Returns the place of the column of a channel, which is seen together with others of the same
 // instant unless it is said to be a line.
@@ -290,11 +289,25 @@ std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
   return text_of(out);
 }
 
+std::string to_json(const std::vector<PageChange>& changes) {
+  Json out = Json::array();
+  for (const PageChange& c : changes) {
+    Json one = {{"time", c.time}, {"key", c.key}};
+    one["value"] = c.release ? Json() : Json(c.value);
+    if (!c.release) one["unit"] = c.unit;
+    if (!c.leg.empty()) one["leg"] = c.leg;
+    out.push_back(std::move(one));
+  }
+  return text_of(out);
+}
+
 std::string to_json(const Blob::Layout& layout) {
   return text_of({{"clocks", layout.clocks}, {"columns", layout.columns}});
 }
 
 std::string to_json(const std::string& text) { return text_of(text); }
+
+std::string to_json(double number) { return text_of(number); }
 
 std::string phases_of(const analysis::Record& record, const analysis::Machine& machine) {
   Json stretches = Json::array();
@@ -308,6 +321,32 @@ std::string phases_of(const analysis::Record& record, const analysis::Machine& m
                          {"stance", analysis::is_stance(machine, s.phase)}});
   }
   return text_of({{"names", machine.phases}, {"stretches", std::move(stretches)}});
+}
+
+std::string to_json(const FitPage& fit, Columns& columns) {
+  Json out = {{"format", "sinew.fit/1"}, {"title", fit.title}, {"version", fit.version}};
+  out["data"] = fit.data;
+  out["atmosphere"] = fit.atmosphere;
+  out["parts"] = Json::array();
+  for (const FitPart& part : fit.parts)
+    out["parts"].push_back({{"report", Json::parse(part.report)},
+                            {"charts", Json::parse(to_json(part.charts, columns))}});
+  out["parameters"] = Json::parse(to_json(fit.values));
+  return text_of(out);
+}
+
+std::string with_members(const std::string& object, const std::vector<Member>& members) {
+  Json out = Json::parse(object);
+  for (const auto& [name, json] : members) {
+    const std::size_t slash = name.find('/');
+    Json& in = slash == name.npos ? out : out[name.substr(0, slash)];
+    const std::string last = slash == name.npos ? name : name.substr(slash + 1);
+    if (json.empty())
+      in.erase(last);
+    else
+      in[last] = Json::parse(json);
+  }
+  return out.text();
 }
 
 // --- units ---
@@ -347,7 +386,7 @@ std::string units_json(const units::ShownUnits& start) {
   sets.push_back(json_of("metric", "mm · N · bar", units::UnitSet::metric));
   if (start.has_choices()) sets.push_back(json_of("own", "own", start));
   const std::string_view name = start.has_choices() ? "own" : units::to_text(start.set());
-  return Json{{"start", name}, {"sets", std::move(sets)}}.dump();
+  return Json{{"start", name}, {"sets", std::move(sets)}}.text();
 }
 
 std::string units_json() { return units_json(config::units_to_show({}).units); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sinew/report/page/charts.h"
+#include "sinew/report/page/content.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/parameters.h"
 
@@ -29,5 +30,6 @@ struct FitPage {
 // Throws std::runtime_error where the program was built without its pages.
 std::string page(const FitPage& fit);
 Content content(const FitPage& fit);
+std::string to_json(const FitPage& fit, Columns& columns);
 
 }  // namespace sinew::report

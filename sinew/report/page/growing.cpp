@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/analysis/record/derived.h"
@@ -16,7 +15,6 @@
 namespace sinew::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using signals::Series;
 using signals::Table;
 
@@ -110,21 +108,23 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   const report::Content whole = report::content(
       {.table = prototype.table, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
   units_ = whole.units;
-  Json head = Json::parse(whole.json);
-  head["duration"] = of_.duration;
-  if (!machine_.faults.empty())
-    head["faults"] = Json::parse(to_json(machine_.faults, of_.duration));
-  head["phases"]["stretches"] = Json::array();
-  head["panels"] = Json::parse(to_json(panels(parts.channels, machine_.robot), columns));
-  head["scene"] = Json::parse(to_json(parts.scene, columns));
-  head.erase("charts");   // of the whole run
-  head.erase("changes");  // the page is told of each when it takes effect
-  head["warnings"] = head["verdicts"] = Json::array();
-  head["summary"] = Json::object();
+  const std::string curves = to_json(panels(parts.channels, machine_.robot), columns);
+  const std::string scene = to_json(parts.scene, columns);
   Blob::Layout layout = blob.layout();
   std::ranges::fill(layout.clocks, 0);
-  head["samples"] = Json::parse(to_json(layout));
-  head_ = head.dump();
+  std::vector<Member> members = {{"duration", to_json(of_.duration)},
+                                 {"phases/stretches", "[]"},
+                                 {"panels", curves},
+                                 {"scene", scene},
+                                 {"charts", ""},   // of the whole run
+                                 {"changes", ""},  // the page is told of each when it takes effect
+                                 {"warnings", "[]"},
+                                 {"verdicts", "[]"},
+                                 {"summary", "{}"},
+                                 {"samples", to_json(layout)}};
+  if (!machine_.faults.empty())
+    members.push_back({"faults", to_json(machine_.faults, of_.duration)});
+  head_ = with_members(whole.json, members);
   columns_ = columns.list();
 }
 

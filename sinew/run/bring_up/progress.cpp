@@ -4,18 +4,17 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/json/json.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::run {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr const char* format = "sinew.bring_up/1";
 
 config::Node count_of(double count, const Learned& l) {
@@ -35,18 +34,19 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
   if (!std::filesystem::exists(file)) return {.robot = robot};
   Progress out;
   try {
-    const Json root = Json::parse(std::ifstream(file));
-    if (root.at("format") != format) throw std::runtime_error("format");
-    out.robot = root.at("robot");
-    out.board = root.at("board");
-    out.machine = root.value("machine", "");
-    for (const auto& [name, said] : root.at("steps").items())
-      out.done[name] = said.get<std::vector<std::string>>();
+    std::ifstream in(file);
+    Json root;
+    if (!Json::parse(in, root) || root.at("format") != format) throw std::runtime_error("format");
+    out.robot = root.at("robot").string();
+    out.board = root.at("board").string();
+    out.machine = root.string("machine", "");
+    for (const auto& [name, said] : root.at("steps").items()) out.done[name] = said.strings();
     for (const auto& [name, l] : root.at("sensors").items())
-      out.learned[name] = {l.at("at_rest_count"), l.at("noise_count"), l.at("readings")};
-    const Json joints = root.value("joints", Json::object());
-    for (const auto& [name, s] : joints.items())
-      out.strokes[name] = {s.at("lowest_count"), s.at("highest_count")};
+      out.learned[name] = {l.at("at_rest_count").number(), l.at("noise_count").number(),
+                           static_cast<int>(l.at("readings").integer())};
+    if (const Json* joints = root.find("joints"))
+      for (const auto& [name, s] : joints->items())
+        out.strokes[name] = {s.at("lowest_count").number(), s.at("highest_count").number()};
   } catch (const std::exception&) {
     config::fail({file.string(), 0, 0}, "", "no bring-up of ours", std::string("format ") + format,
                  "another folder");
@@ -67,7 +67,7 @@ void write_progress(const Progress& p, const std::filesystem::path& file) {
   root["joints"] = Json::object();
   for (const auto& [name, s] : p.strokes)
     root["joints"][name] = {{"lowest_count", s.lowest}, {"highest_count", s.highest}};
-  write_file(file, root.dump(2) + "\n");
+  write_file(file, root.text(2) + "\n");
 }
 
 std::string learned_robot(const Progress& p, const std::filesystem::path& base,

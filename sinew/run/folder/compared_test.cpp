@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/json/json.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/replayed.h"
 #include "sinew/run/setup/buildable.h"
@@ -20,7 +20,6 @@ namespace sinew::run::compared_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 const std::string bench = sinew::test::source_dir() + "/experiments/one-joint.toml";
 
@@ -106,7 +105,7 @@ TEST_F(Compared, AnotherClockIsFoundAndWhatIsLeftIsNoise) {
   const Json json = Json::parse(to_json(c));
   EXPECT_EQ(json["align"], "correlation");
   EXPECT_EQ(json["clock"], "fit");
-  EXPECT_NEAR(json["runs"][1]["alignment"]["rate"].get<double>(), 0.003, 4e-4);
+  EXPECT_NEAR(json["runs"][1]["alignment"]["rate"].number(), 0.003, 4e-4);
 }
 
 TEST_F(Compared, ADifferenceOfParametersIsWhatIsLeft) {

@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "sinew/json/json.h"
 #include "sinew/report/figures/gnuplot.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/output_folder.h"
@@ -15,7 +15,6 @@ namespace sinew::run {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
 using report::Picture;
 
 constexpr const char* index_name = "index.json";
@@ -27,7 +26,7 @@ std::set<std::string> files_of(const Json& index) {
   std::set<std::string> files;
   const auto add = [&](const Json& of, const char* key, const char* ending) {
     if (!of.is_object() || !of.contains(key) || !of[key].is_string()) return;
-    const std::string name = of[key];
+    const std::string name = of[key].string();
     if (fs::path(name).filename() == name && fs::path(name).extension() == ending)
       files.insert(name);
   };
@@ -57,9 +56,9 @@ void draw_all(const fs::path& folder, const std::vector<std::string>& scripts) {
 
 std::vector<std::string> figures_in(const fs::path& folder) {
   std::ifstream in(folder / index_name);
-  const Json index = Json::parse(in, nullptr, false);
-  if (!index.is_object() || !index.contains("format") || index["format"] != format ||
-      !index.contains("figures"))
+  Json index;
+  if (!Json::parse(in, index) || !index.is_object() || !index.contains("format") ||
+      index["format"] != format || !index.contains("figures"))
     return {};
   const std::set<std::string> files = files_of(index);
   std::vector<std::string> out(files.begin(), files.end());

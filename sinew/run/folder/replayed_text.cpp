@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/replayed.h"
 
 namespace sinew::run {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using report::TextTable;
 using Align = TextTable::Align;
 
@@ -152,7 +151,7 @@ std::string to_json(const Replayed& r) {
   }
   if (!r.cause.empty()) out["ended_early"] = r.cause;
   if (r.folder) out["folder"] = r.folder->string();
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.text(2) + "\n";
 }
 
 std::string text_of(const Replayed& r, const units::ShownUnits& units, std::size_t width) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::run {
@@ -151,11 +151,11 @@ std::string table_of(const std::vector<Point>& points, const std::string& length
 }
 
 std::string json_of(const Point& p) {
-  nlohmann::ordered_json out;
+  Json out;
   for (const Row& row : rows)
     if (std::isfinite(p.*row.value)) out[row.key] = p.*row.value;
   out["beyond"] = p.beyond;
-  return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return out.text();
 }
 
 }  // namespace sinew::run

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::run {
@@ -44,7 +44,7 @@ std::string text_of(const robot::Robot& robot, const Stance& s, const StanceUnit
 }
 
 std::string json_of(const robot::Robot& robot, const Stance& s) {
-  nlohmann::ordered_json out{{"foot_m", {s.foot.x, s.foot.y}}};
+  Json out{{"foot_m", {s.foot.x, s.foot.y}}};
   for (std::size_t j = 0; j < s.angles.size(); ++j)
     out["angles_rad"][robot.joints[j].name] = s.angles[j];
   for (const MuscleAt& m : s.muscles)
@@ -58,7 +58,7 @@ std::string json_of(const robot::Robot& robot, const Stance& s) {
   for (std::size_t j = 0; j < s.torques.size(); ++j)
     out["torques_Nm"][robot.joints[j].name] = s.torques[j];
   out["within"] = s.within();
-  return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return out.text();
 }
 
 }  // namespace sinew::run

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/config/quantity.h"
 #include "sinew/gas/delay.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::run {
@@ -72,26 +71,26 @@ std::string doubt_of(const gas::Valve& valve, const gas::ValveFlow& f) {
 
 std::string json_of(const gas::Valve& valve, const gas::ValveFlow& f,
                     const std::vector<gas::Transfer>& times, const std::vector<Delivered>& duties) {
-  nlohmann::ordered_json out{{"valve", valve.name},
-                             {"upstream_Pa", f.upstream},
-                             {"downstream_Pa", f.downstream},
-                             {"mass_flow_kg_per_s", f.mass_flow},
-                             {"normal_flow_m3_per_s", f.normal_flow},
-                             {"pressure_ratio", f.ratio},
-                             {"critical_pressure_ratio", f.critical_ratio},
-                             {"choked", f.choked()},
-                             {"linear_part", f.linear},
-                             {"law_mass_flow_kg_per_s", f.law_flow},
-                             {"effective_area_m2", f.area},
-                             {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
-                             {"opening_delay_s", gas::delays(valve).opening},
-                             {"closing_delay_s", gas::delays(valve).closing}};
+  Json out{{"valve", valve.name},
+           {"upstream_Pa", f.upstream},
+           {"downstream_Pa", f.downstream},
+           {"mass_flow_kg_per_s", f.mass_flow},
+           {"normal_flow_m3_per_s", f.normal_flow},
+           {"pressure_ratio", f.ratio},
+           {"critical_pressure_ratio", f.critical_ratio},
+           {"choked", f.choked()},
+           {"linear_part", f.linear},
+           {"law_mass_flow_kg_per_s", f.law_flow},
+           {"effective_area_m2", f.area},
+           {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
+           {"opening_delay_s", gas::delays(valve).opening},
+           {"closing_delay_s", gas::delays(valve).closing}};
   for (const gas::Transfer& t : times)
     out["transfers"].push_back(
         {{"share", t.share}, {"fill_time_s", t.fill}, {"vent_time_s", t.vent}});
   for (const Delivered& d : duties)
     out["duties"].push_back({{"duty", d.duty}, {"delivered_duty", d.delivered}});
-  return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return out.text();
 }
 
 }  // namespace sinew::run

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "sinew/json/json.h"
 #include "sinew/tune/results/asked.h"
 
 namespace sinew::tune {
 namespace {
-
-using Json = nlohmann::json;
 
 // Binary, so that a cell keeps its bytes whatever they are.
 //
@@ -23,12 +21,9 @@ using Json = nlohmann::json;
 //                   {"row": {…}}
 //                   {"error": "…"}                 there is no such sweep here
 //                   {"end": true}                  the last word
-std::string packed(const Json& message) {
-  const std::vector<std::uint8_t> bytes = Json::to_cbor(message);
-  return {bytes.begin(), bytes.end()};
-}
+std::string packed(const Json& message) { return message.bytes(); }
 
-Json unpacked(const std::string& bytes) { return Json::from_cbor(bytes); }
+Json unpacked(const std::string& bytes) { return Json::of_bytes(bytes); }
 
 Json json_of(const Row& row) {
   return {{"point", row.point},
@@ -42,14 +37,14 @@ Json json_of(const Row& row) {
 }
 
 Row row_of(const Json& json) {
-  return {.point = json.at("point"),
-          .cells = json.at("cells"),
-          .ok = json.at("ok"),
-          .notes = {.lacks = json.at("lacks"),
-                    .differs = json.at("differs"),
-                    .stop_reached = json.at("stop_reached"),
-                    .no_air = json.at("no_air"),
-                    .out_of_reach = json.at("out_of_reach")}};
+  return {.point = json.at("point").natural(),
+          .cells = json.at("cells").strings(),
+          .ok = json.at("ok").boolean(),
+          .notes = {.lacks = json.at("lacks").strings(),
+                    .differs = json.at("differs").strings(),
+                    .stop_reached = json.at("stop_reached").boolean(),
+                    .no_air = json.at("no_air").boolean(),
+                    .out_of_reach = json.at("out_of_reach").boolean()}};
 }
 
 constexpr double while_nothing_comes = 0.1;  // between looks at `stop` [s]
@@ -146,9 +141,9 @@ void Master::run(const std::string& asked, const std::vector<double>& shares,
     const Json json = unpacked(message->text);
     if (json.contains("error"))
       throw std::runtime_error(
-          fmt::format("rank {}: {}", message->from, json.at("error").get<std::string>()));
+          fmt::format("rank {}: {}", message->from, json.at("error").string()));
     if (json.contains("asked")) {
-      require_same(asked, json.at("asked"), message->from);
+      require_same(asked, json.at("asked").string(), message->from);
     } else {
       out.returned(message->from);
       done(row_of(json.at("row")));
@@ -179,10 +174,11 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads) 
     const Json json = unpacked(message->text);
     if (json.contains("end")) break;
     if (!json.contains("points")) {
-      ranks.send(0, packed(begin(sweep, json.at("shares"), runner)));
+      ranks.send(0, packed(begin(sweep, json.at("shares").numbers(), runner)));
       continue;
     }
-    const std::vector<std::size_t> points = json.at("points");
+    std::vector<std::size_t> points;
+    for (const Json& point : json.at("points")) points.push_back(point.natural());
     runner->run(points, threads, [&](const Row& row) {
       ranks.send(0, packed({{"row", json_of(row)}}));
     });

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "sinew/analysis/verdict/reported.h"
+#include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::tune {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_shown = 12;  // of a front, side by side
 
@@ -169,7 +167,7 @@ std::string json_of(const Tuning& tuning, const Tuned& tuned) {
     out["best"].push_back(json_of(tuning, tuned.candidates[i]));
   if (tuned.best.empty() && !tuned.candidates.empty())
     out["closest"] = json_of(tuning, closest(tuned.candidates));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.text(2) + "\n";
 }
 
 std::vector<std::string> candidate_headings(const Tuning& tuning) {

@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 
+#include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/page_template.h"
 #include "sinew/tune/page/study_view.h"
@@ -7,11 +7,7 @@
 namespace sinew::tune {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
-
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json) { return json.text(); }
 
 const char* to_text(StudyColumn::Role role) {
   using Role = StudyColumn::Role;

@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/config/diagnostics.h"
+#include "sinew/json/json.h"
 #include "sinew/log/error.h"
 #include "sinew/report/page/page.h"
 #include "sinew/tune/page/study_view.h"
@@ -16,7 +15,6 @@ namespace sinew::tune::study_page_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 using Role = StudyColumn::Role;
 
 const std::string root = sinew::test::source_dir();

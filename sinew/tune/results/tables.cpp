@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "sinew/json/json.h"
 #include "sinew/log/error.h"
 #include "sinew/run/folder/refusal.h"
 #include "sinew/tune/results/results.h"
@@ -111,25 +111,25 @@ std::string value_of(Database& database, const std::string& key) {
 std::vector<Case> cases_of(const std::string& text, const fs::path& file) try {
   std::vector<Case> out;
   if (text.empty()) return out;
-  for (const nlohmann::json& one : nlohmann::json::parse(text))
-    out.push_back({.name = one.at("name"),
-                   .experiment = one.at("experiment"),
-                   .sets = one.at("sets"),
-                   .weight = one.at("weight")});
+  for (const Json& one : Json::parse(text))
+    out.push_back({.name = one.at("name").string(),
+                   .experiment = one.at("experiment").string(),
+                   .sets = one.at("sets").strings(),
+                   .weight = one.at("weight").number()});
   return out;
-} catch (const nlohmann::json::exception&) {
+} catch (const JsonError&) {
   throw log::Error(file, "is damaged: its cases cannot be read",
                    "keep a copy, and choose another name");
 }
 
 std::string json_of(const std::vector<Case>& cases) {
-  nlohmann::json out = nlohmann::json::array();
+  Json out = Json::array();
   for (const Case& one : cases)
-    out.push_back({{"name", one.name},
-                   {"experiment", one.experiment},
+    out.push_back({{"experiment", one.experiment},
+                   {"name", one.name},
                    {"sets", one.sets},
                    {"weight", one.weight}});
-  return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return out.text();
 }
 
 }  // namespace
@@ -203,14 +203,13 @@ Asked study_of(Database& database, const fs::path& file) {
   return out;
 }
 
-std::string json_of(const std::vector<std::string>& texts) {
-  return nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string json_of(const std::vector<std::string>& texts) { return Json(texts).text(); }
 
 std::vector<std::string> texts_of(const std::string& json, const fs::path& file) {
-  const nlohmann::json list = nlohmann::json::parse(json, nullptr, false);
-  const auto is_text = [](const nlohmann::json& item) { return item.is_string(); };
-  if (list.is_array() && std::ranges::all_of(list, is_text)) return list;
+  Json list;
+  (void)Json::parse(json, list);
+  const auto is_text = [](const Json& item) { return item.is_string(); };
+  if (list.is_array() && std::ranges::all_of(list, is_text)) return list.strings();
   throw log::Error(file, "is damaged: a list of texts cannot be read",
                    "keep a copy, and choose another name");
 }

@@ -1,0 +1,173 @@
+// json/json.h - a value of JSON: built, looked into, read and written. Members of an object stay in
+// the order in which they came.
+//
+//   Json out{{"format", "sinew.doctor/1"}, {"seeds", {1, 2, 3}}};   an object of two members
+//   out["title"] = "a walk";
+//   out.text();                          {"format":"sinew.doctor/1","seeds":[1,2,3],"title":"a
+//   walk"}
+//
+// A list in braces is an object where each of its items is a list of two that begins with a text,
+// and an array else: array({...}) says that it is one.
+//
+// nlohmann's library reads and writes, in json.cpp alone. Its templates take a compiler four
+// seconds in each source that includes them, which was a third of the time to build the program.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <iosfwd>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+// Thrown where a text is not JSON or a value is not what it is taken for.
+class JsonError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Json {
+ public:
+  enum class Type { null, boolean, integer, natural, real, text, array, object };
+  struct Member;
+
+  Json() = default;  // null
+  Json(std::nullptr_t) {}
+  Json(std::same_as<bool> auto value) : type_(Type::boolean) { value_.boolean = value; }
+  template <std::signed_integral T>
+  Json(T value) : type_(Type::integer) {
+    value_.integer = value;
+  }
+  template <std::unsigned_integral T>
+  requires(!std::same_as<T, bool>) Json(T value) : type_(Type::natural) { value_.natural = value; }
+  template <std::floating_point T>
+  Json(T value) : type_(Type::real) {
+    value_.real = static_cast<double>(value);
+  }
+  Json(std::string value);
+  Json(std::string_view value) : Json(std::string(value)) {}
+  Json(const char* value) : Json(std::string(value)) {}
+  Json(std::initializer_list<Json> items);
+  // An array of what a container of such values holds.
+  template <class List>
+  requires requires(const List& list) {
+    list.begin();
+    list.end();
+    list.size();
+  } &&(!std::convertible_to<List, std::string_view>)&&(!std::same_as<List, Json>)
+      Json(const List& list)
+      : Json(array()) {
+    for (const auto& one : list) push_back(Json(one));
+  }
+
+  Json(const Json& other);
+  Json(Json&& other) noexcept : type_(other.type_), value_(other.value_) {
+    other.type_ = Type::null;
+  }
+  Json& operator=(Json other) noexcept;
+  ~Json();
+
+  // Return an array of these items, and an object without members.
+  static Json array();
+  static Json array(std::initializer_list<Json> items);
+  static Json object();
+
+  // Returns what the text says. Throws JsonError, which says where it is no JSON.
+  static Json parse(std::string_view text);
+  // Returns whether the text is JSON; what it says, into `out`.
+  static bool parse(std::string_view text, Json& out);
+  static bool parse(std::istream& in, Json& out);
+
+  // Returns it as text: in one line, or with so many spaces before each inner line. Bytes that are
+  // no UTF-8 become U+FFFD; numbers that are not finite become null.
+  std::string text(int indent = -1) const;
+  // Returns it in one line; throws JsonError where a text of it is no UTF-8.
+  std::string exact_text() const;
+
+  // Returns it in bytes that keep every number (RFC 8949), and what such bytes say.
+  std::string bytes() const;
+  static Json of_bytes(std::string_view bytes);
+
+  Type type() const { return type_; }
+  bool is_null() const { return type_ == Type::null; }
+  bool is_boolean() const { return type_ == Type::boolean; }
+  bool is_real() const { return type_ == Type::real; }
+  bool is_number() const { return is_real() || type_ == Type::integer || type_ == Type::natural; }
+  bool is_string() const { return type_ == Type::text; }
+  bool is_array() const { return type_ == Type::array; }
+  bool is_object() const { return type_ == Type::object; }
+
+  // Return what it holds. Throw JsonError where it holds something else.
+  bool boolean() const;
+  double number() const;
+  std::int64_t integer() const;
+  std::uint64_t natural() const;
+  const std::string& string() const;
+  std::vector<std::string> strings() const;
+  std::vector<double> numbers() const;  // null is not a number
+
+  // How many items or members it has; a value that has none of either counts as one, null as none.
+  std::size_t size() const;
+  bool empty() const { return size() == 0; }
+
+  // The items of an array. [] of an index, back() and front() throw JsonError where there is none.
+  Json& operator[](std::size_t index);
+  const Json& operator[](std::size_t index) const;
+  Json& operator[](int index) { return (*this)[static_cast<std::size_t>(index)]; }
+  const Json& operator[](int index) const { return (*this)[static_cast<std::size_t>(index)]; }
+  Json& front() { return (*this)[0]; }
+  const Json& front() const { return (*this)[0]; }
+  Json& back() { return (*this)[size() - 1]; }
+  const Json& back() const { return (*this)[size() - 1]; }
+  // Appends an item; null becomes an array.
+  void push_back(Json item);
+  // Items of an array; nothing else has any.
+  const Json* begin() const;
+  const Json* end() const;
+  Json* begin();
+  Json* end();
+
+  // The members of an object. [] makes one that is missing, and of null an object; the others throw
+  // JsonError where there is none.
+  Json& operator[](std::string_view key);
+  Json& operator[](const char* key) { return (*this)[std::string_view(key)]; }
+  const Json& operator[](std::string_view key) const { return at(key); }
+  const Json& operator[](const char* key) const { return at(key); }
+  const Json& at(std::string_view key) const;
+  const Json* find(std::string_view key) const;  // null where there is none
+  bool contains(std::string_view key) const { return find(key) != nullptr; }
+  // The text of a member; `otherwise` where there is none, or it is no text.
+  std::string string(std::string_view key, std::string_view otherwise) const;
+  const std::vector<Member>& items() const;
+  void erase(std::string_view key);
+  void update(const Json& other);  // sets the members of another
+
+  friend bool operator==(const Json& a, const Json& b);
+
+ private:
+  union Value {
+    bool boolean;
+    std::int64_t integer;
+    std::uint64_t natural;
+    double real;
+    std::string* text;
+    std::vector<Json>* array;
+    std::vector<Member>* object;
+  };
+
+  [[noreturn]] void refuse(const char* wanted) const;
+
+  Type type_ = Type::null;
+  Value value_{};
+};
+
+struct Json::Member {
+  std::string name;
+  Json value;
+};
+
+}  // namespace sinew
