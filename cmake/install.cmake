@@ -58,6 +58,7 @@ install(DIRECTORY sinew thesis fmu DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPO
 # The program, and the robots and experiments it comes with.
 if(TARGET sinew)
   install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(TARGETS sinew_thesis_program RUNTIME DESTINATION ${sinew_modules} COMPONENT program)
 endif()
 foreach(module pagmo mpi comedi matlab)
   set(component ${module})

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# install-dependencies.sh [demo|check|faces|long|bench]   installs with apt what is missing, no more.
+# install-dependencies.sh [demo|check|faces|long|bench|npm]   installs with apt what is missing, no more.
 #
 #   demo    to build and run Sinew
 #   check   and for ./check
 #   faces   and for ./check faces
 #   long    and for ./check long
 #   bench   to build Sinew and what measures it beside others (bench)
+#   npm     where tools/npm-ci.sh cannot fetch npm
 #
 # Can be run again. Needs Debian 12 or a system with the same packages; docs/dependencies.md tells
 # more about each. Where you have the tools from elsewhere, SINEW_DEPENDENCIES=present skips this.
@@ -28,7 +29,7 @@ list='
     demo   -                   libboost-dev                     serves pages to the browser here
     demo   -                   libminizip-dev                   packs FMUs
     demo   node                nodejs                           bundles the page that shows a run
-    demo   npm                 npm                              installs what that needs
+    npm    npm                 npm                              installs what that needs
     check  -                   libgtest-dev                     tests
     check  -                   libgmock-dev                     tests
     check  -                   libsundials-dev                  a second integrator in tests
@@ -71,7 +72,8 @@ case ${1:-demo} in
   faces) sets=' demo check faces ' ;;
   long) sets=' demo check faces long ' ;;
   bench) sets=' demo bench ' ;;
-  *) echo "usage: $0 [demo|check|faces|long|bench]" >&2; exit 2 ;;
+  npm) sets=' npm ' ;;
+  *) echo "usage: $0 [demo|check|faces|long|bench|npm]" >&2; exit 2 ;;
 esac
 
 if [[ ${SINEW_DEPENDENCIES:-} == present ]]; then

@@ -40,7 +40,20 @@ step_build() {
 }
 
 step_tests() {
-  build_program && cmake --build --preset tests && run_ctest release -- -L '^tests$'
+  build_program && cmake --build --preset tests && run_ctest release -- -L '^tests$' && slow_tests_have_reasons
+}
+
+# A test of more than a second has a reason in tests/slow.txt. Three, so that a busy computer does not decide.
+slow_tests_have_reasons() {
+  awk '
+    NR == FNR { if (!/^#/ && sub(/   .*/, "")) known[$0]; next }
+    / Test: / { name = $0; sub(/^.* Test: /, "", name) }
+    /^Test time = / && $4 > 3 {
+      for (k in known) if (index(name, k) == 1) next
+      print name ": took " $4 " s; make it quicker, or say in tests/slow.txt why it cannot be"
+      wrong = 1
+    }
+    END { exit wrong }' tests/slow.txt "$build/Testing/Temporary/LastTest.log"
 }
 
 step_experiments() {
@@ -87,7 +100,7 @@ step_mcap() {
 }
 
 step_figures() {
-  build_program || return 1
+  build_program && cmake --build --preset release --target sinew_thesis_program || return 1
   local out=$logs/figures count file
   rm -rf "$out"
   "$build/bin/sinew" figures --thesis -o "$out" --format svg,png || return 1

@@ -1,17 +1,19 @@
 #include "sinew/identify/fit/matrix.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sinew::identify {
 
 namespace {
 
 using Dense = Eigen::MatrixXd;
+
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 Eigen::Index index(std::size_t n) { return static_cast<Eigen::Index>(n); }
 
@@ -97,9 +99,15 @@ Axes singular_axes(const Matrix& square) {
   return {copy(Eigen::VectorXd(svd.singularValues())), copy(Dense(svd.matrixV()))};
 }
 
-Axes symmetric_axes(const Matrix& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Dense> axes(view(symmetric));
-  return {copy(axes.eigenvalues()), copy(axes.eigenvectors())};
+Axes axes_of_positive(const Matrix& symmetric) {
+  const Axes falling = singular_axes(symmetric);
+  const std::size_t n = symmetric.rows();
+  Axes out{std::vector<double>(n), Matrix(n, n)};
+  for (std::size_t k = 0; k < n; ++k) {
+    out.values[k] = falling.values[n - 1 - k];
+    std::ranges::copy(falling.axes.column(n - 1 - k), out.axes.column(k).begin());
+  }
+  return out;
 }
 
 Matrix solved(const Matrix& a, const Matrix& b) {
@@ -107,7 +115,10 @@ Matrix solved(const Matrix& a, const Matrix& b) {
 }
 
 std::vector<double> solved(const Matrix& a, std::span<const double> b) {
-  return copy(Eigen::VectorXd(view(a).ldlt().solve(view(b))));
+  Matrix column(b.size(), 1);
+  std::ranges::copy(b, column.column(0).begin());
+  const Matrix x = solved(a, column);
+  return {x.column(0).begin(), x.column(0).end()};
 }
 
 std::optional<Matrix> inverse_of_positive(const Matrix& symmetric, double least) {
@@ -119,8 +130,17 @@ std::optional<Matrix> inverse_of_positive(const Matrix& symmetric, double least)
   return copy(Dense(factors.solve(Dense::Identity(a.rows(), a.cols()))));
 }
 
-Matrix pseudo_inverse(const Matrix& a) {
-  return copy(Dense(view(a).completeOrthogonalDecomposition().pseudoInverse()));
+Matrix inverse_where_seen(const Matrix& symmetric) {
+  const std::size_t n = symmetric.rows();
+  const auto [values, axes] = singular_axes(symmetric);
+  Matrix out(n, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(values[k] > rounding * static_cast<double>(n) * values[0])) continue;
+    const std::span<const double> axis = axes.column(k);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t l = 0; l < n; ++l) out(i, l) += axis[i] * axis[l] / values[k];
+  }
+  return out;
 }
 
 }  // namespace sinew::identify

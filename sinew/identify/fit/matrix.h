@@ -82,8 +82,9 @@ struct Axes {
 // Returns the singular values of a square matrix, the largest first, with its right vectors.
 Axes singular_axes(const Matrix& square);
 
-// Returns the eigenvalues of a symmetric matrix, the smallest first, with its vectors.
-Axes symmetric_axes(const Matrix& symmetric);
+// Returns the eigenvalues of a symmetric matrix that has none below 0, such as a covariance, the
+// smallest first, with its vectors.
+Axes axes_of_positive(const Matrix& symmetric);
 
 // Returns x of a x = b, for each column of b, where a is symmetric and not negative.
 Matrix solved(const Matrix& a, const Matrix& b);
@@ -93,7 +94,8 @@ std::vector<double> solved(const Matrix& a, std::span<const double> b);
 // largest element of its diagonal.
 std::optional<Matrix> inverse_of_positive(const Matrix& symmetric, double least);
 
-// Returns the inverse of Moore and Penrose.
-Matrix pseudo_inverse(const Matrix& a);
+// Returns Moore and Penrose's inverse of a symmetric matrix that has no eigenvalue below 0:
+// directions that it does not stretch stay out of it.
+Matrix inverse_where_seen(const Matrix& symmetric);
 
 }  // namespace sinew::identify

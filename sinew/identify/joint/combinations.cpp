@@ -39,7 +39,7 @@ std::vector<Combination> combinations_of(const Solution& s) {
     for (const std::string& text : s.unseen) out.push_back({text, unbounded});
     return out;
   }
-  const Axes axes = symmetric_axes(relative);
+  const Axes axes = axes_of_positive(relative);
   for (std::size_t k = 0; k < m; ++k) {
     Combination c;
     const std::span<const double> power = axes.axes.column(k);

@@ -35,7 +35,7 @@ std::vector<std::string> open_directions(RunJudged& judged, std::span<const Para
       const std::size_t i = seen[a], k = seen[b];
       c(a, b) = judged.covariance[i * n + k] / (size(i) * size(k));
     }
-  const Axes axes = symmetric_axes(c);
+  const Axes axes = axes_of_positive(c);
   std::vector<bool> told(n, false);
   for (std::size_t a = m; a-- > 0;) {
     if (!(half_width * std::sqrt(std::max(0.0, axes.values[a])) > 0.5)) continue;

@@ -20,8 +20,8 @@ AnyWorld world_for(const Setup& s) {
   using std::in_place_type;
   if (chain && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
   if (chain) return AnyWorld(in_place_type<ChainWorld<2>>, s);
-  return body_world_for<SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>, SizedBodyWorld<3, 4, 8>,
-                        SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld>(s);
+  return body_world_for<SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>, SizedBodyWorld<4, 4, 8>,
+                        BodyWorld, LargeBodyWorld>(s);
 }
 
 }  // namespace

@@ -27,7 +27,6 @@ extern template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
 extern template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
 extern template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<3, 2, 4>, air::AirNetwork<4>>;
-extern template class World<BodyMechanism<3, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
@@ -36,9 +35,9 @@ extern template class World<BodyMechanism<most_joints, robot::max_discs, most_mu
 // One leg of several that go side by side (packs/batch.h).
 using LegLane = Lane<ChainWorld<2>>;
 
-using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>,
-                              SizedBodyWorld<3, 2, 4>, SizedBodyWorld<3, 4, 8>,
-                              SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane>;
+using AnyWorld =
+    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
+                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane>;
 
 class Machine {
  public:

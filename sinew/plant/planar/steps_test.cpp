@@ -37,13 +37,13 @@ Setup leg_on_a_shoe(std::mt19937& random) {
 }
 
 TEST(Steps, SuitEveryPose) {
-  using Contacts = FrictionContacts<3, 4>;
+  using Contacts = FrictionContacts<3, 2>;
   std::mt19937 random(8);
   std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
   int divided = 0, relaxed = 0;
   for (int machine = 0; machine < 40; ++machine) {
     const plant::Setup s = leg_on_a_shoe(random);
-    const BodyMechanism<3, 4, 8> mechanism(s);
+    const BodyMechanism<3, 2, 4> mechanism(s);
     const Contacts contacts(mechanism.constants(), s.robot);
     const double step = mechanism.node_step(s);
     FastestRates fastest;
@@ -183,13 +183,13 @@ TEST(Steps, WithTheGroundsDamperRelaxedAreStable) {
 // Nodes are left out only where no disc comes to the ground, or leaves it, before the next: all
 // coordinates go on with their rates.
 TEST(Steps, AreLongWhereNoContactChanges) {
-  using Contacts = FrictionContacts<3, 4>;
+  using Contacts = FrictionContacts<3, 2>;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi), size(-1, 1);
   int in_air = 0, near = 0, pressed = 0, short_on_ground = 0;
   for (int machine = 0; machine < 20; ++machine) {
     plant::Setup s = leg_on_a_shoe(random);
-    const BodyMechanism<3, 4, 8> mechanism(s);
+    const BodyMechanism<3, 2, 4> mechanism(s);
     const Contacts contacts(mechanism.constants(), s.robot);
     const auto depths = [&](const BodyState<3>& m) {
       std::vector<double> out;

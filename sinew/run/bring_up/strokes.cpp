@@ -13,7 +13,7 @@ constexpr double margin = 20;
 // Less than this between its ends is no stroke  [count].
 constexpr double least_stroke = 60;
 
-enum : std::size_t { vent, shut, filling, emptying };
+enum : std::size_t { vented, closed, charging, discharging };
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::vector<Stage> stroke_of(const BenchMuscle& m, std::size_t joints) {
 }
 
 double end_of_stroke(const BenchJoint& joint, const Trial& t) {
-  return t.stages[filling].after(joint.angle);
+  return t.stages[charging].after(joint.angle);
 }
 
 std::vector<std::string> wrong_with_ends(const BenchJoint& joint,
