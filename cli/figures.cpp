@@ -18,17 +18,14 @@ struct FiguresOptions {
   bool of_thesis = false;
 };
 
-constexpr report::Picture pictures[] = {report::Picture::pdf, report::Picture::svg,
-                                        report::Picture::png};
-
 std::vector<report::Picture> parse_formats(const std::vector<std::string>& words) {
   std::vector<report::Picture> out;
   for (const std::string& list : words) {
     std::istringstream in(list);
     for (std::string word; std::getline(in, word, ',');) {
       if (word == "csv") continue;
-      const auto picture = std::ranges::find(pictures, word, &report::ending);
-      if (picture == std::end(pictures))
+      const std::optional<report::Picture> picture = report::picture_of(word);
+      if (!picture)
         config::fail({"--format", 0, 0}, "", fmt::format("\"{}\"", word), "pdf, svg, png or csv",
                      "--format pdf,png");
       if (std::ranges::find(out, *picture) == out.end()) out.push_back(*picture);

@@ -1,6 +1,6 @@
 # The pages of web/, each bundled into one text by esbuild and compiled into sinew_report_page. Where its npm
 # packages are missing the program is built without it, and says so when it is asked for a report.
-# The glob is looked at in every build: after `npm ci` the next one has the page.
+# The glob is looked at in every build: after tools/npm-ci.sh the next one has the page.
 
 set(web ${PROJECT_SOURCE_DIR}/web)
 file(GLOB web_packages CONFIGURE_DEPENDS ${web}/node_modules/.package-lock.json)
@@ -31,6 +31,6 @@ std::string_view sinew::report::study_template() { return {}; }
 std::string_view sinew::report::run_list_template() { return {}; }
 std::string_view sinew::report::film_script() { return {}; }
 ")
-  message(STATUS "web/: built without reports; npm ci in web/ brings them")
+  message(STATUS "web/: built without reports; tools/npm-ci.sh web brings them")
 endif()
 target_sources(sinew_report_page PRIVATE ${page_template})

@@ -2,23 +2,25 @@
 // where it is there already. Exit 1 with a reason where it cannot be had.
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 
 const version = '10.9.4'; // the last for Node 18
 const integrity = 'OnUG836FwboQIbqtefDNlyR0gTHzIfwRfE3DuiNewBvnMnWEpB0VEXwBlFVgqpNzIgYo/MHh3d2Hel/pszapAA==';
-const registry = (process.env.npm_config_registry ?? 'https://registry.npmjs.org').replace(/\/$/, '');
+const { npm_config_registry, NPM_CONFIG_REGISTRY } = process.env;
+const registry = (npm_config_registry ?? NPM_CONFIG_REGISTRY ?? 'https://registry.npmjs.org').replace(/\/$/, '');
 const folder = process.argv[2];
 
 async function fetchNpm() {
-  if (existsSync(`${folder}/package/.complete`)) return;
-  const answer = await fetch(`${registry}/npm/-/npm-${version}.tgz`, { signal: AbortSignal.timeout(60000) });
+  if (existsSync(`${folder}/package/.complete-${version}`)) return;
+  const answer = await fetch(`${registry}/npm/-/npm-${version}.tgz`, { signal: AbortSignal.timeout(20000) });
   if (!answer.ok) throw new Error(`${answer.url}: ${answer.status}`);
   const archive = Buffer.from(await answer.arrayBuffer());
   if (createHash('sha512').update(archive).digest('base64') !== integrity) throw new Error(`${answer.url}: not the archive of npm ${version}`);
+  rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   writeFileSync(`${folder}/npm.tgz`, archive);
   execFileSync('tar', ['-xzf', 'npm.tgz'], { cwd: folder });
-  writeFileSync(`${folder}/package/.complete`, '');
+  writeFileSync(`${folder}/package/.complete-${version}`, '');
 }
 
 fetchNpm().catch((wrong) => {

@@ -3,7 +3,8 @@
 # for; nothing where that is done already.
 #
 # Where there is no npm, it is fetched from its own registry: Debian's is 670 packages, which take
-# longer to install than the compiler does. Debian's is installed only where that fails.
+# longer to install than the compiler does. Debian's is installed where that fails, as behind a proxy,
+# of which only npm knows.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -30,6 +30,8 @@ of_experiments() {
 
 of_figures() {
   local made=${FIGURES:-$scratch/figures}
+  # The program of its own that draws them may be older than sinew.
+  [[ -d $made || ! -d build/release ]] || cmake --build build/release --target sinew_thesis_program >/dev/null
   [[ -d $made ]] || "$sinew" figures --thesis -o "$made" --format csv --quiet >/dev/null
   node tools/statements.mjs figures "$made/index.json"
 }

@@ -5,9 +5,12 @@
 //   thesis-figures ROOT OUT FORCE MUST_DRAW JSON QUIET [PICTURE…]   words that sinew has checked
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <span>
+#include <stdexcept>
+#include <string_view>
 
 #include "cli/terminal.h"
 #include "sinew/report/text/text_table.h"
@@ -75,9 +78,7 @@ void draw(std::span<char*> words) {
   const bool json = is(4), quiet = is(5);
   run::FigureFiles files{.pictures = {}, .must_draw = is(3), .force = is(2)};
   for (const std::string_view word : words.subspan(6))
-    for (const report::Picture picture :
-         {report::Picture::svg, report::Picture::png, report::Picture::pdf})
-      if (report::ending(picture) == word) files.pictures.push_back(picture);
+    files.pictures.push_back(report::picture_of(word).value());
 
   const report::Gallery gallery = made(words[0], quiet);
   const std::string index = run::write_figures(words[1], gallery, files, Messages(quiet).notices());

@@ -41,32 +41,63 @@ Library to_library(const Json& json) {
   return {};
 }
 
-Json from_library(const Library& json) {
-  switch (json.type()) {
-    case Library::value_t::boolean:
-      return json.get<bool>();
-    case Library::value_t::number_integer:
-      return json.get<std::int64_t>();
-    case Library::value_t::number_unsigned:
-      return json.get<std::uint64_t>();
-    case Library::value_t::number_float:
-      return json.get<double>();
-    case Library::value_t::string:
-      return json.get_ref<const std::string&>();
-    case Library::value_t::array: {
-      Json out = Json::array();
-      for (const Library& item : json) out.push_back(from_library(item));
-      return out;
-    }
-    case Library::value_t::object: {
-      Json out = Json::object();
-      for (const auto& [name, value] : json.items()) out[name] = from_library(value);
-      return out;
-    }
-    default:
-      return {};
+// Builds a value while the library reads a text, so that there is never a second one of it.
+struct Builder {
+  // Deeper ones than any of ours are refused: a value is copied and removed level by level.
+  static constexpr std::size_t deepest = 500;
+
+  Json root;
+  std::vector<Json*> open;  // the lists and objects that have begun, the innermost last
+  std::string name;         // of the member that comes next
+  std::string wrong;        // why the text is refused
+
+  bool null() { return put(nullptr); }
+  bool boolean(bool value) { return put(value); }
+  bool number_integer(std::int64_t value) { return put(value); }
+  bool number_unsigned(std::uint64_t value) { return put(value); }
+  bool number_float(double value, const std::string&) { return put(value); }
+  bool string(std::string& value) { return put(std::move(value)); }
+  bool binary(Library::binary_t&) { return refuse("found bytes, expected a text or a number"); }
+  bool start_object(std::size_t) { return begin(Json::object()); }
+  bool start_array(std::size_t) { return begin(Json::array()); }
+  bool end_object() { return end(); }
+  bool end_array() { return end(); }
+  bool key(std::string& value) {
+    name = std::move(value);
+    return true;
   }
-}
+  bool parse_error(std::size_t, const std::string&, const Library::exception& error) {
+    return refuse(error.what());
+  }
+
+ private:
+  Json& next() {
+    if (open.empty()) return root;
+    Json& in = *open.back();
+    if (in.is_object()) return in[name];
+    in.push_back(nullptr);
+    return in.back();
+  }
+  bool put(Json value) {
+    next() = std::move(value);
+    return true;
+  }
+  bool begin(Json list) {
+    if (open.size() == deepest) return refuse("found lists within lists, more than 500 deep");
+    Json& here = next();
+    here = std::move(list);
+    open.push_back(&here);
+    return true;
+  }
+  bool end() {
+    open.pop_back();
+    return true;
+  }
+  bool refuse(std::string why) {
+    wrong = std::move(why);
+    return false;
+  }
+};
 
 // Are these a list of pairs that begin with a text?
 bool are_members(std::initializer_list<Json> items) {
@@ -129,16 +160,16 @@ Json Json::object() {
   return out;
 }
 
-Json Json::parse(std::string_view text) try {
-  return from_library(Library::parse(text));
-} catch (const Library::exception& wrong) {
-  throw JsonError(wrong.what());
+Json Json::parse(std::string_view text) {
+  Builder builder;
+  if (!Library::sax_parse(text, &builder)) throw JsonError(builder.wrong);
+  return std::move(builder.root);
 }
 
 bool Json::parse(std::string_view text, Json& out) {
-  const Library read = Library::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (read.is_discarded()) return false;
-  out = from_library(read);
+  Builder builder;
+  if (!Library::sax_parse(text, &builder)) return false;
+  out = std::move(builder.root);
   return true;
 }
 
@@ -152,8 +183,8 @@ std::string Json::text(int indent) const {
   return to_library(*this).dump(indent, ' ', false, Library::error_handler_t::replace);
 }
 
-std::string Json::exact_text() const try {
-  return to_library(*this).dump();
+std::string Json::exact_text(int indent) const try {
+  return to_library(*this).dump(indent);
 } catch (const Library::exception& wrong) {
   throw JsonError(wrong.what());
 }
@@ -164,10 +195,11 @@ std::string Json::bytes() const {
   return out;
 }
 
-Json Json::of_bytes(std::string_view bytes) try {
-  return from_library(Library::from_cbor(bytes));
-} catch (const Library::exception& wrong) {
-  throw JsonError(wrong.what());
+Json Json::of_bytes(std::string_view bytes) {
+  Builder builder;
+  if (!Library::sax_parse(bytes, &builder, Library::input_format_t::cbor))
+    throw JsonError(builder.wrong);
+  return std::move(builder.root);
 }
 
 void Json::refuse(const char* wanted) const {
@@ -207,16 +239,14 @@ std::uint64_t Json::natural() const {
 }
 
 std::vector<std::string> Json::strings() const {
-  if (!is_array()) refuse("a list");
   std::vector<std::string> out;
-  for (const Json& item : *this) out.push_back(item.string());
+  for (const Json& item : list()) out.push_back(item.string());
   return out;
 }
 
 std::vector<double> Json::numbers() const {
-  if (!is_array()) refuse("a list");
   std::vector<double> out;
-  for (const Json& item : *this)
+  for (const Json& item : list())
     out.push_back(item.is_null() ? std::numeric_limits<double>::quiet_NaN() : item.number());
   return out;
 }
@@ -238,6 +268,11 @@ void Json::push_back(Json item) {
   if (is_null()) *this = array();
   if (!is_array()) refuse("a list");
   value_.array->push_back(std::move(item));
+}
+
+const std::vector<Json>& Json::list() const& {
+  if (!is_array()) refuse("a list");
+  return *value_.array;
 }
 
 const Json* Json::begin() const { return is_array() ? value_.array->data() : nullptr; }
@@ -270,7 +305,7 @@ std::string Json::string(std::string_view key, std::string_view otherwise) const
   return found != nullptr && found->is_string() ? found->string() : std::string(otherwise);
 }
 
-const std::vector<Json::Member>& Json::items() const {
+const std::vector<Json::Member>& Json::items() const& {
   if (!is_object()) refuse("an object");
   return *value_.object;
 }
@@ -282,6 +317,8 @@ void Json::erase(std::string_view key) {
 void Json::update(const Json& other) {
   for (const auto& [name, value] : other.items()) (*this)[name] = value;
 }
+
+std::ostream& operator<<(std::ostream& out, const Json& json) { return out << json.text(); }
 
 bool operator==(const Json& a, const Json& b) {
   if (a.is_number() && b.is_number()) {

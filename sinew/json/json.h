@@ -1,10 +1,9 @@
 // json/json.h - a value of JSON: built, looked into, read and written. Members of an object stay in
 // the order in which they came.
 //
-//   Json out{{"format", "sinew.doctor/1"}, {"seeds", {1, 2, 3}}};   an object of two members
+//   Json out{{"format", "sinew.study/1"}, {"seeds", {1, 2, 3}}};  // an object of two members
 //   out["title"] = "a walk";
-//   out.text();                          {"format":"sinew.doctor/1","seeds":[1,2,3],"title":"a
-//   walk"}
+//   out.text();  // {"format":"sinew.study/1","seeds":[1,2,3],"title":"a walk"}
 //
 // A list in braces is an object where each of its items is a list of two that begins with a text,
 // and an array else: array({...}) says that it is one.
@@ -32,10 +31,13 @@ class JsonError : public std::runtime_error {
 
 class Json {
  public:
+  // What it may hold. A whole number is an integer where it came from a type with a sign, else
+  // natural.
   enum class Type { null, boolean, integer, natural, real, text, array, object };
   struct Member;
 
-  Json() = default;  // null
+  // Make a value of what stands in the brackets; null of nothing.
+  Json() = default;
   Json(std::nullptr_t) {}
   Json(std::same_as<bool> auto value) : type_(Type::boolean) { value_.boolean = value; }
   template <std::signed_integral T>
@@ -64,6 +66,7 @@ class Json {
     for (const auto& one : list) push_back(Json(one));
   }
 
+  // Copies have items of their own.
   Json(const Json& other);
   Json(Json&& other) noexcept : type_(other.type_), value_(other.value_) {
     other.type_ = Type::null;
@@ -76,22 +79,24 @@ class Json {
   static Json array(std::initializer_list<Json> items);
   static Json object();
 
-  // Returns what the text says. Throws JsonError, which says where it is no JSON.
+  // Returns what the text says. Throws JsonError, which says where it is no JSON, or that its lists
+  // lie in each other more than 500 deep.
   static Json parse(std::string_view text);
-  // Returns whether the text is JSON; what it says, into `out`.
+  // The same into `out`, which stays as it is where this returns false.
   static bool parse(std::string_view text, Json& out);
   static bool parse(std::istream& in, Json& out);
 
   // Returns it as text: in one line, or with so many spaces before each inner line. Bytes that are
   // no UTF-8 become U+FFFD; numbers that are not finite become null.
   std::string text(int indent = -1) const;
-  // Returns it in one line; throws JsonError where a text of it is no UTF-8.
-  std::string exact_text() const;
+  // Returns the same; throws JsonError where a text in it is no UTF-8.
+  std::string exact_text(int indent = -1) const;
 
   // Returns it in bytes that keep every number (RFC 8949), and what such bytes say.
   std::string bytes() const;
   static Json of_bytes(std::string_view bytes);
 
+  // Return what it holds, and whether it holds that.
   Type type() const { return type_; }
   bool is_null() const { return type_ == Type::null; }
   bool is_boolean() const { return type_ == Type::boolean; }
@@ -125,7 +130,11 @@ class Json {
   const Json& back() const { return (*this)[size() - 1]; }
   // Appends an item; null becomes an array.
   void push_back(Json item);
-  // Items of an array; nothing else has any.
+  // Returns all items. Throws JsonError where it is no array.
+  const std::vector<Json>& list() const&;
+  void list() const&& = delete;  // a loop over what is gone
+  // A loop over an array visits its items, one over anything else nothing: items() has the members
+  // of an object.
   const Json* begin() const;
   const Json* end() const;
   Json* begin();
@@ -142,11 +151,13 @@ class Json {
   bool contains(std::string_view key) const { return find(key) != nullptr; }
   // The text of a member; `otherwise` where there is none, or it is no text.
   std::string string(std::string_view key, std::string_view otherwise) const;
-  const std::vector<Member>& items() const;
+  const std::vector<Member>& items() const&;
+  void items() const&& = delete;
   void erase(std::string_view key);
   void update(const Json& other);  // sets the members of another
 
   friend bool operator==(const Json& a, const Json& b);
+  friend std::ostream& operator<<(std::ostream& out, const Json& json);
 
  private:
   union Value {
@@ -165,6 +176,7 @@ class Json {
   Value value_{};
 };
 
+// A member of an object.
 struct Json::Member {
   std::string name;
   Json value;

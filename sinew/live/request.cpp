@@ -33,7 +33,7 @@ constexpr Form forms[] = {
 
 const Form& form_of(const Json& json) {
   const auto word = json.find("do");
-  if (word == json.end() || !word->is_string()) refuse("no \"do\"", "what is to be done");
+  if (word == nullptr || !word->is_string()) refuse("no \"do\"", "what is to be done");
   for (const Form& form : forms)
     if (form.word == word->string()) return form;
   refuse(word->text(), "pause, resume, pace, stop, set, release or release all");

@@ -18,6 +18,7 @@
 #include <random>
 #include <thread>
 
+#include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_fit.h"
 #include "sinew/run/simulation/run.h"

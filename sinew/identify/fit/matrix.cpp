@@ -95,6 +95,14 @@ Matrix inverse_of_triangle(const Matrix& triangle) {
 }
 
 Axes singular_axes(const Matrix& square) {
+  const std::size_t n = square.rows();
+  if (n == 0) return {};
+  if (!square.is_finite()) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    Axes out{std::vector<double>(n, unknown), Matrix(n, n)};
+    for (std::size_t k = 0; k < n; ++k) std::ranges::fill(out.axes.column(k), unknown);
+    return out;
+  }
   const Eigen::JacobiSVD<Dense, Eigen::NoQRPreconditioner> svd(view(square), Eigen::ComputeFullV);
   return {copy(Eigen::VectorXd(svd.singularValues())), copy(Dense(svd.matrixV()))};
 }
@@ -135,7 +143,7 @@ Matrix inverse_where_seen(const Matrix& symmetric) {
   const auto [values, axes] = singular_axes(symmetric);
   Matrix out(n, n);
   for (std::size_t k = 0; k < n; ++k) {
-    if (!(values[k] > rounding * static_cast<double>(n) * values[0])) continue;
+    if (values[k] <= rounding * static_cast<double>(n) * values[0]) continue;
     const std::span<const double> axis = axes.column(k);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t l = 0; l < n; ++l) out(i, l) += axis[i] * axis[l] / values[k];

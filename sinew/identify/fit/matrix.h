@@ -21,10 +21,10 @@ class Matrix {
   // Returns the unit matrix of n rows.
   static Matrix unit(std::size_t n);
 
+  // Return its size, its numbers column by column, one of them, and a column.
   std::size_t rows() const { return rows_; }
   std::size_t columns() const { return columns_; }
   const double* data() const { return values_.data(); }
-
   double& operator()(std::size_t row, std::size_t column) { return values_[column * rows_ + row]; }
   double operator()(std::size_t row, std::size_t column) const {
     return values_[column * rows_ + row];
@@ -79,7 +79,8 @@ struct Axes {
   Matrix axes;
 };
 
-// Returns the singular values of a square matrix, the largest first, with its right vectors.
+// Returns the singular values of a square matrix, the largest first, with its right vectors; not
+// numbers where one of its elements is none.
 Axes singular_axes(const Matrix& square);
 
 // Returns the eigenvalues of a symmetric matrix that has none below 0, such as a covariance, the

@@ -46,12 +46,15 @@ TEST(Matrix, SingularAxesAreThoseOfTheSquare) {
     const Matrix a = random_matrix(4, 4, seed), normal = transposed_product(a, a);
     const Axes singular = singular_axes(a), symmetric = axes_of_positive(normal);
     const Matrix stretched = product(normal, singular.axes);
+    const Matrix of_symmetric = product(normal, symmetric.axes);
     for (std::size_t k = 0; k < 4; ++k) {
       const double value = singular.values[k];
       EXPECT_NEAR(symmetric.values[3 - k], value * value, 1e-12);
       EXPECT_LE(value, singular.values[k > 0 ? k - 1 : 0]);
-      for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_NEAR(stretched(i, k), value * value * singular.axes(i, k), 1e-11);
+        EXPECT_NEAR(of_symmetric(i, k), symmetric.values[k] * symmetric.axes(i, k), 1e-11);
+      }
     }
     expect_same(transposed_product(symmetric.axes, symmetric.axes), Matrix::unit(4));
   }
@@ -68,6 +71,15 @@ TEST(Matrix, WhatIsSolvedGivesTheOtherSideAgain) {
     ASSERT_TRUE(inverse);
     expect_same(product(normal, *inverse), Matrix::unit(4), 1e-11);
   }
+}
+
+TEST(Matrix, WithoutNumbersThereAreNoAxes) {
+  EXPECT_TRUE(singular_axes(Matrix()).values.empty());
+  EXPECT_TRUE(axes_of_positive(Matrix()).values.empty());
+  Matrix a = random_matrix(3, 3, 1);
+  a(1, 1) = INFINITY;
+  EXPECT_TRUE(std::isnan(singular_axes(a).values[2]));
+  EXPECT_TRUE(std::isnan(inverse_where_seen(a)(0, 0)));
 }
 
 TEST(Matrix, WhatIsNotDeterminedHasNoInverse) {

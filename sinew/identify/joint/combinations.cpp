@@ -50,8 +50,7 @@ std::vector<Combination> combinations_of(const Solution& s) {
       if (std::abs(power[i]) > 0.05)
         c.text += fmt::format("{}{}^{:.2f}", c.text.empty() ? "" : " ", s.estimates[which[i]].name,
                               sign * power[i]);
-    c.relative_error =
-        t_quantile(std::max(1, s.freedom)) * std::sqrt(std::max(0.0, axes.values[k]));
+    c.relative_error = t_quantile(std::max(1, s.freedom)) * std::sqrt(axes.values[k]);
     out.push_back(std::move(c));
   }
   return out;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/machine/run_mixture.h"
 #include "sinew/identify/machine/run_search.h"
 #include "sinew/identify/machine/run_tangent.h"
@@ -121,7 +122,9 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
                     const RunSearched& at, int threads) {
   RunJudged out;
   RunTangent t;
-  (void)run_tangent(residuals, parameters, at.cells, at.p, threads, t);
+  if (!run_tangent(residuals, parameters, at.cells, at.p, threads, t))
+    throw Refusal("the run", "no simulation to its end with the numbers that suit its begin",
+                  "one that goes to its end", "fewer numbers, or a shorter stretch");
   const std::vector<std::size_t> columns = seen_columns(t.j, at.cells);
   out.rms = std::sqrt(square(t.r) / static_cast<double>(residuals.count()));
   out.roughness = roughness(residuals, parameters, at, threads, t);

@@ -38,7 +38,7 @@ std::vector<std::string> open_directions(RunJudged& judged, std::span<const Para
   const Axes axes = axes_of_positive(c);
   std::vector<bool> told(n, false);
   for (std::size_t a = m; a-- > 0;) {
-    if (!(half_width * std::sqrt(std::max(0.0, axes.values[a])) > 0.5)) continue;
+    if (!(half_width * std::sqrt(axes.values[a]) > 0.5)) continue;
     std::string words;
     bool is_open = false;
     std::vector<std::size_t> members;

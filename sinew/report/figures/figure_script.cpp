@@ -294,6 +294,12 @@ void Script::draw(std::size_t p) {
 
 }  // namespace
 
+std::optional<Picture> picture_of(std::string_view asked) {
+  for (const Picture picture : {Picture::svg, Picture::png, Picture::pdf})
+    if (ending(picture) == asked) return picture;
+  return std::nullopt;
+}
+
 std::string_view ending(Picture picture) {
   return picture == Picture::svg ? "svg" : picture == Picture::png ? "png" : "pdf";
 }

@@ -5,6 +5,7 @@
 // legend above the data. All text comes out as it was typed. Written for gnuplot 5.4.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ enum class Picture { svg, png, pdf };
 
 // Returns the ending of its files, "svg".
 std::string_view ending(Picture picture);
+
+// Returns the format whose files end so; nothing where none does.
+std::optional<Picture> picture_of(std::string_view ending);
 
 // To be run in the folder of the sheets; leaves <name>.svg, <name>.png and <name>.pdf there, those
 // that are asked for. The same figure gives the same bytes.

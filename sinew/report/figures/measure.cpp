@@ -31,12 +31,12 @@ double first_crossing(const Trace& t, double level, double from, bool up) {
   return nothing;
 }
 
-struct Reach {
+struct ValueRange {
   double least = nothing, greatest = nothing;
 };
 
-Reach range_of(const Trace& t) {
-  Reach r;
+ValueRange range_of(const Trace& t) {
+  ValueRange r;
   for (std::size_t i = 0; i < t.y.size(); ++i) {
     if (!there(t, i)) continue;
     if (!(t.y[i] >= r.least)) r.least = t.y[i];
@@ -85,7 +85,7 @@ StraightLine line_of(const Trace& t) {
 
 double bend(const Trace& t) {
   const StraightLine line = line_of(t);
-  const Reach range = range_of(t);
+  const ValueRange range = range_of(t);
   double largest = 0;
   for (std::size_t i = 0; i < t.x.size(); ++i)
     if (there(t, i))

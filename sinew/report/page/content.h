@@ -59,12 +59,13 @@ std::string to_json(const Blob::Layout& layout);
 std::string to_json(const std::string& text);
 std::string to_json(double number);
 
-// A member of an object, or as phases/stretches of one in it, and its JSON; none takes it away.
-struct Member {
+// A member of an object and its new JSON; an empty one removes it. phases/stretches is the member
+// `stretches` of the member `phases`.
+struct ChangedMember {
   std::string name, json;
 };
 // Returns the object with these members changed.
-std::string with_members(const std::string& object, const std::vector<Member>& members);
+std::string with_members(const std::string& object, const std::vector<ChangedMember>& members);
 
 // Without the stretches where there are more than a screen can show.
 std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);

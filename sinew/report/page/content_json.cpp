@@ -335,7 +335,7 @@ std::string to_json(const FitPage& fit, Columns& columns) {
   return text_of(out);
 }
 
-std::string with_members(const std::string& object, const std::vector<Member>& members) {
+std::string with_members(const std::string& object, const std::vector<ChangedMember>& members) {
   Json out = Json::parse(object);
   for (const auto& [name, json] : members) {
     const std::size_t slash = name.find('/');

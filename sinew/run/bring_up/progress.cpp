@@ -39,7 +39,7 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
     if (!Json::parse(in, root) || root.at("format") != format) throw std::runtime_error("format");
     out.robot = root.at("robot").string();
     out.board = root.at("board").string();
-    out.machine = root.string("machine", "");
+    if (root.contains("machine")) out.machine = root.at("machine").string();
     for (const auto& [name, said] : root.at("steps").items()) out.done[name] = said.strings();
     for (const auto& [name, l] : root.at("sensors").items())
       out.learned[name] = {l.at("at_rest_count").number(), l.at("noise_count").number(),
@@ -67,7 +67,7 @@ void write_progress(const Progress& p, const std::filesystem::path& file) {
   root["joints"] = Json::object();
   for (const auto& [name, s] : p.strokes)
     root["joints"][name] = {{"lowest_count", s.lowest}, {"highest_count", s.highest}};
-  write_file(file, root.text(2) + "\n");
+  write_file(file, root.exact_text(2) + "\n");
 }
 
 std::string learned_robot(const Progress& p, const std::filesystem::path& base,

@@ -13,7 +13,8 @@ constexpr double margin = 20;
 // Less than this between its ends is no stroke  [count].
 constexpr double least_stroke = 60;
 
-enum : std::size_t { vented, closed, charging, discharging };
+// Which of a stroke's stages fills its muscle.
+constexpr std::size_t filled = 2;
 
 }  // namespace
 
@@ -34,13 +35,13 @@ std::vector<BenchJoint> bench_joints(const control::Board& board,
 
 std::vector<Stage> stroke_of(const BenchMuscle& m, std::size_t joints) {
   const std::vector<control::Duties> all_empty(joints, empty_both);
-  std::vector<control::Duties> filled = all_empty;
-  filled[m.board_joint] = fill(m);
-  return {{0.5, all_empty}, {0.1, {}}, {1.5, filled}, {1.5, all_empty}};
+  std::vector<control::Duties> one_full = all_empty;
+  one_full[m.board_joint] = fill(m);
+  return {{0.5, all_empty}, {0.1, {}}, {1.5, one_full}, {1.5, all_empty}};
 }
 
 double end_of_stroke(const BenchJoint& joint, const Trial& t) {
-  return t.stages[charging].after(joint.angle);
+  return t.stages[filled].after(joint.angle);
 }
 
 std::vector<std::string> wrong_with_ends(const BenchJoint& joint,

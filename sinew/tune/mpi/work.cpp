@@ -178,7 +178,7 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads) 
       continue;
     }
     std::vector<std::size_t> points;
-    for (const Json& point : json.at("points")) points.push_back(point.natural());
+    for (const Json& point : json.at("points").list()) points.push_back(point.natural());
     runner->run(points, threads, [&](const Row& row) {
       ranks.send(0, packed({{"row", json_of(row)}}));
     });

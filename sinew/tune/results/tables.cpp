@@ -111,7 +111,8 @@ std::string value_of(Database& database, const std::string& key) {
 std::vector<Case> cases_of(const std::string& text, const fs::path& file) try {
   std::vector<Case> out;
   if (text.empty()) return out;
-  for (const Json& one : Json::parse(text))
+  const Json cases = Json::parse(text);
+  for (const Json& one : cases.list())
     out.push_back({.name = one.at("name").string(),
                    .experiment = one.at("experiment").string(),
                    .sets = one.at("sets").strings(),
