@@ -41,14 +41,15 @@ Library to_library(const Json& json) {
   return {};
 }
 
-// Builds a value while the library reads a text, so that there is never a second one of it.
+// Receives the parts of a text from the library's parser and builds the value directly, so that the
+// library's own tree of values is never built.
 struct Builder {
   // Deeper ones than any of ours are refused: a value is copied and removed level by level.
   static constexpr std::size_t deepest = 500;
 
   Json root;
   std::vector<Json*> open;  // the lists and objects that have begun, the innermost last
-  std::string name;         // of the member that comes next
+  std::string name;         // name of the next member
   std::string wrong;        // why the text is refused
 
   bool null() { return put(nullptr); }
@@ -99,7 +100,7 @@ struct Builder {
   }
 };
 
-// Are these a list of pairs that begin with a text?
+// Returns whether each item is a pair that begins with a text.
 bool are_members(std::initializer_list<Json> items) {
   return std::ranges::all_of(items, [](const Json& item) {
     return item.is_array() && item.size() == 2 && item[0].is_string();

@@ -5,8 +5,8 @@
 //   out["title"] = "a walk";
 //   out.text();  // {"format":"sinew.study/1","seeds":[1,2,3],"title":"a walk"}
 //
-// A list in braces is an object where each of its items is a list of two that begins with a text,
-// and an array else: array({...}) says that it is one.
+// A list in braces becomes an object if each item is a pair that begins with a text, else an array.
+// array({...}) always makes an array.
 //
 // nlohmann's library reads and writes, in json.cpp alone. Its templates take a compiler four
 // seconds in each source that includes them, which was a third of the time to build the program.
@@ -31,12 +31,12 @@ class JsonError : public std::runtime_error {
 
 class Json {
  public:
-  // What it may hold. A whole number is an integer where it came from a type with a sign, else
+  // Types of a value. A whole number from a signed type is an integer, from an unsigned type
   // natural.
   enum class Type { null, boolean, integer, natural, real, text, array, object };
   struct Member;
 
-  // Make a value of what stands in the brackets; null of nothing.
+  // Constructs a value from the argument; null without one.
   Json() = default;
   Json(std::nullptr_t) {}
   Json(std::same_as<bool> auto value) : type_(Type::boolean) { value_.boolean = value; }
@@ -54,7 +54,7 @@ class Json {
   Json(std::string_view value) : Json(std::string(value)) {}
   Json(const char* value) : Json(std::string(value)) {}
   Json(std::initializer_list<Json> items);
-  // An array of what a container of such values holds.
+  // Constructs an array from a container of values.
   template <class List>
   requires requires(const List& list) {
     list.begin();
@@ -74,15 +74,16 @@ class Json {
   Json& operator=(Json other) noexcept;
   ~Json();
 
-  // Return an array of these items, and an object without members.
+  // Returns an array of these items; object() returns an object without members.
   static Json array();
   static Json array(std::initializer_list<Json> items);
   static Json object();
 
-  // Returns what the text says. Throws JsonError, which says where it is no JSON, or that its lists
-  // lie in each other more than 500 deep.
+  // Returns the value of a JSON text. Throws JsonError, with the position of the error, if the text
+  // is not JSON or is nested more than 500 levels deep.
   static Json parse(std::string_view text);
-  // The same into `out`, which stays as it is where this returns false.
+  // Writes the value into `out` and returns true; returns false, and leaves `out` unchanged, if the
+  // text is refused.
   static bool parse(std::string_view text, Json& out);
   static bool parse(std::istream& in, Json& out);
 
@@ -92,11 +93,12 @@ class Json {
   // Returns the same; throws JsonError where a text in it is no UTF-8.
   std::string exact_text(int indent = -1) const;
 
-  // Returns it in bytes that keep every number (RFC 8949), and what such bytes say.
+  // Returns the value in CBOR (RFC 8949), which keeps NaN and infinity; of_bytes() reads it. Throws
+  // JsonError if the bytes are not CBOR.
   std::string bytes() const;
   static Json of_bytes(std::string_view bytes);
 
-  // Return what it holds, and whether it holds that.
+  // Returns the type of the value; the others return whether it has that type.
   Type type() const { return type_; }
   bool is_null() const { return type_ == Type::null; }
   bool is_boolean() const { return type_ == Type::boolean; }
@@ -106,7 +108,7 @@ class Json {
   bool is_array() const { return type_ == Type::array; }
   bool is_object() const { return type_ == Type::object; }
 
-  // Return what it holds. Throw JsonError where it holds something else.
+  // Returns the value of this type. Throws JsonError if it has another type.
   bool boolean() const;
   double number() const;
   std::int64_t integer() const;
@@ -115,11 +117,11 @@ class Json {
   std::vector<std::string> strings() const;
   std::vector<double> numbers() const;  // null is not a number
 
-  // How many items or members it has; a value that has none of either counts as one, null as none.
+  // Returns the number of items or members; 0 for null, and 1 for a text, a number or a boolean.
   std::size_t size() const;
   bool empty() const { return size() == 0; }
 
-  // The items of an array. [] of an index, back() and front() throw JsonError where there is none.
+  // Returns an item of an array. Throws JsonError if the array has no such item.
   Json& operator[](std::size_t index);
   const Json& operator[](std::size_t index) const;
   Json& operator[](int index) { return (*this)[static_cast<std::size_t>(index)]; }
@@ -128,28 +130,28 @@ class Json {
   const Json& front() const { return (*this)[0]; }
   Json& back() { return (*this)[size() - 1]; }
   const Json& back() const { return (*this)[size() - 1]; }
-  // Appends an item; null becomes an array.
+  // Appends an item; null becomes an array. Throws JsonError if it is neither.
   void push_back(Json item);
-  // Returns all items. Throws JsonError where it is no array.
+  // Returns all items. Throws JsonError if it is not an array.
   const std::vector<Json>& list() const&;
   void list() const&& = delete;  // a loop over what is gone
-  // A loop over an array visits its items, one over anything else nothing: items() has the members
-  // of an object.
+  // Returns the range of the items of an array, which is empty for every other type. Members of an
+  // object are in items().
   const Json* begin() const;
   const Json* end() const;
   Json* begin();
   Json* end();
 
-  // The members of an object. [] makes one that is missing, and of null an object; the others throw
-  // JsonError where there is none.
+  // Returns a member of an object. The first two add a missing member, and turn null into an
+  // object; the others throw JsonError if it is missing.
   Json& operator[](std::string_view key);
   Json& operator[](const char* key) { return (*this)[std::string_view(key)]; }
   const Json& operator[](std::string_view key) const { return at(key); }
   const Json& operator[](const char* key) const { return at(key); }
   const Json& at(std::string_view key) const;
-  const Json* find(std::string_view key) const;  // null where there is none
+  const Json* find(std::string_view key) const;  // nullptr if it is missing
   bool contains(std::string_view key) const { return find(key) != nullptr; }
-  // The text of a member; `otherwise` where there is none, or it is no text.
+  // Returns the text of a member; `otherwise` if it is missing or not a text.
   std::string string(std::string_view key, std::string_view otherwise) const;
   const std::vector<Member>& items() const&;
   void items() const&& = delete;

@@ -1,4 +1,5 @@
-// What is built, read and written again is the same; what is not JSON is told.
+// Values keep their contents when they are written and read again; texts that are not JSON are
+// refused.
 #include "sinew/json/json.h"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,7 @@ void widen(const Residuals& residuals, std::span<const Parameter> parameters, st
     for (std::size_t r = 0; r < count; ++r) j(r, i) = (up[r] - down[r]) / 2e-5;  // per scale
   }
   const Matrix pull = product(j, inverse_where_seen(transposed_product(j, j)));
-  std::vector<double> variance(n);  // of each parameter, in its scale
+  std::vector<double> variance(n);  // one per parameter, in its scale
   for (std::size_t r = 0; r < count; ++r) {
     const bool point = r < points;
     double off = point ? solution.residuals[r] : scatter;

@@ -1,5 +1,5 @@
-// identify/fit/matrix.h - the matrices of a fit, and the few things that fits do with them. Eigen
-// does the work in matrix.cpp; no other file includes it, since its templates take a compiler long.
+// identify/fit/matrix.h - matrices of a fit and the operations that fits need. They are computed by
+// Eigen, which only matrix.cpp includes because its templates take long to compile.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class Matrix {
     return {values_.data() + k * rows_, rows_};
   }
 
-  // Returns these columns of it, in this order.
+  // Returns a matrix of these columns, in this order.
   Matrix chosen(std::span<const std::size_t> columns) const;
 
   // Returns the length of a row.
@@ -73,18 +73,19 @@ Matrix triangle_of(const Matrix& a);
 // Returns the inverse of an upper triangle; infinite or not a number where a diagonal element is 0.
 Matrix inverse_of_triangle(const Matrix& triangle);
 
-// What a matrix stretches, and by how much: a column of `axes` each, of length 1.
+// Axes of a matrix, one per column of `axes` and of length 1, with the factor by which it stretches
+// each.
 struct Axes {
   std::vector<double> values;
   Matrix axes;
 };
 
-// Returns the singular values of a square matrix, the largest first, with its right vectors; not
-// numbers where one of its elements is none.
+// Returns the singular values of a square matrix, the largest first, with its right vectors. All
+// are NaN if an element is not finite.
 Axes singular_axes(const Matrix& square);
 
-// Returns the eigenvalues of a symmetric matrix that has none below 0, such as a covariance, the
-// smallest first, with its vectors.
+// Returns the eigenvalues of a symmetric matrix without negative ones, such as a covariance, the
+// smallest first, with the eigenvectors.
 Axes axes_of_positive(const Matrix& symmetric);
 
 // Returns x of a x = b, for each column of b, where a is symmetric and not negative.
@@ -95,8 +96,8 @@ std::vector<double> solved(const Matrix& a, std::span<const double> b);
 // largest element of its diagonal.
 std::optional<Matrix> inverse_of_positive(const Matrix& symmetric, double least);
 
-// Returns Moore and Penrose's inverse of a symmetric matrix that has no eigenvalue below 0:
-// directions that it does not stretch stay out of it.
+// Returns the Moore-Penrose inverse of a symmetric matrix without negative eigenvalues: the inverse
+// of each eigenvalue that is above the rounding error of the largest one, 0 for the others.
 Matrix inverse_where_seen(const Matrix& symmetric);
 
 }  // namespace sinew::identify

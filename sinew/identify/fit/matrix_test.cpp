@@ -1,4 +1,4 @@
-// What fits do with matrices keeps the laws that define it, on seeded random ones.
+// Matrix functions of fits satisfy their defining equations on seeded random matrices.
 #include "sinew/identify/fit/matrix.h"
 
 #include <gtest/gtest.h>

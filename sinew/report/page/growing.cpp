@@ -112,17 +112,16 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   const std::string scene = to_json(parts.scene, columns);
   Blob::Layout layout = blob.layout();
   std::ranges::fill(layout.clocks, 0);
-  std::vector<ChangedMember> members = {
-      {"duration", to_json(of_.duration)},
-      {"phases/stretches", "[]"},
-      {"panels", curves},
-      {"scene", scene},
-      {"charts", ""},   // of the whole run
-      {"changes", ""},  // the page is told of each when it takes effect
-      {"warnings", "[]"},
-      {"verdicts", "[]"},
-      {"summary", "{}"},
-      {"samples", to_json(layout)}};
+  std::vector<ChangedMember> members = {{"duration", to_json(of_.duration)},
+                                        {"phases/stretches", "[]"},
+                                        {"panels", curves},
+                                        {"scene", scene},
+                                        {"charts", ""},   // these need the whole run
+                                        {"changes", ""},  // each is sent when it takes effect
+                                        {"warnings", "[]"},
+                                        {"verdicts", "[]"},
+                                        {"summary", "{}"},
+                                        {"samples", to_json(layout)}};
   if (!machine_.faults.empty())
     members.push_back({"faults", to_json(machine_.faults, of_.duration)});
   head_ = with_members(whole.json, members);

@@ -13,7 +13,7 @@ constexpr double margin = 20;
 // Less than this between its ends is no stroke  [count].
 constexpr double least_stroke = 60;
 
-// Which of a stroke's stages fills its muscle.
+// Index of the stage of a stroke that fills its muscle.
 constexpr std::size_t filled = 2;
 
 }  // namespace
