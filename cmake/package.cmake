@@ -76,7 +76,7 @@ sinew_package(sinew program science ""
 pneumatic actuators (McKibben muscles): actuator, air, valves, sensors,
 controller and body in one loop. Comes with the walking leg of Colbrunn (2000).")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, sinew-matlab, www-browser, chromium, ffmpeg")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, sinew-matlab, www-browser, chromium | chromium-headless-shell, ffmpeg")
 
 if(TARGET sinew_mpi)
   sinew_package(sinew-mpi mpi science "sinew ${same}, openmpi-bin"
@@ -102,6 +102,8 @@ sinew_package(libsinew-dev development_deb libdevel
   "Headers, static libraries and the CMake package of sinew: a muscle with its
 air, whole robots, controllers, simulations, identification, tuning. C++20.")
 set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SUGGESTS "sinew, cmake, g++")
+# It has no shared library, for which CPack would look at each of its 700 files with two processes.
+set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SHLIBDEPS OFF)
 
 if(TARGET sinew_python)
   math(EXPR next "${Python_VERSION_MINOR} + 1")

@@ -53,7 +53,7 @@ list='
     faces  -                   libjs-katex                      sets its formulas
     faces  ffmpeg              ffmpeg                           makes videos of runs, in tests
     faces  mpirun              openmpi-bin                      starts them in tests
-    faces  chromium            chromium                         opens that page in tests
+    faces  chromium-headless-shell  chromium-headless-shell     opens that page in tests
     faces  -                   fonts-dejavu-core                what its reference pictures are set in
     long   arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
     long   -                   libstdc++-arm-none-eabi-newlib   its headers

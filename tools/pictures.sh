@@ -2,8 +2,9 @@
 # pictures.sh   makes the pictures of README and docs/ from runs, in docs/pictures: walk.gif, walk.svg,
 # report.png, compare.png, stand.png, fit.png, study.png.
 #
-# Needs gnuplot, chromium and node, as ./check does. SINEW_BUILD names the build folder whose program
-# runs; build/release without it. With one chromium the same runs give the same bytes.
+# Needs gnuplot, chromium-headless-shell (or chromium) and node, as ./check faces does. SINEW_BUILD names
+# the build folder whose program runs; build/release without it. With one chromium the same runs give the
+# same bytes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8

@@ -16,7 +16,7 @@ def missing_for_films() -> str:
     """Return what is missing to make a GIF; nothing where all is there."""
     if "CHROMIUM" in os.environ:
         return "" if shutil.which(os.environ["CHROMIUM"]) else f"CHROMIUM={os.environ['CHROMIUM']} is not there"
-    names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
+    names = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
     return "" if any(map(shutil.which, names)) else "chromium is missing: apt-get install chromium"
 
 

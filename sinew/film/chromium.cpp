@@ -66,7 +66,8 @@ std::string url_of(const fs::path& file) {
 
 fs::path find_chromium() {
   if (const char* named = std::getenv("CHROMIUM"); named && *named) return named;
-  return find_program({"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"});
+  return find_program({"chromium-headless-shell", "chromium", "chromium-browser", "google-chrome",
+                       "google-chrome-stable"});
 }
 
 struct Chromium::Impl {

@@ -4,7 +4,7 @@
 step_tools() { tools/install-dependencies.sh faces; }
 
 # All that is installed: the program, its modules, the Python package, FMU modules, manual.
-build_all() { tools/npm-ci.sh web && configure && cmake --build --preset all; }
+build_all() { build_preset all; }
 
 step_modules() { build_all && echo "modules: $(find "$build/lib/sinew" -name '*.so' | wc -l), the Python package, manual and completion"; }
 

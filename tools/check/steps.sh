@@ -31,9 +31,12 @@ step_docs() {
   tools/links.sh && tools/snippets.sh
 }
 
-configure() { cmake --preset release; }
+# Configures and builds PRESET, one step at a time: ./check faces runs some beside others.
+build_preset() {  # build_preset PRESET
+  flock 9 && tools/npm-ci.sh web && cmake --preset release && cmake --build --preset "$1"
+} 9>"$logs/building"
 
-build_program() { tools/npm-ci.sh web && configure && cmake --build --preset release; }
+build_program() { build_preset release; }
 
 step_build() {
   build_program && cmake --build --preset tests && "$build/bin/sinew" --version
