@@ -101,8 +101,8 @@ void check_kind(CLI::Option& option) {
   if constexpr (std::is_same_v<Value, double>) {
     option.type_name("NUMBER")->check(CLI::Validator(no_number, ""));
   } else if constexpr (std::is_integral_v<Value> || std::is_same_v<Value, std::optional<int>>) {
-    const long long first = std::is_unsigned_v<Value> ? 0 : std::numeric_limits<int>::min();
-    const auto wrong = [first](std::string& text) {
+    constexpr long long first = std::is_unsigned_v<Value> ? 0 : std::numeric_limits<int>::min();
+    const auto wrong = [](std::string& text) {
       return no_whole_number(text, first, std::numeric_limits<int>::max(),
                              first == 0 ? "a whole number, not below 0" : "a whole number");
     };

@@ -66,7 +66,7 @@ std::string unit_definitions(const std::vector<Variable>& variables) {
   for (const Variable& v : variables)
     if (has_unit(v)) names.push_back(plain_unit(v.unit));
   std::ranges::sort(names);
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   std::string out = "  <UnitDefinitions>\n";
   for (const std::string& name : names) {
     out += "    <Unit" + attribute("name", std::string_view(name)) + ">" + base_unit(name);

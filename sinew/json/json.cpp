@@ -285,7 +285,7 @@ Json& Json::operator[](std::string_view key) {
   if (is_null()) *this = object();
   if (!is_object()) refuse("an object");
   if (const Json* found = find(key)) return const_cast<Json&>(*found);
-  return value_.object->emplace_back(std::string(key), Json()).value;
+  return value_.object->emplace_back(Member{std::string(key), Json()}).value;
 }
 
 const Json& Json::at(std::string_view key) const {

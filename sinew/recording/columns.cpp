@@ -115,8 +115,9 @@ void ColumnFinder::check_names(std::span<const Wanted> wanted) {
   const auto columns = names();
   for (const auto& [column, unit] : source_.units) {
     const bool there = std::ranges::find(columns, column) != columns.end() ||
-                       std::ranges::any_of(grid_.headings(),
-                                           [&](const Heading& h) { return h.written == column; });
+                       std::ranges::any_of(grid_.headings(), [&name = column](const Heading& h) {
+                         return h.written == name;
+                       });
     if (!there)
       problems_.add(0, 0, "units", config::in_quotes(column),
                     "a column of the file: " + all_names(),
@@ -127,8 +128,8 @@ void ColumnFinder::check_names(std::span<const Wanted> wanted) {
 std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
   std::vector<std::pair<std::size_t, std::string>> out;
   for (const auto& [name, values] : source_.where) {
-    const auto at =
-        std::ranges::find_if(grid_.headings(), [&](const Heading& h) { return h.is_called(name); });
+    const auto at = std::ranges::find_if(
+        grid_.headings(), [&wanted = name](const Heading& h) { return h.is_called(wanted); });
     if (at == grid_.headings().end()) {
       problems_.add(0, 0, "where", config::in_quotes(name), "a column of the file: " + all_names(),
                     config::closest_in_quotes(name, names()));

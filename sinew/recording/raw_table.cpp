@@ -89,7 +89,7 @@ class RawReader {
     std::vector<std::string_view> names = config::names_of(grid_.headings());
     for (const auto& [column, unit] : source_.units) {
       if (std::ranges::any_of(grid_.headings(),
-                              [&](const Heading& h) { return h.is_called(column); }))
+                              [&name = column](const Heading& h) { return h.is_called(name); }))
         continue;
       problems_.add(0, 0, "units", config::in_quotes(column), config::either(names),
                     config::closest_in_quotes(column, names));

@@ -35,8 +35,7 @@ std::vector<double> places_of(double low, double high, double room) {
   for (int i = 0; i < nodes_beyond; ++i) out.push_back(least + (low - least) * i / nodes_beyond);
   for (int i = 0; i < curve_nodes; ++i) out.push_back(low + (high - low) * i / (curve_nodes - 1.0));
   for (int i = 1; i <= nodes_beyond; ++i) out.push_back(high + room * i / nodes_beyond);
-  const auto same = std::ranges::unique(out);
-  out.erase(same.begin(), same.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

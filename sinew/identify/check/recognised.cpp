@@ -32,7 +32,8 @@ RecognisedFile file_of(const Measured& m) {
 std::string branches_of(const std::vector<StaticPoint>& points) {
   std::string out;
   for (const auto& [branch, name] : {std::pair{Branch::fill, "fill"}, {Branch::vent, "vent"}})
-    if (std::ranges::any_of(points, [&](const StaticPoint& p) { return p.branch == branch; }))
+    if (std::ranges::any_of(points,
+                            [branch = branch](const StaticPoint& p) { return p.branch == branch; }))
       out += (out.empty() ? "" : ", ") + std::string(name);
   return out;
 }
