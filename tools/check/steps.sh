@@ -125,8 +125,16 @@ run_ctest() {  # run_ctest PRESET [COMMAND...] -- OPTIONS...: ctest, by way of t
     shift
   done
   shift
-  "${through[@]}" ctest --preset "$preset" --parallel "$jobs" --no-tests=error "$@" | tee "$log" || return 1
+  if ! "${through[@]}" ctest --preset "$preset" --parallel "$jobs" --no-tests=error "$@" | tee "$log"; then
+    show_failed_tests "$log"
+    return 1
+  fi
   summary "$log" ''
+}
+
+# Prints the tests that failed with their output again, since ./check shows the end of what a step prints.
+show_failed_tests() {  # show_failed_tests LOG
+  awk '/^ +Start +[0-9]+: / { fails = 0 } /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { fails = /\*\*\*/ && !/\*\*\*Skipped/ } fails' "$1"
 }
 
 summary() {  # summary LOG WORDS: the step's last line

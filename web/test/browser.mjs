@@ -1,23 +1,27 @@
 // browser.mjs RUNS [PICTURES]   opens the pages in the folders of RUNS in a browser without network
-// and does what a person would; exit code 1 where a test fails. Pictures are written into PICTURES.
-// Each file has a browser of its own. Two files run at a time, since a page mostly waits, but for those
-// that compare a page with the clock on the wall.
+// and does what a person would; exit code 1 if a test fails. Pictures are written into PICTURES.
+// Each *_page.mjs has a browser of its own. Two files run at a time, since a page mostly waits, except
+// those that compare a page with the clock on the wall. Failed tests are printed last, because
+// ./check shows the end of what a step prints.
 import { spawn } from 'node:child_process';
+import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-const alone = ['live_page', 'run_page'];
-const others = ['study_page', 'compare_page', 'references', 'plots_page', 'fit_page', 'run_list_page', 'stand_page',
-  'units_page', 'gallery_page'];  // the longest first
+const folder = fileURLToPath(new URL('.', import.meta.url));
+const alone = ['live_page.mjs', 'run_page.mjs'];
+const long = ['study_page.mjs', 'compare_page.mjs', 'references_page.mjs', 'plots_page.mjs'];
+const short = readdirSync(folder).filter((name) => name.endsWith('_page.mjs') && ![...alone, ...long].includes(name));
+const failed = [];
 
-// Prints what the tests of a file print, in one piece, when they have ended.
+// Runs the tests of a file; prints those that passed in one piece, and keeps those that failed.
 const run = (name) => new Promise((done) => {
-  const file = fileURLToPath(new URL(`${name}.mjs`, import.meta.url));
-  const child = spawn(process.execPath, [file, ...process.argv.slice(2)], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const child = spawn(process.execPath, [folder + name, ...process.argv.slice(2)], { stdio: ['ignore', 'pipe', 'inherit'] });
   let printed = '';
   child.stdout.setEncoding('utf8').on('data', (text) => { printed += text; });
   child.on('close', (code) => {
-    process.stdout.write(printed);
-    if (code !== 0) process.exitCode = 1;
+    const tests = printed.split(/^(?=# Subtest: )/m), fails = (test) => /^not ok /m.test(test);
+    process.stdout.write(tests.filter((test) => !fails(test)).join(''));
+    if (code !== 0) failed.push(`# ${name}, exit code ${code}\n`, ...tests.filter(fails));
     done();
   });
 });
@@ -26,4 +30,7 @@ const run_in_turn = async (names) => {
 };
 
 await run_in_turn(alone);
+const others = [...long, ...short];
 await Promise.all([run_in_turn(others), run_in_turn(others)]);
+process.stdout.write(failed.join(''));
+if (failed.length) process.exitCode = 1;

@@ -36,9 +36,10 @@ function samples(run) {
 
 test('what is broken is told while it is', async () => {
   const set = ['--set', 'fault=[{ at = "0.5 s", for = "3 s", of = "knee_extensor.inlet", what = "stuck open" }]'];
-  const run = await start('broken', set);
+  const run = await start('broken', [...set, '--paused']);
   await watch(run, async (page) => {
     assert.equal(await page.locator('#faults button').textContent(), 'knee_extensor.inlet stuck open, 0.50–3.50 s');
+    await page.locator('#run-pause').click();
     await until(page, () => window.sinew.page.player.time > 0.7);
     assert.match(await page.locator('#clock .broken').textContent(), /knee_extensor\.inlet stuck open/);
     assert.equal(await page.locator('#faults button.now').count(), 1);
@@ -52,19 +53,15 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
     await until(page, () => window.sinew.live.time > 1);
     const before = await live(page);
     const still = await drawing_of(page);
-    await wait(400);
+    await until(page, ({ frames, shown }) => window.sinew.live.frames > frames + 2 && window.sinew.page.player.time > shown, before);
     const later = await live(page);
-    assert.ok(later.frames > before.frames + 2, `${later.frames - before.frames} frames`);
-    assert.ok(later.shown > before.shown);
     assert.ok(later.shown <= later.known && later.known - later.shown < 2);
     assert.notEqual(await drawing_of(page), still);
     const heads = await playheads(page);
     assert.ok(heads.length > 2);
-    const drawn = await page.evaluate(() => {
-      const panel = window.sinew.page.plots.panels[0];
-      return panel.plot.data[0].at(-1);
-    });
-    assert.ok(drawn > 0.5 && drawn <= later.known + 1, `plots have grown to ${drawn} s`);
+    await until(page, () => window.sinew.page.plots.panels[0].plot.data[0].at(-1) > 0.5);
+    const [drawn, known] = await page.evaluate(() => [window.sinew.page.plots.panels[0].plot.data[0].at(-1), window.sinew.live.time]);
+    assert.ok(drawn <= known, `plots have grown to ${drawn} s of ${known} s`);
     await picture(page, 'live');
 
     // Paused, it stands.
