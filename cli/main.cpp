@@ -37,7 +37,7 @@ cli::ExitCode run_safely(const cli::Action& action) {
   return cli::failed;
 }
 
-// The commands, in the order in which help lists them.
+// The commands, in the order of `sinew help commands`.
 struct Entry {
   std::string_view name;
   void (*add)(cli::Command program, cli::Action& action);

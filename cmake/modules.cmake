@@ -30,6 +30,11 @@ if(SINEW_PAGMO AND NOT SINEW_FUZZ)
   find_package(Pagmo QUIET)
   if(Pagmo_FOUND)
     sinew_module(sinew_pagmo tune/optimizer/module/module.cpp Pagmo::pagmo)
+    # Vectors that pagmo's library allocates are freed in the module. Under the address sanitizer Eigen
+    # would free them in another way than the library, which is compiled without it.
+    if(SINEW_SANITIZE MATCHES "address")
+      target_compile_definitions(sinew_pagmo PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+    endif()
   else()
     message(STATUS "pagmo: built without `sinew tune`; libpagmo-dev brings it")
   endif()

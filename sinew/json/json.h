@@ -6,8 +6,8 @@
 //   out.text();  // {"format":"sinew.study/1","seeds":[1,2,3],"title":"a walk"}
 //
 // A list in braces becomes an object if each item is a pair that begins with a text, else an array.
-// array({...}) always makes an array. A list of one item needs it, because GCC and Clang understand
-// Json({"one"}) differently.
+// array({...}) always makes an array. Json({"one"}) is an array to GCC and a text to Clang; write
+// array({"one"}).
 //
 // nlohmann's library reads and writes, in json.cpp alone. Its templates take a compiler four
 // seconds in each source that includes them, which was a third of the time to build the program.

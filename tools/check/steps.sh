@@ -132,9 +132,13 @@ run_ctest() {  # run_ctest PRESET [COMMAND...] -- OPTIONS...: ctest, by way of t
   summary "$log" ''
 }
 
-# Prints the tests that failed with their output again, since ./check shows the end of what a step prints.
+# Prints the tests that failed with their output again, and their names once more at the end, since
+# ./check shows the end of what a step prints.
 show_failed_tests() {  # show_failed_tests LOG
-  awk '/^ +Start +[0-9]+: / { fails = 0 } /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { fails = /\*\*\*/ && !/\*\*\*Skipped/ } fails' "$1"
+  awk '/^ +Start +[0-9]+: / { fails = 0 }
+    /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { fails = /\*\*\*/ && !/\*\*\*Skipped/; if (fails) names = names $0 "\n" }
+    fails
+    END { printf "\nFailed:\n%s", names }' "$1"
 }
 
 summary() {  # summary LOG WORDS: the step's last line
