@@ -1,8 +1,6 @@
 // Memory does not grow with a run: of a walk of SINEW_GUARD_COUNT simulated seconds the program
 // takes as much at its peak as of one of half of them, with a log and without, and so do the
-// commands that read the log. From one hour on a megabyte an hour is allowed; of a shorter walk the
-// two peaks may differ by four. A page keeps more of a longer run until it is full, therefore it is
-// judged from two hours on, as ./check memory does.
+// commands that read the log.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -20,11 +18,10 @@ namespace {
 constexpr double step = 3.03;            // of the walk [s]
 constexpr double growth_per_hour = 1e6;  // at most [B]
 constexpr double noise = 4e6;            // of a peak: a stride of a log that is read [B]
-constexpr double fills_pages = 7200;     // half of it fills all that a page shows [s]
 
 double seconds() {
   const char* asked = std::getenv("SINEW_GUARD_COUNT");
-  return asked ? std::atof(asked) : 1200;
+  return asked ? std::atof(asked) : 7200;  // half of it fills all that a page shows
 }
 
 // Runs the program and returns its peak of memory  [B].
@@ -77,9 +74,7 @@ TEST(Memory, DoesNotGrowWithARun) {
   const test::Workspace at;
   const double lasts = seconds();
   const test::Words no_log{"--set", "log.enabled=false"};
-  const bool page = lasts >= fills_pages;
-  test::Words some{"--set", "log.channels=[\"/joint\", \"/valve\", \"/plan\"]"};
-  if (!page) some.push_back("--no-report");
+  const test::Words some{"--set", "log.channels=[\"/joint\", \"/valve\", \"/plan\"]"};
   const auto words = [](const test::Words& first, const std::string& run) {
     test::Words out = first;
     out.insert(out.begin() + 1, run);
@@ -87,11 +82,9 @@ TEST(Memory, DoesNotGrowWithARun) {
   };
   expect_no_growth(at, "a walk without a log", lasts,
                    [&](double of, const std::string& run) { return walk(of, run, no_log); });
-  expect_no_growth(at, page ? "a walk with log and page" : "a walk with log", lasts,
+  expect_no_growth(at, "a walk with log and page", lasts,
                    [&](double of, const std::string& run) { return walk(of, run, some); });
-  if (page) {
-    EXPECT_LT(std::filesystem::file_size(at / "b/report.html"), 64e6);
-  }
+  EXPECT_LT(std::filesystem::file_size(at / "b/report.html"), 64e6);
 
   expect_no_growth(at, "its log analyzed", lasts, [&](double, const std::string& run) {
     return words({"analyze", "--json"}, run);
