@@ -11,6 +11,7 @@
 #include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
+#include "sinew/gas/heat.h"
 #include "sinew/gas/valve_flow.h"
 #include "sinew/json/json.h"
 #include "sinew/run/setup/valve_text.h"
@@ -21,7 +22,8 @@ namespace sinew::cli {
 namespace {
 
 struct ValveOptions {
-  std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz", units;
+  std::string file, name, upstream, downstream, volume, wall_time, exponent, duty,
+      frequency = "100 Hz", units;
   bool json = false, quiet = false;
 };
 
@@ -37,6 +39,31 @@ std::vector<run::Delivered> deliveries(const gas::Valve& valve, const ValveOptio
   return out;
 }
 
+// By an energy balance between its two limits, and with walls where somebody stated them; or by an
+// exponent.
+std::vector<run::Transfers> transfers(const gas::Valve& valve, gas::Air air, double volume,
+                                      const gas::ValveFlow& f, const ValveOptions& options) {
+  std::vector<run::Transfers> out;
+  const auto add = [&](std::string words, gas::Exchange exchange) {
+    out.push_back({std::move(words), gas::transfers(valve.flow, air, volume, f, exchange)});
+  };
+  if (!options.exponent.empty()) {
+    const Range exponents{1, gas::heat_capacity_ratio, "isothermal to adiabatic"};
+    air.polytropic_exponent =
+        argument("--exponent", options.exponent, "1", air.atmosphere, exponents);
+    add(fmt::format("exponent {:.4g}", air.polytropic_exponent), gas::Exchange::polytrope);
+    return out;
+  }
+  if (!options.wall_time.empty())
+    air.wall_time = argument("--wall-time", options.wall_time, "s", air.atmosphere,
+                             above_zero(3600, "longer walls are adiabatic"));
+  add("adiabatic walls", gas::Exchange::adiabatic);
+  if (air.wall_time > 0)
+    add(fmt::format("walls of {:.4g} ms", 1e3 * air.wall_time), gas::Exchange::walls);
+  add("isothermal walls", gas::Exchange::isothermal);
+  return out;
+}
+
 ExitCode run_valve(const ValveOptions& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
@@ -47,12 +74,12 @@ ExitCode run_valve(const ValveOptions& options) {
       argument("--downstream", options.downstream, "Pa abs", air.atmosphere, air_pressure);
 
   const gas::ValveFlow f = gas::flow_through(valve.flow, air, up, down);
-  std::vector<gas::Transfer> times;
+  std::vector<run::Transfers> times;
   double volume = 0;
   if (!options.volume.empty()) {
     volume = argument("--volume", options.volume, "m3", air.atmosphere,
                       above_zero(air_volume.high, air_volume.why));
-    times = gas::transfers(valve.flow, air, volume, f);
+    times = transfers(valve, air, volume, f, options);
   }
   const std::vector<run::Delivered> duties = deliveries(valve, options);
 
@@ -82,7 +109,14 @@ void add_valve(Command app, Action& action) {
   sub.add_option("NAME", options->name, "of the valve").required();
   sub.add_option("--upstream", options->upstream, "pressure, gauge or abs").required();
   sub.add_option("--downstream", options->downstream, "pressure, gauge or abs").required();
-  sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
+  Option volume = sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
+  Option walls =
+      sub.add_option("--wall-time", options->wall_time,
+                     "of the heat between its air and walls; else both limits, or the file's");
+  walls.needs(volume);
+  sub.add_option("--exponent", options->exponent, "by a polytrope, as the air of a muscle's file")
+      .needs(volume)
+      .excludes(walls);
   Option duty = sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
   sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz").needs(duty);
   add_units(sub, options->units, "of what is printed; --json is in SI");

@@ -100,7 +100,7 @@ double Tube::output(std::size_t place) const {
   if (place == at_.volume) return n * actuator::volume(a, length) + external_volume_;
   if (place == at_.tension) {
     const double rate = sheet_.value(at_.rate);
-    return n * std::max(actuator::tension(a, length, rate, pressure, room), 0.0);
+    return n * actuator::tension(a, length, rate, pressure, room);
   }
   if (place == at_.stiffness)
     return n * (actuator::stiffness_at_constant_pressure(a, length, pressure, room) +

@@ -7,6 +7,7 @@
 #include "python/binding/numbers.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
+#include "sinew/actuator/tension.h"
 #include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/valve_flow.h"
@@ -66,6 +67,14 @@ py::object at_points(const HeldActuator& a, const py::object& length, const py::
               });
 }
 
+py::object clamped_tension(const HeldActuator& a, const py::object& length,
+                           const py::object& pressure) {
+  return over(numbers(length, "length"), numbers(pressure, "pressure"), [&a](double l, double p) {
+    check_point(a, l, p);
+    return actuator::clamped_tension(a.law, l, 0, p, a.around.atmosphere);
+  });
+}
+
 py::object tension(const HeldActuator& a, const py::object& length, const py::object& pressure,
                    const py::object& velocity) {
   if (velocity.is_none())
@@ -102,11 +111,17 @@ void bind_actuator(py::module_& m) {
       .def_property_readonly(
           "greatest_length", [](const HeldActuator& a) { return a.law.long_end.length; },
           "Beyond which the threads themselves stretch [m].")
-      .def("tension", &tension, py::arg("length"), py::arg("pressure"),
-           py::arg("velocity") = py::none(),
-           "Returns the tension [N] at a length [m] and a gauge pressure [Pa]: at rest and\n"
-           "without losses, [31]; with a velocity of the length [m/s], below 0 while it\n"
-           "contracts, with its losses, [33]. Raises ValueError outside what a braid can be.")
+      .def(
+          "tension", &tension, py::arg("length"), py::arg("pressure"),
+          py::arg("velocity") = py::none(),
+          "Returns the tension [N] at a length [m] and a gauge pressure [Pa], never below 0, as a\n"
+          "muscle cannot push: at rest and without losses, [31]; with a velocity of the length\n"
+          "[m/s], below 0 while it contracts, with its losses, [33]. Raises ValueError outside\n"
+          "what a braid can be.")
+      .def(
+          "clamped_tension", &clamped_tension, py::arg("length"), py::arg("pressure"),
+          "Returns the force [N] of an actuator clamped at both ends, at rest and without losses,\n"
+          "[31]: below 0 where it pushes, as it does below its shortest length.")
       .def(
           "volume",
           [](const HeldActuator& a, const py::object& l, const py::object& p) {

@@ -358,6 +358,9 @@ class Actuator:
         pressure: numpy.typing.ArrayLike,
         velocity: Optional[numpy.typing.ArrayLike] = None,
     ) -> Any: ...
+    def clamped_tension(
+        self, length: numpy.typing.ArrayLike, pressure: numpy.typing.ArrayLike
+    ) -> Any: ...
     def volume(self, length: numpy.typing.ArrayLike, pressure: numpy.typing.ArrayLike) -> Any: ...
     def stiffness(
         self, length: numpy.typing.ArrayLike, pressure: numpy.typing.ArrayLike

@@ -24,9 +24,10 @@ inline double volume(const Bundle& bundle, double length) {
 }
 
 // Static and viscous, both ends clamped  [N].
-inline double tension(const Bundle& bundle, double length, double velocity, double gauge_pressure,
-                      double atmosphere) {
-  return bundle.count * tension(bundle.actuator, length, velocity, gauge_pressure, atmosphere);
+inline double clamped_tension(const Bundle& bundle, double length, double velocity,
+                              double gauge_pressure, double atmosphere) {
+  return bundle.count *
+         clamped_tension(bundle.actuator, length, velocity, gauge_pressure, atmosphere);
 }
 
 // Of the braid, valves holding the pressure  [N/m].

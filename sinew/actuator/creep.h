@@ -34,8 +34,8 @@ constexpr double creep_rate(double time, double gauge_pressure, double late) {
 // What one element adds  [N].
 inline double creep_tension(const Actuator& a, double share, double length, double late,
                             double atmosphere) {
-  return share *
-         (tension(a, length, 0.0, late, atmosphere) - tension(a, length, 0.0, 0.0, atmosphere));
+  return share * (clamped_tension(a, length, 0.0, late, atmosphere) -
+                  clamped_tension(a, length, 0.0, 0.0, atmosphere));
 }
 
 }  // namespace sinew::actuator

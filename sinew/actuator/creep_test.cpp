@@ -24,7 +24,7 @@ Actuator any_actuator(std::mt19937& random) {
 }
 
 double total(const Actuator& a, double length, double p, double late0, double late1) {
-  return tension(a, length, 0, p, thesis_atmosphere) +
+  return clamped_tension(a, length, 0, p, thesis_atmosphere) +
          creep_tension(a, a.creep.share[0], length, late0, thesis_atmosphere) +
          creep_tension(a, a.creep.share[1], length, late1, thesis_atmosphere);
 }
@@ -36,8 +36,8 @@ TEST(Creep, EndsAtOnePlusItsShares) {
   for (int i = 0; i < 200; ++i) {
     const Actuator a = any_actuator(random);
     const double l = a.braid.thread_length * lengths(random), p = pressures(random);
-    const double slack = tension(a, l, 0, 0, thesis_atmosphere);
-    const double quick = tension(a, l, 0, p, thesis_atmosphere) - slack;
+    const double slack = clamped_tension(a, l, 0, 0, thesis_atmosphere);
+    const double quick = clamped_tension(a, l, 0, p, thesis_atmosphere) - slack;
     EXPECT_NEAR(total(a, l, p, 0, 0), slack + quick, 1e-12 * quick);
     EXPECT_NEAR(total(a, l, p, p, p) - slack, quick * (1 + a.creep.share[0] + a.creep.share[1]),
                 1e-9 * quick);
@@ -56,7 +56,7 @@ TEST(Creep, IsExponentialWhereTheEffectivenessIsConstant) {
   a.effectiveness = {.c0 = 0.9};
   a.creep = {.share = {0.05, 0}, .time = {2.0, 0}};
   const double l = 3.2 * inch, p = 5 * bar, h = 1e-3;
-  const double quick = tension(a, l, 0, p, thesis_atmosphere);
+  const double quick = clamped_tension(a, l, 0, p, thesis_atmosphere);
   double late = 0;
   for (int k = 1; k <= 4000; ++k) {
     const double half = late + 0.5 * h * creep_rate(a.creep.time[0], p, late);

@@ -7,6 +7,8 @@
 // once per step by whoever integrates the body (docs/theory/actuator.md, "Losses").
 #pragma once
 
+#include <algorithm>
+
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/tension.h"
@@ -41,12 +43,12 @@ inline double coulomb_bound(const Actuator& a, double length, double gauge_press
 // [33] while the length changes at `velocity` = dL/dt, below 0 where the muscle contracts  [N]: the
 // static tension, what flows (c v and the ends' own damping), and the dry friction at its bound,
 // which holds a muscle back that contracts and pulls with one that is drawn out. At rest the dry
-// friction is anything within its bound, and here 0.
+// friction is anything within its bound, and here 0. Never below 0: a muscle cannot push.
 inline double sliding_tension(const Actuator& a, double length, double velocity,
                               double gauge_pressure, double atmosphere, double sealed_stiffness) {
-  const double flowing = tension(a, length, velocity, gauge_pressure, atmosphere);
+  const double flowing = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);
   const double bound = coulomb_bound(a, length, gauge_pressure, atmosphere, sealed_stiffness);
-  return flowing + (velocity > 0 ? bound : velocity < 0 ? -bound : 0.0);
+  return std::max(flowing + (velocity > 0 ? bound : velocity < 0 ? -bound : 0.0), 0.0);
 }
 
 }  // namespace sinew::actuator

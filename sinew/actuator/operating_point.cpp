@@ -42,7 +42,8 @@ OperatingPoint operating_point(const Actuator& a, double length, double gauge,
   p.coulomb_bound = coulomb_bound(a, length, gauge, atmosphere, p.stiffness_sealed);
   if (std::isfinite(velocity)) {
     p.velocity = velocity;
-    p.viscous_loss = tension(a, length, velocity, gauge, atmosphere) - p.tension;
+    p.viscous_loss = clamped_tension(a, length, velocity, gauge, atmosphere) -
+                     clamped_tension(a, length, 0.0, gauge, atmosphere);
     p.sliding_tension = sliding_tension(a, length, velocity, gauge, atmosphere, p.stiffness_sealed);
   }
   p.volume = volume(a, length);

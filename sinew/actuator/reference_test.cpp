@@ -119,12 +119,12 @@ TEST(ReferenceActuator, EffectivenessByGaugeAndByAbsolutePressure) {
 TEST(ReferenceActuator, GreatestTension) {
   const Actuator a = thesis_actuator();
   const double gauge = 100 * psi;
-  const double middle = tension(a, si("free_length"), 0, gauge, atmosphere) / pound_force;
+  const double middle = clamped_tension(a, si("free_length"), 0, gauge, atmosphere) / pound_force;
   EXPECT_NEAR(middle, printed("F_actuator_max_text"), 0.1);
   EXPECT_NEAR(middle, 15.1, 0.05);
-  EXPECT_NEAR(tension(a, si("L_max"), 0, gauge, atmosphere) / pound_force, 35.6, 0.05);
+  EXPECT_NEAR(clamped_tension(a, si("L_max"), 0, gauge, atmosphere) / pound_force, 35.6, 0.05);
   const Bundle two{.actuator = a, .count = 2};
-  EXPECT_NEAR(tension(two, si("L_max"), 0, gauge, atmosphere) / pound_force, 71, 0.5);
+  EXPECT_NEAR(clamped_tension(two, si("L_max"), 0, gauge, atmosphere) / pound_force, 71, 0.5);
 }
 
 // Length at which a load hangs still on an actuator held at a gauge pressure.
@@ -132,7 +132,7 @@ double hanging_length(const Actuator& a, double load, double gauge) {
   double low = shortest_length(a.braid), high = a.long_end.length;
   while (high - low > 1e-15) {
     const double middle = (low + high) / 2;
-    (tension(a, middle, 0, gauge, atmosphere) < load ? low : high) = middle;
+    (clamped_tension(a, middle, 0, gauge, atmosphere) < load ? low : high) = middle;
   }
   return (low + high) / 2;
 }

@@ -35,7 +35,7 @@ TEST(Series, TheSpringIsStretchedByTheTension) {
     a.series.compliance = between(random, 1e-6, 1e-4);
     const double l = between(random, 0.065, 0.1), p = between(random, 0, 6e5);
     const double x = braid_length(a, l, p, atmosphere);
-    EXPECT_NEAR((l - x) / a.series.compliance, tension(a, l, 0, p, atmosphere), 1e-6);
+    EXPECT_NEAR((l - x) / a.series.compliance, clamped_tension(a, l, 0, p, atmosphere), 1e-6);
   }
 }
 
@@ -61,18 +61,18 @@ TEST(Series, ALinearBladderHasItsClosedForm) {
   a.bladder = {.stiffness = 5000, .rest_length = 0.08};
   a.series.compliance = 1e-4;
   for (const double l : {0.07, 0.081, 0.09})
-    EXPECT_NEAR(tension(a, l, 0, 0, atmosphere), (l - 0.08) / (1 / 5000.0 + 1e-4), 1e-9);
+    EXPECT_NEAR(clamped_tension(a, l, 0, 0, atmosphere), (l - 0.08) / (1 / 5000.0 + 1e-4), 1e-9);
 }
 
 // To first order the tension falls by C F times its slope; what is left over falls with C squared.
 TEST(Series, LittleComplianceCostsItsFirstOrder) {
   Actuator a = steep();
-  const double l = 0.085, p = 4e5, f = tension(a, l, 0, p, atmosphere);
+  const double l = 0.085, p = 4e5, f = clamped_tension(a, l, 0, p, atmosphere);
   const double slope = braid_pull_slope(a, l, p, atmosphere) + bladder_stiffness(a.bladder, l);
   double before = 0;
   for (const double c : {8e-7, 4e-7, 2e-7}) {
     a.series.compliance = c;
-    const double rest = std::abs(tension(a, l, 0, p, atmosphere) - (f - c * f * slope));
+    const double rest = std::abs(clamped_tension(a, l, 0, p, atmosphere) - (f - c * f * slope));
     if (before > 0) {
       EXPECT_NEAR(before / rest, 4, 0.2);
     }
@@ -86,12 +86,12 @@ TEST(Series, TensionFallsAsEndsGiveWayAndGrowsWithPressure) {
   for (int i = 0; i < 300; ++i) {
     Actuator a = steep();
     const double l = between(random, 0.07, 0.1), p = between(random, 1e5, 6e5);
-    double before = tension(a, l, 0, p, atmosphere);
+    double before = clamped_tension(a, l, 0, p, atmosphere);
     for (const double c : {1e-6, 1e-5, 1e-4}) {
       a.series.compliance = c;
-      const double now = tension(a, l, 0, p, atmosphere);
+      const double now = clamped_tension(a, l, 0, p, atmosphere);
       EXPECT_LE(std::abs(now), std::abs(before) + 1e-9);
-      EXPECT_GT(tension(a, l, 0, p + 1e4, atmosphere), now);
+      EXPECT_GT(clamped_tension(a, l, 0, p + 1e4, atmosphere), now);
       before = now;
     }
   }

@@ -49,8 +49,8 @@ TEST(Stiffness, AtConstantPressureIsTheSlopeOfTension) {
     const Actuator a = some_actuator(i % 2);
     const Point at = any_point(random);
     const double gauge = at.pressure - atmosphere, h = 1e-5;
-    const double slope = (tension(a, at.length + h, 0, gauge, atmosphere) -
-                          tension(a, at.length - h, 0, gauge, atmosphere)) /
+    const double slope = (clamped_tension(a, at.length + h, 0, gauge, atmosphere) -
+                          clamped_tension(a, at.length - h, 0, gauge, atmosphere)) /
                          (2 * h);  // exact for a parabola
     EXPECT_NEAR(stiffness_at_constant_pressure(a, at.length, gauge, atmosphere), slope, 1e-6);
   }
@@ -62,7 +62,7 @@ TEST(Stiffness, SealedIsTheSlopeOfTensionWithTheAirTrapped) {
     const Actuator a = some_actuator(i % 2);
     const Point at = any_point(random);
     const auto pull = [&](double length) {
-      return tension(a, length, 0, trapped(a.braid, at, length) - atmosphere, atmosphere);
+      return clamped_tension(a, length, 0, trapped(a.braid, at, length) - atmosphere, atmosphere);
     };
     // Five-point rule.
     const double h = 2e-5, l = at.length;
@@ -134,9 +134,9 @@ TEST(Stiffness, FromTensionIsThatOfThePressureWhateverTheEffectiveness) {
     const Point at = any_point(random);
     const double gauge = at.pressure - atmosphere;
     const double k = stiffness_at_constant_pressure(a, at.length, gauge, atmosphere);
-    EXPECT_NEAR(
-        stiffness_from_tension(a.braid, at.length, tension(a, at.length, 0, gauge, atmosphere)), k,
-        1e-9 * std::abs(k));
+    EXPECT_NEAR(stiffness_from_tension(a.braid, at.length,
+                                       clamped_tension(a, at.length, 0, gauge, atmosphere)),
+                k, 1e-9 * std::abs(k));
   }
 }
 
@@ -159,8 +159,9 @@ TEST(Stiffness, PassivePartCompletesTheSlope) {
   a.bladder = {.stiffness = 364, .rest_length = 0.08};
   const double p = 3e5, h = 1e-6;
   for (double l : {0.058, 0.07, 0.09, 0.102}) {
-    const double slope =
-        (tension(a, l + h, 0, p, atmosphere) - tension(a, l - h, 0, p, atmosphere)) / (2 * h);
+    const double slope = (clamped_tension(a, l + h, 0, p, atmosphere) -
+                          clamped_tension(a, l - h, 0, p, atmosphere)) /
+                         (2 * h);
     EXPECT_NEAR(stiffness_at_constant_pressure(a, l, p, atmosphere) +
                     passive_stiffness(a, l, p, atmosphere),
                 slope, 1e-5 * slope);
@@ -194,8 +195,8 @@ TEST(Bundle, IsThatManySingleActuators) {
     const double gauge = at.pressure - atmosphere;
     EXPECT_DOUBLE_EQ(volume(bundle, at.length),
                      count * (volume(one.braid, at.length) + at.external));
-    EXPECT_DOUBLE_EQ(tension(bundle, at.length, 0.1, gauge, atmosphere),
-                     count * tension(one, at.length, 0.1, gauge, atmosphere));
+    EXPECT_DOUBLE_EQ(clamped_tension(bundle, at.length, 0.1, gauge, atmosphere),
+                     count * clamped_tension(one, at.length, 0.1, gauge, atmosphere));
     EXPECT_DOUBLE_EQ(stiffness_at_constant_pressure(bundle, at.length, gauge, atmosphere),
                      count * stiffness_at_constant_pressure(one, at.length, gauge, atmosphere));
     EXPECT_DOUBLE_EQ(stiffness_sealed(bundle, at.length, at.pressure, atmosphere, at.exponent),

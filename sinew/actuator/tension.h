@@ -51,8 +51,8 @@ inline double beside_the_braid(const Actuator& a, double x, double pull) {
 }
 
 // [31], [33] without dry friction: an actuator clamped at both ends, so the result may push  [N].
-inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
-                      double atmosphere) {
+inline double clamped_tension(const Actuator& a, double length, double velocity,
+                              double gauge_pressure, double atmosphere) {
   const double x = braid_length(a, length, gauge_pressure, atmosphere);
   const double pull = braid_pull(a, x, gauge_pressure, atmosphere);
   const double passive = beside_the_braid(a, x, pull) + a.loss.viscous * velocity;
@@ -64,6 +64,14 @@ inline double tension(const Actuator& a, double length, double velocity, double 
   if (a.short_end.law == ShortEnd::Law::empirical)
     return inside + (empirical_pull - 1) * pull + (empirical_loss - 1) * a.loss.viscous * velocity;
   return inside + a.short_end.stiffness * (length - shortest) + a.short_end.damping * velocity;
+}
+
+// What a muscle pulls with whose ends are free to come together: it cannot push, so that the law of
+// the clamped actuator ends at 0  [N].
+inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
+                      double atmosphere) {
+  const double both_ways = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);
+  return both_ways > 0 ? both_ways : 0.0;
 }
 
 }  // namespace sinew::actuator

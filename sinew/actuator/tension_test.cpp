@@ -40,16 +40,16 @@ TEST(Effectiveness, ScaleIsAFactor) {
 
 TEST(Tension, VacuumPushes) {
   const Actuator a = thesis_actuator();
-  EXPECT_LT(tension(a, 0.08, 0, -3e4, atmosphere), 0);
-  EXPECT_GT(tension(a, 0.08, 0, 3e4, atmosphere), 0);
-  EXPECT_EQ(tension(a, 0.08, 0, 0, atmosphere), 0);
+  EXPECT_LT(clamped_tension(a, 0.08, 0, -3e4, atmosphere), 0);
+  EXPECT_GT(clamped_tension(a, 0.08, 0, 3e4, atmosphere), 0);
+  EXPECT_EQ(clamped_tension(a, 0.08, 0, 0, atmosphere), 0);
 }
 
 TEST(Tension, IsContinuousAtBothEnds) {
   const Actuator a = thesis_actuator();
   for (double end : {shortest_length(a.braid), a.long_end.length}) {
-    const double below = tension(a, end - 1e-10, 0, 6e5, atmosphere);
-    const double above = tension(a, end + 1e-10, 0, 6e5, atmosphere);
+    const double below = clamped_tension(a, end - 1e-10, 0, 6e5, atmosphere);
+    const double above = clamped_tension(a, end + 1e-10, 0, 6e5, atmosphere);
     EXPECT_NEAR(below, above, 1e-4);
   }
 }
@@ -60,7 +60,7 @@ TEST(Tension, LongEndIsASpringAndDamperInParallel) {
   const double rest =
       ideal_tension(a.braid, beyond, 3e5) * effectiveness(a.effectiveness, 3e5, atmosphere) +
       a.loss.viscous * v;
-  EXPECT_NEAR(tension(a, beyond, v, 3e5, atmosphere),
+  EXPECT_NEAR(clamped_tension(a, beyond, v, 3e5, atmosphere),
               rest + a.long_end.stiffness * 1e-3 + a.long_end.damping * v, 1e-9);
 }
 
@@ -69,12 +69,12 @@ TEST(Tension, ShortEndStopsOrLetsGo) {
   const double below = shortest_length(a.braid) - 1e-3;
   const double braid_alone =
       ideal_tension(a.braid, below, 3e5) * effectiveness(a.effectiveness, 3e5, atmosphere);
-  EXPECT_NEAR(tension(a, below, 0, 3e5, atmosphere), braid_alone - a.short_end.stiffness * 1e-3,
-              1e-9);
+  EXPECT_NEAR(clamped_tension(a, below, 0, 3e5, atmosphere),
+              braid_alone - a.short_end.stiffness * 1e-3, 1e-9);
   EXPECT_LT(braid_alone, 0);  // the mesh is past its widest: air pushes it back
 
   a.short_end.law = ShortEnd::Law::zero;
-  EXPECT_EQ(tension(a, below, 0.3, 3e5, atmosphere), 0);
+  EXPECT_EQ(clamped_tension(a, below, 0.3, 3e5, atmosphere), 0);
 }
 
 // Appendix A's commented line: 5 F + 10 F_damping, F with the damping in it.
@@ -86,9 +86,9 @@ TEST(Tension, EmpiricalShortEndIsAppendixAsOtherLine) {
   const double p = 4e5, shortest = shortest_length(a.braid);
   for (const double l : {0.5 * shortest, 0.9 * shortest, shortest, 1.2 * shortest}) {
     for (const double v : {-0.3, 0.0, 0.2}) {
-      const double pull = tension(open, l, 0, p, atmosphere), lost = a.loss.viscous * v;
+      const double pull = clamped_tension(open, l, 0, p, atmosphere), lost = a.loss.viscous * v;
       const double expected = l < shortest ? 5 * (pull + lost) + 10 * lost : pull + lost;
-      EXPECT_NEAR(tension(a, l, v, p, atmosphere), expected, 1e-12);
+      EXPECT_NEAR(clamped_tension(a, l, v, p, atmosphere), expected, 1e-12);
     }
     EXPECT_DOUBLE_EQ(coulomb_bound(a, l, p, atmosphere, 0),
                      coulomb_bound(open, l, p, atmosphere, 0) * (l < shortest ? 15 : 1));
@@ -102,7 +102,8 @@ TEST(Tension, LossesTakePowerAway) {
   std::uniform_real_distribution<> length(0.055, 0.105), speed(-1, 1), pressure(0, 7e5);
   for (int i = 0; i < 1000; ++i) {
     const double l = length(random), v = speed(random), p = pressure(random);
-    const double loss = tension(a, l, v, p, atmosphere) - tension(a, l, 0, p, atmosphere);
+    const double loss =
+        clamped_tension(a, l, v, p, atmosphere) - clamped_tension(a, l, 0, p, atmosphere);
     EXPECT_GE(loss * v, 0);
   }
 }
@@ -126,8 +127,8 @@ TEST(Tension, ScalesWithLengthSquaredAndPressure) {
   std::uniform_real_distribution<> length(0.055, 0.105), speed(-1, 1), pressure(0, 7e5);
   for (int i = 0; i < 1000; ++i) {
     const double l = length(random), v = speed(random), g = pressure(random);
-    const double small = tension(a, l, v, g, atmosphere);
-    EXPECT_NEAR(tension(big, k * l, k * v, p * g, p * atmosphere), p * k * k * small,
+    const double small = clamped_tension(a, l, v, g, atmosphere);
+    EXPECT_NEAR(clamped_tension(big, k * l, k * v, p * g, p * atmosphere), p * k * k * small,
                 1e-12 * (1 + std::abs(small)) * p * k * k);
   }
 }
@@ -176,7 +177,7 @@ TEST(SlidingTension, LosesBothWaysAndOnlyWhileItMoves) {
   std::uniform_real_distribution<double> lengths(0.064, 0.095), pressures(1e5, 6e5), speeds(0, 1);
   for (int i = 0; i < 1000; ++i) {
     const double l = lengths(random), p = pressures(random), v = speeds(random);
-    const double rest = tension(a, l, 0, p, atmosphere);
+    const double rest = clamped_tension(a, l, 0, p, atmosphere);
     const double bound = coulomb_bound(a, l, p, atmosphere, 0);
     const double out = sliding_tension(a, l, v, p, atmosphere, 0);
     const double in = sliding_tension(a, l, -v, p, atmosphere, 0);
@@ -184,6 +185,24 @@ TEST(SlidingTension, LosesBothWaysAndOnlyWhileItMoves) {
     ASSERT_NEAR(rest - in, bound + a.loss.viscous * v, 1e-12);
     ASSERT_EQ(sliding_tension(a, l, 0, p, atmosphere, 0), rest);
   }
+}
+
+// A muscle cannot push: its tension is that of the clamped actuator where that pulls, and 0
+// elsewhere.
+TEST(Tension, NeverPushes) {
+  std::mt19937 random(39);
+  const Actuator a = thesis_actuator();
+  std::uniform_real_distribution<double> length(0.5 * shortest_length(a), a.braid.thread_length),
+      pressure(-5e4, 8e5);
+  int pushes = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const double l = length(random), p = pressure(random);
+    const double clamped = clamped_tension(a, l, 0, p, thesis_atmosphere);
+    EXPECT_EQ(tension(a, l, 0, p, thesis_atmosphere), std::max(clamped, 0.0));
+    EXPECT_GE(sliding_tension(a, l, -0.1, p, thesis_atmosphere, 0), 0);
+    pushes += clamped < 0;
+  }
+  EXPECT_GT(pushes, 100);
 }
 
 }  // namespace

@@ -65,14 +65,14 @@ TEST(Toe, AMuscleOnlyPulls) {
     a.bladder.saturating_tension = between(random, 0, 100);
     a.bladder.saturation_length = 3e-3;
     const double l = between(random, 0.06, 0.1), p = between(random, 0, 6e5);
-    const double hard = tension(a, l, 0, p, atmosphere);
+    const double hard = clamped_tension(a, l, 0, p, atmosphere);
     a.toe.tension = between(random, 0.1, 30);
     a.short_end.law = ShortEnd::Law::zero;
     if (l < shortest_length(a)) continue;
-    const double soft = tension(a, l, 0, p, atmosphere);
+    const double soft = clamped_tension(a, l, 0, p, atmosphere);
     EXPECT_GE(soft, 0);
     EXPECT_GE(soft, hard - 1e-12);
-    EXPECT_GE(tension(a, l, 0, p + 1e4, atmosphere), soft);
+    EXPECT_GE(clamped_tension(a, l, 0, p + 1e4, atmosphere), soft);
   }
 }
 
@@ -90,7 +90,7 @@ TEST(Toe, TheSpringIsStretchedByTheSoftTension) {
     const double x = braid_length(a, l, p, atmosphere);
     const double pull = braid_pull(a, x, p, atmosphere) + bladder_tension(a.bladder, x);
     EXPECT_NEAR((l - x) / a.series.compliance, toe_tension(a.toe, pull), 1e-6);
-    EXPECT_NEAR(tension(a, l, 0, p, atmosphere), toe_tension(a.toe, pull), 1e-9);
+    EXPECT_NEAR(clamped_tension(a, l, 0, p, atmosphere), toe_tension(a.toe, pull), 1e-9);
   }
 }
 

@@ -24,7 +24,7 @@ Muscle plain_bundle() {
 }
 
 double static_tension(const Muscle& m, double length, double gauge) {
-  return m.count * actuator::tension(m.actuator, length, 0, gauge, gas::Air{}.atmosphere);
+  return m.count * actuator::clamped_tension(m.actuator, length, 0, gauge, gas::Air{}.atmosphere);
 }
 
 TEST(Memory, IsNothingThatLanesHold) {

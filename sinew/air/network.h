@@ -201,6 +201,13 @@ class AirNetwork {
   // what leaks behind a hose that holds no air.
   double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
 
+  // Returns the longest step in which the air of the cylinder's chambers changes little: its
+  // spring, gamma P A^2/V, moves the body by half a radian at most, and the piston takes an eighth
+  // of the room that it leaves. As a chamber vanishes both grow without bound; infinite without
+  // chambers. `lift_per_force`: acceleration of the body per force of the piston [1/kg].
+  double longest_step_of_piston(const Ends& ends, const Answer& look,
+                                double lift_per_force) const noexcept;
+
  private:
   static constexpr int none = -1;
   using Cell = typename Course::Cell;

@@ -142,7 +142,7 @@ double AirNetwork<Most>::smooth_tension(int i, double length, double rate, doubl
     feels = felt.gauge_pressure;
     out.play[i] = felt.play;  // moved by remember() alone
   }
-  double one = actuator::tension(m.actuator, length, rate, feels, air_.atmosphere);
+  double one = actuator::clamped_tension(m.actuator, length, rate, feels, air_.atmosphere);
   for (std::size_t k = 0; k < l.late.size(); ++k) {
     const int late = l.late[k];
     if (late == none) continue;

@@ -74,8 +74,8 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
       const double p = gas::pressure(k.air, mass[i] / network.volume(i, length[i]));
       EXPECT_NEAR(pull.pressure[i], p, 1e-9 * p);
       const double gauge = p - k.air.atmosphere;
-      const double f =
-          m.count * actuator::tension(m.actuator, length[i], rate[i], gauge, k.air.atmosphere);
+      const double f = m.count * actuator::clamped_tension(m.actuator, length[i], rate[i], gauge,
+                                                           k.air.atmosphere);
       EXPECT_NEAR(pull.tension[i], std::max(f, 0.0), 1e-6 * (1 + std::abs(f)));
       const double friction_bound =
           m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, k.air.atmosphere, 0);
@@ -151,7 +151,7 @@ TEST(AirInLanes, SwitchesAreTheLawsInWords) {
       const double bound =
           m.count * actuator::coulomb_bound(a, length[i], gauge, k.air.atmosphere, sealed);
       const double smooth = std::max(
-          m.count * actuator::tension(a, length[i], rate[i], gauge, k.air.atmosphere), 0.0);
+          m.count * actuator::clamped_tension(a, length[i], rate[i], gauge, k.air.atmosphere), 0.0);
       // [33] as printed adds sign(v) times the bound and leaves nothing to stick.
       const double printed = std::max(smooth + (rate[i] >= 0 ? bound : -bound), 0.0);
       EXPECT_NEAR(pull.tension[i], a.loss.stick ? smooth : printed, 1e-6 * (1 + smooth)) << i;

@@ -252,6 +252,21 @@ double AirNetwork<Most>::longest_step_of_rest(const Ends& ends,
   return fastest > 0 ? stable / fastest : never;
 }
 
+template <int Most>
+double AirNetwork<Most>::longest_step_of_piston(const Ends& ends, const Answer& look,
+                                                double lift_per_force) const noexcept {
+  double longest = never;
+  for (const Side side : {up, down}) {
+    if (sides_[side].mass == none) continue;
+    const double room = air::volume(*cylinder_, side, ends.travel), face = area(*cylinder_, side);
+    const double spring =
+        gas::heat_capacity_ratio * look.cylinder_pressure[side] * face * face / room;
+    longest = std::min(longest, 0.5 / std::sqrt(spring * lift_per_force));
+    longest = std::min(longest, 0.125 * room / (face * std::abs(ends.travel_rate)));
+  }
+  return longest;
+}
+
 // Returns the density of air at rest, by the chamber's law  [kg/m^3].
 template <int Most>
 double AirNetwork<Most>::density(double pressure) const noexcept {

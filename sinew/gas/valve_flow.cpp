@@ -24,14 +24,26 @@ ValveFlow flow_through(const Flow& flow, const Air& air, double upstream, double
   return out;
 }
 
-std::vector<Transfer> transfers(const Flow& flow, const Air& air, double volume,
-                                const ValveFlow& f) {
+std::vector<Transfer> transfers(const Flow& flow, const Air& air, double volume, const ValveFlow& f,
+                                Exchange exchange) {
+  const auto time = [&](double port, double from, double to) {
+    switch (exchange) {
+      case Exchange::adiabatic:
+        return adiabatic_transfer_time(flow, air, volume, port, from, to);
+      case Exchange::walls:
+        return warm_transfer_time(flow, air, volume, port, from, to);
+      case Exchange::isothermal:
+        return isothermal_transfer_time(flow, air, volume, port, from, to);
+      case Exchange::polytrope:
+        break;
+    }
+    return transfer_time(flow, air, volume, port, from, to);
+  };
   std::vector<Transfer> out;
   for (const double share : {0.5, 0.9, 0.99}) {
     const double way = share * (f.upstream - f.downstream);
-    out.push_back({share,
-                   transfer_time(flow, air, volume, f.upstream, f.downstream, f.downstream + way),
-                   transfer_time(flow, air, volume, f.downstream, f.upstream, f.upstream - way)});
+    out.push_back({share, time(f.upstream, f.downstream, f.downstream + way),
+                   time(f.downstream, f.upstream, f.upstream - way)});
   }
   return out;
 }

@@ -27,12 +27,16 @@ struct Transfer {
   double share = 0, fill = 0, vent = 0;  // [-], [s]
 };
 
+// What the air of the volume exchanges with its walls: nothing; heat, with the air's wall_time; as
+// much heat as keeps it at the room's temperature; or whatever makes it the polytrope of the air.
+enum class Exchange { adiabatic, walls, isothermal, polytrope };
+
 // Returns the flow from `upstream` to `downstream` [Pa abs].
 ValveFlow flow_through(const Flow& flow, const Air& air, double upstream, double downstream);
 
 // Returns the times for 50, 90 and 99 % of the way in a rigid volume [m3] between the pressures of
 // `f`.
-std::vector<Transfer> transfers(const Flow& flow, const Air& air, double volume,
-                                const ValveFlow& f);
+std::vector<Transfer> transfers(const Flow& flow, const Air& air, double volume, const ValveFlow& f,
+                                Exchange exchange);
 
 }  // namespace sinew::gas

@@ -82,8 +82,8 @@ TEST(Transfers, TakeLongerForMoreOfTheWayAndInProportionToTheVolume) {
   for (int i = 0; i < trials / 10; ++i) {
     const Flow flow = draw.flow();
     const ValveFlow f = flow_through(flow, air, draw.between(3e5, 9e5), draw.between(9e4, 2e5));
-    const std::vector<Transfer> one = transfers(flow, air, 1e-5, f);
-    const std::vector<Transfer> two = transfers(flow, air, 2e-5, f);
+    const std::vector<Transfer> one = transfers(flow, air, 1e-5, f, Exchange::polytrope);
+    const std::vector<Transfer> two = transfers(flow, air, 2e-5, f, Exchange::polytrope);
     ASSERT_EQ(one.size(), two.size());
     for (std::size_t k = 0; k < one.size(); ++k) {
       EXPECT_NEAR(two[k].fill, 2 * one[k].fill, 1e-9 * two[k].fill);
@@ -93,6 +93,37 @@ TEST(Transfers, TakeLongerForMoreOfTheWayAndInProportionToTheVolume) {
       EXPECT_GT(one[k].fill, one[k - 1].fill);
       EXPECT_GT(one[k].vent, one[k - 1].vent);
     }
+  }
+}
+
+// Walls that pass some heat lie between the two limits, and tend to either.
+TEST(Transfers, WallsLieBetweenTheirLimits) {
+  Draw draw;
+  for (int i = 0; i < 20; ++i) {
+    const Flow flow = draw.flow();
+    Air air;
+    const double up = draw.between(3e5, 9e5), down = draw.between(9e4, 2e5);
+    const ValveFlow f = flow_through(flow, air, up, down);
+    const auto times = [&](Exchange exchange) { return transfers(flow, air, 1e-5, f, exchange); };
+    const auto quick = times(Exchange::adiabatic), slow = times(Exchange::isothermal);
+    for (const double share : {1e-3, 0.3, 1e3}) {
+      air.wall_time = share * slow.back().fill;
+      const auto walls = times(Exchange::walls);
+      for (std::size_t k = 0; k < walls.size(); ++k) {
+        EXPECT_GT(walls[k].fill, (1 - 1e-4) * quick[k].fill);
+        EXPECT_LT(walls[k].fill, (1 + 1e-4) * slow[k].fill);
+        if (share < 1) continue;
+        EXPECT_NEAR(walls[k].fill, quick[k].fill, 5e-3 * quick[k].fill);
+        EXPECT_NEAR(walls[k].vent, quick[k].vent, 5e-3 * quick[k].vent);
+      }
+      if (share < 0.01) {
+        EXPECT_NEAR(walls[2].fill, slow[2].fill, 5e-3 * slow[2].fill);
+        EXPECT_NEAR(walls[2].vent, slow[2].vent, 5e-3 * slow[2].vent);
+      }
+    }
+    // A rigid chamber fills 1.4 times as quickly where no heat leaves it.
+    for (std::size_t k = 0; k < slow.size(); ++k)
+      EXPECT_NEAR(slow[k].fill, 1.4 * quick[k].fill, 1e-9 * slow[k].fill);
   }
 }
 

@@ -137,7 +137,7 @@ Exhibit figure_2_13(const Sources& from) {
   const auto curves =
       family({20, 60, 100}, lengths(a, 4.0), "[31], [32] for the thesis's own actuator",
              [&](double l, double p) {
-               return actuator::tension(a, l, 0, p, from.air.atmosphere) / pound_force;
+               return actuator::clamped_tension(a, l, 0, p, from.air.atmosphere) / pound_force;
              });
   Exhibit e{{.name = "2-13",
              .title = "The long end effect",

@@ -178,7 +178,7 @@ double law_force(const actuator::Actuator& a, double length, const StaticPoint& 
   double p = point.pressure;
   if (a.hysteresis.half_width > 0)
     p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
-  return actuator::tension(a, length, 0, p, atmosphere);
+  return actuator::clamped_tension(a, length, 0, p, atmosphere);
 }
 
 double predicted(const StaticSetting& setting, const StaticScales& scales,

@@ -152,7 +152,7 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
 
 double reading_factor(const actuator::Actuator& a, const ForceReading& r, double atmosphere,
                       double half_68) {
-  const double force = actuator::tension(a, r.length, 0, r.gauge_pressure, atmosphere);
+  const double force = actuator::clamped_tension(a, r.length, 0, r.gauge_pressure, atmosphere);
   const double ratio = force > 0 ? r.force / force : 0;
   if (!(ratio > 0.5 && ratio < 2))
     throw Refusal("reading", fmt::format("{:.4g} N", r.force),
@@ -187,8 +187,7 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   actuator::Prediction& p = a.prediction;
   p.rest_length = rest_length;
   for (double& length : p.lengths) length *= ratio;
-  const double most =
-      std::max(0.0, actuator::tension(a, p.lengths.back(), 0, p.highest, atmosphere));
+  const double most = actuator::tension(a, p.lengths.back(), 0, p.highest, atmosphere);
   const double away = std::abs(std::log(ratio));
   const double stretch = old.other_reach > 0 ? std::max(1.0, away / old.other_reach) : 1.0;
   const auto inside = [&](double share, double of_fit) {

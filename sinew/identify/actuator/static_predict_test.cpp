@@ -31,7 +31,7 @@ actuator::Actuator measured_muscle() {
 }
 
 double force(const actuator::Actuator& a, double length, double pressure) {
-  return actuator::tension(a, length, 0, pressure, units::atmosphere);
+  return actuator::clamped_tension(a, length, 0, pressure, units::atmosphere);
 }
 
 // The muscle after one reading of it, at 230 mm and 4 bar.

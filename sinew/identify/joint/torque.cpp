@@ -70,8 +70,8 @@ actuator::Effectiveness JointTorque::effectiveness(const JointValues& v) const {
 
 double JointTorque::force(const actuator::Actuator& a, const Hinge& cord, double mount, double q,
                           double pressure) const {
-  const double f = actuator::tension(a, mount - cord.shortening(q), 0, pressure - setup_.atmosphere,
-                                     setup_.atmosphere);
+  const double f = actuator::clamped_tension(a, mount - cord.shortening(q), 0,
+                                             pressure - setup_.atmosphere, setup_.atmosphere);
   return std::max(f, 0.0);
 }
 

@@ -33,7 +33,7 @@ class Motion {
   // What moves the mass if nothing rubs  [N].
   double drive(const State& s, double gauge) const {
     return h_.mass * h_.gravity -
-           actuator::tension(h_.actuator, s.length, s.velocity, gauge, h_.atmosphere);
+           actuator::clamped_tension(h_.actuator, s.length, s.velocity, gauge, h_.atmosphere);
   }
 
   double bound(double length, double pressure) const {
@@ -120,7 +120,7 @@ double between(const State& a, const State& b, double dt, double t) {
 std::optional<double> rest_length(const Hanging& h) {
   const double weight = h.mass * h.gravity, gauge = h.pressure - h.atmosphere;
   const auto excess = [&](double length) {
-    return actuator::tension(h.actuator, length, 0, gauge, h.atmosphere) - weight;
+    return actuator::clamped_tension(h.actuator, length, 0, gauge, h.atmosphere) - weight;
   };
   double low = actuator::shortest_length(h.actuator.braid);
   double high = h.actuator.braid.thread_length;

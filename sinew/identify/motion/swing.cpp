@@ -162,9 +162,10 @@ void Swing::take_pressure(const Measured& data) {
 void Swing::refuse_another_muscle() const {
   const auto hangs = rest_length(stand);
   if (hangs && std::abs(*hangs - rest) < rest_within * rest) return;
-  const double holds = actuator::tension(stand.actuator, rest, 0, stand.pressure - stand.atmosphere,
-                                         stand.atmosphere) /
-                       stand.gravity;
+  const double holds =
+      actuator::clamped_tension(stand.actuator, rest, 0, stand.pressure - stand.atmosphere,
+                                stand.atmosphere) /
+      stand.gravity;
   throw Refusal(
       file,
       fmt::format("a rest length of {:.4g} m; the actuator of the file lets {:.4g} kg hang {} "

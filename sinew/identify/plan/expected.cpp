@@ -64,8 +64,7 @@ ExpectedMuscle muscle_by_actuator(const actuator::Actuator& actuator, double res
   ExpectedMuscle out;
   StaticScales& s = out.scales;
   s = {.rest_length = rest_length, .top_pressure = top_pressure, .atmosphere = atmosphere};
-  s.full_scale =
-      std::max(0.0, actuator::tension(actuator, rest_length, 0, top_pressure, atmosphere));
+  s.full_scale = actuator::tension(actuator, rest_length, 0, top_pressure, atmosphere);
   if (!(s.full_scale > 0))
     throw Refusal("actuator", "a muscle that does not pull at its rest length",
                   "one that does at the highest pressure", "another rest_length, or pressure");

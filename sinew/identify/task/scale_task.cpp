@@ -84,8 +84,7 @@ ScaleFound find_scaled(const ScaleSettings& s) {
   }
   if (!s.name.empty()) out.actuator.name = s.name;
   const actuator::Prediction& p = out.actuator.prediction;
-  out.largest =
-      std::max(0.0, actuator::tension(out.actuator, p.lengths.back(), 0, p.highest, atmosphere));
+  out.largest = actuator::tension(out.actuator, p.lengths.back(), 0, p.highest, atmosphere);
   out.file = file_of(out, s);
   return out;
 }

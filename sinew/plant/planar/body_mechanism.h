@@ -90,6 +90,8 @@ class BodyMechanism : public PlanarMechanism<M> {
       return multiple + 1;
     return (multiple / steps + 1) * steps;
   }
+  // Returns the largest acceleration of the body per force on the piston, in any pose  [1/kg].
+  double lift_per_force() const noexcept { return lift_per_force_; }
   std::int64_t most_steps_on_ground() const noexcept { return steps_on_ground_; }
 
   // Lets a motion have these rates of the joints [rad/s] and of the body [m/s].
@@ -172,6 +174,7 @@ class BodyMechanism : public PlanarMechanism<M> {
   FrictionContacts<N, D> rubs_;
   Motion start_{};
   double node_step_ = 1e-3;                              // [s]
+  double lift_per_force_ = 0;                            // [1/kg]
   std::int64_t steps_in_air_ = 1, steps_on_ground_ = 1;  // of them, at most
   std::array<double, N> damping_{}, spring_{}, spring_angle_{}, dry_{};
   std::array<JointStop, N> stop_{};

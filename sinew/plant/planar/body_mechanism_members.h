@@ -57,6 +57,7 @@ void BodyMechanism<N, D, M>::choose_steps(double body_step) {
       m.at[first_link + j] += 2.0 * std::numbers::pi * std::sqrt(static_cast<double>(5 + 7 * j));
     elsewhere.include(rates(m));
   }
+  lift_per_force_ = std::max(at_start.lift, elsewhere.lift);
   using Contacts = FrictionContacts<N, D>;
   const auto suited = [&](double ground, double damper) {  // by their shares in the rates
     const auto rate = [&](const FastestRates& r) {

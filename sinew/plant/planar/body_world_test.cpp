@@ -178,6 +178,47 @@ TEST(BodyWorld, SealedCylinderIsAGasSpring) {
               0.01 * rate / omega);
 }
 
+// Whatever stops and valves a cylinder has, the machine's state stays a number: the air that the
+// piston shuts in against its stop grows stiff as its room vanishes, and steps are cut by that. The
+// stops are such that the fastest piston would be halted within its dead volume.
+TEST(BodyWorld, AThousandCylindersStayFinite) {
+  std::mt19937 random(39);
+  std::uniform_real_distribution<double> share(0, 1);
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, share(random));
+  };
+  double deepest = 0;
+  for (int k = 0; k < 1000; ++k) {
+    plant::Setup s = leg_without_muscles(4.8 + share(random), 5 + share(random));
+    give_cylinder(s, robot::Cylinder::Mode::valves);
+    air::Cylinder& c = *s.cylinder;
+    c.mode = air::Cylinder::Mode::valves;
+    c.bore = s.robot.cylinder.bore = between(0.01, 0.03);
+    c.rod_diameter = s.robot.cylinder.rod_diameter = c.bore * (0.1 + 0.3 * share(random));
+    const double gap = between(1e-3, 1e-2);  // of the stroke beyond its ends [m]
+    for (const air::Side side : {air::up, air::down}) {
+      c.dead_volume[side] = gap * air::area(c, side);
+      c.initial_pressure[side] = s.air.atmosphere * between(1, 8);
+      c.inlet[side] = c.exhaust[side] = test_valve(between(1e-7, 2e-6));
+    }
+    const double mass = robot::leg_mass(s.robot) + s.robot.cylinder.body_mass, fastest = 2;
+    s.robot.cylinder.stop_stiffness = mass * std::pow(fastest / gap, 2) * between(1.02, 5);
+    s.robot.cylinder.stop_damping = between(0.1, 30);
+    s.start.lift = c.stroke * share(random);
+
+    BodyWorld world(s);
+    world.set_rates({}, 0, fastest * (2 * share(random) - 1));
+    for (signals::Tick t = 0; t < 400; t += 100) {
+      world.drive({t, {static_cast<std::uint8_t>(random() % 4)}, random() % 2 == 0});
+      world.advance(1e-4 * static_cast<double>(t + 100));
+      deepest = std::max(deepest, -world.motion().at[up] / gap);
+    }
+    ASSERT_FALSE(world.failure()) << "machine " << k << " at " << world.failure().time << " s";
+    ASSERT_TRUE(std::isfinite(world.motion().at[up] + world.motion().rate[up]));
+  }
+  EXPECT_GT(deepest, 0.6);  // some come close to the end of their room
+}
+
 // Trolley and ground away, the whole leg falls with its body as one mass.
 TEST(BodyWorld, LiftedMassFallsFreely) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0.4);

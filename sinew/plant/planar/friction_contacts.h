@@ -39,14 +39,17 @@ namespace sinew::plant {
 
 // Rates at which springs and dampers of the joints, the ground's spring and its damper bring a
 // machine to rest  [1/s]: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
+// Those of the stops of the track and of the cylinder are among the joints'.
 struct FastestRates {
   double joints = 0, ground_spring = 0, ground_damper = 0;
+  double lift = 0;  // of the body, per force on the piston [1/kg]; 0 where it is held
 
   // Takes the larger of each.
   void include(const FastestRates& other) {
     joints = std::max(joints, other.joints);
     ground_spring = std::max(ground_spring, other.ground_spring);
     ground_damper = std::max(ground_damper, other.ground_damper);
+    lift = std::max(lift, other.lift);
   }
 };
 

@@ -60,12 +60,20 @@ FastestRates FrictionContacts<N, D>::fastest_rates(const Body<N>& body, const Bo
   const auto per_force = [&](const Coordinates<N>& row) {
     return dot(k_, row, body.response(row));
   };
+  const auto include = [&](double w, double damping, double stiffness) {
+    fastest.include({.joints = std::max(damping * w, std::sqrt(stiffness * w))});
+  };
   for (std::size_t j = 0; j < k_.links(); ++j) {
     const robot::Joint& joint = robot.joints[j];
-    const double w = per_force(row(static_cast<int>(j)));
-    const double damping = joint.damping + joint.damper + joint.stop.damping;
-    const double stiffness = joint.spring + joint.stop.stiffness;
-    fastest.include({.joints = std::max(damping * w, std::sqrt(stiffness * w))});
+    include(per_force(row(static_cast<int>(j))), joint.damping + joint.damper + joint.stop.damping,
+            joint.spring + joint.stop.stiffness);
+  }
+  if (!k_.held[along_track])
+    include(per_force(row(trolley)), robot.trolley.stop_damping, robot.trolley.stop_stiffness);
+  if (!k_.held[up]) {
+    fastest.lift = per_force(row(lift));
+    include(fastest.lift, robot.cylinder.damping + robot.cylinder.stop_damping,
+            robot.cylinder.stop_stiffness);
   }
   for (int i = 0; i < disc_count_ && ground_.present; ++i) {
     const double w = per_force(disc(body, motion, i).rise);

@@ -234,7 +234,7 @@ TEST(Stand, ATensileMachineSeesTheLawAndItsFriction) {
     EXPECT_DOUBLE_EQ(x.length, t < 1 ? 0.08 : t < 2 ? 0.085 : 0.08);
     EXPECT_NEAR(x.pressure, s.charge.pressure.at(0), 1e-6);
     const double bound = actuator::coulomb_bound(a, x.length, 60 * psi, s.air.atmosphere, 0);
-    const double smooth = actuator::tension(a, x.length, rate, 60 * psi, s.air.atmosphere);
+    const double smooth = actuator::clamped_tension(a, x.length, rate, 60 * psi, s.air.atmosphere);
     EXPECT_NEAR(x.friction, side * bound, 1e-9);
     EXPECT_NEAR(x.force, smooth + side * bound, 1e-9);
   }

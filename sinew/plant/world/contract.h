@@ -34,6 +34,10 @@
 //
 //   relax(h, share, load, before, a)   accelerations in a step of length h, by those before
 //
+// and may be lifted by a cylinder (LiftsBody):
+//
+//   lift_per_force()                   most acceleration of the body per force of the piston [1/kg]
+//
 // One whose laws break off within a step (CutsSteps) has its step end there and another begin:
 //
 //   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
@@ -101,6 +105,13 @@ concept RelaxesStages = WholeSteps<M> &&
     requires(const M& m, double h, const typename M::Load& load,
              const typename M::Acceleration& before, typename M::Acceleration& a) {
   m.relax(h, h, load, before, a);
+};
+
+// A mechanism whose body a cylinder may lift: the air in its chambers is a spring that grows stiff
+// as a chamber vanishes.
+template <class M>
+concept LiftsBody = WholeSteps<M> && requires(const M& m) {
+  { m.lift_per_force() } -> std::same_as<double>;
 };
 
 // A mechanism whose steps end where a law breaks off.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "sinew/plant/world/cuts.h"
@@ -93,11 +94,20 @@ void World<M, A>::look_for_failure() noexcept {
   }
 }
 
-// While nothing flows there is nothing to be quick.
+// While nothing flows, only the air that a piston shuts in can be quick.
+template <IsMechanism M, IsAirOf<M> A>
+double World<M, A>::longest_piece_of(const Look& look) const noexcept {
+  double longest = std::numeric_limits<double>::infinity();
+  if (air_.flowing(state_.valves)) longest = air_.longest_step_of_rest(look.ends, state_.valves);
+  if constexpr (LiftsBody<M>)
+    longest = std::min(
+        longest, air_.longest_step_of_piston(look.ends, look.air, mechanism_.lift_per_force()));
+  return longest;
+}
+
 template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
-  if (!air_.flowing(state_.valves)) return 1.0;
-  const double longest = air_.longest_step_of_rest(look.ends, state_.valves);
+  const double longest = longest_piece_of(look);
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 

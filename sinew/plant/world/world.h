@@ -110,7 +110,7 @@ class World final : public signals::Port {
   }
   double time() const noexcept { return state_.time; }
   double shortest_step() const noexcept {  // of body and air, where it starts [s]
-    return std::min(step_, air_.longest_step_of_rest(state_.first.ends, state_.valves));
+    return std::min(step_, longest_piece_of(state_.first));
   }
   std::int64_t nodes() const noexcept { return state_.nodes; }
   const air::Failure& failure() const noexcept { return state_.failure; }
@@ -199,6 +199,7 @@ class World final : public signals::Port {
   void step(double to) noexcept;
   void piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
              const Acceleration& first, const Forces& held) const noexcept;
+  double longest_piece_of(const Look& look) const noexcept;  // infinite where nothing is quick [s]
   double pieces_of(double h, const Look& look) const noexcept;
 
   // These serve mechanisms that cut their steps.

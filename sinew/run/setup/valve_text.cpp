@@ -31,7 +31,7 @@ std::string text_of(const gas::Valve& valve, const gas::ValveFlow& f,
   return table.text().substr(1);
 }
 
-std::string text_of(const std::vector<gas::Transfer>& times, double volume, const gas::ValveFlow& f,
+std::string text_of(const std::vector<Transfers>& times, double volume, const gas::ValveFlow& f,
                     const units::ShownUnits* shown, double room) {
   if (times.empty()) return "";
   const auto bar = [&](double p) {
@@ -43,10 +43,12 @@ std::string text_of(const std::vector<gas::Transfer>& times, double volume, cons
       shown ? shown->text(volume, "m3", 6) : config::format_quantity(volume, "m3", "in3"),
       bar(f.downstream), bar(f.upstream));
   using enum report::TextTable::Align;
-  report::TextTable table({"of the way", "fill [ms]", "vent [ms]"}, {right, right, right});
-  for (const gas::Transfer& t : times)
-    table.add({fmt::format("{:.0f} %", 100 * t.share), fmt::format("{:.3f}", 1e3 * t.fill),
-               fmt::format("{:.3f}", 1e3 * t.vent)});
+  report::TextTable table({"the air", "of the way", "fill [ms]", "vent [ms]"},
+                          {left, right, right, right});
+  for (const Transfers& by : times)
+    for (const gas::Transfer& t : by.times)
+      table.add({&t == by.times.data() ? by.exchange : "", fmt::format("{:.0f} %", 100 * t.share),
+                 fmt::format("{:.3f}", 1e3 * t.fill), fmt::format("{:.3f}", 1e3 * t.vent)});
   return out + table.text();
 }
 
@@ -70,7 +72,7 @@ std::string doubt_of(const gas::Valve& valve, const gas::ValveFlow& f) {
 }
 
 std::string json_of(const gas::Valve& valve, const gas::ValveFlow& f,
-                    const std::vector<gas::Transfer>& times, const std::vector<Delivered>& duties) {
+                    const std::vector<Transfers>& times, const std::vector<Delivered>& duties) {
   Json out{{"valve", valve.name},
            {"upstream_Pa", f.upstream},
            {"downstream_Pa", f.downstream},
@@ -85,9 +87,12 @@ std::string json_of(const gas::Valve& valve, const gas::ValveFlow& f,
            {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
            {"opening_delay_s", gas::delays(valve).opening},
            {"closing_delay_s", gas::delays(valve).closing}};
-  for (const gas::Transfer& t : times)
-    out["transfers"].push_back(
-        {{"share", t.share}, {"fill_time_s", t.fill}, {"vent_time_s", t.vent}});
+  for (const Transfers& by : times)
+    for (const gas::Transfer& t : by.times)
+      out["transfers"].push_back({{"air", by.exchange},
+                                  {"share", t.share},
+                                  {"fill_time_s", t.fill},
+                                  {"vent_time_s", t.vent}});
   for (const Delivered& d : duties)
     out["duties"].push_back({{"duty", d.duty}, {"delivered_duty", d.delivered}});
   return out.text();

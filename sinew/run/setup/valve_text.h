@@ -14,15 +14,20 @@ struct Delivered {
   double duty = 0, delivered = 0;
 };
 
+// How long a volume takes, by what its air exchanges with the walls, in words.
+struct Transfers {
+  std::string exchange;
+  std::vector<gas::Transfer> times;
+};
+
 // Return lines of text: its flow and delays; how long a volume [m3] takes between the pressures of
 // `flow`; what it makes of duties at a frequency, in the words that were asked with. Of none there
 // is no text. `shown`: in whose units, where somebody asked for some; gauges count from the `room`
 // [Pa].
 std::string text_of(const gas::Valve& valve, const gas::ValveFlow& flow,
                     const units::ShownUnits* shown = nullptr);
-std::string text_of(const std::vector<gas::Transfer>& times, double volume,
-                    const gas::ValveFlow& flow, const units::ShownUnits* shown = nullptr,
-                    double room = units::atmosphere);
+std::string text_of(const std::vector<Transfers>& times, double volume, const gas::ValveFlow& flow,
+                    const units::ShownUnits* shown = nullptr, double room = units::atmosphere);
 std::string text_of(const std::vector<Delivered>& duties, const std::string& frequency);
 
 // Returns a sentence where the flow is the straight line that is there for integration: near equal
@@ -31,6 +36,6 @@ std::string doubt_of(const gas::Valve& valve, const gas::ValveFlow& flow);
 
 // Returns all of it as an object of JSON, in SI.
 std::string json_of(const gas::Valve& valve, const gas::ValveFlow& flow,
-                    const std::vector<gas::Transfer>& times, const std::vector<Delivered>& duties);
+                    const std::vector<Transfers>& times, const std::vector<Delivered>& duties);
 
 }  // namespace sinew::run

@@ -49,7 +49,7 @@ inline double holding_pressure(const actuator::Bundle& bundle, double length, do
   double low = atmosphere, high = most;
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
-    const double f = actuator::tension(bundle, length, 0, middle - atmosphere, atmosphere);
+    const double f = actuator::clamped_tension(bundle, length, 0, middle - atmosphere, atmosphere);
     (f < load ? low : high) = middle;
   }
   return high;

@@ -254,8 +254,9 @@ TEST(DriveLaws, TheHoldingPressureHolds) {
   const actuator::Bundle bundle{.actuator = actuator::thesis_actuator(), .count = 2};
   for (double load : {5.0, 20.0, 60.0}) {
     const double p = holding_pressure(bundle, 0.08, load, units::atmosphere, 8e5);
-    EXPECT_NEAR(actuator::tension(bundle, 0.08, 0, p - units::atmosphere, units::atmosphere), load,
-                1e-6);
+    EXPECT_NEAR(
+        actuator::clamped_tension(bundle, 0.08, 0, p - units::atmosphere, units::atmosphere), load,
+        1e-6);
   }
   EXPECT_NEAR(holding_pressure(bundle, 0.08, 1e6, units::atmosphere, 8e5), 8e5, 1);
 }
