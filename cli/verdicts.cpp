@@ -40,13 +40,16 @@ report::TextTable verdict_table(const std::vector<analysis::Verdict>& verdicts, 
 
 bool print_reported(const analysis::Summary& summary,
                     const std::vector<analysis::Reported>& reported, double atmosphere,
-                    const units::ShownUnits* shown) {
+                    const units::ShownUnits* shown, bool changed = false) {
   fmt::print("{}", summary.title);
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
+  if (changed && !reported.empty())
+    fmt::print(", changed with --set: what is reported is of the experiment without that");
   fmt::print("\n");
 
-  const std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere, shown);
+  std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere, shown);
   if (verdicts.empty()) return false;
+  if (changed) verdicts = unjudged(std::move(verdicts));
   const std::size_t width = width_of_output();
   const report::TextTable table = verdict_table(verdicts, true);
   const bool fits = width == 0 || table.width_before_last() <= width;
@@ -58,7 +61,7 @@ bool print_reported(const analysis::Summary& summary,
 
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine,
                     const units::ShownUnits* shown) {
-  if (!print_reported(summary, machine.reported, machine.atmosphere, shown))
+  if (!print_reported(summary, machine.reported, machine.atmosphere, shown, machine.changed))
     fmt::print("{}", run::main_figures(summary, machine, shown));
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -25,47 +27,84 @@ std::optional<double> gained(const signals::Table& table, const std::string& top
   return s->columns[0].back() - s->columns[0].front();
 }
 
+// From the first sample of any topic to the last one  [s].
+Span span_of(const signals::Table& table) {
+  std::int64_t from = std::numeric_limits<std::int64_t>::max(), to = 0;
+  for (const signals::Series& s : table.series) {
+    if (s.time_ns.empty()) continue;
+    from = std::min(from, s.time_ns.front());
+    to = std::max(to, s.time_ns.back());
+  }
+  return {1e-9 * static_cast<double>(from), 1e-9 * static_cast<double>(to)};
+}
+
+// What one valve of a muscle was commanded, and what came through.
 struct Pulses {
   Occasions times;
-  double longest = 0;  // [s]
-  bool opens = false;  // one lasts until the shutter moves
+  std::vector<double> lasts;            // of each, but one that the log's end cuts off [s]
+  double commanded = 0, delivered = 0;  // shares of the log's time [-]
 };
 
-Pulses pulses_of(const signals::Series& edges, double shut) {
-  constexpr double simultaneous = 1e-9;  // [s]
+Pulses pulses_of(const signals::Series& series, const MachineValve& valve, double from, double to) {
   Pulses out;
-  const Edges list = edges_of(edges.time_ns, edges.columns[0]);
+  const Edges list = edges_of(series.time_ns, series.columns[0]);
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].open) continue;
     out.times.add(std::llround(1e9 * list[i].time));
-    if (i + 1 == list.size()) continue;  // cut off by the end of the log
-    const double lasts = list[i + 1].time - list[i].time;
-    out.longest = std::max(out.longest, lasts);
-    out.opens = out.opens || lasts > shut + simultaneous;
+    if (i + 1 < list.size()) out.lasts.push_back(list[i + 1].time - list[i].time);
   }
+  std::ranges::sort(out.lasts);
+  out.commanded = open_time(list, from, to) / (to - from);
+  out.delivered = open_time(delivered(list, valve.shut, valve.closing), from, to) / (to - from);
   return out;
 }
 
+// Muscles whose valves of one kind hardly open.
+struct Unopened {
+  std::vector<std::string> muscles;
+  Pulses worst;
+  MachineValve valve;
+};
+
+constexpr double hardly = 0.1;       // delivered of what was commanded [-]
+constexpr double commanded = 0.005;  // of the time, from which on a valve is asked to do something
+
 void add_unopened(const signals::Table& table, const Machine& machine, const robot::Muscle& muscle,
-                  bool inlet, std::vector<Warning>& out) {
-  const std::string name = inlet ? "inlet" : "exhaust";
-  const double shut = valve_of(machine, inlet ? muscle.inlet : muscle.exhaust).shut;
+                  bool inlet, Unopened& out) {
+  const MachineValve valve = valve_of(machine, inlet ? muscle.inlet : muscle.exhaust);
   const auto logged = [&](const std::string& topic) {
     return robot::logged_topic(machine.robot, topic);
   };
+  const std::string name = inlet ? "inlet" : "exhaust";
   const signals::Series* edges = table.find(logged("/valve/" + muscle.name + "/" + name + "/open"));
-  if (!edges || edges->columns.empty() || shut <= 0) return;
+  if (!edges || edges->columns.empty() || valve.shut <= 0) return;
+  const Span log = span_of(table);
+  if (!(log.to > log.from)) return;
+  Pulses pulses = pulses_of(*edges, valve, log.from, log.to);
+  if (pulses.lasts.empty() || pulses.commanded < commanded) return;
+  if (pulses.delivered > hardly * pulses.commanded) return;
+  // Air that went through where no pulse was long enough: then the delays are not those of the log.
   const std::string moved =
       logged("/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out"));
-  if (gained(table, moved).value_or(0) > 0) return;
+  if (pulses.delivered == 0 && gained(table, moved).value_or(0) > 0) return;
+  if (out.muscles.empty() || pulses.commanded > out.worst.commanded) out.worst = std::move(pulses);
+  out.muscles.push_back(muscle.name);
+  out.valve = valve;
+}
 
-  Pulses pulses = pulses_of(*edges, shut);
-  if (pulses.opens || pulses.longest == 0) return;
-  out.push_back({fmt::format("{}: the {} never opens: the longest of its {} pulse{} lasts {:.3g} "
-                             "ms, the valve takes {:.3g} ms to move",
-                             muscle.name, name, pulses.times.count,
-                             pulses.times.count == 1 ? "" : "s", 1e3 * pulses.longest, 1e3 * shut),
-                 std::move(pulses.times.spans)});
+std::string text_of(const Unopened& all, std::string_view which) {
+  const std::size_t others = all.muscles.size() - 1;
+  const std::string more =
+      others == 0 ? "" : fmt::format(" and {} more muscle{}", others, others == 1 ? "" : "s");
+  const Pulses& p = all.worst;
+  return fmt::format(
+      "{}{}: the {} hardly opens: {:.2g} % of the time for {:.3g} % commanded; half of its {} "
+      "pulses "
+      "last {:.3g} ms at most, and the valve takes {:.3g} ms to open; try more "
+      "low_level.pwm_ticks, or "
+      "a quicker valve",
+      all.muscles.front(), more, which, 100 * p.delivered, 100 * p.commanded, p.times.count,
+      1e3 * p.lasts[p.lasts.size() / 2], 1e3 * all.valve.shut);
 }
 
 constexpr double held = units::degree;  // a desired angle that changes by less is held [rad]
@@ -89,8 +128,15 @@ bool is_commanded(const Record& record, const Machine& machine) {
 
 std::vector<Warning> unopened_valves(const signals::Table& table, const Machine& machine) {
   std::vector<Warning> out;
-  for (const robot::Muscle& muscle : machine.robot.muscles)
-    for (const bool inlet : {true, false}) add_unopened(table, machine, muscle, inlet, out);
+  for (const bool inlet : {true, false}) {
+    std::map<std::string, Unopened> by_valve;
+    for (const robot::Muscle& muscle : machine.robot.muscles)
+      add_unopened(table, machine, muscle, inlet, by_valve[inlet ? muscle.inlet : muscle.exhaust]);
+    for (auto& [name, all] : by_valve)
+      if (!all.muscles.empty())
+        out.push_back(
+            {text_of(all, inlet ? "inlet" : "exhaust"), std::move(all.worst.times.spans)});
+  }
   return out;
 }
 

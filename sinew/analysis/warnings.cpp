@@ -122,14 +122,25 @@ std::vector<Warning> overruns(const signals::Table& table) {
                  "thesis's computer locked up so (5.2)");
 }
 
+// Sensors that repeat themselves share a line: a machine that does not move has many.
 std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robot::Robot& robot) {
   std::vector<Warning> out;
+  Warning frozen;
+  std::size_t others = 0;
   for (const robot::Sensor& s : robot.sensors) {
     append(out, counted(table, "/sensor/" + s.name + "/rejected", s.name + ": ", "reading was",
                         "readings were", " not believed; the last good ones stood"));
-    append(out, counted(table, "/sensor/" + s.name + "/frozen", s.name + ": ", "reading",
-                        "readings", " came again while its muscles were driven"));
+    auto one = counted(table, "/sensor/" + s.name + "/frozen", s.name + ": ", "reading", "readings",
+                       " came again while its muscles were driven");
+    if (one.empty()) continue;
+    if (frozen.text.empty())
+      frozen = std::move(one.front());
+    else
+      ++others;
   }
+  if (others > 0)
+    frozen.text += fmt::format("; so it was with {} more sensor{}", others, others == 1 ? "" : "s");
+  if (!frozen.text.empty()) out.push_back(std::move(frozen));
   return out;
 }
 

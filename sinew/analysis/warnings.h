@@ -54,8 +54,8 @@ std::vector<Warning> cut_logs(const signals::Table&);
 
 // --- idle.cpp: a robot that does nothing, or that stands where it can go no further ---
 
-// Valves none of whose pulses lasts until the shutter moves. One that let air through, as a
-// simulation knows, is none of them.
+// Valves that let through less than a tenth of what they are commanded, as their pulses are shorter
+// than they take to open: one warning for the muscles with the same valve.
 std::vector<Warning> unopened_valves(const signals::Table&, const Machine&);
 
 // Plans that moved a joint, or opened an inlet, while no muscle took any air.

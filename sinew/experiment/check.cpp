@@ -116,6 +116,16 @@ void check_muscles(const Experiment& e, List& out) {
     for (const auto& [which, valve] :
          {std::pair{".inlet.valve", &chamber->inlet}, {".exhaust.valve", &chamber->exhaust}})
       if (!valve->empty()) need(std::string(key) + which, *valve, e.valves, out);
+  for (const robot::Muscle& m : e.robot.muscles)
+    for (const actuator::Actuator& a : e.actuators) {
+      if (a.name != m.actuator || m.mount_length < a.braid.thread_length) continue;
+      out.push_back(
+          {"muscle." + m.name + ".mount_length",
+           length_like(e, "muscle." + m.name + ".mount_length", m.mount_length),
+           "less than the thread's length, " +
+               length_like(e, "muscle." + m.name + ".mount_length", a.braid.thread_length),
+           ""});
+    }
 }
 
 // A cylinder's chamber has two plain valves, and air left in it at the stop.
@@ -198,16 +208,6 @@ void check_place(const Experiment& e, List& out) {
       out.push_back({key, length_like(e, key, link.center_of_mass),
                      "within the link, " + length_like(e, key, link.length), ""});
   }
-  for (const robot::Muscle& m : e.robot.muscles)
-    for (const actuator::Actuator& a : e.actuators) {
-      if (a.name != m.actuator || m.mount_length < a.braid.thread_length) continue;
-      out.push_back(
-          {"muscle." + m.name + ".mount_length",
-           length_like(e, "muscle." + m.name + ".mount_length", m.mount_length),
-           "less than the thread's length, " +
-               length_like(e, "muscle." + m.name + ".mount_length", a.braid.thread_length),
-           ""});
-    }
 }
 
 // Memory does not grow with a run, its log does. Beyond a million seconds, eleven days, a double no

@@ -15,12 +15,14 @@
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
+#include "sinew/gas/delay.h"
 #include "sinew/log/reader.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/report/figures/labels.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/run/setup/check_motion.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/stand/run.h"
 #include "sinew/tune/optimizer/tuning.h"
@@ -102,6 +104,24 @@ void check_rig(const std::string& path, Finding& out) {
   tell_of_faults(path, e.faults, why, out);
 }
 
+// Warns of valves that need so much of a period to open that small duties deliver nothing.
+void warn_of_slow_valves(const experiment::Experiment& e, Finding& out) {
+  constexpr double much = 0.25;  // of the period
+  const double period = 1e-4 * e.robot.low_level.pwm_ticks;
+  for (const gas::Valve& valve : e.valves) {
+    const double opens = gas::delays(valve).opening;
+    const bool driven = std::ranges::any_of(e.robot.muscles, [&](const robot::Muscle& m) {
+      return m.inlet == valve.name || m.exhaust == valve.name;
+    });
+    if (!driven || opens <= much * period) continue;
+    out.warnings.push_back(
+        fmt::format("{}: valve.{} takes {:.3g} ms of a period of {:.3g} ms to open: duties below "
+                    "{:.0f} % deliver "
+                    "nothing; try more low_level.pwm_ticks, or a quicker valve",
+                    e.path, valve.name, 1e3 * opens, 1e3 * period, 100 * opens / period));
+  }
+}
+
 void check_machine(const std::string& path, Finding& out) {
   const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
   experiment::MachineFile file;
@@ -114,7 +134,11 @@ void check_machine(const std::string& path, Finding& out) {
   const experiment::Experiment& e = file.experiment;
   add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
+  warn_of_slow_valves(e, out);
   if (!runs) return;
+  for (const robot::Contradiction& c : run::beyond_reach(e))
+    out.warnings.push_back(fmt::format("{}: {}: found {}; expected {}; try {}", path, c.key,
+                                       c.found, c.expected, c.try_this));
   const auto why = [&](const experiment::Fault& f) {
     return why_idle(e, f, experiment::last_tick(e));
   };

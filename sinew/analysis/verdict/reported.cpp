@@ -245,6 +245,11 @@ std::optional<config::Mistake> mistake_in_band(const Reported& r, double atmosph
   return read_band(r, atmosphere).mistake;
 }
 
+std::vector<Verdict> unjudged(std::vector<Verdict> verdicts) {
+  for (Verdict& v : verdicts) v.is = Verdict::Is::not_applicable;
+  return verdicts;
+}
+
 std::string_view to_text(Verdict::Is is) {
   switch (is) {
     case Verdict::Is::agrees:

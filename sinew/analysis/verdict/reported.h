@@ -69,6 +69,9 @@ std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
                              double atmosphere = units::atmosphere,
                              const units::ShownUnits* shown = nullptr);
 
+// Takes the judgement away where a run was changed: what the source reports is of another one.
+std::vector<Verdict> unjudged(std::vector<Verdict> verdicts);
+
 // Returns the unit in which `shown` has a figure of that key, for show(): "mm", "bar gauge".
 std::string shown_unit(std::string_view key, const units::ShownUnits& shown, double value);
 

@@ -165,5 +165,13 @@ TEST(Reported, AWordingNeedsItsNumber) {
   EXPECT_THAT(with("share", "0.94", Wording::percentage), HasSubstr("a value in %"));
 }
 
+// A run that was changed is not what the source speaks of: neither green nor red.
+TEST(Reported, IsNotJudgedWhereTheRunWasChanged) {
+  std::vector<Verdict> verdicts(2);
+  verdicts[0].is = Verdict::Is::differs;
+  verdicts[1].is = Verdict::Is::agrees;
+  for (const Verdict& v : unjudged(verdicts)) EXPECT_EQ(v.is, Verdict::Is::not_applicable);
+}
+
 }  // namespace
 }  // namespace sinew::analysis::reported_test

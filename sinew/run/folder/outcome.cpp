@@ -69,9 +69,13 @@ void add_idle_faults(const experiment::Experiment& e, const run::Outcome& outcom
       out.push_back(fmt::format("fault[{}] never acted: {}", i, why));
 }
 
-// Sensors whose readings were rejected or stood still, and whose counters the run did not record.
+// Sensors whose readings were rejected or repeated themselves, and whose counters the run did not
+// record. Those that repeat themselves share a line: a machine that does not move has many.
 void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
                  std::vector<std::string>& out) {
+  std::string first;
+  std::size_t others = 0;
+  std::uint32_t longest = 0;
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string& name = e.robot.sensors[s].name;
     if (outcome.table.find("/sensor/" + name + "/rejected")) continue;
@@ -79,12 +83,21 @@ void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
     if (seen.rejected > 0)
       out.push_back(fmt::format("{}: {} not believed; the last good ones stood", name,
                                 counted(seen.rejected, "reading was", "readings were")));
-    if (seen.frozen > 0)
-      out.push_back(
-          fmt::format("{}: the same counts for {} scans in a row while its muscles were driven; {} "
-                      "in all",
-                      name, seen.longest, seen.frozen));
+    if (seen.frozen == 0) continue;
+    first.empty() ? void(first = name) : void(++others);
+    longest = std::max(longest, seen.longest);
   }
+  if (first.empty()) return;
+  const std::string who =
+      others == 0
+          ? first
+          : fmt::format("{} and {}", first,
+                        counted(static_cast<std::int64_t>(others), "more sensor", "more sensors"));
+  out.push_back(
+      fmt::format("{}: the same counts for up to {} scans in a row while the muscles were driven: "
+                  "the joints did "
+                  "not move, or the sensor gives no readings",
+                  who, longest));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sinew/actuator/body.h"
 #include "sinew/air/network.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/short_quantity.h"
@@ -107,6 +108,45 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   }
 }
 
+// Warns of an end of a joint's reach that none of the muscles which turn it there can pull to: each
+// is at its shortest length before, where it pulls no more.
+void warn_of_reach(const Experiment& e, const plant::Setup& setup,
+                   const plant::MuscleRouting& cords, std::size_t joint, const Reach& reach,
+                   bool high, List& out) {
+  std::array<double, robot::max_joints> angle{}, still{};
+  for (std::size_t j = 0; j < e.robot.joints.size(); ++j) angle[j] = e.robot.joints[j].rest_angle;
+  angle[joint] = high ? reach.high : reach.low;
+  air::Lanes<plant::most_muscles> length{}, rate{};
+  plant::MuscleRouting::MomentArms<plant::most_muscles> arms{};
+  cords.at(angle.data(), still.data(), length, rate, arms);
+  int nearest = -1;  // the one that gets furthest
+  double left = 0;   // of it: length above the shortest [m]
+  for (int i = 0; i < cords.count(); ++i)
+    for (std::size_t s = 0; s < plant::MuscleRouting::most; ++s) {
+      const auto m = static_cast<std::size_t>(i);
+      if (cords.joint(i, static_cast<int>(s)) != static_cast<int>(joint)) continue;
+      if (high != (arms[m][s] > 0)) continue;
+      const double above = length[i] - actuator::shortest_length(setup.muscles[m].actuator);
+      if (above > 0) return;
+      if (nearest < 0 || above > left) nearest = i, left = above;
+    }
+  if (nearest < 0) return;
+  const robot::Joint& of = e.robot.joints[joint];
+  const robot::Muscle& muscle = e.robot.muscles[static_cast<std::size_t>(nearest)];
+  const auto text = [&](double metres) {
+    return config::quantity_like(e.origins, "muscle." + muscle.name + ".mount_length", metres, "m",
+                                 "in");
+  };
+  out.push_back({"joint." + of.name,
+                 "a plan that takes it to " +
+                     config::quantity_like(e.origins, "joint." + of.name + ".rest_angle",
+                                           angle[joint], "rad", "deg") +
+                     ", where " + muscle.name + " would be " + text(length[nearest]) + " long",
+                 "more than its shortest length, " + text(length[nearest] - left) +
+                     ", at which it pulls no more",
+                 "an angle nearer to the rest angle, a longer muscle, or a smaller moment_arm"});
+}
+
 // Air or joints that move so quickly that a run would take for ever.
 void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
@@ -125,6 +165,17 @@ void check_steps(const plant::Setup& s, List& out) {
 }
 
 }  // namespace
+
+std::vector<robot::Contradiction> beyond_reach(const Experiment& e) {
+  List out;
+  const plant::Setup setup = planar_setup(e);
+  const plant::MuscleRouting cords(e.robot);
+  const std::vector<Reach> reach = reaches(e);
+  for (std::size_t j = 0; j < reach.size(); ++j)
+    for (const bool high : {false, true})
+      if (reach[j].low < reach[j].high) warn_of_reach(e, setup, cords, j, reach[j], high, out);
+  return out;
+}
 
 void check_motion(const Experiment& e, List& out) {
   const plant::Setup setup = planar_setup(e);

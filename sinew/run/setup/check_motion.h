@@ -12,4 +12,8 @@ namespace sinew::run {
 // need steps of less than 2 us.
 void check_motion(const experiment::Experiment& experiment, std::vector<robot::Contradiction>& out);
 
+// Returns the ends of the plan's reach that no muscle can pull a joint to: not wrong, as a load or
+// a swing may take it there, but worth a warning.
+std::vector<robot::Contradiction> beyond_reach(const experiment::Experiment& experiment);
+
 }  // namespace sinew::run
