@@ -19,6 +19,7 @@ namespace sinew::fmu {
 namespace {
 
 using Causality = Variable::Causality;
+using Given = run::Column::Given;
 
 constexpr const char* file_name = "machine.toml";
 
@@ -91,16 +92,10 @@ void Machine::place_variables(const Description& description) {
 
   std::vector<std::string> outputs = description.all("output");
   if (outputs.empty())
-    for (const run::Simulation::Channel& c : simulation_->channels()) outputs.push_back(c.name);
+    for (const run::Simulation::Channel& c : simulation_->channels())
+      if (c.given != Given::never) outputs.push_back(c.name);
   first_output_ = sheet_.variables().size();
-  for (const std::string& name : outputs) {
-    const std::size_t number = simulation_->find(name);
-    sheet_.add({.name = structured(name),
-                .causality = Causality::output,
-                .unit = simulation_->channels()[number].unit,
-                .doc = "channel " + name});
-    channels_.push_back(number);
-  }
+  for (const std::string& name : outputs) place_output(name);
   read_.resize(channels_.size());
 
   const config::Node in_si = experiment::values_in_si({"experiment", experiment::without_files(e)});
@@ -110,6 +105,33 @@ void Machine::place_variables(const Description& description) {
         sheet_.add({.name = structured(key), .unit = n.unit, .start = n.value, .doc = n.source});
     parameters_.push_back({place, 0, key, n.unit, n.value});
   }
+}
+
+// Many a solver stops at NaN: a channel without a value is 0, and x and y have a flag together.
+void Machine::place_output(const std::string& name) {
+  const std::size_t number = simulation_->find(name);
+  const run::Simulation::Channel& channel = simulation_->channels()[number];
+  if (channel.given == Given::never)
+    throw std::invalid_argument("output: found \"" + name +
+                                "\", which has no value in this experiment: no phase has a foot "
+                                "path; expected a channel that has one");
+  const bool at_times = channel.given == Given::at_times;
+  const std::string flag = structured(name.substr(0, name.rfind('.'))) + ".valid";
+  sheet_.add({.name = structured(name),
+              .causality = Causality::output,
+              .unit = channel.unit,
+              .doc = "channel " + name + (at_times ? "; 0 while " + flag + " is false" : "")});
+  channels_.push_back(number);
+  shows_.push_back(at_times ? Shows::value_or_zero : Shows::value);
+  if (!at_times ||
+      std::ranges::any_of(sheet_.variables(), [&](const Variable& v) { return v.name == flag; }))
+    return;
+  sheet_.add({.name = flag,
+              .type = Variable::Type::boolean,
+              .causality = Causality::output,
+              .doc = "true while the channel has a value"});
+  channels_.push_back(number);
+  shows_.push_back(Shows::validity);
 }
 
 // The experiment with the parameters as they are set.
@@ -132,7 +154,11 @@ double Machine::output(std::size_t place) const {
     simulation_->read(channels_, read_);
     fresh_ = true;
   }
-  return read_[place - first_output_];
+  const double value = read_[place - first_output_];
+  const Shows shows = shows_[place - first_output_];
+  if (shows == Shows::value) return value;
+  const bool valid = !std::isnan(value);
+  return shows == Shows::validity ? (valid ? 1.0 : 0.0) : (valid ? value : 0.0);
 }
 
 const char* Machine::advance(double end, double) noexcept {

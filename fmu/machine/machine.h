@@ -3,7 +3,8 @@
 //
 // Inputs are settings of the plan that somebody else decides ("control.stiffness.hip"): from the
 // first value other than the start they hold in the plan's place, from the next period on. Outputs
-// are channels of the log; parameters are values of the experiment's files.
+// are channels of the log; parameters are values of the experiment's files. A channel that has a
+// value only at times is 0 while it has none, with a Boolean output that is true while it has one.
 //
 // Controllers live in ticks of 0.1 ms. At a communication point between two ticks outputs are those
 // of the tick before.
@@ -23,7 +24,7 @@ namespace sinew::fmu {
 // Names what of an experiment an importer sees.
 struct MachineShown {
   std::vector<std::string> inputs;      // keys of settings
-  std::vector<std::string> outputs;     // channels; empty: all
+  std::vector<std::string> outputs;     // channels; empty: all that have a value
   std::vector<std::string> parameters;  // keys of the experiment's numbers
 };
 
@@ -65,6 +66,7 @@ class Machine {
 
   experiment::Experiment experiment() const;
   void place_variables(const Description& description);
+  void place_output(const std::string& name);
 
   Sheet sheet_;
   config::Node tree_;
@@ -75,6 +77,8 @@ class Machine {
   // first one's place, after which the others follow.
   std::size_t first_output_ = 0;
   std::vector<std::size_t> channels_;
+  enum class Shows { value, value_or_zero, validity };
+  std::vector<Shows> shows_;  // by output, of its channel
   mutable std::vector<double> read_;
   mutable bool fresh_ = false;
   std::string cause_;

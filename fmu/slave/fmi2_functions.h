@@ -7,6 +7,8 @@
 // pending.
 #pragma once
 
+#include <optional>
+
 #include "fmu/slave/component.h"
 #include "fmu/slave/fmi2.h"
 
@@ -89,8 +91,11 @@ void fmi2FreeInstance(Component c) { delete static_cast<Slave*>(c); }
 
 // --- phases ---
 
-Status fmi2SetupExperiment(Component c, Boolean, Real, Real start, Boolean, Real) {
-  return call(c, __func__, [&](Slave& s) { s.instance.set_start(start); });
+Status fmi2SetupExperiment(Component c, Boolean, Real, Real start, Boolean stop_defined,
+                           Real stop) {
+  return call(c, __func__, [&](Slave& s) {
+    s.instance.set_start(start, stop_defined ? std::optional(stop) : std::nullopt);
+  });
 }
 Status fmi2EnterInitializationMode(Component c) {
   return call(c, __func__, [](Slave& s) { s.instance.enter_initialization(); });

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fmu/slave/component.h"
 
@@ -114,9 +115,10 @@ void fmi3FreeInstance(Instance c) { delete static_cast<Slave*>(c); }
 
 // --- phases ---
 
-Status fmi3EnterInitializationMode(Instance c, bool, double, double start, bool, double) {
+Status fmi3EnterInitializationMode(Instance c, bool, double, double start, bool stop_defined,
+                                   double stop) {
   return call(c, __func__, [&](Slave& s) {
-    s.instance.set_start(start);
+    s.instance.set_start(start, stop_defined ? std::optional(stop) : std::nullopt);
     s.instance.enter_initialization();
   });
 }

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -61,7 +62,7 @@ class Instance {
   // token is not the description's.
   Instance(const Description& description, const std::string& token, const char* version)
       : description_(description),
-        stamp_(units::hash(version, units::hash(description_.text()))),
+        stamp_(units::hash(layout, units::hash(version, units::hash(description_.text())))),
         model_(make_model<Models>(description_)) {
     if (token != description_.hash())
       throw std::runtime_error("found the token " + token + "; expected " + description_.hash() +
@@ -77,10 +78,14 @@ class Instance {
 
   // The phases, in their order. Each throws where another one comes first; reset begins again with
   // the description's values.
-  void set_start(double time) {
+  void set_start(double time, std::optional<double> stop) {
     require(phase_ == Phase::made, "the start time is set", "before initialization");
     if (!std::isfinite(time)) throw std::runtime_error("start time: found no finite number");
+    if (stop && !(std::isfinite(*stop) && *stop >= time))
+      throw std::runtime_error("stop time: found " + text_of(*stop) + "; expected at least " +
+                               text_of(time) + ", the start time");
     start_ = time_ = time;
+    stop_ = stop.value_or(no_stop);
   }
   void enter_initialization() {
     require(phase_ == Phase::made, "initialization is entered",
@@ -102,6 +107,7 @@ class Instance {
     sheet().to_start();
     phase_ = Phase::made;
     start_ = time_ = 0;
+    stop_ = no_stop;
     begun_ = false;
   }
 
@@ -166,6 +172,10 @@ class Instance {
     if (!(length > 0 && length <= longest_step))
       throw Discarded("step: found " + text_of(length) + " s; expected more than 0, at most " +
                       text_of(longest_step));
+    if (from + length > stop_ + slack)
+      throw std::runtime_error("step: found its end at " + text_of(from + length) +
+                               " s; expected at most " + text_of(stop_) +
+                               " s, the stop time that was set before initialization");
     if (ended()) return Step::ended;
     if (const std::string why = std::visit([&](auto& m) { return m.wrong(length); }, model_);
         !why.empty())
@@ -193,7 +203,8 @@ class Instance {
   // Returns everything as bytes, with a hash behind them.
   std::vector<std::byte> save() {
     std::vector<std::byte> out;
-    append(out, Header{stamp_, phase_, begun_ ? 1u : 0u, ended_ ? 1u : 0u, 0, start_, time_});
+    append(out,
+           Header{stamp_, phase_, begun_ ? 1u : 0u, ended_ ? 1u : 0u, 0, start_, time_, stop_});
     for (const double value : sheet().values()) append(out, value);
     if (begun_) {
       const std::vector<std::byte> own = std::visit([](auto& m) { return m.save(); }, model_);
@@ -228,16 +239,19 @@ class Instance {
     ended_ = header.ended != 0;
     start_ = header.start;
     time_ = header.time;
+    stop_ = header.stop;
   }
 
  private:
   static constexpr double longest_step = 1e5;  // [s]
+  static constexpr double no_stop = units::unbounded;
+  static constexpr const char* layout = "2";  // of saved states: another Header, another number
 
   struct Header {  // without padding
     std::uint64_t stamp = 0;
     Phase phase = Phase::made;
     std::uint32_t begun = 0, ended = 0, none = 0;
-    double start = 0, time = 0;
+    double start = 0, time = 0, stop = no_stop;
   };
 
   static std::string word(Variable::Type type) {
@@ -290,7 +304,7 @@ class Instance {
   Models model_;
   Phase phase_ = Phase::made;
   bool begun_ = false, ended_ = false;
-  double start_ = 0, time_ = 0;  // [s]
+  double start_ = 0, time_ = 0, stop_ = no_stop;  // [s]
   const char* trouble_ = nullptr;
 };
 

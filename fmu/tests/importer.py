@@ -146,21 +146,25 @@ class Slave:
 
     # --- phases ---
 
-    def initialize(self, start: float = 0.0, **values: Any) -> "Slave":
+    def initialize(
+        self, start: float = 0.0, stop: Optional[float] = None, **values: Any
+    ) -> "Slave":
         """From instantiated to stepping; `values` by name, with _ for dots, are set before."""
-        self.enter(start)
+        self.enter(start, stop)
         for name, value in values.items():
             self.set(name, value)
         self.call("ExitInitializationMode")
         return self
 
-    def enter(self, start: float = 0.0) -> None:
+    def enter(self, start: float = 0.0, stop: Optional[float] = None) -> None:
+        last = c_double(stop or 0.0)
         if self.fmu.version == 2:
-            self.call("SetupExperiment", 0, c_double(0), c_double(start), 0, c_double(0))
+            self.call("SetupExperiment", 0, c_double(0), c_double(start), int(stop is not None), last)
             self.call("EnterInitializationMode")
         else:
             none = (c_bool(False), c_double(0))
-            self.call("EnterInitializationMode", *none, c_double(start), *none)
+            end = (c_bool(stop is not None), last)
+            self.call("EnterInitializationMode", *none, c_double(start), *end)
 
     # --- values ---
 

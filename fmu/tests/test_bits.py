@@ -1,6 +1,7 @@
 """The same run has the same bits in an FMU, in the library, and cut, saved or interleaved."""
 
 import glob
+import math
 import os
 import subprocess
 import sys
@@ -196,6 +197,34 @@ class Machine(unittest.TestCase):
                 leg.advance(ticks * 1e-4 - leg.time)
                 self.assertEqual(slave.get_reals(names), [leg.read(c) for c in channels])
             slave.free()
+
+    def test_outputs_are_numbers_where_channels_have_no_value(self) -> None:
+        """The walk desires a foot's position in some phases; a staircase of the knee never."""
+        for version in "23":
+            f = fmu(WALK, "--fmi", version)
+            reals = [v.name for v in f.variables.values() if v.causality == "output" and v.kind == "Real"]
+            slave, leg = f.instantiate().initialize(), sinew.Simulation(WALK)
+            flags = set()
+            for k in range(60):
+                slave.step(k * 0.05, 0.05)
+                leg.advance(0.05)
+                found = dict(zip(reals, slave.get_reals(reals)))
+                self.assertTrue(all(math.isfinite(x) for x in found.values()))
+                for axis in "xy":
+                    here = leg.read(f"/desired/foot/position.{axis}")
+                    valid = slave.get("desired.foot.position.valid")
+                    self.assertEqual(bool(valid), not math.isnan(here))
+                    self.assertEqual(found[f"desired.foot.position.{axis}"], here if valid else 0.0)
+                    flags.add(bool(valid))
+            self.assertEqual(flags, {False, True})
+            slave.free()
+        stairs = fmu(f"{ROOT}/experiments/knee-staircase.toml")
+        self.assertEqual([name for name in stairs.variables if "desired.foot" in name], [])
+        slave = stairs.instantiate().initialize()
+        reals = [v.name for v in stairs.variables.values() if v.causality == "output"]
+        slave.step(0.0, 1.0)
+        self.assertTrue(all(math.isfinite(x) for x in slave.get_reals(reals)))
+        slave.free()
 
     def test_is_the_recorded_run_to_its_end(self) -> None:
         run = sinew.run(WALK)

@@ -2,6 +2,7 @@
 the unpacked files, and at the program."""
 
 import ctypes
+import itertools
 import os
 import shutil
 import subprocess
@@ -266,6 +267,31 @@ class Interface(unittest.TestCase):
             slave.step(stop - 0.5, 0.25)
             slave.free_state(state)
             slave.free()
+
+    def test_a_step_past_a_defined_stop_time_is_an_error(self) -> None:
+        """Tube, muscle, joint and machine; up to the stop time itself, all is well."""
+        for words, version in itertools.product(
+            ((ACTUATOR,), (RIG,), (ROBOT, "--joint", "hip"), (WALK,)), "23"
+        ):
+            with self.subTest(words=words, version=version):
+                slave = fmu(*words, "--fmi", version).instantiate().initialize(start=2.0, stop=2.1)
+                for k in range(10):
+                    slave.step(2.0 + k * 0.01, 0.01)
+                saved = slave.serialized()
+                other = fmu(*words, "--fmi", version).instantiate()  # the stop time is of the state
+                other.back_to(other.deserialized(saved))
+                for one in (slave, other):
+                    with self.assertRaises(Failed) as raised:
+                        one.step(2.1, 0.001)
+                    self.assertEqual(raised.exception.status, ERROR)
+                    self.assertIn("expected at most 2.1 s, the stop time", str(raised.exception))
+                other.free()
+                slave.call("Reset")
+                with self.assertRaises(Failed):
+                    slave.enter(start=1.0, stop=0.5)
+                slave.initialize()  # without a stop time
+                slave.step(0.0, 0.3)
+                slave.free()
 
     def test_a_long_step_is_a_plan_to_its_end(self) -> None:
         for version in "23":

@@ -154,7 +154,14 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
              [](const Snapshot& m) { return m.seen.tripped() ? 1.0 : 0.0; });
 }
 
-void plan_columns(const LegAt& leg, Columns& out) {
+// A foot is desired only in phases that give it a path, and only of a leg.
+Column::Given foot_given(const experiment::Experiment& e) {
+  const bool has_path =
+      std::ranges::any_of(e.plan.phases, [](const gait::Phase& p) { return p.has_path(); });
+  return has_path ? Column::Given::at_times : Column::Given::never;
+}
+
+void plan_columns(const experiment::Experiment& e, const LegAt& leg, Columns& out) {
   const std::size_t l = leg.leg;
   out.scalar(leg.topic("/plan/phase"), "1", "position in the experiment's phases; -1 outside",
              [l](const Snapshot& m) { return m.desired[l].phase; });
@@ -168,6 +175,7 @@ void plan_columns(const LegAt& leg, Columns& out) {
                x = desired.has_foot ? desired.foot.x : std::nan("");
                y = desired.has_foot ? desired.foot.y : std::nan("");
              });
+  out.list.back().given = foot_given(e);
 }
 
 // As phases, profiles and changes have made them.
@@ -193,7 +201,7 @@ std::vector<Column> columns(const experiment::Experiment& e) {
   low_level_columns(e.robot, out);
   supervision_columns(e, out);
   for (const LegAt& leg : legs_at(e.robot)) {
-    plan_columns(leg, out);
+    plan_columns(e, leg, out);
     gain_columns(e, leg, out);
   }
   true_columns(e, out);

@@ -30,6 +30,9 @@ struct Column {
   signals::Topic topic;                                     // of one or two fields
   std::function<void(const Snapshot&, double* out)> value;  // no heap, no exceptions
 
+  // When it has a value; NaN else. `never`: not with this experiment's plan.
+  enum class Given { always, at_times, never } given = Given::always;
+
   // Does only a simulation know it?
   bool of_truth() const { return topic.name.starts_with("/true/"); }
 };

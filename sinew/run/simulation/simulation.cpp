@@ -120,7 +120,7 @@ void Simulation::list_channels() {
     const signals::Topic& topic = columns_[c].topic;
     for (std::size_t f = 0; f < topic.fields.size(); ++f) {
       const std::string behind = topic.fields.size() > 1 ? "." + topic.fields[f].name : "";
-      channels_.push_back({topic.name + behind, topic.fields[f].unit});
+      channels_.push_back({topic.name + behind, topic.fields[f].unit, columns_[c].given});
       column_of_.push_back({c, f});
     }
   }

@@ -96,6 +96,7 @@ class Simulation {
   // "/foot/position.x" of one with two numbers.
   struct Channel {
     std::string name, unit;
+    Column::Given given = Column::Given::always;  // when it has a value; NaN else
   };
   const std::vector<Channel>& channels() const noexcept { return channels_; }
   // Value of a channel now, in its unit; by its number in channels(), or by its name. Throws
