@@ -95,6 +95,34 @@ class Env(unittest.TestCase):
                 env.simulation.setting(keys[1]), plan.setting(keys[1]) * 2.0 ** action[2], 12
             )
 
+    def test_reports_what_it_clips(self) -> None:
+        env = sinew.gym.Env("walk")
+        env.reset(seed=1, options={})
+        self.assertNotIn("clipped", env.step([1.0, -1.0, 0.0, 1.0])[4])
+        found = env.step([1.5, -1.0, 0.0, -2.0])[4]["clipped"]
+        self.assertEqual(found.tolist(), [True, False, False, True])
+        many = sinew.gym.VectorEnv("walk", 2)
+        many.reset(seed=1)
+        found = many.step([[0.0, 0.0, 3.0, 0.0], [0.0] * 4])[4]["clipped"]
+        self.assertEqual(found.tolist(), [[False, False, True, False], [False] * 4])
+        self.assertEqual(many.step(numpy.zeros((2, 4)))[4], {})
+
+    def test_refuses_options(self) -> None:
+        envs: List[Any] = [sinew.gym.Env("walk"), sinew.gym.VectorEnv("walk", 2)]
+        for env in envs:
+            with self.assertRaisesRegex(ValueError, "options: found 'mass'; expected no options"):
+                env.reset(seed=1, options={"mass": 1.0})
+
+    def test_examples_of_its_texts_run(self) -> None:
+        import sinew.gym.env
+        import sinew.gym.spaces
+        import sinew.gym.tasks
+
+        for module in (sinew.gym, sinew.gym.env, sinew.gym.spaces, sinew.gym.tasks):
+            lines = (module.__doc__ or "").splitlines()
+            code = "\n".join(line[4:] for line in lines if line.startswith("    "))
+            exec(code, {"dataclasses": dataclasses, "sinew": sinew})
+
     def test_walks_reward_is_the_way(self) -> None:
         env = sinew.gym.Env("walk")
         _, rewards = episode(env, lambda k: numpy.zeros(4), 1)

@@ -63,6 +63,20 @@ class _Shared:
         return _sinew.Episode(self.course, Simulation(self.experiment.with_seed(seed)))
 
 
+def _clipped(action: numpy.typing.ArrayLike) -> "Optional[numpy.typing.NDArray[numpy.bool_]]":
+    """Return which numbers are beyond -1 and 1; None where none is."""
+    beyond = numpy.abs(numpy.asarray(action, float)) > 1.0
+    return beyond if beyond.any() else None
+
+
+def _refuse(options: Optional[Dict[str, Any]]) -> None:
+    if options:
+        raise ValueError(
+            f"options: found {', '.join(map(repr, options))}; expected no options; settings belong "
+            "into sets of the task: dataclasses.replace(env.task, sets={**env.task.sets, KEY: VALUE})"
+        )
+
+
 class _Seeds:
     """Seeds of episodes: the one that is asked for, then others that follow from it."""
 
@@ -86,7 +100,8 @@ class Env(_Base):  # type: ignore[misc]
 
     An action has a number from -1 to 1 for each of the task's actions; 0 is what the plan does. An
     episode is terminated where the run fails, and truncated where the plan ends. The same seed and
-    actions give the same bits.
+    actions give the same bits. Numbers of an action beyond -1 and 1 are clipped; info["clipped"] then
+    marks them with True, by their places.
     """
 
     metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20}
@@ -120,8 +135,11 @@ class Env(_Base):  # type: ignore[misc]
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
-        """Begin an episode. Without a seed it has one that follows from the last one given."""
-        del options
+        """Begin an episode. Without a seed it has one that follows from the last one given.
+
+        Raises ValueError for options: a task has none.
+        """
+        _refuse(options)
         number = self._seeds.next(seed)
         self._episode = self._shared.begin(number)
         self._over = False
@@ -142,6 +160,8 @@ class Env(_Base):  # type: ignore[misc]
         except _sinew.RunError as failed:
             seen, self._measured = episode.look()
             ended, terminated, info["failure"] = False, True, str(failed)
+        if (beyond := _clipped(action)) is not None:
+            info["clipped"] = beyond
         if self.task.failed is not None and self.task.failed(self._measured):
             terminated = True
         reward = self.task.reward(before, self._measured, self.task.period)
@@ -169,7 +189,8 @@ class VectorEnv:
 
     Observations, rewards and flags have a row for each. An environment whose episode has ended
     begins the next one by itself in the next step, as Gymnasium's vector environments do; its
-    action is then not looked at, and its reward is 0.
+    action is then not looked at, and its reward is 0. info["clipped"] marks numbers of actions that
+    were clipped to -1 and 1; it is missing where none was.
     """
 
     def __init__(self, task: Union[str, Task] = "walk", num_envs: int = 16) -> None:
@@ -198,8 +219,11 @@ class VectorEnv:
         seed: Optional[Union[int, Sequence[int]]] = None,
         options: Optional[Dict[str, Any]] = None,
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
-        """Begin all anew. `seed`: of the first, the others follow; or one for each."""
-        del options
+        """Begin all anew. `seed`: of the first, the others follow; or one for each.
+
+        Raises ValueError for options: a task has none.
+        """
+        _refuse(options)
         seeds: "Sequence[Optional[int]]"
         if seed is None:
             seeds = [None] * self.num_envs
@@ -238,7 +262,11 @@ class VectorEnv:
         if self.task.failed is not None:
             terminated = failed | [bool(self.task.failed(m)) for m in self._measured]
         self._over = ended | terminated
-        return seen, rewards, terminated, ended & ~terminated, {}
+        beyond = _clipped(actions)
+        if beyond is not None:
+            beyond &= ~skipped[:, numpy.newaxis]
+        info: Info = {"clipped": beyond} if beyond is not None and beyond.any() else {}
+        return seen, rewards, terminated, ended & ~terminated, info
 
     def close(self) -> None:
         """End all episodes."""

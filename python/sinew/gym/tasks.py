@@ -2,8 +2,9 @@
 
 A Task is plain data and three functions, so that one of your own is as good as those here:
 
-    task = dataclasses.replace(sinew.gym.tasks["walk"], sets={"payload.mass": 1.0})
-    env = sinew.gym.Env(task)
+    walk = sinew.gym.task("walk")
+    heavier = dataclasses.replace(walk, sets={**walk.sets, "trolley.payload": 1.0})
+    env = sinew.gym.Env(heavier)
 """
 
 import dataclasses
