@@ -101,8 +101,10 @@ void add_figures(Command app, Action& action) {
       "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
       "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"
       "  sinew figures mine runs/arm/1 --label measured --label simulated -o figures\n"
+      "  sinew figures muscle.toml --format pdf\n"
       "  sinew figures --thesis -o figures");
-  Option runs = sub.add_option("DIR", options->runs.runs, "folders of runs, or log files");
+  Option runs =
+      sub.add_option("DIR", options->runs.runs, "folders of runs, log files, or files of muscles");
   Option thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
   runs.excludes(thesis);
   sub.add_option("-o,--output", options->runs.out,

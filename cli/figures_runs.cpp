@@ -10,6 +10,7 @@
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/drawn_run.h"
+#include "sinew/run/folder/muscle_figures.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::cli {
@@ -51,9 +52,10 @@ run::DrawingRequest drawing_of(const RunFiguresRequest& request) {
 }
 
 // A run's own folder, or one below --output where there are several runs.
-fs::path folder_of(const RunFiguresRequest& request, const std::string& named,
-                   const run::RecordedRun& run) {
-  if (request.out.empty()) return run.log.parent_path() / run::figures_name;
+fs::path folder_of(const RunFiguresRequest& request, const std::string& named) {
+  const fs::path source =
+      run::is_muscle_file(named) ? fs::path(named) : run::recorded_run(named).log;
+  if (request.out.empty()) return source.parent_path() / run::figures_name;
   if (request.runs.size() == 1) return request.out;
   return fs::path(request.out) / report::file_name_of(named);
 }
@@ -62,7 +64,7 @@ fs::path folder_of(const RunFiguresRequest& request, const std::string& named,
 std::vector<std::pair<fs::path, std::string>> folders_of(const RunFiguresRequest& request) {
   std::vector<std::pair<fs::path, std::string>> out;
   for (const std::string& named : request.runs) {
-    const fs::path folder = folder_of(request, named, run::recorded_run(named));
+    const fs::path folder = folder_of(request, named);
     for (const auto& [taken, other] : out)
       if (taken == folder)
         config::fail({named, 0, 0}, "", "the same run, or one of the same name, a second time",
@@ -103,7 +105,9 @@ ExitCode draw_runs(const RunFiguresRequest& request) {
     add(request.out, run::draw_runs(runs, request.out, drawing, messages.notices()));
   } else {
     for (const auto& [folder, named] : folders_of(request))
-      add(folder, run::draw_run(named, folder, drawing, messages.notices()));
+      add(folder, run::is_muscle_file(named)
+                      ? run::draw_muscles(named, folder, drawing, messages.notices())
+                      : run::draw_run(named, folder, drawing, messages.notices()));
   }
   if (request.json)
     fmt::print("{}\n", out.text(2));

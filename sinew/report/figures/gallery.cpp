@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sinew/json/json.h"
 #include "sinew/report/figures/gallery_style.h"
 #include "sinew/report/page/html.h"
@@ -151,11 +153,14 @@ void Page::files(const Figure& figure, const FigureData& data) {
   add("</div>");
 }
 
+// A browser shows no PDF as an image: figures of which there are only PDFs are links, above.
 void Page::picture(const Exhibit& e) {
   add("<figure>");
-  if (!gallery_.pictures.empty())
+  const auto shown = std::ranges::find_if(
+      gallery_.pictures, [](const std::string& ending) { return ending != "pdf"; });
+  if (shown != gallery_.pictures.end())
     add("<a href=\"{0}.{1}\"><img src=\"{0}.{1}\" alt=\"{2}\"></a>", escaped(e.figure.name),
-        escaped(gallery_.pictures.front()), escaped(e.figure.title));
+        escaped(*shown), escaped(e.figure.title));
   add("<figcaption>{}</figcaption>", escaped(e.figure.caption));
   add("</figure>");
 }

@@ -91,6 +91,14 @@ TEST(Gallery, WithoutPicturesTheDataAreThere) {
   EXPECT_FALSE(Json::parse(index_json(g))["figures"][0].contains("svg"));
 }
 
+TEST(Gallery, NoPdfIsShownAsAnImage) {
+  Gallery g = gallery();
+  g.pictures = {"pdf"};
+  EXPECT_THAT(index_html(g), AllOf(Not(HasSubstr("<img")), HasSubstr("href=\"2-6.pdf\"")));
+  g.pictures = {"pdf", "svg"};
+  EXPECT_THAT(index_html(g), AllOf(HasSubstr("src=\"2-6.svg\""), HasSubstr("href=\"2-6.pdf\"")));
+}
+
 TEST(Gallery, FiguresOfWhichNothingIsSaidStandSideBySide) {
   Gallery g = gallery();
   EXPECT_THAT(index_html(g), AllOf(HasSubstr("<main>"), HasSubstr("id=\"choice\"")));

@@ -14,6 +14,7 @@
 #include "sinew/log/reader.h"
 #include "sinew/report/figures/figure_layout.h"
 #include "sinew/report/figures/overlay.h"
+#include "sinew/run/folder/muscle_figures.h"
 #include "sinew/run/folder/run_log.h"
 
 namespace sinew::run {
@@ -199,6 +200,18 @@ std::string draw_run(const fs::path& named, const fs::path& folder, const Drawin
   std::vector<Drawn> runs;
   runs.push_back(read(named, request, notices));
   return finish(std::move(figures_of(runs, request)[0]), named, runs[0].name, folder, request,
+                notices);
+}
+
+std::string draw_muscles(const fs::path& file, const fs::path& folder,
+                         const DrawingRequest& request, const Notices& notices) {
+  if (!request.channels.empty() || std::isfinite(request.options.from) ||
+      std::isfinite(request.options.to))
+    config::fail({file.string(), 0, 0}, "", "a file of muscles with channels or a time",
+                 "the folder of a run", "leaving them out");
+  const units::ShownUnits units =
+      config::units_to_show({.now = request.units}, units::UnitSet::metric).units;
+  return finish(muscle_figures(file, units), file, file.filename().string(), folder, request,
                 notices);
 }
 

@@ -45,6 +45,11 @@ struct OverlaidRuns {
 std::string draw_run(const std::filesystem::path& named, const std::filesystem::path& folder,
                      const DrawingRequest& request, const Notices& notices = {});
 
+// Draws the characteristic of each muscle of an actuator's or a robot's file in the same way, in
+// metric units where none are chosen. Throws, too, for channels or a time, which are a run's.
+std::string draw_muscles(const std::filesystem::path& file, const std::filesystem::path& folder,
+                         const DrawingRequest& request, const Notices& notices = {});
+
 // Draws several runs in the same axes; notes say how they were laid on the first one. Throws
 // config::Error, too, where there are no such labels, or the runs cannot be laid on each other.
 std::string draw_runs(const OverlaidRuns& runs, const std::filesystem::path& folder,
