@@ -1,6 +1,6 @@
 // The picture of a chart: its points and lines in the view that is zoomed to, with those names that
 // are shown.
-import { band_opacity, mark_path } from './chart_shapes.js';
+import { band_opacity, mark_path, point_path } from './chart_shapes.js';
 import { at, Picture } from './picture.js';
 
 class ChartPicture extends Picture {
@@ -28,16 +28,17 @@ class ChartPicture extends Picture {
     if (curve.style === 'band') this.add(`<rect x="${at(x)}" y="${at(y - 5)}" width="24" height="10" ${this.area(curve.label)}/>`);
     else if (curve.style === 'left out') this.mark(curve, x + 12, y, 4);
     else if (curve.style === 'line' || curve.style === 'other line') this.add(`<path d="M${at(x)} ${at(y)}h24" fill="none" ${this.stroke(curve, color)}/>`);
-    else this.dot(curve.style, x + 12, y, 3.2, color);
+    else this.dot(curve, x + 12, y, 3.2, color);
   }
 
   stroke(curve, color = this.color(curve)) {
     return `stroke="${color}" stroke-width="${curve.bold ? 2.4 : 1.6}"${curve.dash ? ` stroke-dasharray="${curve.dash.join(' ')}"` : ''}`;
   }
 
-  dot(style, x, y, r, color) {
-    const paint = style === 'points' ? `fill="${color}"` : `fill="#fff" stroke="${color}" stroke-width="1.3"`;
-    this.add(`<circle cx="${at(x)}" cy="${at(y)}" r="${at(style === 'points' ? r : 1.25 * r)}" ${paint}/>`);
+  dot(curve, x, y, r, color) {
+    const paint = curve.style === 'points' ? `fill="${color}"` : `fill="#fff" stroke="${color}" stroke-width="1.3"`;
+    if (curve.mark) this.add(`<path d="${point_path(curve, +at(x), +at(y), r)}" ${paint}/>`);
+    else this.add(`<circle cx="${at(x)}" cy="${at(y)}" r="${at(curve.style === 'points' ? r : 1.25 * r)}" ${paint}/>`);
   }
 
   area(label) {
@@ -67,7 +68,7 @@ class ChartPicture extends Picture {
   points(c, range) {
     const r = c.x.length > 400 ? 1.7 : 2.9;
     for (let i = 0; i < c.x.length; ++i)
-      if (Number.isFinite(c.x[i]) && Number.isFinite(c.y[i])) this.dot(c.style, this.x(c.x[i]), this.y(c.y[i], range), r, this.color(c));
+      if (Number.isFinite(c.x[i]) && Number.isFinite(c.y[i])) this.dot(c, this.x(c.x[i]), this.y(c.y[i], range), r, this.color(c));
   }
 }
 

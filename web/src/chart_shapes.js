@@ -9,6 +9,12 @@ const marks = [
 ];
 export const mark_path = (mark, x, y, r) => marks[mark % marks.length](x, y, r);
 
+// The outline of a measured point, a disc but for a curve with a mark; larger of one held out.
+export function point_path(curve, x, y, r) {
+  const size = curve.style === 'points' ? r : 1.25 * r;
+  return curve.mark ? mark_path(curve.mark, x, y, 1.15 * size) : `M${x - size} ${y}a${size} ${size} 0 1 0 ${2 * size} 0a${size} ${size} 0 1 0 ${-2 * size} 0Z`;
+}
+
 // The area between the curve's lower and upper line, in pixels: a part for each stretch where both
 // are known, all in the same direction, so that parts that overlap are filled once.
 export function band_path(curve, at_x, at_y) {
@@ -36,6 +42,7 @@ export const band_opacity = (label) => (label.startsWith('68') ? 0.3 : 0.17);
 export function sample_of(curve) {
   const svg = (inner) => `<svg viewBox="0 0 26 10" width="26" height="10" aria-hidden="true">${inner}</svg>`;
   if (curve.style === 'band') return svg(`<rect width="26" height="10" fill="var(--line)" fill-opacity="${band_opacity(curve.label) + 0.1}"/>`);
+  if (curve.style === 'points') return svg(`<path d="${point_path(curve, 13, 5, 3.8)}" fill="var(--line)"/>`);
   if (curve.style === 'left out') return svg(`<path d="${mark_path(curve.mark ?? 0, 13, 5, 3.4)}" fill="none" stroke="var(--line)" stroke-width="1.4"/>`);
   return svg(`<path d="M0 5H26" fill="none" stroke="var(--line)" stroke-width="${curve.bold ? 3 : 2}" stroke-dasharray="${(curve.dash ?? []).join(' ')}"/>`);
 }

@@ -2,7 +2,7 @@
 // axes; the curves, which need not go from left to right, are drawn here.
 import uPlot from 'uplot';
 import { chart_picture } from './chart_picture.js';
-import { band_opacity, band_path, mark_path, sample_of } from './chart_shapes.js';
+import { band_opacity, band_path, mark_path, point_path, sample_of } from './chart_shapes.js';
 import { pressure_color } from './colors.js';
 import { Enlarged } from './enlarged.js';
 import { menu_button } from './menu.js';
@@ -96,7 +96,7 @@ class Chart {
     const named = this.named();
     if (!named.length) return;
     this.buttons = named.map((c) => {
-      const kind = c.style in beside ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
+      const kind = c.style in beside || (c.style === 'points' && c.mark) ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
       const pressed = String(this.shown.has(c.label));
       const mark = element('span', { class: 'mark' });
       if (kind === 'drawn') mark.innerHTML = sample_of(c);
@@ -258,15 +258,14 @@ class Chart {
     ctx.lineWidth = 1.3 * ratio;
     for (let i = 0; i < c.x.length; ++i) {
       if (!Number.isFinite(c.y[i])) continue;
-      ctx.beginPath();
-      ctx.arc(at.x(c.x[i]), at.y(c.y[i]), c.style === 'points' ? r : 1.25 * r, 0, 2 * Math.PI);
-      if (c.style === 'points') ctx.fill();
+      const point = new Path2D(point_path(c, at.x(c.x[i]), at.y(c.y[i]), r));
+      if (c.style === 'points') ctx.fill(point);
       else {
         ctx.save();
         ctx.fillStyle = look.paper;
-        ctx.fill();
+        ctx.fill(point);
         ctx.restore();
-        ctx.stroke();
+        ctx.stroke(point);
       }
     }
   }

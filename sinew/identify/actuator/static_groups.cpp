@@ -26,10 +26,10 @@ std::vector<double> means(const Points& points, const std::vector<int>& group,
   return sum;
 }
 
-// A length and, of a recording, its branch; of several muscles the muscle.
-std::string branch_of(const StaticPoint& p, double length, bool several) {
+// A length, or a pressure, and its branch where it is known; of several muscles the muscle.
+std::string branch_of(const StaticPoint& p, const std::string& own, bool several) {
   std::string out = several ? fmt::format("{:.0f} mm muscle, ", 1e3 * p.rest_length) : "";
-  out += fmt::format("{:.4g} mm", 1e3 * length);
+  out += own;
   if (p.branch != Branch::unknown) out += p.branch == Branch::fill ? ", filling" : ", venting";
   return out;
 }
@@ -105,8 +105,10 @@ Rows rows_of(const StaticSplit& s) {
     const double own = mean[static_cast<std::size_t>(group[i])];
     out.at.push_back(by_length ? p.pressure : p.length);
     out.measured.push_back(p.force);
-    out.group.push_back(by_length ? branch_of(p, own, muscles.size() > 1)
-                                  : fmt::format("{:.0f} kPa", 1e-3 * own));
+    out.group.push_back(branch_of(
+        p, by_length ? fmt::format("{:.4g} mm", 1e3 * own) : fmt::format("{:.0f} kPa", 1e-3 * own),
+        muscles.size() > 1));
+    out.venting.push_back(p.branch == Branch::vent);
     out.order.push_back(group[i]);
     out.held_out.push_back(i >= s.fitted.size());
   }

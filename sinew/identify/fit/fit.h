@@ -46,6 +46,7 @@ struct Rows {
   std::vector<std::string> group;    // of each row: "205 mm"; empty: all are one
   std::vector<int> order;            // of each row its group's place; empty: as they come
   std::vector<bool> held_out;        // of each row; empty: none is
+  std::vector<bool> venting;         // of each row, drawn as a triangle; empty: none is
 
   // More than x and the group changes from row to row: no curve leads through them.
   bool scattered = false;

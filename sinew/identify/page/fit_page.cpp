@@ -24,6 +24,7 @@ using Curve = report::ChartCurve;
 constexpr std::size_t most_rows = 20000;
 // Points of a model that waits until it is asked for, and of each of its lines at least.
 constexpr std::size_t most_of_other = 1200, least_of_line = 40;
+constexpr int triangle = 1;  // of the page's marks
 
 // Strokes that differ without their colors, too; further ones are as these with a longer first one.
 const std::vector<double> dashes[] = {
@@ -116,11 +117,13 @@ class Maker {
     const auto x = pick(group, [&](std::size_t i) { return rows_.at[i]; });
     const auto style = held_out ? Curve::Style::held_out : Curve::Style::points;
     const std::string label = held_out ? "held out" : name.empty() ? "measured" : name;
+    const int mark = !rows_.venting.empty() && rows_.venting[group.front()] ? triangle : 0;
     fit_.curves.push_back({.label = label,
                            .style = style,
                            .color = color,
                            .x = x,
-                           .y = pick(group, [&](std::size_t i) { return measured(i); })});
+                           .y = pick(group, [&](std::size_t i) { return measured(i); }),
+                           .mark = mark});
     if (!told(best)) return;
     add_line(
         name, color,
@@ -129,7 +132,8 @@ class Maker {
                             .style = style,
                             .color = color,
                             .x = x,
-                            .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
+                            .y = pick(group, [&](std::size_t i) { return best.residuals[i]; }),
+                            .mark = mark});
   }
 
   // The chosen model's line: along its curve with its bands where it tells one, once for each

@@ -32,7 +32,7 @@ struct ChartCurve {
   std::vector<double> x, y, y_high;
   Channel x_channel, y_channel;  // in place of numbers
   std::vector<double> dash;      // of a line: lengths of its strokes and gaps; empty: none [px]
-  int mark = 0;
+  int mark = 0;                  // shape of points that were left out; of others 0 is a disc
   bool bold = false;
   bool hidden = false;  // until it is asked for
 };
