@@ -17,12 +17,27 @@
 #include "cli/identify_columns.h"
 #include "cli/interrupt.h"
 #include "cli/settings.h"
+#include "cli/shipped_files.h"
 #include "cli/terminal.h"
 #include "cli/usage.h"
+#include "sinew/config/diagnostics.h"
 
 namespace {
 
 using namespace sinew;
+
+// Returns the error's words. Where a robot was given in place of an experiment, they name the
+// command that makes one of it, with its option, which the library does not know.
+std::string words_of(const std::exception& e) {
+  const auto* file = dynamic_cast<const config::Error*>(&e);
+  if (!file || file->problems().size() != 1) return e.what();
+  config::Problem p = file->problems()[0];
+  if (p.key != "format" || p.found != config::in_quotes("robot") ||
+      p.expected != config::in_quotes("sinew.experiment/1"))
+    return e.what();
+  p.try_this = "sinew new experiment NAME --of " + p.where.file;
+  return config::to_text(p);
+}
 
 cli::ExitCode run_safely(const cli::Action& action) {
   try {
@@ -31,7 +46,7 @@ cli::ExitCode run_safely(const cli::Action& action) {
     cli::error("stdout: cannot write the result; make room or choose another place");
   } catch (const std::exception& e) {
     std::fflush(stdout);
-    cli::error(e.what());
+    cli::error(words_of(e));
     if (cli::is_of_option(e)) return cli::wrong_usage;
   }
   return cli::failed;
@@ -116,7 +131,8 @@ std::string_view only_command(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   cli::fill_closed_streams();
   cli::survive_file_limits();
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::vector<std::string> words =
+      cli::with_shipped_files(std::vector<std::string>(argv + 1, argv + argc));
   Program program(only_command(words));
   try {
     program.parse(words);

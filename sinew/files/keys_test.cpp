@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,6 +20,8 @@
 #include "sinew/files/key_text.h"
 #include "sinew/files/keys_test.h"
 #include "sinew/files/values.h"
+#include "sinew/robot/legs.h"
+#include "sinew/robot/robot.h"
 #include "sinew/tune/optimizer/tuning.h"
 
 namespace sinew::files::keys_test {
@@ -266,6 +271,43 @@ TEST(Keys, AKeyThatFollowsFromAWordSaysFromWhich) {
   EXPECT_FALSE(least[0].required);
   EXPECT_TRUE(least[1].required);
   EXPECT_EQ(least[1].when, "kind = \"driven\" and estimator = \"bounded observer\" or \"kalman\"");
+}
+
+std::string text_of_page(const std::string& path) {
+  std::ifstream in(test::source_dir() + "/" + path);
+  std::string out{std::istreambuf_iterator<char>(in), {}};
+  std::ranges::replace(out, '\n', ' ');
+  return out;
+}
+
+// Pages state the limits in words; these are the sizes of the code.
+TEST(Keys, LimitsOfTheDocsAreThoseOfTheCode) {
+  using namespace robot;
+  const std::map<std::string, std::vector<std::string>> stated{
+      {"docs/how-to/own-robot.md",
+       {fmt::format("with up to {} joints", max_joints),
+        fmt::format("| joints and links, driven or passive | {} |", max_joints),
+        fmt::format("(actuators in parallel are one) | {}: {} valves |", max_muscles,
+                    2 * max_muscles),
+        fmt::format("| discs of all feet | {} |", max_discs),
+        fmt::format("| legs; joints and muscles of one | {}; {} and {} |", max_legs, max_leg_joints,
+                    max_leg_muscles),
+        fmt::format("| boards; joints, channels and bits of one | {}; {}, {} and {} |", max_boards,
+                    board_joints, board_channels, board_bits),
+        fmt::format("| sensors, one a channel | {}, {} of them on a board |", max_sensors,
+                    board_channels),
+        fmt::format("more than {} joints or {} sensors: [several boards]", board_joints,
+                    board_channels)}},
+      {"README.md", {fmt::format("trees of up to {} links", max_joints)}},
+      {"CHANGELOG.md",
+       {fmt::format("tree of up to {} links", max_joints),
+        fmt::format("up to {} muscles", max_muscles)}},
+      {"docs/architecture.md",
+       {fmt::format("up to {} joints, {} channels and {} bits of outputs", board_joints,
+                    board_channels, board_bits)}}};
+  for (const auto& [page, texts] : stated)
+    for (const std::string& text : texts)
+      EXPECT_THAT(text_of_page(page), testing::HasSubstr(text)) << page;
 }
 
 TEST(Keys, TheNearestIsSuggested) {
