@@ -146,7 +146,7 @@ void add_dialect_options(Command sub, DataOptions& options) {
       .is_one_of({"utf-8", "utf-16le", "utf-16be", "latin1"});
   sub.add_option("--decimal", options.decimal, "the mark, where the numbers do not show it")
       .is_one_of({".", ","});
-  sub.add_option("--thousands", options.thousands, "what parts them")
+  sub.add_option("--thousands", options.thousands, "mark between groups of three digits")
       .is_one_of({".", ",", " ", "'"});
   sub.add_option("--dates", options.dates, "what comes first in 11/03/2026; excel: days since 1900")
       .is_one_of({"day first", "month first", "excel"});

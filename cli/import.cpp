@@ -176,7 +176,7 @@ void add_table_options(Command sub, recording::TableSettings& table) {
   sub.add_option("--encoding", table.encoding, "of a table: utf-8, utf-16le, utf-16be, latin1");
   sub.add_option("--decimal", table.decimal, "decimal mark of a table: . or ,");
   sub.add_option("--thousands", table.thousands,
-                 "what parts thousands in a table: . , ' or a blank");
+                 "mark between groups of three digits in a table: . , ' or a blank");
   sub.add_option("--dates", table.dates, "of a table: day first, month first, or excel");
   sub.add_option("--part", table.part,
                  "N: of several recordings in a table, one after the other, the first is 1")

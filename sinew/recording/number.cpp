@@ -176,8 +176,8 @@ std::string hint_for(std::string_view text, NumberStyle style) {
   if (marks.number && marks.thousands) {
     for (const char mark : {'.', ',', '\''})
       if (const char other = mark == '.' ? ',' : '.'; number_in(text, {other, mark}))
-        return fmt::format("thousands=\"{}\", which parts them here", mark);
-    return "thousands=\" \", which parts them here";
+        return fmt::format("thousands=\"{}\", the mark between groups of digits here", mark);
+    return "thousands=\" \", the mark between groups of digits here";
   }
   if (marks.comma) return fmt::format("a decimal point: {}", with_mark(text, text.find(','), '.'));
   const std::size_t blank = text.find_first_not_of("0123456789.,+-eE");

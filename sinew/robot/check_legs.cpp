@@ -1,6 +1,7 @@
 #include "sinew/robot/check_legs.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "sinew/robot/legs.h"
@@ -122,6 +123,15 @@ void check_discs(const Robot& robot, List& out) {
                    "at most " + std::to_string(max_discs), "fewer points per foot"});
 }
 
+// Links of which two hang on one can be several legs; a single chain cannot.
+const char* advice_for_large_leg(const Robot& robot) {
+  std::set<int> parents;
+  for (std::size_t i = 0; i < robot.links.size(); ++i) parents.insert(parent_of(robot, i));
+  const bool branches = parents.size() < robot.links.size();
+  return robot.legs.empty() && branches ? "several legs, [leg.<name>] with joints = [...]"
+                                        : "fewer of them: links that hardly move as one link";
+}
+
 // One gait controller drives a leg.
 void check_leg_sizes(const Robot& robot, List& out) {
   for (const LegParts& leg : legs_of(robot)) {
@@ -130,11 +140,11 @@ void check_leg_sizes(const Robot& robot, List& out) {
     if (leg.joints.size() > static_cast<std::size_t>(max_leg_joints))
       out.push_back({key, std::to_string(leg.joints.size()) + " joints" + of,
                      "at most " + std::to_string(max_leg_joints) + " joints in a leg",
-                     "several legs, [leg.<name>] with joints = [...]"});
+                     advice_for_large_leg(robot)});
     if (leg.muscles.size() > static_cast<std::size_t>(max_leg_muscles))
       out.push_back({key, std::to_string(leg.muscles.size()) + " muscles" + of,
                      "at most " + std::to_string(max_leg_muscles) + " muscles in a leg",
-                     "several legs, [leg.<name>] with joints = [...]"});
+                     advice_for_large_leg(robot)});
   }
 }
 

@@ -122,6 +122,27 @@ TEST(Legs, MayHangOnATrunk) {
   EXPECT_FALSE(contradictions(robot).empty());
 }
 
+// A chain of twelve joints is no set of legs, which would be refused, too; twelve that branch are.
+TEST(Legs, AdviceForALargeLegFitsItsShape) {
+  Robot robot = test::leg();
+  robot.muscles.clear();
+  robot.sensors.clear();
+  while (robot.links.size() < 12) {
+    robot.links.push_back(robot.links[1]);
+    robot.joints.push_back(robot.joints[1]);
+    robot.links.back().name = robot.joints.back().name =
+        "more" + std::to_string(robot.links.size());
+  }
+  const auto advice = [&] {
+    for (const Contradiction& c : contradictions(robot))
+      if (c.found == "12 joints in one leg") return c.try_this;
+    return std::string();
+  };
+  EXPECT_EQ(advice(), "fewer of them: links that hardly move as one link");
+  robot.links[6].parent = "body";
+  EXPECT_EQ(advice(), "several legs, [leg.<name>] with joints = [...]");
+}
+
 // Places by parents are the chain's where the robot is one, and a leg's where it is a tree.
 TEST(Kinematics, PlacesOfATreeAreThoseOfItsLegs) {
   Robot two = test::two_legs();

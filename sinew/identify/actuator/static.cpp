@@ -89,8 +89,9 @@ void describe(const StaticFit& fit, Fit& out) {
   for (const Knob knob : fit.unknown)
     for (std::size_t i = 0; i < fit.knobs.size(); ++i)
       if (fit.knobs[i] == knob)
-        out.notes.push_back(fmt::format("{} leans on other muscles: these data say little about it",
-                                        out.parameters[i].name));
+        out.notes.push_back(
+            fmt::format("{} is taken from other muscles: these data hardly determine it",
+                        out.parameters[i].name));
   for (const Estimate& e : out.parameters)
     if (e.name == "thread_length" && e.at_bound)
       out.notes.push_back(

@@ -52,12 +52,12 @@ Determined one_determined(const Estimate& e, bool leans) {
   const double share = out.half_width / std::abs(e.value);
   if (e.at_bound) {
     out.by = Determination::at_bound;
-    out.words = "wants to leave its range: nothing of its kind shows";
+    out.words = "at the end of its range: the data show no such effect";
     return out;
   }
   if (leans) {
     out.by = Determination::by_priors;
-    out.words = "leans on other muscles: the data say little of it";
+    out.words = "from other muscles: the data hardly show it";
   } else if (std::isfinite(share) && share <= known_share) {
     out.by = Determination::by_data;
     out.words = fmt::format("to +-{:.2g} %", 100 * share);

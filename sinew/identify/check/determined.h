@@ -13,7 +13,7 @@ namespace sinew::identify {
 enum class Determination {
   by_data,     // to less than half of its value
   by_priors,   // it stays about where other muscles have it
-  at_bound,    // it wants to leave its range: these data know no such effect
+  at_bound,    // at the end of its range: the data show no such effect
   not_at_all,  // zero would do as well, or nothing was measured that depends on it
 };
 
