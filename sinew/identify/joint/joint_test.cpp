@@ -301,5 +301,33 @@ TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
   }
 }
 
+// A load in grams that is called kilograms, a pressure of the other muscle: the numbers that fit
+// lie at the bounds of all ranges, so that no covariance is left. An answer in words or in numbers.
+TEST(Joint, AnyColumnThatIsAThousandTimesOffOrExchangedIsAnswered) {
+  const Measured right = poses({}, true, 1e-3, 39, 12);
+  const auto is_answered = [](const Measured& data) {
+    try {
+      const JointResult found = identify_joint(data, {}, setup_of({}), "round", {}, nullptr);
+      for (const Combination& c : found.combinations) EXPECT_FALSE(std::isnan(c.relative_error));
+      return true;
+    } catch (const Refusal& e) {
+      return !std::string(e.what()).empty();
+    }
+  };
+  for (std::size_t column = 0; column < right.columns.size(); ++column) {
+    SCOPED_TRACE(right.columns[column].name);
+    for (const double factor : {1e3, 1e-3, -1.0}) {
+      Measured data = right;
+      for (double& x : data.columns[column].values) x *= factor;
+      EXPECT_TRUE(is_answered(data)) << factor;
+    }
+    for (std::size_t other = 0; other < column; ++other) {
+      Measured data = right;
+      std::swap(data.columns[column].values, data.columns[other].values);
+      EXPECT_TRUE(is_answered(data)) << data.columns[other].name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sinew::identify::joint_test
