@@ -50,7 +50,9 @@ ExitCode run_experiment(const RunOptions& options) {
   // From before a board is there until it rests.
   Interrupt interrupt(run::is_elsewhere(options.run.port) ? Interrupt::Of::machine
                                                           : Interrupt::Of::work);
-  run::KeptRun kept(options.run, messages.notices());
+  run::RunRequest request = options.run;
+  request.stop = &interrupt.asked();
+  run::KeptRun kept(request, messages.notices());
   tell(kept.keep(run_logged(options, kept, interrupt)), options, messages);
   return ok;
 }

@@ -31,7 +31,7 @@ using Pointer = std::shared_ptr<Recording>;
 void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atomic<bool>& stop,
               Recording& out) {
   run::Place place(request.port, e.read);
-  place.prepare(request.clear_fault);
+  place.prepare(request.clear_fault, &stop);
   out.board = place.who();
   out.warnings = place.told();
   run::RunOptions options{.stop = &stop};
@@ -51,7 +51,9 @@ void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atom
 // The run kept in a folder, as `sinew run` keeps it.
 void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording& out) {
   std::vector<std::string> warnings;
-  run::KeptRun kept(request,
+  run::RunRequest stopped_by_python = request;
+  stopped_by_python.stop = &stop;
+  run::KeptRun kept(stopped_by_python,
                     {.on_warning = [&](std::string_view text) { warnings.emplace_back(text); }});
   run::RunOptions options{.stop = &stop};
   kept.apply(options);

@@ -42,7 +42,8 @@ class HostsLine {
 
   plant::BoardLine line() {
     return {[this](std::span<const std::uint8_t> bytes) { return proxy_->write(inner_, bytes); },
-            [this](std::span<std::uint8_t> out, double seconds) { return read(out, seconds); }};
+            [this](std::span<std::uint8_t> out, double seconds) { return read(out, seconds); },
+            inner_.now};
   }
 
  private:

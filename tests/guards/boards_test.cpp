@@ -35,7 +35,8 @@ Told run_case(const Case& c) {
   };
   const plant::BoardLine inner = board.line();
   plant::RemoteBoard remote(
-      {[&](std::span<const std::uint8_t> bytes) { return proxy.write(inner, bytes); }, inner.read},
+      {[&](std::span<const std::uint8_t> bytes) { return proxy.write(inner, bytes); }, inner.read,
+       inner.now},
       1, 100);
   remote.prepare(bench_configuration_of(c.experiment));
   runs = true;

@@ -154,6 +154,48 @@ TEST(Serial, SeveralSignalsVentAsOneDoes) {
   }
 }
 
+// A device that is no board, and is never silent: a receiver of positions, a logger.
+TEST(Serial, ASignalEndsTheStartUpAtALineThatIsNeverSilent) {
+  const Workspace w;
+  const int far = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_TRUE(far >= 0 && ::grantpt(far) == 0 && ::unlockpt(far) == 0);
+  const std::string device = ::ptsname(far);
+  const int keeper = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  termios raw{};
+  ::tcgetattr(keeper, &raw);
+  ::cfmakeraw(&raw);
+  ::tcsetattr(keeper, TCSANOW, &raw);
+  ::fcntl(far, F_SETFL, O_NONBLOCK);
+  std::atomic<bool> ends = false;
+  std::thread noise([&] {
+    for (std::mt19937 random(39); !ends;
+         std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
+      std::array<char, 10> bytes;
+      for (char& byte : bytes) byte = static_cast<char>(random());
+      (void)!::write(far, bytes.data(), bytes.size());
+      (void)!::read(far, bytes.data(), bytes.size());
+    }
+  });
+  const Words words{"run", "experiments/kick.toml", "--port", "serial:" + device, "-o", "ran"};
+  const Result left_alone = w.sinew(words);
+  EXPECT_EQ(left_alone.code, 1);
+  EXPECT_THAT(left_alone.err, HasSubstr("are no frames of ours"));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t host = w.start(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    const auto asked = std::chrono::steady_clock::now();
+    ::kill(host, signal);
+    int status = 0;
+    ::waitpid(host, &status, 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::milliseconds(500));
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << signal;
+  }
+  ends = true;
+  noise.join();
+  ::close(keeper);
+  ::close(far);
+}
+
 TEST(Serial, AStopInABringUpVents) {
   const Workspace w;
   BoardOnPty board(run::bench_of((w / "robots/leg/robot.toml").string(), w / "bench", {}));

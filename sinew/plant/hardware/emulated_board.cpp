@@ -70,6 +70,7 @@ std::ptrdiff_t LockStepBoard::read(std::span<std::uint8_t> out, double seconds) 
     if (waits_) {
       if (seconds <= 0) return 0;
       seconds -= period;
+      ++periods_;
       answer_period();
     }
     waits_ = record();
@@ -94,7 +95,7 @@ BoardLine LockStepBoard::line() {
       return -1;
     }
   };
-  return {write, read};
+  return {write, read, [this] { return 0.01 * static_cast<double>(periods_); }};
 }
 
 // --- at its serial line -------------------------------------------------------------------------
@@ -130,13 +131,19 @@ EmulatedBoard::~EmulatedBoard() {
   wires_.join();
 }
 
+// An emulator that takes nothing for a second is taken for gone, as a serial line is.
 bool EmulatedBoard::write(std::span<const std::uint8_t> bytes) const {
   while (!bytes.empty()) {
-    const ssize_t n = ::send(sockets_.ours, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (n > 0)
+    const ssize_t n =
+        ::send(sockets_.ours, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(n));
-    else if (errno != EINTR)
-      return false;
+      continue;
+    }
+    if (errno == EINTR) continue;
+    if (errno != EAGAIN) return false;
+    pollfd ready{sockets_.ours, POLLOUT, 0};
+    if (::poll(&ready, 1, 1'000) <= 0 || !(ready.revents & POLLOUT)) return false;
   }
   return true;
 }

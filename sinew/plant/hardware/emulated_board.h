@@ -43,6 +43,7 @@ class LockStepBoard {
   std::vector<std::uint8_t> in_, out_;  // of the line
   bool waits_ = false;                  // the board, for what is to go into its line
   bool gone_ = false;
+  std::int64_t periods_ = 0;  // that it was let run for
   std::optional<Sizes> sizes_;
 };
 

@@ -15,6 +15,9 @@ struct BoardLine {
   // Waits for bytes, `seconds` of the board's time at most. Returns how many came, 0 where none
   // did, and -1 once the line is gone.
   std::function<std::ptrdiff_t(std::span<std::uint8_t>, double seconds)> read;
+  // Returns the board's time since any instant [s], by which a host's patience ends; empty: that of
+  // the wall. A line that waits for its host has a clock of its own.
+  std::function<double()> now = {};
 };
 
 }  // namespace sinew::plant

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+
 #include "sinew/control/link/words.h"
 
 namespace sinew::plant {
@@ -14,6 +17,13 @@ namespace {
 // For how long an answer is waited for, and how often the question is sent.
 constexpr double answer_seconds = 0.5;
 constexpr int tries = 3;
+constexpr double read_seconds = 0.05;  // of one read at most, so that a signal is heeded
+// How long after a run's first command an armed board is sent it again.
+constexpr double patience_to_begin = 0.05;
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 bool runs(BoardState state) noexcept {
   return state == BoardState::running || state == BoardState::hold || state == BoardState::vent;
@@ -45,6 +55,7 @@ std::string fault_found(const link::Identity& who) {
 RemoteBoard::RemoteBoard(BoardLine line, std::uint8_t number, std::uint16_t period)
     : line_(std::move(line)), number_(number), joiner_(period) {
   edge_.reserve(4'096);
+  if (!line_.now) line_.now = wall_seconds;
 }
 
 // --- frames -------------------------------------------------------------------------------------
@@ -125,6 +136,15 @@ void RemoteBoard::hear(const link::Frame& frame) noexcept {
 
 // --- before a run -------------------------------------------------------------------------------
 
+// As listen(), where what is waited for may be given up. A board that streams is heard all the
+// time, so whoever calls this in a loop looks at the clock as well.
+void RemoteBoard::listen_or_throw(double seconds) {
+  telemetry_ = nullptr;
+  (void)listen(std::min(seconds, read_seconds));
+  if (why_ == Why::gone) throw BoardError("the line to the board is gone");
+  if (stops_ && stops_()) throw BoardStopped();
+}
+
 // A frame or its answer may be lost: the same question comes again, as another frame.
 template <class M>
 link::Answer RemoteBoard::ask(const M& message) {
@@ -132,11 +152,9 @@ link::Answer RemoteBoard::ask(const M& message) {
     answer_.reset();
     const std::uint8_t sequence = sequence_;
     if (!send(message)) break;
-    double left = answer_seconds;
-    while (left > 0) {
-      telemetry_ = nullptr;
-      if (!listen(0.05)) left -= 0.05;
-      if (why_ == Why::gone) throw BoardError("the line to the board is gone");
+    const double until = now() + answer_seconds;
+    for (double left = answer_seconds; left > 0; left = until - now()) {
+      listen_or_throw(left);
       if (answer_ && answer_->to == static_cast<std::uint8_t>(M::type) &&
           answer_->sequence == sequence)
         return *answer_;
@@ -156,12 +174,10 @@ link::Identity RemoteBoard::identify() {
   identity_.reset();
   for (int i = 0; i < tries && !identity_; ++i) {
     if (!send(link::Identify{})) break;
-    for (double left = answer_seconds; left > 0 && !identity_ && why_ != Why::gone;) {
-      telemetry_ = nullptr;
-      if (!listen(0.05)) left -= 0.05;
-    }
+    const double until = now() + answer_seconds;
+    for (double left = answer_seconds; left > 0 && !identity_; left = until - now())
+      listen_or_throw(left);
   }
-  if (why_ == Why::gone) throw BoardError("the line to the board is gone");
   if (identity_) return *identity_;
   if (other_version_) refuse_version(*other_version_);
   const link::LineCount& came = decoder_.line();
@@ -174,32 +190,46 @@ link::Identity RemoteBoard::identify() {
   throw BoardError("nobody answers: is the board powered, and this its line?");
 }
 
+// Sends one transfer, up to the first message that is refused. Returns the last answer.
+link::Answer RemoteBoard::transfer(const link::ConfigurationSender& sender) {
+  link::Answer answer = ask(sender.begin());
+  for (std::size_t i = 0; i < sender.chunks && answer.code == Code::done; ++i)
+    answer = ask(sender.chunk(i));
+  return answer.code == Code::done ? ask(sender.end()) : answer;
+}
+
+// A message whose answer was lost is there twice, and so is what a host that was ended has left of
+// a transfer: the board refuses that by its order, and another transfer begins anew.
 void RemoteBoard::configure(const link::Configuration& configuration) {
   const link::ConfigurationSender sender(configuration);
   if (!sender.ok()) throw BoardError("the configuration has a number that a board cannot have");
-  const auto check = [&](const link::Answer& answer) {
-    if (answer.code != Code::done) refuse(answer, "its configuration");
-  };
-  check(ask(sender.begin()));
-  for (std::size_t i = 0; i < sender.chunks; ++i) check(ask(sender.chunk(i)));
-  check(ask(sender.end()));
+  link::Answer answer = transfer(sender);
+  for (int i = 1; i < tries && (answer.code == Code::order || answer.code == Code::gap); ++i)
+    answer = transfer(sender);
+  if (answer.code != Code::done) refuse(answer, "its configuration");
   configuration_ = sender.crc();
+}
+
+// Returns whether the board reports this state before its next telemetry has passed.
+bool RemoteBoard::is_seen(BoardState state, double seconds) {
+  const double until = now() + seconds;
+  do listen_or_throw(0.01);
+  while (state_ != state && telemetry_ == nullptr && now() < until);
+  return state_ == state;
 }
 
 // A board says `state` until it knows its sensors and its own memory.
 template <class M>
 void RemoteBoard::ask_until_done(const M& message, double seconds, const std::string& what) {
+  constexpr double pause = 0.02;
+  const double until = now() + seconds;
   for (;;) {
     const link::Answer answer = ask(message);
     if (answer.code == Code::done) return;
-    if (answer.code != Code::state || seconds <= 0) refuse(answer, what);
-    for (double left = 0.02; left > 0;) {
-      telemetry_ = nullptr;
-      if (!listen(0.01)) left -= 0.01;
-      if (why_ == Why::gone) throw BoardError("the line to the board is gone");
-      if (telemetry_ != nullptr) left -= 0.01;
-    }
-    seconds -= 0.02;
+    if (answer.code != Code::state || now() >= until) refuse(answer, what);
+    // Where the answer to an earlier try was lost, it is there already.
+    if (M::type == link::Type::clear_fault && is_seen(BoardState::idle, pause)) return;
+    for (const double end = now() + pause; now() < end;) listen_or_throw(0.01);
   }
 }
 
@@ -208,10 +238,20 @@ void RemoteBoard::clear_fault() {
   ask_until_done(link::ClearFault{}, 1.0, "to leave its fault");
 }
 
-void RemoteBoard::arm() {
+// Sends both frames. Returns the answer to the second.
+link::Answer RemoteBoard::arm_twice() {
   ask_until_done(link::ArmFirst{configuration_}, 1.0, "to be armed");
-  const link::Answer second = ask(link::ArmSecond{answer_->value, configuration_});
-  if (second.code != Code::done) refuse(second, "to be armed");
+  return ask(link::ArmSecond{answer_->value, configuration_});
+}
+
+// Where the answer to the second frame was lost, the board is armed and refuses the same again;
+// where the frame came too late, both are sent anew.
+void RemoteBoard::arm() {
+  for (int i = 1;; ++i) {
+    const link::Answer second = arm_twice();
+    if (second.code == Code::done || is_seen(BoardState::armed, 2 * read_seconds)) return;
+    if (i == tries) refuse(second, "to be armed");
+  }
 }
 
 void RemoteBoard::refuse_as_found(const link::Identity& who) const {
@@ -246,29 +286,46 @@ link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
   if (edges.code != Code::done) refuse(edges, "to tell of its edges");
   arm();
   has_run_ = false;
+  beginning_.reset();
   edge_.clear();
   return who;
 }
 
-const link::Telemetry* RemoteBoard::look(double seconds) noexcept {
+const link::Telemetry* RemoteBoard::look(double seconds) {
   telemetry_ = nullptr;
-  while (telemetry_ == nullptr && seconds > 0 && why_ != Why::gone)
-    if (!listen(0.01)) seconds -= 0.01;
+  const double until = now() + seconds;
+  for (double left = seconds; telemetry_ == nullptr && left > 0; left = until - now())
+    listen_or_throw(left);
   return telemetry_;
 }
 
 // --- a run --------------------------------------------------------------------------------------
 
-bool RemoteBoard::command(const link::CommandFor& command) noexcept { return send(command); }
+bool RemoteBoard::command(const link::CommandFor& command) noexcept {
+  if (!has_run_ && command.from == 0) {
+    beginning_ = command;
+    begins_again_ = now() + patience_to_begin;
+  }
+  return send(command);
+}
 
 std::span<const signals::Edge> RemoteBoard::edges() noexcept { return edge_; }
+
+// Sends a run's first command again where an armed board reports that it did not get it. One that
+// did get it refuses another one as past.
+void RemoteBoard::begin_again() noexcept {
+  if (has_run_ || !beginning_ || state_ != BoardState::armed || now() < begins_again_) return;
+  begins_again_ = now() + patience_to_begin;
+  (void)send(*beginning_);
+}
 
 const link::Telemetry* RemoteBoard::next(double seconds) noexcept {
   constexpr double step = 0.01;
   edge_.clear();
+  const double until = now() + seconds;
   while (why_ == Why::none || why_ == Why::silent) {
     telemetry_ = nullptr;
-    const bool heard = listen(step);
+    (void)listen(step);
     if (telemetry_ != nullptr && runs(telemetry_->state)) {
       has_run_ = true;
       why_ = Why::none;
@@ -276,25 +333,30 @@ const link::Telemetry* RemoteBoard::next(double seconds) noexcept {
     }
     const bool rests = telemetry_ != nullptr && !runs(telemetry_->state);
     if (has_run_ && rests && why_ != Why::gone) why_ = Why::over;
-    // What is said of no run is no answer either.
-    if (!heard || telemetry_ != nullptr) seconds -= step;
-    if (why_ == Why::none && seconds <= 0) {
+    if (why_ == Why::none && now() >= until) {
       why_ = Why::silent;
       return nullptr;
     }
+    if (rests) begin_again();
   }
   return nullptr;
 }
 
 bool RemoteBoard::shut_down() noexcept {
-  constexpr int longest = 600, longest_silence = 150;  // of 10 ms
-  for (int i = 0, silent = 0; i < longest && silent < longest_silence && why_ != Why::gone; ++i) {
+  constexpr double longest = 6, longest_silence = 1.5, again = 0.5;
+  const double begun = now();
+  double heard = begun, sends = begun;
+  while (why_ != Why::gone) {
     if (state_ <= BoardState::idle || state_ == BoardState::dump) return true;
-    if (i % 50 == 0 && state_ != BoardState::vent) (void)send(link::ShutDown{});
+    const double time = now();
+    if (time - begun >= longest || time - heard >= longest_silence) break;
+    if (time >= sends) {
+      if (state_ != BoardState::vent) (void)send(link::ShutDown{});
+      sends = time + again;
+    }
     telemetry_ = nullptr;
-    for (double left = 0.01; left > 0 && telemetry_ == nullptr && why_ != Why::gone;)
-      if (!listen(left)) left = 0;
-    silent = telemetry_ == nullptr ? silent + 1 : 0;
+    (void)listen(0.01);
+    if (telemetry_ != nullptr) heard = now();
   }
   return false;
 }
@@ -309,12 +371,14 @@ std::vector<link::Telemetry> RemoteBoard::fault_log() {
   wants_log_ = true;
   for (int i = 0; i < most && !logged_all_ && why_ != Why::gone; ++i) {
     if (!send(link::ReadFaultLog{static_cast<std::uint16_t>(fault_log_.size())})) break;
-    for (double left = silence; left > 0 && !logged_all_ && why_ != Why::gone;) {
+    for (double until = now() + silence; !logged_all_ && why_ != Why::gone && now() < until;) {
       const std::size_t had = fault_log_.size();
       telemetry_ = nullptr;
-      if (!listen(0.01) || telemetry_ != nullptr) left -= 0.01;
-      if (fault_log_.size() > had) left = silence;
+      (void)listen(0.01);
+      if (stops_ && stops_()) break;
+      if (fault_log_.size() > had) until = now() + silence;
     }
+    if (stops_ && stops_()) break;
   }
   wants_log_ = false;
   if (!logged_all_) throw BoardError("the board's log of its fault did not come whole");

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -27,6 +28,11 @@ namespace sinew::plant {
 // Says in words what a board did not do, and what may be done about it.
 struct BoardError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+// What was waited for of a board was given up, as RemoteBoard::stop_when() has it.
+struct BoardStopped : BoardError {
+  BoardStopped() : BoardError("interrupted before the run has begun; no valve has moved") {}
 };
 
 // Has a board that is found so to be looked into before it drives again? Its watchdog has bitten,
@@ -47,6 +53,8 @@ class RemoteBoard {
 
   // --- before a run; each throws BoardError ---
 
+  // From now on all that waits outside a run ends with BoardStopped as soon as this returns true.
+  void stop_when(std::function<bool()> stops) { stops_ = std::move(stops); }
   // Asks who is there.
   link::Identity identify();
   // Sends the constants and has them taken, whole.
@@ -66,11 +74,12 @@ class RemoteBoard {
   void allow_clearing() noexcept { may_clear_ = true; }
 
   // Waits for the next telemetry, of a run or of none. nullptr: none came.
-  const link::Telemetry* look(double seconds) noexcept;
+  const link::Telemetry* look(double seconds);
 
   // --- a run; no exceptions ---
 
-  // False once the line is gone.
+  // False once the line is gone. The first command is sent again by next() while the board is still
+  // armed: without one it never begins.
   bool command(const link::CommandFor& command) noexcept;
   // Waits for the next telemetry of a run, `seconds` at most. nullptr: none came; why() says why.
   const link::Telemetry* next(double seconds) noexcept;
@@ -92,6 +101,8 @@ class RemoteBoard {
   // Why next() has returned nullptr: it ended, it is silent, or the line is gone.
   enum class Why : std::uint8_t { none, over, silent, gone };
   Why why() const noexcept { return why_; }
+  // The line's time [s].
+  double now() const noexcept { return line_.now(); }
   // The last state that it has told of, and why it is there.
   control::BoardState state() const noexcept { return state_; }
   control::BoardFault fault() const noexcept { return fault_; }
@@ -108,9 +119,14 @@ class RemoteBoard {
   link::Answer ask(const M& message);
   template <class M>
   void ask_until_done(const M& message, double seconds, const std::string& what);
+  link::Answer transfer(const link::ConfigurationSender& sender);
+  link::Answer arm_twice();
 
   bool work_off() noexcept;
   bool listen(double seconds) noexcept;
+  void listen_or_throw(double seconds);
+  bool is_seen(control::BoardState state, double seconds);
+  void begin_again() noexcept;
   void hear(const link::Frame& frame) noexcept;
   void refuse_as_found(const link::Identity& who) const;
   void hear(const link::Edges& edges) noexcept;
@@ -130,6 +146,9 @@ class RemoteBoard {
   const link::Telemetry* telemetry_ = nullptr;
   std::optional<std::uint8_t> other_version_;  // of the protocol, that the board speaks
   std::optional<bool> expected_low_;
+  std::function<bool()> stops_;
+  std::optional<link::CommandFor> beginning_;  // of a run, until the board runs
+  double begins_again_ = 0;                    // when it is sent the next time [s]
   bool may_clear_ = false;
   bool has_run_ = false;
   Why why_ = Why::none;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
 
 #include "sinew/control/link/test_wire.h"
 #include "sinew/control/link/words.h"
@@ -12,7 +13,7 @@
 namespace sinew::plant::remote_board_test {
 namespace {
 
-// A board that says one thing to whatever it hears.
+// A board that says one thing to whatever it hears. Each read of its line takes 10 ms.
 struct Parrot {
   BoardLine line() {
     return {[this](std::span<const std::uint8_t>) {
@@ -20,13 +21,16 @@ struct Parrot {
               return true;
             },
             [this](std::span<std::uint8_t> out, double) -> std::ptrdiff_t {
+              time += 0.01;
               const std::size_t n = std::min(out.size(), waiting.size());
               std::copy_n(waiting.begin(), n, out.begin());
               waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(n));
               return static_cast<std::ptrdiff_t>(n);
-            }};
+            },
+            [this] { return time; }};
   }
   link::Bytes says, waiting;
+  double time = 0;
 };
 
 constexpr const char* goes_on = "board 1 does not answer: is it on this line, at this rate?";
@@ -122,6 +126,62 @@ TEST(RemoteBoard, AnotherNumberOnTheLineIsSaidToBeSo) {
 TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
   EXPECT_EQ(refusal({.protocol = link::protocol_version}),
             "board 1 does not answer: is it on this line, at this rate?");
+}
+
+// A line that is never silent, and brings nothing that anybody has said.
+struct Noise {
+  BoardLine line() {
+    return {[](std::span<const std::uint8_t>) { return true; },
+            [this](std::span<std::uint8_t> out, double) -> std::ptrdiff_t {
+              time += 0.01;
+              link::Bytes bytes = std::exchange(said, {});
+              for (int i = 0; i < 10; ++i) bytes.push_back(static_cast<std::uint8_t>(random()));
+              std::ranges::copy(bytes, out.begin());
+              return std::ssize(bytes);
+            },
+            [this] { return time; }};
+  }
+  link::Bytes said;  // what the board said before the noise began
+  std::mt19937 random{39};
+  double time = 0;
+};
+
+TEST(RemoteBoard, AtALineThatIsNeverSilentEachWaitEndsByTheClock) {
+  Noise noise;
+  RemoteBoard board(noise.line(), 1, 100);
+  const auto took = [&](const auto& what) {
+    const double begun = noise.time;
+    what();
+    return noise.time - begun;
+  };
+  constexpr double read = 0.011;
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.identify(), BoardError); }), 1.5, 3 * read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.configure({}), BoardError); }), 1.5, 3 * read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.clear_fault(), BoardError); }), 1.5, 3 * read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.arm(), BoardError); }), 1.5, 3 * read);
+  noise.said = link::frame_of(link::Event{.state = control::BoardState::running}, {1, 0});
+  EXPECT_NEAR(took([&] { EXPECT_EQ(board.look(0.7), nullptr); }), 0.7, read);
+  EXPECT_NEAR(took([&] { EXPECT_EQ(board.next(0.7), nullptr); }), 0.7, read);
+  EXPECT_EQ(board.why(), RemoteBoard::Why::silent);
+  EXPECT_NEAR(took([&] { EXPECT_FALSE(board.shut_down()); }), 1.5, read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.fault_log(), BoardError); }), 20 * 0.3, 20 * read);
+}
+
+TEST(RemoteBoard, WhatWaitsOutsideARunCanBeGivenUp) {
+  Noise noise;
+  RemoteBoard board(noise.line(), 1, 100);
+  double until = 0;
+  board.stop_when([&] { return noise.time > until; });
+  const auto is_given_up = [&](const auto& what) {
+    until = noise.time + 0.1;
+    EXPECT_THROW(what(), BoardStopped);
+    EXPECT_LT(noise.time, until + 0.03);
+  };
+  is_given_up([&] { board.prepare({}); });
+  is_given_up([&] { board.configure({}); });
+  is_given_up([&] { board.clear_fault(); });
+  is_given_up([&] { board.arm(); });
+  is_given_up([&] { (void)board.look(5); });
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -104,9 +105,12 @@ SerialLine::~SerialLine() {
   ::close(file_);
 }
 
-// A line that takes nothing for a second is taken for gone.
+// A line that takes nothing for a second, or not a whole frame in five, is taken for gone.
 bool SerialLine::write(std::span<const std::uint8_t> bytes) const {
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + std::chrono::seconds(5);
   while (!bytes.empty()) {
+    if (Clock::now() > until) return false;
     const ssize_t n = ::write(file_, bytes.data(), bytes.size());
     if (n > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(n));

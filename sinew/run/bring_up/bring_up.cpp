@@ -61,6 +61,7 @@ struct BringUp::Impl {
         person(std::move(p)),
         folder(where),
         progress(read_progress(folder.path() / "bring-up.json", robot)) {
+    remote->stop_when(person.stops);
     begin_again_if(progress.machine != machine_of(bench),
                    "the robot's values are others than at the last time");
     progress.machine = machine_of(bench);
@@ -323,6 +324,9 @@ bool BringUp::go() {
     impl_->person.tell("Stopped: the muscles were vented. The same command goes on from here.");
     return false;
   } catch (const NobodyAnswers&) {
+    impl_->person.tell("Stopped. The same command goes on from here.");
+    return false;
+  } catch (const plant::BoardStopped&) {
     impl_->person.tell("Stopped. The same command goes on from here.");
     return false;
   }

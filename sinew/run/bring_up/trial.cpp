@@ -85,7 +85,10 @@ class Run {
     link::CommandFor last = command_of({}, joints_, now_ + lead_ * period_);
     last.ends = true;
     if (!send(last)) return false;
-    while (hear()) {}
+    // A vent may take as long as the safety's limit, and telemetry comes all the time.
+    constexpr double longest = 30;  // [s]
+    for (const double until = board_->now() + longest; hear();)
+      if (board_->now() >= until) return false;
     return board_->why() == plant::RemoteBoard::Why::over;
   }
   std::string problem() const {
@@ -100,8 +103,9 @@ class Run {
   bool send(const link::CommandFor& command) { return board_->command(command); }
   bool hear() {
     constexpr double silence = 1.5;  // [s]
+    const double until = board_->now() + silence;
     do {
-      told_ = board_->next(silence);
+      told_ = board_->next(until - board_->now());
     } while (told_ != nullptr && told_->tick <= now_);
     if (told_ != nullptr) now_ = told_->tick;
     return told_ != nullptr;

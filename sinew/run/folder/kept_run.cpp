@@ -39,7 +39,7 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
       experiment_(load(request_, notices_)),
       logged_(run::logged_topics(experiment_)),
       place_(std::make_unique<Place>(request_.port, experiment_)) {
-  place_->prepare(request_.clear_fault);
+  place_->prepare(request_.clear_fault, request_.stop);
   if (!place_->who().empty()) notices_.note("board: " + place_->who());
   for (const std::string& line : place_->told()) notices_.note(line);
   resolve();

@@ -30,6 +30,7 @@ struct RunRequest {
   std::string units;               // in which it begins (config/shown_units.h); empty: as set
   std::string port;                // where it runs (place.h); empty: simulated
   bool clear_fault = false;        // a board's fault that has to be looked into has been
+  const std::atomic<bool>* stop = nullptr;  // true: a board is waited for no longer
 };
 
 // The files and figures that a run left. Machine is analysis::Machine or, of a stand,

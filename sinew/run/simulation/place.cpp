@@ -158,8 +158,9 @@ Place::Place(const std::string& place, const experiment::Experiment& experiment)
   }
 }
 
-void Place::prepare(bool clear_fault) {
+void Place::prepare(bool clear_fault, const std::atomic<bool>* stop) {
   if (board_ == nullptr) return;
+  if (stop != nullptr) board_->stop_when([stop] { return stop->load(); });
   if (clear_fault) board_->allow_clearing();
   const link::Identity who = board_->prepare(configuration_);
   if (const std::string found = plant::fault_found(who); !found.empty()) told_.push_back(found);

@@ -40,8 +40,9 @@ class Place {
   Place& operator=(const Place&) = delete;
 
   // Has the board ready for a run: configured and armed. What its fault was is told. Throws
-  // plant::BoardError, also for a fault that has to be looked into, unless it may be cleared.
-  void prepare(bool clear_fault = false);
+  // plant::BoardError, also for a fault that has to be looked into, unless it may be cleared, and
+  // plant::BoardStopped where `stop`, which outlives this, is set meanwhile.
+  void prepare(bool clear_fault = false, const std::atomic<bool>* stop = nullptr);
   // The run goes there.
   void apply(RunOptions& options) const;
   // Who answered, and where: its board and firmware; empty where nothing was opened.

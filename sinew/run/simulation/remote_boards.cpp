@@ -124,10 +124,11 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
     shown_->show_end(board_->why() == plant::RemoteBoard::Why::over ? Status::ok : Status::fault);
     return t + 1;
   }
+  const double until = board_->now() + silence;
   const link::Telemetry* told = send(t) ? board_->next(silence) : nullptr;
   while (told != nullptr && (told->tick <= t || told->tick > t + farthest)) {
     if (told->tick > t) ++foreign_;
-    told = board_->next(silence);
+    told = board_->next(until - board_->now());
   }
   take_edges(t);
   handed_on_ = false;

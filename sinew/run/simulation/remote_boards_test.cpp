@@ -60,6 +60,72 @@ TEST(RemoteBoards, ABoardsProgramHasTheSimulationsLogBitForBit) {
   }
 }
 
+// A line that loses one frame of a start-up: the n-th that the host sends, or the n-th identity or
+// answer of the board, which streams telemetry all the while.
+struct LosesOne {
+  enum class From { host, board } from = From::host;
+  int left = 0;
+
+  bool takes() { return left-- == 0; }
+  plant::BoardLine at(const plant::BoardLine& inner) {
+    return {[this, inner](std::span<const std::uint8_t> frame) {
+              return (from == From::host && takes()) || inner.write(frame);
+            },
+            inner.read, inner.now};
+  }
+  void answers(std::vector<std::uint8_t>& bytes) {
+    for (auto frame = bytes.begin(); from == From::board && frame != bytes.end();) {
+      const auto end = frame + link::header_size + frame[4] + link::crc16_size;
+      const auto type = static_cast<link::Type>(frame[2]);
+      const bool counts = type == link::Type::identity || type == link::Type::answer;
+      frame = counts && takes() ? bytes.erase(frame, end) : end;
+    }
+  }
+};
+
+TEST(RemoteBoards, AnyOneFrameOfAStartUpMayBeLost) {
+  const experiment::Experiment e = loaded("kick");
+  const link::Configuration configuration = configuration_of(e);
+  for (const auto from : {LosesOne::From::host, LosesOne::From::board}) {
+    bool lost = true;
+    for (int n = 0; lost; ++n) {
+      ASSERT_LT(n, 100);
+      SCOPED_TRACE(n);
+      WiredBody body(e);
+      BoardInThread board(body.wires());
+      LosesOne line{.from = from, .left = n};
+      board.spoil = [&](auto& bytes) { line.answers(bytes); };
+      plant::RemoteBoard remote(line.at(board.line()), 1, 100);
+      ASSERT_NO_THROW(remote.prepare(configuration));
+      const auto joints = static_cast<std::uint8_t>(configuration.spine.joints);
+      EXPECT_TRUE(remote.command({.from = 0, .periods = 3, .joints = joints}));
+      const link::Telemetry* told = remote.next(1.5);
+      ASSERT_NE(told, nullptr);
+      EXPECT_EQ(told->state, control::BoardState::running);
+      EXPECT_LT(board.periods, 150) << "at most one question comes again, after half a second";
+      lost = line.left < 0;
+    }
+  }
+}
+
+TEST(RemoteBoards, ARunWhoseFirstCommandIsLostRunsToItsEnd) {
+  const experiment::Experiment e = loaded("kick");
+  WiredBody body(e);
+  BoardInThread board(body.wires());
+  const plant::BoardLine inner = board.line();
+  int commands = 0;
+  const auto write = [&](std::span<const std::uint8_t> frame) {
+    const bool command = frame[2] == static_cast<std::uint8_t>(link::Type::command);
+    return (command && commands++ == 0) || inner.write(frame);
+  };
+  plant::RemoteBoard remote({write, inner.read, inner.now}, 1, 100);
+  remote.prepare(configuration_of(e));
+  const Outcome simulated = run(e), far = run::run(e, {.board = &remote, .lead = 0});
+  EXPECT_EQ(far.line, "");
+  EXPECT_FALSE(far.ended_early());
+  ASSERT_NO_FATAL_FAILURE(expect_same_log(simulated.table, far.table));
+}
+
 TEST(RemoteBoards, LostTelemetryIsAGapInTheLogAndACount) {
   Bench bench(loaded("kick"));
   const int lost_from = 50, lost_for = 2;  // the command of before is good for three periods

@@ -30,7 +30,8 @@ class BoardInThread {
               if (!deaf) to_board_.insert(to_board_.end(), bytes.begin(), bytes.end());
               return true;
             },
-            [this](std::span<std::uint8_t> out, double seconds) { return read(out, seconds); }};
+            [this](std::span<std::uint8_t> out, double seconds) { return read(out, seconds); },
+            [this] { return 0.01 * periods; }};
   }
 
   std::function<void(std::vector<std::uint8_t>&)> spoil;  // what it says in a period
