@@ -37,9 +37,15 @@ struct Nobody {
 struct Header {
   char format[16] = "sinew.save/1";
   std::uint64_t model = 0;     // of the experiment's values and the library's version
-  std::uint64_t checksum = 0;  // of all that follows the header
+  std::uint64_t checksum = 0;  // of this header with 0 here, and of all that follows it
   std::int64_t tick = 0;
 };
+static_assert(std::has_unique_object_representations_v<Header>);
+
+std::uint64_t checksum_of(Header header, std::span<const std::byte> state) {
+  header.checksum = 0;
+  return units::hash(state, units::hash(std::as_bytes(std::span(&header, 1))));
+}
 
 template <class Part>
 void put(std::span<std::byte>& out, const Part& part) {
@@ -240,8 +246,10 @@ std::vector<std::byte> Simulation::save() {
   put(rest, high_level_.state());
   put(rest, faulty_ ? faulty_->state() : FaultyPort::State{});
   put(rest, loop_);
+  Header header{.model = model(), .tick = tick_};
+  header.checksum = checksum_of(header, state);
   std::span<std::byte> head = all.first(sizeof(Header));
-  put(head, Header{.model = model(), .checksum = units::hash(state), .tick = tick_});
+  put(head, header);
   return out;
 }
 
@@ -256,7 +264,7 @@ void Simulation::restore(std::span<const std::byte> saved) {
     refuse(
         "save: found that of another experiment, or of another version of Sinew; expected one of "
         "the same values");
-  if (saved.size() != save_size() - sizeof header || units::hash(saved) != header.checksum)
+  if (saved.size() != save_size() - sizeof header || checksum_of(header, saved) != header.checksum)
     refuse("save: found it cut off or spoilt");
 
   machine_->restore(saved.first(machine_->state_size()));

@@ -225,6 +225,11 @@ TEST(Simulation, RefusesWhatIsNoSaveOfItsOwn) {
   bad = good;
   bad[bad.size() / 2] ^= std::byte{1};
   EXPECT_EQ(refusal([&] { s.restore(bad); }), "save: found it cut off or spoilt");
+  for (std::size_t bit = 0; bit < 8 * good.size(); bit += bit < 8 * 40 ? 1 : 997) {
+    bad = good;
+    bad[bit / 8] ^= std::byte(1 << bit % 8);
+    EXPECT_NE(refusal([&] { s.restore(bad); }), "nothing") << "the header's bits and some behind";
+  }
   bad.resize(10);
   EXPECT_EQ(refusal([&] { s.restore(bad); }), "save: found too few bytes for one");
   bad.assign(5000, std::byte{'x'});

@@ -22,7 +22,7 @@
 
 namespace sinew::tune {
 
-inline constexpr int study_format = 2;             // of the tables
+inline constexpr int study_format = 3;             // of the tables
 inline constexpr std::size_t most_columns = 1900;  // what a database of Debian's SQLite can show
 
 // What the runs of a tuning's candidate say together.
@@ -63,7 +63,7 @@ class Results {
   // A tuning may be asked for more generations than when it began. Throws log::Error.
   void expect(std::size_t points);
 
-  // Throws log::Error where a row could not be written.
+  // Throws log::Error where a row could not be written, or the file is no longer at its place.
   void throw_failure() const;
 
   // Returns where the study is kept.
@@ -71,6 +71,7 @@ class Results {
 
  private:
   void insert(const Row& row);
+  void require_place() const;
   void all_or_none(const std::function<void()>& write);
 
   std::filesystem::path file_;
@@ -88,7 +89,8 @@ struct HeldStudy {
   std::vector<CandidateRow> candidates;  // of a tuning, in their order
 };
 
-// Throws as Results does. Changes nothing; the file may be written meanwhile.
+// Throws as Results does, and log::Error for values that are not those of their checksum. Changes
+// nothing; the file may be written meanwhile.
 HeldStudy read_results(const std::filesystem::path& file);
 
 }  // namespace sinew::tune

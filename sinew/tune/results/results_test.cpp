@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <random>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/error.h"
@@ -223,11 +224,11 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
   sqlite3* db = nullptr;
   sqlite3_open(file_.c_str(), &db);
   sqlite3_exec(db, "PRAGMA user_version = 9", nullptr, nullptr, nullptr);
-  EXPECT_NE(refusal().find("format 9; expected format 2; try a newer"), std::string::npos)
+  EXPECT_NE(refusal().find("format 9; expected format 3; try a newer"), std::string::npos)
       << refusal();
   sqlite3_exec(db, "PRAGMA user_version = 1", nullptr, nullptr, nullptr);
   EXPECT_NE(refusal().find("an older Sinew wrote it"), std::string::npos) << refusal();
-  sqlite3_exec(db, "PRAGMA user_version = 2; UPDATE study SET value = 'x' WHERE key = 'cases'",
+  sqlite3_exec(db, "PRAGMA user_version = 3; UPDATE study SET value = 'x' WHERE key = 'cases'",
                nullptr, nullptr, nullptr);
   EXPECT_NE(refusal().find("is damaged: its cases cannot be read"), std::string::npos) << refusal();
   sqlite3_exec(db,
@@ -236,6 +237,59 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
                nullptr, nullptr, nullptr);
   EXPECT_NE(refusal().find("is damaged"), std::string::npos) << refusal();
   sqlite3_close(db);
+}
+
+// A tuning's file whose bits flip on a disk or on a wire.
+TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
+  Asked asked = asked_of(study());
+  asked.of_candidates = {{"joint.hip.stiffness [count/deg]", true}, {"feasible", false}};
+  std::vector<CandidateRow> candidates;
+  for (std::size_t i = 0; i < 40; ++i)
+    candidates.push_back({.number = i,
+                          .generation = i / 8,
+                          .feasible = i % 2 == 0,
+                          .violation = 0.1 * static_cast<double>(i),
+                          .holds = 0.5,
+                          .cells = {std::to_string(i), "yes"}});
+  {
+    Results results(file_, asked);
+    results.add_all(some_rows());
+    results.add_candidates(candidates);
+  }
+  const HeldStudy right = read_results(file_);
+  EXPECT_EQ(right.candidates, candidates);
+  std::ifstream in(file_, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::mt19937 random(39);
+  int refused = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::string spoilt = bytes;
+    const std::size_t at = random() % bytes.size();
+    spoilt[at] = static_cast<char>(spoilt[at] ^ (1 << random() % 8));
+    std::ofstream(file_, std::ios::binary) << spoilt;
+    try {
+      const HeldStudy held = read_results(file_);
+      EXPECT_EQ(held.candidates, right.candidates) << at;
+      EXPECT_EQ(held.rows.size(), right.rows.size()) << at;
+      for (std::size_t k = 0; k < std::min(held.rows.size(), right.rows.size()); ++k)
+        EXPECT_EQ(held.rows[k].cells, right.rows[k].cells) << at;
+      EXPECT_EQ(held.asked.text, right.asked.text) << at;
+    } catch (const std::exception&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
+TEST_F(ResultsTest, AFileThatIsRemovedWhileItIsWrittenIsReported) {
+  const auto rows = some_rows();
+  Results results(file_, asked_of(study()));
+  EXPECT_TRUE(results.add(rows[0]));
+  fs::rename(file_, file_.string() + ".away");
+  EXPECT_FALSE(results.add(rows[1]));
+  const std::string failure = message([&] { results.throw_failure(); });
+  EXPECT_NE(failure.find("was removed or replaced while the study was written"), std::string::npos)
+      << failure;
 }
 
 TEST_F(ResultsTest, OfAnotherVersionOfSinewIsRefused) {

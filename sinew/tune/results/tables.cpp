@@ -10,6 +10,7 @@
 #include "sinew/log/error.h"
 #include "sinew/run/folder/refusal.h"
 #include "sinew/tune/results/results.h"
+#include "sinew/units/hash.h"
 
 namespace sinew::tune {
 namespace {
@@ -24,7 +25,8 @@ const char* const tables =
     "  name TEXT NOT NULL, is_number INTEGER NOT NULL, role TEXT NOT NULL);"
     "CREATE TABLE result (point INTEGER PRIMARY KEY, ok INTEGER NOT NULL,"
     "  stop_reached INTEGER NOT NULL, no_air INTEGER NOT NULL, out_of_reach INTEGER NOT NULL,"
-    "  lacks TEXT NOT NULL, differs TEXT NOT NULL, cells TEXT NOT NULL);";
+    "  lacks TEXT NOT NULL, differs TEXT NOT NULL, cells TEXT NOT NULL,"
+    "  checksum TEXT NOT NULL);";
 
 // Of a tuning alone.
 const char* const tables_of_candidates =
@@ -32,7 +34,7 @@ const char* const tables_of_candidates =
     "  name TEXT NOT NULL, is_number INTEGER NOT NULL, role TEXT NOT NULL);"
     "CREATE TABLE candidate_result (candidate INTEGER PRIMARY KEY, generation INTEGER NOT NULL,"
     "  feasible INTEGER NOT NULL, violation REAL NOT NULL, holds REAL NOT NULL,"
-    "  cells TEXT NOT NULL);";
+    "  cells TEXT NOT NULL, checksum TEXT NOT NULL);";
 
 constexpr std::string_view of_runs = "point, ok, stop_reached, no_air, out_of_reach";
 constexpr std::string_view of_candidates = "candidate, generation, feasible, violation, holds";
@@ -133,7 +135,31 @@ std::string json_of(const std::vector<Case>& cases) {
   return out.text();
 }
 
+// The checksum of all but the rows: of what was asked for, the headings and the tables themselves.
+std::string checksum_of(Database& database, bool tuning) {
+  std::uint64_t h = units::hash("");
+  const auto add = [&](const std::string& sql, int columns) {
+    Statement select(database, sql);
+    while (select.step())
+      for (int i = 0; i < columns; ++i) h = units::hash(select.text(i) + '\n', h);
+  };
+  add("SELECT name, sql FROM sqlite_schema ORDER BY name", 2);
+  add("SELECT key, value FROM study WHERE key <> 'checksum' ORDER BY key", 2);
+  for (const char* table : {"heading", "candidate_heading"})
+    if (tuning || table == std::string_view("heading"))
+      add(fmt::format("SELECT number, heading, name, is_number, role FROM {} ORDER BY number",
+                      table),
+          5);
+  return fmt::format("{:016x}", h);
+}
+
 }  // namespace
+
+void write_checksum(Database& database) {
+  const bool tuning = value_of(database, "kind") == "tuning";
+  Statement fact(database, "INSERT OR REPLACE INTO study VALUES ('checksum', ?1)");
+  fact.bind(checksum_of(database, tuning)).to_the_end();
+}
 
 bool has_study(Database& database, const fs::path& file) {
   const std::int64_t owner = database.number("PRAGMA application_id");
@@ -181,6 +207,7 @@ void make_tables(Database& database, const Asked& asked) {
     database.run(
         view_of("candidate", "candidate_result", of_candidates, asked.of_candidates, theirs));
   }
+  write_checksum(database);
   database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT",
                            application, study_format));
 }
@@ -198,7 +225,9 @@ Asked study_of(Database& database, const fs::path& file) {
   out.columns = columns_of(database, "heading");
   if (value_of(database, "kind") == "tuning")
     out.of_candidates = columns_of(database, "candidate_heading");
-  if (hash_of(out) != value_of(database, "hash") || out.points > most_points)
+  const bool tuning = !out.of_candidates.empty();
+  if (hash_of(out) != value_of(database, "hash") || out.points > most_points ||
+      checksum_of(database, tuning) != value_of(database, "checksum"))
     throw log::Error(file, "is damaged: what it was asked for cannot be read",
                      "keep a copy, and choose another name");
   return out;

@@ -18,6 +18,9 @@ bool has_study(Database& database, const std::filesystem::path& file);
 // words for each cell, called as its heading; one that would be there twice has a number behind it.
 void make_tables(Database& database, const Asked& asked);
 
+// Writes the checksum of all but the rows into the table `study`, after a change of it.
+void write_checksum(Database& database);
+
 // Returns what the file says was asked for. Throws log::Error for a damaged one.
 Asked study_of(Database& database, const std::filesystem::path& file);
 
