@@ -265,13 +265,14 @@ void bind_looks(Class& c) {
 void bind_motion(Class& c) {
   c.def(
        "inlet", [](HeldMuscle& m, bool on) { UseMuscle(m)->inlet(on); }, py::arg("on"),
-       "Current of the inlet's coil from now on; also a 3-way valve's.")
+       "Current of the inlet's coil from now on; also a 3-way valve's. Raises ValueError where a\n"
+       "regulator is in its place.")
       .def(
           "exhaust", [](HeldMuscle& m, bool on) { UseMuscle(m)->exhaust(on); }, py::arg("on"),
-          "Current of the exhaust's coil from now on.")
+          "Current of the exhaust's coil from now on. Raises ValueError where there is none.")
       .def("set_point", &set_point, py::arg("share"),
            "Sets a regulator in the inlet's place, from now on: 0 to 1 of its range. Raises\n"
-           "ValueError.")
+           "ValueError where there are other valves.")
       .def("advance", &advance, py::arg("step"), py::arg("length"),
            "Lets `step` [s] pass, in which the muscle comes, straight, to be `length` [m] long.\n"
            "Raises ValueError for what is no step or length, RunError where its air is no number\n"

@@ -99,6 +99,8 @@ class Muscle(unittest.TestCase):
     def test_a_regulator_holds_its_set_point(self) -> None:
         regulated = sinew.shipped("robots/leg-with-regulators/robot.toml")
         muscle = sinew.DrivenMuscle(regulated, "hip_flexor")
+        with self.assertRaisesRegex(ValueError, "inlet: found a muscle with a pressure regulator"):
+            muscle.inlet(True)
         muscle.set_point(0.6)
         muscle.advance(2.0, muscle.length)
         expected = 0.6 * sinew.quantity("100 psi diff", "Pa diff")  # of its range
@@ -177,6 +179,7 @@ class Wrong(Refusals):
                 (lambda: muscle.advance(1e-3, 0.0), ValueError, "length: found 0 m"),
                 (lambda: muscle.set_point(1.5), ValueError, "share: found 1.5"),
                 (lambda: muscle.inlet("on"), TypeError, "incompatible"),
+                (lambda: muscle.set_point(0.5), ValueError, "set_point: found a muscle with on-off"),
                 (lambda: muscle.follow(1e-3, 0.08), ValueError, "lengths: found an array of shape ()"),
                 (lambda: muscle.follow(1e-3, [0.08, nan]), ValueError, "length: found nan"),
                 (lambda: muscle.follow(1e-3, "long"), TypeError, "lengths: found 'long'"),

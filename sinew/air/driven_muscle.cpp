@@ -10,7 +10,17 @@
 namespace sinew::air {
 namespace {
 
+using Kind = gas::Valve::Kind;
+
 constexpr double longest = 1e-3;  // step, for what no valve and no rate asks to be shorter [s]
+
+// Throws for a command that another kind of valve takes.
+[[noreturn]] void refuse(const char* command, Kind kind) {
+  std::string has = "on-off valves; expected inlet() or exhaust()";
+  if (kind == Kind::three_way) has = "a 3-way valve, which has one coil; expected inlet()";
+  if (kind == Kind::regulator) has = "a pressure regulator; expected set_point()";
+  throw std::invalid_argument(std::string(command) + ": found a muscle with " + has);
+}
 
 }  // namespace
 
@@ -18,7 +28,7 @@ static_assert(std::is_trivially_copyable_v<DrivenMuscle::State>);
 
 DrivenMuscle::DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply,
                            double length, double pressure)
-    : air_(std::array{muscle}, air, supply) {
+    : kind_(muscle.inlet.kind), air_(std::array{muscle}, air, supply) {
   if (!(air_.volume(0, length) > 0))
     throw std::invalid_argument("at a length of " + std::to_string(length) +
                                 " m the muscle has no room for air: give it an external volume, or "
@@ -50,7 +60,18 @@ void DrivenMuscle::command(int valve, bool on, std::uint16_t level) noexcept {
   node();
 }
 
-void DrivenMuscle::set_point(double share) noexcept {
+void DrivenMuscle::inlet(bool on) {
+  if (kind_ == Kind::regulator) refuse("inlet", kind_);
+  command(0, on, 0);
+}
+
+void DrivenMuscle::exhaust(bool on) {
+  if (kind_ != Kind::two_way) refuse("exhaust", kind_);
+  command(1, on, 0);
+}
+
+void DrivenMuscle::set_point(double share) {
+  if (kind_ != Kind::regulator) refuse("set_point", kind_);
   const double level = std::clamp(share, 0.0, 1.0) * signals::max_level;
   command(0, share > 0, static_cast<std::uint16_t>(level + 0.5));
 }

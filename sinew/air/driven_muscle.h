@@ -13,7 +13,8 @@
 // (network_quick.h), so that a loop may be as slow as 1 ms.
 //
 // State is one block, copied like bytes: two muscles of equal description go on alike from it.
-// After it is made a muscle allocates nothing and throws nothing.
+// After it is made a muscle allocates nothing, and throws only for a command that its valves do not
+// have.
 #pragma once
 
 #include "sinew/air/muscle.h"
@@ -45,12 +46,14 @@ class DrivenMuscle {
   DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length)
       : DrivenMuscle(muscle, air, supply, length, air.atmosphere) {}
 
-  // Current of the valves' coils from now on. The inlet is also a 3-way valve's.
-  void inlet(bool on) noexcept { command(0, on, 0); }
-  void exhaust(bool on) noexcept { command(1, on, 0); }
+  // Current of the valves' coils from now on. The inlet is also a 3-way valve's, which has no
+  // other. Throw std::invalid_argument for a coil that the valves do not have.
+  void inlet(bool on);
+  void exhaust(bool on);
 
-  // Set point of a regulator in the inlet's place from now on, 0 to 1 of its range.
-  void set_point(double share) noexcept;
+  // Set point of a regulator in the inlet's place from now on, 0 to 1 of its range. Throws
+  // std::invalid_argument where there is none.
+  void set_point(double share);
 
   // Lets `step` [s] pass, in which the muscle comes to be `length` [m] long.
   void advance(double step, double length) noexcept;
@@ -86,6 +89,7 @@ class DrivenMuscle {
   void step(double h) noexcept;
   void node() noexcept;
 
+  gas::Valve::Kind kind_;  // of the inlet
   Air air_;
   State state_{};
 };

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <stdexcept>
 
 #include "sinew/air/test_machines.h"
 
@@ -79,6 +81,28 @@ TEST(DrivenMuscle, FollowsASetPoint) {
   for (int k = 0; k < 5000; ++k) driven.advance(1e-4, 3.2 * inch);
   EXPECT_NEAR(driven.pressure(), air.atmosphere + 3 * bar, 1e-3 * bar);
   EXPECT_FALSE(driven.failed());
+}
+
+TEST(DrivenMuscle, WhatAValveIsNotIsRefusedAndNothingMoves) {
+  using Kind = gas::Valve::Kind;
+  for (const Kind kind : {Kind::two_way, Kind::three_way, Kind::regulator}) {
+    Muscle m = bundle(0);
+    m.inlet.kind = kind;
+    if (kind == Kind::regulator) m.inlet.regulator = {.range = 5 * bar, .time_constant = 0.01};
+    DrivenMuscle driven(m, {}, {}, 3.2 * inch);
+    const auto is_refused = [&](auto&& command) {
+      const DrivenMuscle::State before = driven.state();
+      try {
+        command();
+      } catch (const std::invalid_argument&) {
+        return std::memcmp(&before, &driven.state(), sizeof before) == 0;
+      }
+      return false;
+    };
+    EXPECT_EQ(is_refused([&] { driven.set_point(0.5); }), kind != Kind::regulator);
+    EXPECT_EQ(is_refused([&] { driven.exhaust(true); }), kind != Kind::two_way);
+    EXPECT_EQ(is_refused([&] { driven.inlet(true); }), kind == Kind::regulator);
+  }
 }
 
 TEST(DrivenMuscle, NeedsRoomForAir) {
