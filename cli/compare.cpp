@@ -52,20 +52,24 @@ ExitCode compare_runs(const CompareOptions& options) {
   const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
                                                           options.channels, messages.notices());
 
-  if (options.json)
-    fmt::print("{}", to_json(comparison));
-  else
-    fmt::print("{}", text_of(comparison, shown_as(options)));
+  // Files come before what is printed: a reader of it that ends early, such as head, ends the
+  // program.
   if (!options.residuals.empty()) {
     run::write_file(options.residuals, report::residuals_csv(comparison));
     messages.note(options.residuals);
   }
-  if (options.out.empty()) return ok;
-  const fs::path first = run::recorded_run(options.runs.front()).resolved;
-  const std::string page =
-      report::page(comparison, units_asked(options.units, units::UnitSet::si, first).units);
-  run::write_file(options.out, page);
-  messages.note(fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));
+  if (!options.out.empty()) {
+    const fs::path first = run::recorded_run(options.runs.front()).resolved;
+    const std::string page =
+        report::page(comparison, units_asked(options.units, units::UnitSet::si, first).units);
+    run::write_file(options.out, page);
+    messages.note(
+        fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));
+  }
+  if (options.json)
+    fmt::print("{}", to_json(comparison));
+  else
+    fmt::print("{}", text_of(comparison, shown_as(options)));
   return ok;
 }
 

@@ -104,21 +104,27 @@ ExitCode tune_all(const TuneOptions& given) {
   if (!options.best.empty()) run::refuse_to_overwrite(options.best, options.force, inputs, ".toml");
 
   const tune::Tuned tuned = run_tuning(tuning, options, master, messages);
-  if (options.json)
-    fmt::print("{}", tune::json_of(tuning, tuned));
-  else
-    print_text(tuning, tuned, options);
-  messages.note(options.runs.results);
-  if (tuned.stopped)
+  const auto print = [&] {
+    if (options.json)
+      fmt::print("{}", tune::json_of(tuning, tuned));
+    else
+      print_text(tuning, tuned, options);
+    messages.note(options.runs.results);
+  };
+  if (tuned.stopped) {
+    print();
     throw std::runtime_error(
         fmt::format("interrupted: {} of {} generations are done and kept in "
                     "{}; the same command goes on with the others",
                     tuned.candidates.size() / tuning.method.population, tuning.generations,
                     options.runs.results));
+  }
+  // Files come before what is printed: a reader of it that ends early ends the program.
   if (!options.out.empty()) write_table(tuning, tuned, options);
   if (!options.best.empty())
     run::write_file(options.best,
                     tune::experiment_of(tuning, chosen(tuned, options), options.best));
+  print();
   return tuned.best.empty() ? failed : ok;
 }
 
