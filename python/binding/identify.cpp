@@ -53,6 +53,13 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
                    {"length", "m", each(length, "length", points)}};
   if (!rest_length.is_none())
     table.columns.push_back({"rest_length", "m", each(rest_length, "rest_length", points)});
+  for (const identify::Wanted& wanted : identify::static_columns())
+    for (const identify::Column& column : table.columns)
+      if (column.name == wanted.name && column.name.ends_with("length"))
+        for (const double x : column.values)
+          if (!(x >= wanted.least && x <= wanted.most))
+            throw std::invalid_argument(fmt::format("{}: found {} m; expected {} to {} m",
+                                                    column.name, x, wanted.least, wanted.most));
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
   const std::vector<double> fit = each(fitted, "fitted", points);
   identify::CheckInput out{.diameter = diameter};

@@ -4,7 +4,24 @@
 
 namespace sinew::python {
 
+namespace {
+
+// A masked array is an array whose masked places hold numbers that are not meant.
+void refuse_masked(const py::handle& given, const char* name) {
+  if (!py::isinstance<py::array>(given) || !py::hasattr(given, "mask")) return;
+  const auto masked =
+      py::module_::import("numpy").attr("ma").attr("count_masked")(given).cast<py::ssize_t>();
+  if (masked > 0)
+    throw std::invalid_argument(fmt::format(
+        "{0}: found a masked array, with {1} masked; expected numbers alone; {0}[~{0}.mask].data "
+        "leaves these out, in the arrays that belong to it as well",
+        name, masked));
+}
+
+}  // namespace
+
 Numbers numbers(const py::handle& given, const char* name) {
+  refuse_masked(given, name);
   if (Numbers::check_(given)) return py::reinterpret_borrow<Numbers>(given);
   const py::array any = py::array::ensure(given);
   constexpr std::string_view real = "fiub";

@@ -1,5 +1,6 @@
 """Environments: what Gymnasium's own checker asks, and that they are the runs that they stand for."""
 
+import copy
 import dataclasses
 import os
 import subprocess
@@ -77,6 +78,22 @@ class Env(unittest.TestCase):
         again.reset(seed=7)
         self.assertEqual(seeds, [again.reset()[1]["seed"] for _ in range(3)])
         self.assertEqual(len(set(seeds)), 3)
+
+    def test_a_copy_goes_on_alike_and_apart(self) -> None:
+        env = sinew.gym.Env("walk")
+        env.reset(seed=3)
+        action = numpy.full(env.action_space.shape, 0.3)
+        for _ in range(20):
+            env.step(action)
+        for other in (copy.copy(env), copy.deepcopy(env)):
+            apart = copy.deepcopy(env)
+            apart.step(-action)
+            mine = copy.deepcopy(env)
+            for _ in range(10):
+                one, two = mine.step(action), other.step(action)
+                numpy.testing.assert_array_equal(one[0], two[0])
+                self.assertEqual(one[1:4], two[1:4])
+            self.assertEqual(mine.reset()[1], other.reset()[1])
 
     def test_an_action_is_what_it_says(self) -> None:
         env = sinew.gym.Env("walk")

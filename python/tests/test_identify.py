@@ -27,6 +27,15 @@ def measured() -> Tuple[Any, Any, Any]:
 
 
 class Static(unittest.TestCase):
+    def test_a_length_that_cannot_be_and_a_mask_are_refused(self) -> None:
+        length, pressure, force = measured()
+        for wrong in (-1.0, 0.0, float("inf")):
+            with self.assertRaisesRegex(ValueError, "rest_length: found"):
+                sinew.identify.static(length, pressure, force, rest_length=wrong)
+        masked = numpy.ma.masked_less(numpy.asarray(force), 10)
+        with self.assertRaisesRegex(ValueError, "force: found a masked array"):
+            sinew.identify.static(length, pressure, masked)
+
     def test_is_the_programs(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             theirs = folder + "/theirs.toml"

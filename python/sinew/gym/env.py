@@ -1,5 +1,6 @@
 """One environment, and several side by side."""
 
+import copy
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy
@@ -119,8 +120,23 @@ class Env(_Base):  # type: ignore[misc]
         self.observation_space = self._shared.observation_space
         self._seeds = _Seeds()
         self._episode: Optional[_sinew.Episode] = None
+        self._number = 0  # the episode's seed
         self._over = False
         self._drawing: Optional[Drawing] = None
+
+    def __copy__(self) -> "Env":
+        """Return an environment that goes on alike, and apart from this one."""
+        out = Env(self.task, self.render_mode)
+        out._seeds = copy.deepcopy(self._seeds)
+        if self._episode is not None:
+            out._episode = out._shared.begin(self._number)
+            out._episode.simulation.restore(self._episode.simulation.save())
+            out._number, out._measured, out._over = self._number, self._measured, self._over
+        return out
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> "Env":
+        """Return a copy: what a task is never changes, so that copies may share it."""
+        return self.__copy__()
 
     @property
     def simulation(self) -> Simulation:
@@ -142,6 +158,7 @@ class Env(_Base):  # type: ignore[misc]
         _refuse(options)
         number = self._seeds.next(seed)
         self._episode = self._shared.begin(number)
+        self._number = number
         self._over = False
         seen, self._measured = self._episode.look()
         return seen, {"seed": number, "time": self._episode.simulation.time}
