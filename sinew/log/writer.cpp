@@ -98,6 +98,8 @@ struct Writer::Impl {
   // The loop's.
   bool closed_ = false;
 
+  bool begun_ = false;  // the file has what is before the samples
+
   // The thread's.
   Bytes pending_;
   std::vector<std::uint32_t> sequence_;  // per topic
@@ -106,7 +108,6 @@ struct Writer::Impl {
   // Between the two. The mutex belongs to the thread's sleep alone; the loop never takes it.
   std::atomic<bool> stopping_{false};
   std::atomic<bool> failed_{false};
-  std::atomic<std::uint64_t> lost_{0};
   std::mutex sleep_;
   std::condition_variable wake_;
   std::thread thread_;
@@ -126,6 +127,7 @@ Writer::Impl::Impl(path file_path, const Topics& topics, const Pairs& metadata,
       sequence_(topics.size(), 0),
       steadiness_(topics.size()) {
   if (!output_.write(front(file_, topics, metadata, options.version))) fail_unless_written();
+  begun_ = true;
   pending_.data().reserve(1 << 20);
   thread_ = std::thread([this] { run(); });
 }
@@ -165,16 +167,12 @@ void Writer::Impl::run() noexcept {
 }
 
 void Writer::Impl::write_waiting() {
-  std::uint64_t samples = 0;
   pending_.clear();
   ring_.take_all([&](const Sample& sample) {
-    ++samples;
     if (!failed_.load(std::memory_order_relaxed)) encode(sample);
   });
-  if (failed_.load(std::memory_order_relaxed) || !output_.write(pending_.view())) {
+  if (!failed_.load(std::memory_order_relaxed) && !output_.write(pending_.view()))
     failed_.store(true, std::memory_order_relaxed);
-    lost_.fetch_add(samples, std::memory_order_relaxed);
-  }
 }
 
 void Writer::Impl::encode(const Sample& sample) {
@@ -220,9 +218,11 @@ void Writer::Impl::fail_unless_written() const {
   if (output_.error() == 0 && !failed_.load()) return;
   const std::string why = output_.error() ? system_words(output_.error()) : "out of memory";
   throw Error(file_,
-              fmt::format("cannot write the log: {} (after {} bytes; up to {} samples lost)", why,
-                          output_.position(), lost_.load()),
-              "make room and run again; what stands in the file can be read");
+              fmt::format("cannot write the log: {}; it ends after {} bytes, and all later samples "
+                          "are lost",
+                          why, output_.position()),
+              begun_ ? "make room and run again; what is in the file can be read"
+                     : "make room and run again");
 }
 
 Writer::Writer(const path& file, Topics topics, Pairs metadata, Options options) {

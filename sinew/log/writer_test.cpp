@@ -201,8 +201,10 @@ TEST(Writer, FullDiskIsReportedAtTheEnd) {
   ::signal(SIGXFSZ, old_handler);
 
   EXPECT_LT(pushed, 10'000'000);  // the loop learns of it
-  EXPECT_THAT(message, AllOf(HasSubstr("cannot write the log: File too large (after 10000 bytes"),
-                             HasSubstr("what stands in the file can be read")));
+  EXPECT_THAT(
+      message,
+      AllOf(HasSubstr("cannot write the log: File too large; it ends after 10000 bytes"),
+            HasSubstr("all later samples are lost"), HasSubstr("what is in the file can be read")));
   const signals::Table table = read(folder / "log.mcap");
   EXPECT_FALSE(table.complete);
   EXPECT_GT(messages_in(table), 50u);

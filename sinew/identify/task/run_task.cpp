@@ -126,11 +126,17 @@ RunFitFound find_run_fit(const RunFitSettings& settings) {
                  "one of a machine that stays what it is", "a run without [[fault]]");
   const bool imported = root.find("imported") != nullptr;
   const RunFitOptions options = options_of(settings, e);
-  const DrivenRun driven(e, log::read(run.log), imported, run.log.string());
+  const signals::Table recorded = log::read(run.log);
+  const DrivenRun driven(e, recorded, imported, run.log.string());
   if (options.from >= driven.duration())
     config::fail({"from", 0, 0}, "", config::in_quotes(settings.from),
                  fmt::format("a time within the run of {:.4g} s", driven.duration()), "\"0 s\"");
   RunFitFound out{fit_run(e, driven, options), settings.base, "identified from " + settings.run};
+  if (!recorded.complete)
+    out.result.report.warnings.push_back(
+        fmt::format("the log was cut off or is damaged: {:.4g} s of the run are in it, and the fit "
+                    "is over these",
+                    driven.duration()));
   if (!driven.coarse().empty())
     out.result.report.warnings.push_back(
         fmt::format("the recording knows when {} valves switch to one of its rows only, and pulses "
