@@ -95,6 +95,14 @@ TEST_F(OptimizeTest, FindsABetterOneThatIsOneWhenItIsRunAgain) {
   const Candidate& best = tuned.candidates[tuned.best[0]];
   EXPECT_LT(best.judged.goals[0], 0.9 * tuned.candidates[0].judged.goals[0]);
   EXPECT_EQ(best.judged.violation, 0);
+
+  const auto reported_end = [&](std::size_t end) {
+    Tuned moved = tuned;
+    moved.candidates[moved.best[0]].values[0] = t.runs.sample->ranges[0].axis.values[end];
+    return text_of(t, moved, nullptr);
+  };
+  EXPECT_NE(reported_end(0).find("is at the lower end of its range"), std::string::npos);
+  EXPECT_NE(reported_end(1).find("is at the upper end of its range"), std::string::npos);
   // By the file that it is written as.
   const fs::path written = folder_ / "best.toml";
   std::ofstream(written) << experiment_of(t, best, written);

@@ -131,6 +131,23 @@ std::string count(std::size_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
+// A line for each number of a candidate that is within a hundredth of its range from an end, where
+// a wider range may hold a better one.
+std::string ends_of(const Tuning& tuning, const Candidate& candidate) {
+  constexpr double near = 0.01;
+  std::string out;
+  for (std::size_t i = 0; i < tuning.tuned; ++i) {
+    const Range& range = tuning.runs.sample->ranges[i];
+    if (range.scale == Range::Scale::whole) continue;
+    const double share = range.share_of(number_of(candidate.values[i]));
+    if (share > near && share < 1 - near) continue;
+    out += fmt::format(
+        "candidate {}: {} is at the {} end of its range; a wider one may be better\n",
+        candidate.number, range.axis.set(candidate.values[i]), share < 0.5 ? "lower" : "upper");
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* shown) {
@@ -151,7 +168,9 @@ std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* 
                        tuned.best.size() > most_shown ? ", of which these" : "");
   for (const std::size_t i : shown_of(tuned.best))
     if (i != 0) columns.push_back(&tuned.candidates[i]);
-  return out + table_of(tuning, columns, shown);
+  out += table_of(tuning, columns, shown);
+  for (const std::size_t i : shown_of(tuned.best)) out += ends_of(tuning, tuned.candidates[i]);
+  return out;
 }
 
 std::string json_of(const Tuning& tuning, const Tuned& tuned) {
