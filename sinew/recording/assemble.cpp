@@ -60,6 +60,7 @@ class Assembler {
     }
     set_clocks();
     for (std::size_t t = 0; t < matches_.topics.size(); ++t) topic(t);
+    report_gaps();
     tell();
     return std::move(out_);
   }
@@ -94,6 +95,7 @@ class Assembler {
 
   void set_clocks() {
     times_.resize(files_.size());
+    find_origins();
     const std::optional<std::int64_t> wall = wall_start();
     std::int64_t end = 0;
     for (std::size_t f = 0; f < files_.size(); ++f) {
@@ -128,8 +130,42 @@ class Assembler {
     return first;
   }
 
-  std::optional<std::int64_t> origin_of(std::size_t f) const {
-    return files_[f].clocks.empty() ? std::nullopt : files_[f].clocks.front().origin;
+  std::optional<std::int64_t> origin_of(std::size_t f) const { return origins_[f]; }
+
+  const Clock& clock_of_file(std::size_t f) const {
+    static const Clock none;
+    return files_[f].clocks.empty() ? none : files_[f].clocks.front();
+  }
+
+  // The files' time 0 on one clock on the wall. Dates without a zone are taken for those of the
+  // zone that another file has, times of day without a date for those nearest to the first file's.
+  void find_origins() {
+    const Clock* zoned = nullptr;
+    bool dates = false, times_of_day = false;
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      const Clock& clock = clock_of_file(f);
+      origins_.push_back(clock.origin);
+      if (!clock.origin) continue;
+      (clock.has_date ? dates : times_of_day) = true;
+      if (clock.zone && !zoned) zoned = &clock;
+    }
+    constexpr std::int64_t day = 86'400'000'000'000;  // [ns]
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      const Clock& clock = clock_of_file(f);
+      std::optional<std::int64_t>& origin = origins_[f];
+      if (!origin) continue;
+      if (zoned && !clock.zone && clock.has_date) {
+        *origin -= *zoned->zone;
+        if (!joining_.at_end)
+          out_.notes.push_back(fmt::format("{}: dates without a zone, taken for those of {}",
+                                           files_[f].file, zone_text(*zoned->zone)));
+      }
+      if (clock.has_date) continue;
+      if (dates)
+        origin.reset();
+      else if (times_of_day && origins_[0])
+        *origin -= day * std::llround(static_cast<double>(*origin - *origins_[0]) / day);
+    }
   }
 
   std::int64_t zero_of(std::size_t f, const Span& span, std::optional<std::int64_t> wall) const {
@@ -140,17 +176,47 @@ class Assembler {
 
   void tell_start(std::optional<std::int64_t> wall) {
     const std::optional<std::int64_t> origin = origin_of(0);
-    if (wall) {
-      out_.started = iso_text(*wall);
-    } else if (origin) {
-      out_.started = iso_text(*origin + times_[0].zero);
+    const Clock& clock = clock_of_file(0);
+    if (wall || origin) {
+      out_.started =
+          start_text(wall ? *wall : *origin + times_[0].zero, clock.has_date, clock.zone);
     } else {
       out_.started = files_[0].started;
     }
-    if (times_[0].zero != 0 && !origin)
-      out_.notes.push_back(
-          fmt::format("{}: time 0 of the log is {} s of the recording's clock", files_[0].file,
-                      config::format_number(static_cast<double>(times_[0].zero) / nanoseconds)));
+    for (std::size_t f = 0; f < files_.size() && !wall; ++f) {
+      if (f > 0 && (joining_.at_end || !mapping_.clock.start.empty())) break;
+      if (times_[f].zero != 0 && !origin_of(f))
+        out_.notes.push_back(
+            fmt::format("{}: time 0 of the log is {} s of the recording's clock", files_[f].file,
+                        config::format_number(static_cast<double>(times_[f].zero) / nanoseconds)));
+      else if (f > 0 && (origin_of(f) || origin_of(0)))
+        out_.notes.push_back(fmt::format(
+            "{}: no common clock with {}: both begin at time 0; a shift of one of them places it",
+            files_[f].file, files_[0].file));
+    }
+  }
+
+  // Files side by side of which one has no instant in common with any other.
+  void report_gaps() {
+    if (joining_.at_end) return;
+    for (std::size_t f = 0; f < files_.size() && files_.size() > 1; ++f) {
+      const Span span = span_of(f);
+      if (!span.any()) continue;
+      const std::int64_t first = times_[f](span.first), last = times_[f](span.last);
+      bool any = false, meets = false;
+      for (std::size_t g = 0; g < files_.size(); ++g) {
+        const Span other = span_of(g);
+        if (g == f || !other.any()) continue;
+        any = true;
+        meets = meets || (times_[g](other.first) <= last && first <= times_[g](other.last));
+      }
+      if (!any || meets) continue;
+      out_.notes.push_back(fmt::format(
+          "{}: from {} to {} s, where no other file has a sample: another zone, date or clock, "
+          "unless a shift of the file places it",
+          files_[f].file, config::format_number(static_cast<double>(first) / nanoseconds),
+          config::format_number(static_cast<double>(last) / nanoseconds)));
+    }
   }
 
   // All files' samples of a topic, in the order of their times.
@@ -276,7 +342,8 @@ class Assembler {
   const Joining& joining_;
   Matches matches_;
   Assembled out_;
-  std::vector<Times> times_;  // by file
+  std::vector<Times> times_;                          // by file
+  std::vector<std::optional<std::int64_t>> origins_;  // by file, on one clock [ns]
   signals::PageFile pages_ = signals::PageFile::make();
   bool sampled_edges_ = false;
 };

@@ -1,5 +1,6 @@
 #include "sinew/recording/assemble.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -215,6 +216,122 @@ TEST_F(AssembleTest, ClocksOnTheWallLieBesideEachOther) {
   EXPECT_EQ(series(both, "/joint/elbow/angle").time_ns[0], 0);
   EXPECT_EQ(series(both, "/muscle/flexor/tension").time_ns[0], 1'500'000'000);
   EXPECT_NE(both.started.find("2026-11-24T10:15:30"), std::string::npos) << both.started;
+}
+
+TEST_F(AssembleTest, ZonesPlaceFilesSideBySide) {
+  const std::string a =
+      put("a.csv", "time,elbow_angle [rad]\n2026-11-24T10:15:30Z,1\n2026-11-24T10:15:31Z,2\n");
+  const std::string b =
+      put("b.csv", "time,tension [N]\n2026-11-24T11:15:30+01:00,1\n2026-11-24T11:15:31+01:00,2\n");
+  for (const auto& files : {std::vector{a, b}, {b, a}}) {
+    const Assembled both = take(files);
+    for (const char* topic : {"/joint/elbow/angle", "/muscle/flexor/tension"})
+      EXPECT_EQ(series(both, topic).time_ns.in_memory(),
+                (std::vector<std::int64_t>{0, 1'000'000'000}));
+    EXPECT_FALSE(has_note(both, "no other file"));
+    EXPECT_EQ(both.started, files[0] == a ? "2026-11-24T10:15:30Z" : "2026-11-24T11:15:30+01:00");
+  }
+  // Times of day have a common clock too, over midnight; files that do not meet are reported.
+  const std::string c = put("c.csv", "time,elbow_angle [rad]\n23:59:59,1\n00:00:01,2\n");
+  const std::string d = put("d.csv", "time,tension [N]\n00:00:00,1\n00:00:05,2\n");
+  EXPECT_EQ(series(take({c, d}), "/muscle/flexor/tension").time_ns[0], 1'000'000'000);
+  const std::string e = put("e.csv", "time,tension [N]\n00:10:00,1\n00:10:05,2\n");
+  EXPECT_TRUE(has_note(take({c, e}), "no other file has a sample"));
+}
+
+TEST_F(AssembleTest, ASecondClockIsThatOfTheColumnsToItsRight) {
+  std::string text = "Time,Angle,Time.1,Pressure\ns,rad,s,bar gauge\n";
+  for (int i = 0; i < 100; ++i)
+    text += fmt::format("{:.3f},{},{}\n", 0.01 * i, i,
+                        i < 50 ? fmt::format("{:.3f},{}", 0.04 * i, 0.1 * i) : std::string(","));
+  for (const bool same_name : {false, true}) {
+    if (same_name) text.replace(text.find("Time.1"), 6, "Time");
+    Mapping m = angle_is("Angle");
+    map_channel(m, "/muscle/flexor/pressure", "Pressure");
+    const Assembled a = take({put("a.csv", text)}, m);
+    const signals::Series &angle = series(a, "/joint/elbow/angle"),
+                          &pressure = series(a, "/muscle/flexor/pressure");
+    ASSERT_EQ(angle.time_ns.size(), 100u);
+    ASSERT_EQ(pressure.time_ns.size(), 50u);
+    EXPECT_EQ(angle.time_ns.back(), 990'000'000);
+    EXPECT_EQ(pressure.time_ns.back(), 1'960'000'000);
+    EXPECT_TRUE(has_note(a, "each is the clock of the columns to its right"));
+  }
+}
+
+TEST_F(AssembleTest, SecondsAndTheirRestAreOneStamp) {
+  std::string text = "header.stamp.sec,header.stamp.nanosec,w [rad]\n";
+  for (int i = 95; i < 205; ++i)
+    text += fmt::format("{},{},{}\n", 1732340000 + i / 100, i % 100 * 10'000'000, i);
+  const Assembled a = take({put("a.csv", text)}, angle_is("w"));
+  const signals::Series& s = series(a, "/joint/elbow/angle");
+  for (std::size_t i = 0; i < s.time_ns.size(); ++i)
+    EXPECT_EQ(s.time_ns[i], static_cast<std::int64_t>(i) * 10'000'000);
+  EXPECT_EQ(a.started, "2024-11-23T05:33:20.95Z");
+}
+
+TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
+  // Rows every 10 ms under whole seconds, of which the first and the last are cut: 5 and 30 rows.
+  std::string text = "time,w [rad]\n";
+  for (int i = 95; i < 330; ++i) text += fmt::format("{},{}\n", 1732340000 + i / 100, i);
+  Mapping m = angle_is("w");
+  m.table.spread_times = true;
+  const signals::Series& s = series(take({put("a.csv", text)}, m), "/joint/elbow/angle");
+  ASSERT_EQ(s.time_ns.size(), 235u);
+  for (std::size_t i = 0; i < s.time_ns.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(s.time_ns[i]), 1e7 * static_cast<double>(i), 1e3);
+  // A pause is none of its step.
+  const std::string pause = "time [s],w [rad]\n0,1\n0,2\n1,3\n1,4\n9,5\n9,6\n";
+  EXPECT_EQ(series(take({put("b.csv", pause)}, m), "/joint/elbow/angle").time_ns[3], 1'500'000'000);
+  // One time alone says nothing: the rate of the rows has to.
+  const std::string six = "time,w [rad]\n1.73234e+09,1\n1.73234e+09,2\n";
+  EXPECT_NE(error_of({put("c.csv", six)}, m).find("rate=\"100 Hz\""), std::string::npos);
+  m.table.spread_times = false;
+  m.clock.rate = "100 Hz";
+  EXPECT_EQ(series(take({put("c.csv", six)}, m), "/joint/elbow/angle").time_ns[1], 10'000'000);
+}
+
+TEST_F(AssembleTest, ACounterThatBeginsAgainIsContinued) {
+  struct Counter {
+    double range, step, unit;  // of the file's numbers; s
+    const char* name;
+    double begin;
+  };
+  for (const Counter& c : {Counter{4294967296.0, 10000, 1e-6, "micros [us]", 0},
+                           {4294967.296, 10, 1e-3, "millis [ms]", 0},
+                           {65536, 7, 1e-3, "t [ms]", 0},
+                           {4294967296.0, 1, 1e-3, "t [ms]", -2147483648.0}}) {
+    std::string text = fmt::format("{},w [rad]\n", c.name);
+    for (int i = 0; i < 400; ++i)
+      text += fmt::format("{:.3f},{}\n",
+                          c.begin + std::fmod(c.range - 199.5 * c.step + i * c.step, c.range), i);
+    const Assembled a = take({put("a.csv", text)}, angle_is("w"));
+    const signals::Series& s = series(a, "/joint/elbow/angle");
+    ASSERT_EQ(s.time_ns.size(), 400u) << c.name;
+    for (std::size_t i = 1; i < 400; ++i)
+      EXPECT_NEAR(static_cast<double>(s.time_ns[i] - s.time_ns[i - 1]), 1e9 * c.step * c.unit, 2e3);
+    EXPECT_TRUE(has_note(a, "began again once"));
+  }
+  // A recording that begins again is no counter.
+  std::string text = "t [ms],w [rad]\n";
+  for (int i = 0; i < 400; ++i) text += fmt::format("{},{}\n", 10 * (i % 200), i);
+  EXPECT_NE(error_of({put("a.csv", text)}, angle_is("w")).find("2 recordings"), std::string::npos);
+}
+
+TEST_F(AssembleTest, RowsOfOneTimeWithoutACommonCellAreOneRow) {
+  const Assembled a = take(
+      {put("a.csv", "time [s],elbow_angle [rad],tension [N]\n0,1,\n0,,5\n0.01,2,\n0.01,,6\n")});
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns.in_memory(),
+            (std::vector<std::int64_t>{0, 10'000'000}));
+  EXPECT_EQ(series(a, "/muscle/flexor/tension").columns[0].in_memory(),
+            (std::vector<double>{5, 6}));
+}
+
+TEST_F(AssembleTest, AUnitOfTheClockIsGivenAsThatOfAnyColumn) {
+  Mapping m = angle_is("w", "rad");
+  map_unit(m, "t", "ms");
+  const Assembled a = take({put("a.csv", "t,w\n0,1\n10,2\n")}, m);
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[1], 10'000'000);
 }
 
 TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {

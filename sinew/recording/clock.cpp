@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 #include "sinew/config/quantity.h"
 #include "sinew/config/spelling.h"
@@ -79,17 +81,72 @@ std::optional<std::int64_t> StampClock::read(const Row& row, std::size_t& cell) 
     }
     instant += stamp->time;
     offset += stamp->offset;
+    if (first_ && stamp->has_zone) zone_ = stamp->offset;
   }
   // A time of day alone begins anew at midnight.
   if (!dated && !first_ && instant + days_ < last_ - one_day / 2) days_ += one_day;
   instant += days_;
   last_ = instant;
-  if (first_) {
-    const std::string text = iso_text(instant);
-    start_ = dated ? text : text.substr(text.find('T') + 1);
-    first_ = false;
-  }
+  if (first_) dated_ = dated;
+  first_ = false;
   return instant - offset;
+}
+
+std::optional<std::int64_t> SplitSeconds::read(const Row& row, NumberStyle style,
+                                               std::size_t& cell) const {
+  cell = seconds;
+  const auto whole = number_in(row.cells[seconds].text, style);
+  if (!whole || !std::isfinite(*whole)) return std::nullopt;
+  cell = rest;
+  const auto part = number_in(row.cells[rest].text, style);
+  if (!part || !std::isfinite(*part)) return std::nullopt;
+  return std::llround(*whole) * 1'000'000'000 + std::llround(*part * unit * 1e9);
+}
+
+namespace {
+
+// How the names of the two columns end.
+struct SplitName {
+  std::string_view seconds, rest;
+  double unit;
+};
+constexpr SplitName split_names[] = {
+    {"sec", "nanosec", 1e-9},         {"secs", "nsecs", 1e-9},    {"sec", "nsec", 1e-9},
+    {"sec", "nanoseconds", 1e-9},     {"secs", "nanosecs", 1e-9}, {"sec", "usec", 1e-6},
+    {"seconds", "nanoseconds", 1e-9}, {"secs", "usecs", 1e-6},    {"sec", "microsec", 1e-6},
+    {"seconds", "microseconds", 1e-6}};
+
+bool is_split(const Grid& grid, const SplitSeconds& pair) {
+  Body body(grid);
+  for (Row row; body.next(row);) {
+    std::size_t cell = 0;
+    if (!pair.read(row, grid.dialect.numbers, cell)) continue;
+    const double whole = *number_in(row.cells[pair.seconds].text, grid.dialect.numbers);
+    const double rest = *number_in(row.cells[pair.rest].text, grid.dialect.numbers) * pair.unit;
+    if (whole != std::floor(whole) || rest < 0 || rest >= 1) return false;
+  }
+  return body.count() > 0;
+}
+
+}  // namespace
+
+std::optional<SplitSeconds> split_seconds(const Grid& grid, std::optional<std::size_t> column) {
+  const std::vector<Heading>& all = grid.headings();
+  for (std::size_t i = column.value_or(0); i < (column ? *column + 1 : all.size()); ++i) {
+    for (const SplitName& known : split_names) {
+      std::string_view stem = all[i].name;
+      if (!stem.ends_with(known.seconds)) continue;
+      stem.remove_suffix(known.seconds.size());
+      const auto other = std::ranges::find_if(all, [&](const Heading& h) {
+        return h.name.size() == stem.size() + known.rest.size() && h.name.starts_with(stem) &&
+               h.name.ends_with(known.rest);
+      });
+      if (other == all.end()) continue;
+      const SplitSeconds pair{i, static_cast<std::size_t>(other - all.begin()), known.unit};
+      if (is_split(grid, pair)) return pair;
+    }
+  }
+  return std::nullopt;
 }
 
 double period_of_rate(const std::string& rate) {
@@ -117,19 +174,51 @@ std::vector<double> since_first(const std::vector<std::int64_t>& instants) {
   return out;
 }
 
-std::size_t spread_times(std::vector<double>& time) {
-  std::size_t shared = 0;
-  double step = 0;  // of the last group's rows
-  for (std::size_t from = 0; from < time.size();) {
-    std::size_t to = from + 1;
-    while (to < time.size() && time[to] == time[from]) ++to;
-    const auto count = static_cast<double>(to - from);
-    if (to < time.size()) step = (time[to] - time[from]) / count;
-    for (std::size_t i = from + 1; i < to; ++i)
-      time[i] = time[from] + step * static_cast<double>(i - from);
-    shared += to - from - 1;
-    from = to;
+namespace {
+
+// Rows that share a time: from the first up to, and without, the last.
+struct TimeGroup {
+  std::size_t from = 0, to = 0;
+  double step = 0;  // between its rows  [s]; 0: there is no time behind it
+  double count() const { return static_cast<double>(to - from); }
+};
+
+std::vector<TimeGroup> groups_of(const std::vector<double>& time) {
+  std::vector<TimeGroup> out;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (i == 0 || time[i] != time[i - 1]) out.push_back({.from = i});
+    out.back().to = i + 1;
   }
+  return out;
+}
+
+}  // namespace
+
+std::size_t spread_times(std::vector<double>& time) {
+  std::vector<TimeGroup> groups = groups_of(time);
+  const std::size_t shared = time.size() - groups.size();
+  if (shared == 0 || groups.size() < 2) return 0;
+
+  double reach = 0;  // of the clock's digits  [s]
+  for (std::size_t g = 1; g < groups.size(); ++g) {
+    const double step = time[groups[g].from] - time[groups[g - 1].from];
+    if (step > 0 && (reach == 0 || step < reach)) reach = step;
+  }
+  for (std::size_t g = 0; g + 1 < groups.size(); ++g)
+    groups[g].step =
+        std::min(time[groups[g + 1].from] - time[groups[g].from], reach) / groups[g].count();
+
+  // The recording may begin and end within one step of the clock.
+  TimeGroup &first = groups.front(), &last = groups.back();
+  last.step = std::min(groups[groups.size() - 2].step, reach / last.count());
+  if (groups.size() > 2 && groups[1].step < first.step) {
+    const double end = time[first.from] + first.step * first.count();
+    first.step = groups[1].step;
+    time[first.from] = end - first.step * first.count();
+  }
+  for (const TimeGroup& g : groups)
+    for (std::size_t i = g.from + 1; i < g.to; ++i)
+      time[i] = time[g.from] + g.step * static_cast<double>(i - g.from);
   return shared;
 }
 
@@ -154,7 +243,9 @@ void refuse_repeated(const std::vector<double>& time, const std::vector<int>& li
   problems.add(lines[first], 1, "time",
                fmt::format("{} rows with the time of the row above, as the clock is coarse", count),
                "a time of its own for each row",
-               "spread_times=true to spread such rows evenly up to the next time");
+               time.front() == time.back()
+                   ? "rate=\"100 Hz\" with the rate of the rows, in place of this clock"
+                   : "spread_times=true to spread such rows evenly up to the next time");
 }
 
 }  // namespace sinew::recording

@@ -27,8 +27,11 @@ class StampClock {
   // a cell is no stamp; `cell` is that one.
   std::optional<std::int64_t> read(const Row& row, std::size_t& cell);
 
-  // Returns the first instant as text: a date with the time of its own zone, or a time of day.
-  std::string start() const { return start_; }
+  // Returns whether the instants are since 1970; else they are since a midnight.
+  bool has_dates() const { return dated_; }
+
+  // Returns the zone of the first instant, local minus UTC  [ns]; nothing where no cell has one.
+  std::optional<std::int64_t> zone() const { return zone_; }
 
   // Returns the columns that are read.
   const std::vector<std::size_t>& columns() const { return columns_; }
@@ -39,9 +42,23 @@ class StampClock {
   std::vector<std::size_t> columns_;
   DateOrder order_ = DateOrder::unknown;
   std::int64_t days_ = 0, last_ = 0;  // midnights that were passed; the last instant  [ns]
-  bool first_ = true;
-  std::string start_;
+  bool first_ = true, dated_ = false;
+  std::optional<std::int64_t> zone_;
 };
+
+// A column of whole seconds and one with the rest of each: header.stamp.sec, header.stamp.nanosec.
+struct SplitSeconds {
+  std::size_t seconds = 0, rest = 0;  // columns
+  double unit = 1;                    // of the rest  [s]
+
+  // Returns the time  [ns]; nothing where a cell is no number, `cell` is that one.
+  std::optional<std::int64_t> read(const Row& row, NumberStyle style, std::size_t& cell) const;
+};
+
+// Returns the pair whose seconds are in `column`, or the first pair of the table without one. Its
+// seconds are whole numbers, and the rest is below one second in each row.
+std::optional<SplitSeconds> split_seconds(const Grid& grid,
+                                          std::optional<std::size_t> column = std::nullopt);
 
 // Returns the time between rows  [s] that "100 Hz" or "10 ms" says. Throws config::Error.
 double period_of_rate(const std::string& rate);
@@ -49,8 +66,9 @@ double period_of_rate(const std::string& rate);
 // Returns seconds since the first instant  [ns] -> [s].
 std::vector<double> since_first(const std::vector<std::int64_t>& instants);
 
-// Spreads rows that share a time evenly up to the next one, the last of them as those before.
-// Returns how many shared one.
+// Spreads rows that share a time evenly up to the next one, but no further than the clock's digits
+// reach: the smallest step between two of its times. The first and the last time may have fewer
+// rows than the others and have their step. Returns how many shared one.
 std::size_t spread_times(std::vector<double>& time);
 
 // Adds a problem if a time is before the one above it.

@@ -142,7 +142,8 @@ std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
 
 // The first meaning of the unit's text that has the wanted dimension.
 void ColumnFinder::convert(const Heading& h, const Wanted& w, Found& f) {
-  const bool stamps = tells_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel";
+  const bool stamps = tells_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel" ||
+                      (w.name == "time" && split_seconds(grid_, f.index));
   if (!w.words.empty() || (w.name == "time" && stamps)) return;
   auto said = source_.units.find(h.name);
   if (said == source_.units.end()) said = source_.units.find(h.written);

@@ -17,6 +17,7 @@
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/parts.h"
+#include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
@@ -65,6 +66,8 @@ class Table {
       if (f.index == none || f.is_at) return;
       if (tells_time(grid_.dialect.kinds[f.index]))
         clock_ = std::make_unique<StampClock>(grid_, source_, f.index);
+      else
+        split_ = split_seconds(grid_, f.index);
       excel_days_ = source_.dates == "excel" && !clock_;
     }
   }
@@ -119,7 +122,7 @@ class Table {
   std::optional<double> value_of(const Row& row, std::size_t index, const Heading* at,
                                  const Found& f, bool& missing) {
     if (f.index == grid_.headings().size()) return static_cast<double>(index) * period_;
-    if (clock_ && f.wanted->name == "time") return stamp(row, f, missing);
+    if ((clock_ || split_) && f.wanted->name == "time") return stamp(row, f, missing);
     return cell(row, column_of(f, at), f, missing);
   }
 
@@ -142,9 +145,11 @@ class Table {
 
   std::optional<double> stamp(const Row& row, const Found& f, bool& missing) {
     std::size_t column = f.index;
-    const auto instant = clock_->read(row, column);
+    const auto instant =
+        clock_ ? clock_->read(row, column) : split_->read(row, grid_.dialect.numbers, column);
     if (!instant) {
-      bad_cell(row, column, f, "a date or a time of day as in the other rows", missing);
+      bad_cell(row, column, f, clock_ ? "a date or a time of day as in the other rows" : "a number",
+               missing);
       return std::nullopt;
     }
     if (!first_instant_) first_instant_ = *instant;
@@ -154,8 +159,10 @@ class Table {
   std::optional<double> cell(const Row& row, std::size_t index, const Found& f, bool& missing) {
     const std::string_view text = row.cells[index].text;
     const auto number = number_in(text, grid_.dialect.numbers);
-    if (number && std::isfinite(*number))
-      return excel_days_ && f.wanted->name == "time" ? days(*number) : f.conversion(*number);
+    if (number && std::isfinite(*number)) {
+      if (f.wanted->name != "time") return f.conversion(*number);
+      return excel_days_ ? days(*number) : f.conversion(unwrap_(*number));
+    }
     for (const auto& [word, meant] : f.wanted->words)
       if (text == word) return meant;
     std::string expected = "a finite number";
@@ -225,6 +232,7 @@ class Table {
   void check_time(Measured& data) {
     const auto is_time = [&] { return std::ranges::find(data.columns, "time", &Column::name); };
     if (is_time() == data.columns.end()) return;
+    if (unwrap_.wraps() > 0) data.notes.push_back(wraps_text("time", unwrap_));
     sort_by_time(data, is_time()->values);
     const auto at = is_time();  // sorting has made the columns anew
     check_order(at->values, data.lines, problems_);
@@ -272,7 +280,9 @@ class Table {
   std::vector<Found> found_;
   std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
   std::unique_ptr<StampClock> clock_;                       // where times are stamps
-  std::optional<std::int64_t> first_instant_;               // [ns]
+  std::optional<SplitSeconds> split_;                       // where they are in two columns
+  Unwrapper unwrap_;
+  std::optional<std::int64_t> first_instant_;  // [ns]
   std::optional<double> first_day_;
   bool excel_days_ = false;
   double period_ = 0;             // of rows that have a rate  [s]

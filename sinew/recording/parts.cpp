@@ -7,6 +7,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/recording/clock.h"
+#include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
@@ -22,6 +23,8 @@ class PartFinder {
       : grid_(grid), clock_(source.rate.empty() ? clock : std::nullopt) {
     if (clock_ && tells_time(grid.dialect.kinds[*clock_]))
       stamps_ = std::make_unique<StampClock>(grid, source, *clock_);
+    else if (clock_)
+      split_ = split_seconds(grid, clock_);
   }
 
   std::vector<Part> find() {
@@ -39,11 +42,15 @@ class PartFinder {
     return true;
   }
 
-  std::optional<double> time_of(const Row& row) const {
+  std::optional<double> time_of(const Row& row) {
     if (!clock_) return std::nullopt;
-    if (!stamps_) return number_in(row.cells[*clock_].text, grid_.dialect.numbers);
     std::size_t cell = *clock_;
-    const auto instant = stamps_->read(row, cell);
+    if (!stamps_ && !split_) {
+      const auto number = number_in(row.cells[cell].text, grid_.dialect.numbers);
+      return number ? std::optional(unwrap_(*number)) : std::nullopt;
+    }
+    const auto instant =
+        stamps_ ? stamps_->read(row, cell) : split_->read(row, grid_.dialect.numbers, cell);
     return instant ? std::optional(static_cast<double>(*instant)) : std::nullopt;
   }
 
@@ -58,6 +65,7 @@ class PartFinder {
     if (parts_.empty() || parts_.back().end != 0) {
       parts_.push_back({.begin = row.at, .line = row.line});
       last_.reset();
+      unwrap_ = {};
     }
     if (!time) return;
     if (!last_) first_ = *time;
@@ -71,6 +79,8 @@ class PartFinder {
   const Grid& grid_;
   std::optional<std::size_t> clock_;
   std::unique_ptr<StampClock> stamps_;
+  std::optional<SplitSeconds> split_;
+  Unwrapper unwrap_;
   std::vector<Part> parts_;  // the last one has no end until it is known
   double first_ = 0;
   std::optional<double> last_;

@@ -16,7 +16,9 @@
 #include "sinew/recording/clock.h"
 #include "sinew/recording/grid.h"
 #include "sinew/recording/parts.h"
+#include "sinew/recording/stamp.h"
 #include "sinew/recording/text.h"
+#include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
@@ -53,30 +55,72 @@ constexpr ClockName clock_names[] = {{"time", ""},           {"t", ""},
                                      {"t_us", "us"},         {"micros", "us"},
                                      {"timestamp_us", "us"}};
 
-// Reads all columns of one grid.
+// The columns of one clock, where a table has several: from the first up to, and without, the last.
+struct ClockColumns {
+  std::size_t clock = 0, from = 0, to = 0;
+};
+
+// "Time" of "Time (2)", "Time.1" and "Time_3", as programs call a second one.
+std::string_view without_count(std::string_view name) {
+  std::string_view stem = name;
+  if (stem.ends_with(')')) stem.remove_suffix(1);
+  const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
+  if (digits == 0 || digits == stem.size()) return name;
+  stem = stem.substr(0, digits);
+  while (stem.size() > 1 && std::string_view(" ._(").find(stem.back()) != std::string_view::npos)
+    stem.remove_suffix(1);
+  return stem;
+}
+
+// Returns the columns of each clock; nothing where there is one clock. A clock without a column of
+// numbers of its own is a column as any other.
+std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock) {
+  std::vector<ClockColumns> out;
+  const std::vector<Heading>& all = grid.headings();
+  if (!clock) return out;
+  const ColumnKind kind = grid.dialect.kinds[*clock];
+  for (std::size_t i = *clock; i < all.size(); ++i) {
+    if (without_count(all[i].name) != without_count(all[*clock].name)) continue;
+    if (grid.dialect.kinds[i] != kind) continue;
+    if (!out.empty()) out.back().to = i;
+    out.push_back({i, out.empty() ? 0 : i, all.size()});
+  }
+  const auto has_numbers = [&](const ClockColumns& c) {
+    for (std::size_t i = c.from; i < c.to; ++i)
+      if (i != c.clock && grid.dialect.kinds[i] == ColumnKind::numbers) return true;
+    return false;
+  };
+  if (out.size() < 2 || !std::ranges::all_of(out, has_numbers)) out.clear();
+  return out;
+}
+
+// Reads all columns of one grid, or those of one of its clocks.
 class RawReader {
  public:
-  RawReader(const Grid& grid, const Source& source)
-      : grid_(grid), source_(source), problems_(grid.file) {}
+  RawReader(const Grid& grid, const Source& source, std::optional<ClockColumns> only = {})
+      : grid_(grid), source_(source), only_(only), problems_(grid.file) {}
 
   // The column of times, as far as it can be known.
   std::optional<std::size_t> clock() {
     return source_.rate.empty() ? clock_column() : std::nullopt;
   }
 
-  RawTable read() {
-    RawTable out{.file = grid_.file, .notes = grid_.notes};
+  // `names` holds those of columns that were read before.
+  RawTable read(std::set<std::string>& names) {
+    RawTable out{.file = grid_.file};
+    if (!only_ || only_->from == 0) out.notes = grid_.notes;
     check_units();
     find_clock(out);
     problems_.finish();
     if (!note_.empty()) out.notes.push_back(note_);
-    choose_columns(out);
+    choose_columns(names, out);
     Body body(grid_);
     for (Row row; body.next(row);) add(row, body.count() - 1, out);
     body.finish(out.notes);
     problems_.finish();
     finish_clock(out);
     problems_.finish();
+    report_wraps(out);
     tell_missing(out);
     return out;
   }
@@ -104,6 +148,7 @@ class RawReader {
 
   // The column that is said, one of stamps, or one whose name says it.
   std::optional<std::size_t> clock_column() {
+    if (only_) return only_->clock;
     const auto said = source_.names.find("time");
     if (said != source_.names.end()) {
       if (const auto column = column_called(said->second)) return column;
@@ -121,6 +166,7 @@ class RawReader {
     for (const ClockName& known : clock_names)
       for (std::size_t i = 0; i < grid_.headings().size(); ++i)
         if (small_letters(grid_.headings()[i].name) == known.name) return i;
+    if (const auto pair = split_seconds(grid_)) return pair->seconds;
     return std::nullopt;
   }
 
@@ -141,6 +187,11 @@ class RawReader {
       return;
     }
     const Heading& h = grid_.headings()[*column];
+    if ((split_ = split_seconds(grid_, *column))) {
+      out.clock = fmt::format("column {} and {}", h.name, grid_.headings()[split_->rest].name);
+      of_clock_.insert({split_->seconds, split_->rest});
+      return;
+    }
     numbers_ = *column;
     of_clock_.insert(*column);
     out.clock = "column " + h.name;
@@ -149,8 +200,10 @@ class RawReader {
 
   // Seconds in one of the numbers of the clock.
   void find_unit(const Heading& h) {
-    const auto said = source_.units.find(h.name);
-    std::string unit = said != source_.units.end() ? said->second : h.file_unit;
+    auto said = source_.units.find(h.name);
+    const bool is_given = said != source_.units.end() ||
+                          (said = source_.clock_units.find(h.name)) != source_.clock_units.end();
+    std::string unit = is_given ? said->second : h.file_unit;
     const auto* known = std::ranges::find(clock_names, small_letters(h.name), &ClockName::name);
     if (unit.empty() && known != std::end(clock_names)) unit = known->unit;
     for (const config::Spelling& meaning : config::spellings(unit)) {
@@ -195,14 +248,13 @@ class RawReader {
     return false;
   }
 
-  void choose_columns(RawTable& out) {
+  void choose_columns(std::set<std::string>& names, RawTable& out) {
     const std::size_t rows = grid_.rows_about();
     out.lines.reserve(rows);
     if (has_clock()) out.time.reserve(rows);
     std::string words;
-    std::set<std::string> names;
     for (std::size_t i = 0; i < grid_.headings().size(); ++i) {
-      if (of_clock_.contains(i)) continue;
+      if (of_clock_.contains(i) || !is_read(i)) continue;
       const Heading& h = grid_.headings()[i];
       if (kinds()[i] != ColumnKind::numbers) {
         words += (words.empty() ? "" : ", ") + (h.name.empty() ? std::to_string(i + 1) : h.name);
@@ -232,9 +284,20 @@ class RawReader {
     factors_.push_back(h.factor);
   }
 
-  bool has_clock() const { return stamps_ || numbers_ || period_ > 0; }
+  bool has_clock() const { return stamps_ || split_ || numbers_ || period_ > 0; }
+  bool is_read(std::size_t column) const {
+    return !only_ || (column >= only_->from && column < only_->to);
+  }
+
+  // Columns of a clock of their own may end before the others.
+  bool has_ended(const Row& row) const {
+    for (std::size_t i = only_ ? only_->from : 0; only_ && i < only_->to; ++i)
+      if (!is_missing(row.cells[i].text)) return false;
+    return only_.has_value();
+  }
 
   void add(const Row& row, std::size_t index, RawTable& out) {
+    if (has_ended(row)) return;
     if (has_clock() && !add_time(row, index, out)) return;
     out.lines.push_back(row.line);
     for (std::size_t i = 0; i < indices_.size(); ++i) {
@@ -265,10 +328,15 @@ class RawReader {
         instants_.push_back(*instant);
         return true;
       }
+    } else if (split_) {
+      if (const auto instant = split_->read(row, grid_.dialect.numbers, column)) {
+        instants_.push_back(*instant);
+        return true;
+      }
     } else {
       const auto number = number_in(row.cells[column].text, grid_.dialect.numbers);
       if (number && std::isfinite(*number)) {
-        out.time.push_back(*number);
+        out.time.push_back(unwrap_(*number));
         return true;
       }
     }
@@ -292,19 +360,80 @@ class RawReader {
     if (out.lines.empty() || !has_clock()) return;
     if (stamps_) {
       out.time = since_first(instants_);
-      out.start = stamps_->start();
+      out.instant = instants_.front();
+      out.has_date = stamps_->has_dates();
+      out.zone = stamps_->zone();
+    } else if (split_) {
+      out.time = since_first(instants_);
+      out.first = static_cast<double>(instants_.front()) / 1e9;
+      if (is_since_1970(out.first)) {
+        out.instant = instants_.front();
+        out.zone = 0;
+      }
     } else if (numbers_) {
       count_from_first(out);
     }
+    merge_rows(out);
     if (source_.spread_times) {
       if (const std::size_t count = spread_times(out.time); count > 0)
         out.notes.push_back(
             fmt::format("{} rows shared the time of another: spread evenly", count));
     }
+    begin_at_first(out);
+    if (out.instant) out.start = start_text(*out.instant, out.has_date, out.zone);
     check_order(out.time, out.lines, problems_);
     refuse_repeated(out.time, out.lines, problems_);
     note_seconds(out);
   }
+
+  // A first row that was spread to the end of its clock's step is time 0 as well.
+  static void begin_at_first(RawTable& out) {
+    const double late = out.time.front();
+    if (late == 0 || out.time.size() < 2) return;
+    out.first += late;
+    if (out.instant) *out.instant += std::llround(late * 1e9);
+    for (double& t : out.time) t -= late;
+  }
+
+  // Rows of one time in which no column has two values are one row: a logger wrote a line for each
+  // of its channels.
+  void merge_rows(RawTable& out) const {
+    std::size_t to = 0;
+    for (std::size_t i = 1; i < out.rows(); ++i) {
+      const bool same =
+          out.time[i] == out.time[to] && std::ranges::all_of(out.columns, [&](const RawColumn& c) {
+            return std::isnan(c.values[i]) || std::isnan(c.values[to]);
+          });
+      if (!same) {
+        ++to;
+        out.time[to] = out.time[i];
+        out.lines[to] = out.lines[i];
+      }
+      for (RawColumn& c : out.columns) {
+        if (same && std::isnan(c.values[i])) continue;
+        c.values[to] = c.values[i];
+      }
+    }
+    const std::size_t merged = out.rows() - (to + 1);
+    if (merged == 0) return;
+    out.time.resize(to + 1);
+    out.lines.resize(to + 1);
+    for (RawColumn& c : out.columns) {
+      c.values.resize(to + 1);
+      c.missing = static_cast<std::size_t>(
+          std::ranges::count_if(c.values, [](double v) { return std::isnan(v); }));
+    }
+    out.notes.push_back(fmt::format(
+        "{} rows have the time of the row above and values of other columns: merged with it",
+        merged));
+  }
+
+  void report_wraps(RawTable& out) const {
+    if (unwrap_.wraps() > 0)
+      out.notes.push_back(wraps_text(grid_.headings()[*numbers_].name, unwrap_));
+  }
+
+  static bool is_since_1970(double seconds) { return seconds > 1e9 && seconds < 5e9; }
 
   // Numbers of a clock as seconds since the first one. Seconds since 1970 say when that was.
   void count_from_first(RawTable& out) {
@@ -312,9 +441,10 @@ class RawReader {
     const double first = out.time.front(), slope = days ? seconds_per_day : slope_;
     constexpr double days_from_1900_to_1970 = 25569;
     const double epoch = days ? (first - days_from_1900_to_1970) * seconds_per_day : first * slope_;
-    if (epoch > 1e9 && epoch < 5e9) {
-      const auto milliseconds = static_cast<std::int64_t>(std::llround(epoch * 1e3));
-      out.start = iso_text(milliseconds * 1'000'000);
+    if (is_since_1970(epoch)) {
+      // Doubles hold such numbers to the microsecond.
+      out.instant = std::llround(epoch * 1e6) * 1'000;
+      if (!days) out.zone = 0;
     }
     out.first = first * slope;
     for (double& t : out.time) t = (t - first) * slope;
@@ -343,10 +473,13 @@ class RawReader {
 
   const Grid& grid_;
   const Source& source_;
+  std::optional<ClockColumns> only_;
   Problems problems_;
   double period_ = 0;  // of rows that have a rate  [s]
   std::unique_ptr<StampClock> stamps_;
+  std::optional<SplitSeconds> split_;
   std::optional<std::size_t> numbers_;  // the column of a clock that counts
+  Unwrapper unwrap_;
   double slope_ = 1;                    // seconds in one of its numbers
   std::string note_;                    // on the clock
   std::set<std::size_t> of_clock_;      // columns that it takes
@@ -358,11 +491,28 @@ class RawReader {
 
 }  // namespace
 
+namespace {
+
+RawTable read_clocks(const Grid& grid, const Source& source) {
+  std::set<std::string> names;
+  const std::vector<ClockColumns> clocks = clock_columns(grid, RawReader(grid, source).clock());
+  if (clocks.empty()) return RawReader(grid, source).read(names);
+  RawTable out = RawReader(grid, source, clocks.front()).read(names);
+  for (std::size_t i = 1; i < clocks.size(); ++i)
+    out.further.push_back(RawReader(grid, source, clocks[i]).read(names));
+  out.notes.push_back(fmt::format("{} columns {}: each is the clock of the columns to its right",
+                                  clocks.size(),
+                                  config::in_quotes(grid.headings()[clocks.front().clock].name)));
+  return out;
+}
+
+}  // namespace
+
 RawTable read_table(const Source& source) {
   Grid grid = read_grid(text_of(source, "measurements as CSV"), source);
   if (source.part != 0) keep_part(grid, source, RawReader(grid, source).clock());
   try {
-    return RawReader(grid, source).read();
+    return read_clocks(grid, source);
   } catch (const config::Error&) {  // several recordings are the better reason, where it is that
     refuse_parts(grid, source, RawReader(grid, source).clock());
     throw;

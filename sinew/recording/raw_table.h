@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,16 @@ struct RawTable {
   std::vector<double> time;        // since the first row  [s]; empty where the file has no clock
   double first = 0;                // the first row's own, of a clock of numbers  [s]
   std::string clock;               // what the times are from: "column Zeit", "rate 100 Hz"
-  std::string start;       // of the first row, "2026-11-24T10:15:30.125"; empty where nobody knows
-  std::vector<int> lines;  // of the file, one per row
-  std::vector<std::string> notes;  // what was left out, and what was taken for granted
+  std::string start;  // of the first row, "2026-11-24T10:15:30.125"; empty where nobody knows
+  // The same since 1970 or, without dates, since a midnight [ns]; UTC where there is a zone.
+  std::optional<std::int64_t> instant;
+  bool has_date = true;
+  std::optional<std::int64_t> zone;  // local minus UTC [ns]; absent: the file gives no zone
+  std::vector<int> lines;            // of the file, one per row
+  std::vector<std::string> notes;    // what was left out, and what was taken for granted
+
+  // Columns of further clocks: a second `Time` is that of the columns to its right.
+  std::vector<RawTable> further;
 
   // Returns how many rows there are.
   std::size_t rows() const { return lines.size(); }

@@ -29,54 +29,49 @@ std::string first_bytes(const std::string& path) {
   return bytes;
 }
 
-// The instant that a table says of its first row; nothing where it says no day.
-std::optional<std::int64_t> origin_of(const std::string& start) {
-  const std::optional<Stamp> stamp = stamp_in(start);
-  if (!stamp || !stamp->has_date || !stamp->has_time) return std::nullopt;
-  const std::optional<std::int64_t> days = days_of(*stamp, stamp->order);
-  if (!days) return std::nullopt;
-  constexpr std::int64_t day = 86'400'000'000'000;  // [ns]
-  return *days * day + stamp->time - stamp->offset;
-}
-
 // "Zeit" of "column Zeit"; empty where the times are from elsewhere.
 std::string column_of(const std::string& clock) {
   constexpr std::string_view before = "column ";
   return clock.starts_with(before) ? clock.substr(before.size()) : "";
 }
 
-// The table; read again where the mapping gives the column that turned out to be the clock a unit.
-RawTable read_table(const std::string& path, const Mapping& mapping,
-                    std::atomic<std::int64_t>* read) {
-  Source source = source_of(path, mapping);
-  source.read = read;
-  RawTable table = recording::read_table(source);
-  const std::string column = column_of(table.clock);
-  const auto row = std::ranges::find(mapping.columns, column, &ColumnMapping::name);
-  if (column.empty() || row == mapping.columns.end() || row->unit.empty()) return table;
-  source.names["time"] = column;
-  source.units[column] = row->unit;
-  return recording::read_table(source);
+// Adds the columns of one clock; times count from `origin` where the clock has one.
+void add_clock(RawTable& table, std::optional<std::int64_t> origin, Recorded& out) {
+  Clock clock{.column = column_of(table.clock),
+              .origin = origin,
+              .has_date = table.has_date,
+              .zone = table.zone};
+  const std::int64_t late = origin && table.instant ? *table.instant - *origin : 0;
+  const double first = origin ? 0 : table.first;
+  clock.time_ns.reserve(table.time.size());
+  for (const double t : table.time) clock.time_ns.push_back(late + std::llround(1e9 * (first + t)));
+  out.clocks.push_back(std::move(clock));
+  for (RawColumn& column : table.columns)
+    out.columns.push_back({.name = std::move(column.name),
+                           .unit = std::move(column.unit),
+                           .clock = out.clocks.size() - 1,
+                           .values = signals::Column(std::move(column.values))});
 }
 
 Recorded read_text(const std::string& path, const Mapping& mapping,
                    std::atomic<std::int64_t>* read) {
-  RawTable table = read_table(path, mapping, read);
+  Source source = source_of(path, mapping);
+  source.read = read;
+  for (const ColumnMapping& c : mapping.columns)
+    if (!c.unit.empty()) source.clock_units[c.name] = c.unit;
+  RawTable table = read_table(source);
   if (table.time.empty())
     config::fail({path, 0, 0}, "time", "no column of times",
                  "one that is called time, t or Zeit, or dates",
                  "names.time=NAME, or rate=\"100 Hz\"");
   Recorded out{.file = path, .kind = "CSV", .started = table.start};
   out.notes = std::move(table.notes);
-  Clock clock{.column = column_of(table.clock), .origin = origin_of(table.start)};
-  const double first = clock.origin ? 0 : table.first;
-  clock.time_ns.reserve(table.time.size());
-  for (const double t : table.time) clock.time_ns.push_back(std::llround(1e9 * (first + t)));
-  out.clocks.push_back(std::move(clock));
-  for (RawColumn& column : table.columns)
-    out.columns.push_back({.name = std::move(column.name),
-                           .unit = std::move(column.unit),
-                           .values = signals::Column(std::move(column.values))});
+  const std::optional<std::int64_t> origin = table.instant;
+  add_clock(table, origin, out);
+  for (RawTable& further : table.further) {
+    out.notes.insert(out.notes.end(), further.notes.begin(), further.notes.end());
+    add_clock(further, origin, out);
+  }
   return out;
 }
 
@@ -92,6 +87,7 @@ void count_from_the_first(Recorded& log) {
     for (const std::int64_t t : clock.time_ns) since.push_back(t - *first);
     clock.time_ns = std::move(since);
     clock.origin = *first;
+    clock.zone = 0;
   }
   log.started = iso_text(*first) + "Z";
 }

@@ -19,8 +19,11 @@ namespace sinew::recording {
 struct Clock {
   std::string column;      // the file's name for them; empty: there is no such column
   signals::Times time_ns;  // as the file counts, or since `origin` [ns]
-  // Time 0 of `time_ns` on the clock on the wall, since 1970 [ns]; absent: not known.
+  // Time 0 of `time_ns` on the clock on the wall, UTC where there is a zone, since 1970 or, without
+  // dates, since a midnight [ns]; absent: not known.
   std::optional<std::int64_t> origin;
+  bool has_date = true;
+  std::optional<std::int64_t> zone = {};  // local minus UTC [ns]; absent: the file gives no zone
 };
 
 // One column.

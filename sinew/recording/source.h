@@ -19,6 +19,8 @@ struct Source {
   std::vector<std::string> columns;          // "force [N]", ... for a file without a header
   std::map<std::string, std::string> names;  // wanted name -> the file's name for it
   std::map<std::string, std::string> units;  // the file's name -> its unit, for a header without
+  // The same for a column that turns out to be the clock; other columns are left as they are.
+  std::map<std::string, std::string> clock_units;
   // The file's name -> "fill" or "100, 200": only rows with one of these values are read.
   std::map<std::string, std::string> where;
   bool drop_incomplete = false;           // leave out rows with cells that are no numbers

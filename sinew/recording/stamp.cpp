@@ -131,7 +131,7 @@ class StampReader {
   }
 
   bool zone(Stamp& out) {
-    if (take('Z')) return true;
+    if (take('Z')) return out.has_zone = true;
     const std::size_t before = at_;
     while (take(' ')) {}
     const char sign = peek();
@@ -148,6 +148,7 @@ class StampReader {
       if (more < 0) return false;
       minutes += more;
     }
+    out.has_zone = true;
     out.offset = (sign == '-' ? -1 : 1) * minutes * in_minute;
     return true;
   }
@@ -178,6 +179,13 @@ std::optional<std::int64_t> days_of(const Stamp& stamp, DateOrder order) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
+std::string zone_text(std::int64_t offset) {
+  if (offset == 0) return "Z";
+  const std::int64_t size = offset < 0 ? -offset : offset;
+  return fmt::format("{}{:02}:{:02}", offset < 0 ? '-' : '+', size / in_hour,
+                     size / in_minute % 60);
+}
+
 std::string iso_text(std::int64_t nanoseconds) {
   std::int64_t days = nanoseconds / in_day, rest = nanoseconds % in_day;
   if (rest < 0) {
@@ -194,6 +202,11 @@ std::string iso_text(std::int64_t nanoseconds) {
   std::string fraction = fmt::format("{:09}", rest % in_second);
   fraction.erase(fraction.find_last_not_of('0') + 1);
   return out + "." + fraction;
+}
+
+std::string start_text(std::int64_t nanoseconds, bool has_date, std::optional<std::int64_t> zone) {
+  const std::string text = iso_text(nanoseconds + zone.value_or(0));
+  return (has_date ? text : text.substr(text.find('T') + 1)) + (zone ? zone_text(*zone) : "");
 }
 
 }  // namespace sinew::recording

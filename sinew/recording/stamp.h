@@ -21,6 +21,7 @@ struct Stamp {
   DateOrder order = DateOrder::unknown;
   std::int64_t time = 0;    // since midnight  [ns]
   std::int64_t offset = 0;  // of the zone: local minus UTC  [ns]
+  bool has_zone = false;
 };
 
 // Nothing where the text is no stamp.
@@ -29,6 +30,13 @@ std::optional<Stamp> stamp_in(std::string_view text);
 // Returns the date in days since 1970-01-01; nothing where there is no such day in that order. A
 // date that says its own order is read in that.
 std::optional<std::int64_t> days_of(const Stamp& stamp, DateOrder order);
+
+// Returns a zone, local minus UTC  [ns], as ISO 8601 writes it: "Z", "+01:00".
+std::string zone_text(std::int64_t offset);
+
+// Returns when a recording began, as text: in its own zone and with it where it has one, without a
+// date where the instant is since a midnight.
+std::string start_text(std::int64_t nanoseconds, bool has_date, std::optional<std::int64_t> zone);
 
 // Since 1970-01-01T00:00 of the stamp's clock  [ns] -> "2026-11-24T10:15:30.125".
 std::string iso_text(std::int64_t nanoseconds);
