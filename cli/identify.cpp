@@ -19,6 +19,7 @@
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
+#include "sinew/recording/stated.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
@@ -35,6 +36,25 @@ void add_pair(std::string_view option, const std::string& text,
   if (equals == text.npos || equals == 0 || equals + 1 == text.size())
     config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "name=value");
   pairs[text.substr(0, equals)] = text.substr(equals + 1);
+}
+
+// "force=F_N,length=Lage, mm": a comma parts two pairs where a pair follows; else a name has it.
+std::vector<std::string> pairs_of(const std::vector<std::string>& texts) {
+  std::vector<std::string> out;
+  for (const std::string& text : texts) {
+    bool is_first = true;
+    for (std::size_t at = 0; at <= text.size();) {
+      const std::size_t comma = std::min(text.find(',', at), text.size());
+      const std::string piece = text.substr(at, comma - at);
+      if (is_first || piece.find('=') != piece.npos)
+        out.push_back(piece);
+      else
+        out.back() += "," + piece;
+      is_first = false;
+      at = comma + 1;
+    }
+  }
+  return out;
 }
 
 // Something that would be replaced, and that can be read first.
@@ -164,14 +184,21 @@ void add_dialect_options(Command sub, DataOptions& options) {
 void add_data_options(Command sub, DataOptions& options) {
   sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run").required();
   sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
-      .takes_one()
-      .split_at(',');
+      .takes_one();
   sub.add_option("--unit", options.units,
                  "NAME=UNIT: unit of a column of the file, as it calls it; may be repeated")
       .takes_one();
   sub.add_option("--where", options.where,
                  "NAME=VALUE,...: only rows whose column NAME has one of these values; may be "
                  "repeated")
+      .takes_one();
+  sub.add_option(
+         "--value", options.values,
+         "[PART:]NAME=VALUE: of a column that a file does not have, \"pressure=2 bar gauge\"; "
+         "PART is in the name of the files that it is for; may be repeated")
+      .takes_one();
+  sub.add_option("--offset", options.offsets,
+                 "NAME=VALUE: added to a column, \"length=200 mm\"; may be repeated")
       .takes_one();
   sub.add_option("--columns", options.columns,
                  "\"force [N],time [s]\": the header of a file without one; alone: tells which "
@@ -186,9 +213,12 @@ void add_data_options(Command sub, DataOptions& options) {
 
 std::vector<identify::Source> sources_of(const DataOptions& options) {
   identify::Source how;
-  for (const std::string& map : options.maps) add_pair("--map", map, how.names);
+  for (const std::string& map : pairs_of(options.maps)) add_pair("--map", map, how.names);
   for (const std::string& unit : options.units) add_pair("--unit", unit, how.units);
   for (const std::string& where : options.where) add_pair("--where", where, how.where);
+  for (const std::string& offset : options.offsets) add_pair("--offset", offset, how.offsets);
+  how.values = options.values;
+  recording::check_stated(how.values, options.files);
   how.columns = config::at_commas(options.columns);
   how.drop_incomplete = options.drop_incomplete;
   how.encoding = options.encoding;

@@ -41,6 +41,8 @@ struct DataOptions {
   std::vector<std::string> files;
   std::vector<std::string> maps, units;  // "force=F_N"
   std::vector<std::string> where;        // "phase=fill"
+  std::vector<std::string> values;       // "pressure=2 bar gauge"
+  std::vector<std::string> offsets;      // "length=200 mm"
   std::string columns;                   // "force [N],pressure [kPa gauge]"
   std::string template_file;             // of the help alone: see cli/identify_columns.h
   std::string atmosphere = "14.7 psi";

@@ -144,6 +144,10 @@ void add_mapping_options(Command sub, ImportOptions& options) {
       .takes_one();
   sub.add_option("--offset", options.offsets, "COLUMN=VALUE: added then, in the channel's unit")
       .takes_one();
+  sub.add_option("--value", request.values,
+                 "[PART:]CHANNEL=VALUE: of a whole file, \"/muscle/flexor/pressure=2 bar gauge\"; "
+                 "PART is in the name of the files that it is for")
+      .takes_one();
   sub.add_option("--where", options.where,
                  "COLUMN=VALUE,...: only rows whose column has one of these values")
       .takes_one();

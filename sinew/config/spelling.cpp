@@ -248,12 +248,12 @@ constexpr Word known_words[] = {{"sec", "s"},
 
 // Endings that say against what a pressure is measured.
 constexpr std::pair<std::string_view, std::string_view> reference_words[] = {
-    {" gauge", "gauge"}, {" abs", "abs"},      {" diff", "diff"},   {"(g)", "gauge"},
-    {"(a)", "abs"},      {"(d)", "diff"},      {" g", "gauge"},     {" a", "abs"},
-    {" rel", "gauge"},   {"(rel)", "gauge"},   {" rel.", "gauge"},  {"(abs)", "abs"},
-    {" abs.", "abs"},    {"(gauge)", "gauge"}, {"\u00FC", "gauge"}, {" \u00FC", "gauge"},
-    {"_g", "gauge"},     {"_a", "abs"},        {"g", "gauge"},      {"a", "abs"},
-    {"d", "diff"}};
+    {" gauge", "gauge"},   {" abs", "abs"},      {" diff", "diff"},   {"(g)", "gauge"},
+    {"(a)", "abs"},        {"(d)", "diff"},      {" g", "gauge"},     {" a", "abs"},
+    {" rel", "gauge"},     {"(rel)", "gauge"},   {" rel.", "gauge"},  {"(abs)", "abs"},
+    {" abs.", "abs"},      {"(gauge)", "gauge"}, {"\u00FC", "gauge"}, {" \u00FC", "gauge"},
+    {"(\u00FC)", "gauge"}, {"(rel.)", "gauge"},  {"(abs.)", "abs"},   {"_g", "gauge"},
+    {"_a", "abs"},         {"g", "gauge"},       {"a", "abs"},        {"d", "diff"}};
 
 bool is_pressure(std::string_view unit) {
   const units::UnitReading reading = units::read_unit(unit);

@@ -27,6 +27,26 @@ inline std::size_t letter_at(std::string_view text, std::size_t at) {
   return length;
 }
 
+// Returns the text without signs that turn the direction of writing, and without controls: names of
+// foreign files are printed on terminals.
+inline std::string without_controls(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = text.substr(at);
+    const auto begins = [&](std::string_view two, unsigned from, unsigned to) {
+      const unsigned last = rest.size() > 2 ? static_cast<unsigned char>(rest[2]) : 0;
+      return rest.starts_with(two) && last >= from && last <= to;
+    };
+    const bool turns = begins("\xE2\x80", 0x8E, 0x8F) || begins("\xE2\x80", 0xAA, 0xAE) ||
+                       begins("\xE2\x81", 0xA6, 0xA9);
+    const auto byte = static_cast<unsigned char>(rest[0]);
+    const bool controls = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
+    if (!turns && !controls) out += rest[0];
+    at += turns ? 3 : 1;
+  }
+  return out;
+}
+
 // Each byte that is none becomes U+FFFD.
 inline std::string in_utf8(std::string_view text) {
   std::string out;

@@ -106,6 +106,58 @@ std::optional<signals::Topic> from_schema(std::string_view schema, std::string_v
   return result;
 }
 
+namespace {
+
+void add_numbers(const Json& object, const std::string& prefix, std::vector<signals::Field>& out) {
+  constexpr std::size_t deepest = 8;  // dots in a name
+  if (static_cast<std::size_t>(std::ranges::count(prefix, '.')) > deepest) return;
+  if (is_timestamp(object)) return;
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_number() || value.is_boolean() || value.is_null())
+      out.push_back({prefix + name, ""});
+    else if (value.is_object())
+      add_numbers(value, prefix + name + ".", out);
+  }
+}
+
+// Numbers that JSON does not have, and most programs write: null in their place.
+std::string with_nulls(std::string_view text) {
+  std::string out;
+  bool in_text = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '"' && (at == 0 || text[at - 1] != '\\')) in_text = !in_text;
+    std::string_view rest = text.substr(at);
+    for (const std::string_view word : {"-Infinity", "Infinity", "NaN", "-inf", "inf", "nan"}) {
+      if (in_text || !rest.starts_with(word)) continue;
+      out += "null";
+      at += word.size();
+      rest = text.substr(at);
+      break;
+    }
+    if (at < text.size()) out += text[at];
+  }
+  return out;
+}
+
+// The object of a message; another kind of value where it is none.
+Json object_in(std::string_view text) {
+  Json json;
+  if (Json::parse(text, json)) return json;
+  if (!Json::parse(with_nulls(text), json)) return {};
+  return json;
+}
+
+}  // namespace
+
+std::optional<signals::Topic> from_message(std::string_view text, std::string_view topic) {
+  const Json json = object_in(text);
+  if (!json.is_object()) return std::nullopt;
+  signals::Topic result{std::string(topic), "", {}};
+  add_numbers(json, "", result.fields);
+  if (result.fields.empty()) return std::nullopt;
+  return result;
+}
+
 MessageFormat::MessageFormat(const signals::Topic& topic) {
   for (const signals::Field& field : topic.fields) {
     names_.push_back(field.name);
@@ -143,8 +195,7 @@ bool MessageFormat::parse_own(std::string_view text, std::span<double> values) c
 }
 
 bool MessageFormat::parse_any(std::string_view text, std::span<double> values) const {
-  Json json;
-  (void)Json::parse(text, json);
+  const Json json = object_in(text);
   if (!json.is_object()) return false;
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const Json* const value = value_of(json, names_[i]);

@@ -30,6 +30,10 @@ std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topi
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
 
 // Writes and reads the messages of one topic.
+// Returns a topic with a field for each number in a message, of a log whose schema has none of
+// them.
+std::optional<signals::Topic> from_message(std::string_view text, std::string_view topic);
+
 class MessageFormat {
  public:
   // Takes the fields of the topic, in their order.

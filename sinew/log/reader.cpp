@@ -43,6 +43,7 @@ class Collector {
   bool take(const Record& record);
   bool take_schema(std::string_view content);
   bool take_channel(std::string_view content);
+  void add_series(std::uint16_t channel, signals::Topic topic, const Pairs& metadata);
   bool take_message(std::string_view content);
   bool take_chunk(std::string_view content);
   bool leave_out();
@@ -60,6 +61,8 @@ class Collector {
   std::map<std::uint16_t, Schema> schemas_;
   // By channel number; null for a channel that is passed over.
   std::map<std::uint16_t, std::unique_ptr<Source>> sources_;
+  // Channels whose schema has no number, until a message shows theirs; and their topics.
+  std::map<std::uint16_t, std::string> open_;
   const signals::PageFile pages_ = signals::PageFile::make();
   std::vector<signals::Series> series_;
   std::vector<std::pair<std::size_t, std::string>> steady_;  // series, at whose times
@@ -117,22 +120,26 @@ bool Collector::take_channel(std::string_view content) {
   if (!channel) return false;
   const auto [source, is_new] = sources_.try_emplace(channel->id, nullptr);
   const auto schema = schemas_.find(channel->schema);
-  if (!is_new || channel->encoding != kMessageEncoding || schema == schemas_.end() ||
-      schema->second.encoding != kSchemaEncoding)
-    return true;
-  auto topic = from_schema(schema->second.data, channel->topic);
-  if (!topic) return true;
+  if (!is_new || channel->encoding != kMessageEncoding) return true;
+  const bool has_schema = schema != schemas_.end() && schema->second.encoding == kSchemaEncoding;
+  auto topic = has_schema ? from_schema(schema->second.data, channel->topic) : std::nullopt;
+  if (topic)
+    add_series(channel->id, std::move(*topic), channel->metadata);
+  else
+    open_.emplace(channel->id, channel->topic);
+  return true;
+}
 
+void Collector::add_series(std::uint16_t channel, signals::Topic topic, const Pairs& metadata) {
   // Two channels of one topic, as foreign logs may have them: the first one is the topic.
   for (const signals::Series& series : series_)
-    if (series.topic.name == topic->name) return true;
-  source->second = std::make_unique<Source>(Source{series_.size(), MessageFormat(*topic)});
-  for (const auto& [key, value] : channel->metadata)
+    if (series.topic.name == topic.name) return;
+  sources_[channel] = std::make_unique<Source>(Source{series_.size(), MessageFormat(topic)});
+  for (const auto& [key, value] : metadata)
     if (key == kSteady) steady_.emplace_back(series_.size(), value);
-  const std::size_t fields = topic->fields.size();
-  series_.push_back({std::move(*topic), signals::Times(pages_),
+  const std::size_t fields = topic.fields.size();
+  series_.push_back({std::move(topic), signals::Times(pages_),
                      std::vector<signals::Column>(fields, signals::Column(pages_))});
-  return true;
 }
 
 // A message that is damaged in itself: the next one can be found all the same.
@@ -146,6 +153,11 @@ bool Collector::take_message(std::string_view content) {
   if (!message) return false;
   const auto source = sources_.find(message->channel);
   if (source == sources_.end()) return leave_out();
+  if (const auto open = open_.find(message->channel); open != open_.end()) {
+    auto topic = from_message(message->data, open->second);
+    open_.erase(open);
+    if (topic) add_series(message->channel, std::move(*topic), {});
+  }
   if (!source->second) return true;
   const MessageFormat& format = source->second->format;
   values_.resize(format.fields());

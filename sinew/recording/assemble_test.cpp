@@ -276,7 +276,8 @@ TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
   for (int i = 95; i < 330; ++i) text += fmt::format("{},{}\n", 1732340000 + i / 100, i);
   Mapping m = angle_is("w");
   m.table.spread_times = true;
-  const signals::Series& s = series(take({put("a.csv", text)}, m), "/joint/elbow/angle");
+  const Assembled a = take({put("a.csv", text)}, m);
+  const signals::Series& s = series(a, "/joint/elbow/angle");
   ASSERT_EQ(s.time_ns.size(), 235u);
   for (std::size_t i = 0; i < s.time_ns.size(); ++i)
     EXPECT_NEAR(static_cast<double>(s.time_ns[i]), 1e7 * static_cast<double>(i), 1e3);

@@ -210,10 +210,18 @@ std::size_t spread_times(std::vector<double>& time) {
 
   // The recording may begin and end within one step of the clock.
   TimeGroup &first = groups.front(), &last = groups.back();
-  last.step = std::min(groups[groups.size() - 2].step, reach / last.count());
-  if (groups.size() > 2 && groups[1].step < first.step) {
+  double rows = 0, duration = 0;  // of the times between the first and the last
+  for (std::size_t g = 1; g + 1 < groups.size(); ++g) {
+    rows += groups[g].count();
+    duration += groups[g].step * groups[g].count();
+  }
+  const double usual = rows > 0 ? duration / rows : first.step;
+  last.step = std::min(usual, reach / last.count());
+  // A first row alone stays where it is, unless the clock is far coarser than the rows.
+  const double each = reach / std::max(usual, 1e-12);  // rows of a time
+  if (usual < first.step && (first.count() > 1 || each > 3)) {
     const double end = time[first.from] + first.step * first.count();
-    first.step = groups[1].step;
+    first.step = usual;
     time[first.from] = end - first.step * first.count();
   }
   for (const TimeGroup& g : groups)

@@ -9,6 +9,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/spelling.h"
 #include "sinew/recording/clock.h"
+#include "sinew/recording/stated.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::recording {
@@ -53,7 +54,9 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
   const auto mapped = source_.names.find(std::string(w.name));
   const bool said = mapped != source_.names.end();
   const std::string name = said ? mapped->second : std::string(w.name);
-  if (w.name == "time" && !source_.rate.empty()) {
+  const bool header_rate = grid_.dialect.period > 0 && (!said || name == grid_.headings()[0].name);
+  if (find_stated(w, out)) return;
+  if (w.name == "time" && (!source_.rate.empty() || header_rate)) {
     out.push_back({.wanted = &w, .index = grid_.headings().size()});  // no column has its values
     return;
   }
@@ -63,6 +66,7 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
     if (!at && !h.is_called(name)) continue;
     Found f{.wanted = &w, .index = i, .is_at = at};
     if (!at) convert(h, w, f);
+    add_offset(w, f);
     refuse_twice(h.name, i);
     out.push_back(std::move(f));
     return;
@@ -74,6 +78,48 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
                 fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
                 near.empty() ? fmt::format("names.{}=NAME with the file's name for it", w.name)
                              : fmt::format("names.{}={}", w.name, near));
+}
+
+// A value that is stated for the whole file.
+bool ColumnFinder::find_stated(const Wanted& w, std::vector<Found>& out) {
+  std::optional<std::string> text;
+  for (const std::string& setting : source_.values) {
+    const Stated stated = stated_in(setting);
+    if (stated.name == w.name && stated.is_for(source_.path)) text = stated.value;
+  }
+  if (!text) return false;
+  if (source_.names.contains(std::string(w.name)) ||
+      std::ranges::any_of(grid_.headings(), [&](const Heading& h) { return h.is_called(w.name); }))
+    problems_.add(
+        grid_.header_line(), 1, std::string(w.name),
+        fmt::format("a column, and the value {} for the whole file", config::in_quotes(*text)),
+        "one of the two");
+  Found f{.wanted = &w, .index = grid_.headings().size()};
+  for (const auto& [word, meant] : w.words)
+    if (*text == word) f.constant = meant;
+  if (w.words.empty()) {
+    const config::Parsed parsed = config::parse_quantity(*text, w.unit, source_.atmosphere);
+    if (parsed.mistake)
+      problems_.add(0, 0, fmt::format("values.{}", w.name), parsed.mistake->found,
+                    parsed.mistake->expected, parsed.mistake->try_this);
+    f.constant = parsed.si;
+  } else if (!f.constant) {
+    problems_.add(0, 0, fmt::format("values.{}", w.name), config::in_quotes(*text),
+                  std::string(w.doc));
+  }
+  out.push_back(std::move(f));
+  return true;
+}
+
+void ColumnFinder::add_offset(const Wanted& w, Found& f) {
+  const auto said = source_.offsets.find(std::string(w.name));
+  if (said == source_.offsets.end()) return;
+  const config::Parsed added = config::parse_quantity(
+      said->second, std::string(config::difference_unit(w.unit)), source_.atmosphere);
+  if (added.mistake)
+    problems_.add(0, 0, fmt::format("offsets.{}", w.name), added.mistake->found,
+                  added.mistake->expected, added.mistake->try_this);
+  f.conversion.offset += added.si;
 }
 
 // Two columns of one name: nobody knows which is meant. Those with an @ belong together.
@@ -111,6 +157,15 @@ void ColumnFinder::check_names(std::span<const Wanted> wanted) {
   for (const auto& [name, file_name] : source_.names)
     if (std::ranges::find(known, name) == known.end())
       problems_.add(0, 0, "names", config::in_quotes(name), config::either(known),
+                    config::closest_in_quotes(name, known));
+  for (const auto& [name, offset] : source_.offsets)
+    if (std::ranges::find(known, name) == known.end())
+      problems_.add(0, 0, "offsets", config::in_quotes(name), config::either(known),
+                    config::closest_in_quotes(name, known));
+  for (const std::string& setting : source_.values)
+    if (const std::string name = stated_in(setting).name;
+        std::ranges::find(known, name) == known.end())
+      problems_.add(0, 0, "values", config::in_quotes(name), config::either(known),
                     config::closest_in_quotes(name, known));
   const auto columns = names();
   for (const auto& [column, unit] : source_.units) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,7 +29,8 @@ struct Found {
   std::size_t index = 0;  // of the file's column; of the first one where there are several
   bool is_at = false;     // it is the condition of the columns with an @
   ToSi conversion;
-  std::string unit;   // of the file, as it writes it
+  std::optional<double> constant;  // of a value that is stated for the whole file, SI
+  std::string unit;                // of the file, as it writes it
   std::string shown;  // the same as Sinew writes it; empty where Sinew has no such unit
 };
 
@@ -46,6 +48,8 @@ class ColumnFinder {
   std::vector<std::pair<std::size_t, std::string>> conditions();
 
  private:
+  bool find_stated(const Wanted& w, std::vector<Found>& out);
+  void add_offset(const Wanted& w, Found& f);
   void find_one(const Wanted& w, std::vector<Found>& out);
   std::vector<std::string_view> names() const;
   std::string all_names() const;

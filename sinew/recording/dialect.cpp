@@ -8,6 +8,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/recording/sample.h"
+#include "sinew/recording/stamp.h"
 
 namespace sinew::recording {
 
@@ -29,6 +30,7 @@ bool is_units_row(const Row& row) {
 // The index of the first row of values; the number of rows where there is none.
 std::size_t first_of_values(const Sample& sample) {
   const std::vector<Row>& rows = sample.rows;
+  if (sample.labview.is_there) return std::min<std::size_t>(1, rows.size());
   std::size_t first_fitting = rows.size();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!sample.fits(rows[i])) continue;
@@ -91,6 +93,11 @@ class HeaderReader {
     std::size_t names = first - 1;
     const Row* units = nullptr;
     const std::vector<Row>& rows = sample_.rows;
+    while (names > 0 && sample_.width > 1 && is_date_line(rows[names])) {
+      out.notes.push_back(fmt::format("line {}, {}: left out", rows[names].line,
+                                      config::in_quotes(rows[names].cells.front().text)));
+      --names;
+    }
     if (names > 0 && is_units_row(rows[names]) &&
         rows[names - 1].cells.size() >= rows[names].cells.size() &&
         !is_units_row(rows[names - 1])) {
@@ -109,13 +116,28 @@ class HeaderReader {
     if (sample_.separator == ' ' && cells.size() > sample_.width)
       cells = joined_units(cells, sample_.width, texts);
     while (cells.size() > 1 && cells.back().text.empty()) cells.pop_back();
-    // LabVIEW names a column of remarks that its rows do not have.
-    if (cells.size() == sample_.width + 1 && cells.back().text == "Comment") cells.pop_back();
+    // LabVIEW names a column of remarks, which most of its rows do not have.
+    out.has_remarks = cells.size() > 1 && cells.back().text == "Comment";
     for (const Cell& cell : cells) out.headings.push_back(heading_of(cell));
+    use_labview(out);
     if (!units) return;
     for (std::size_t i = 0; i < std::min(cells.size(), units->cells.size()); ++i)
       if (const std::string_view unit = without_brackets(units->cells[i].text); !unit.empty())
         set_unit(out.headings[i], unit);
+  }
+
+  // Units and a clock that LabVIEW writes above its rows.
+  void use_labview(Dialect& out) const {
+    const LabViewHeader& header = sample_.labview;
+    for (std::size_t i = 0; i < header.units.size() && i + 1 < out.headings.size(); ++i)
+      if (out.headings[i + 1].unit.empty() && !without_brackets(header.units[i]).empty() &&
+          is_unit_cell(header.units[i]))
+        set_unit(out.headings[i + 1], without_brackets(header.units[i]));
+    if (header.has_x || !(header.step > 0)) return;
+    out.period = header.step;
+    out.first = header.first;
+    out.notes.push_back(fmt::format("times by Delta_X of its header: {} s from row to row",
+                                    config::format_number(header.step)));
   }
 
   // "# time [s], force [N]", as NumPy writes a header.
@@ -169,6 +191,7 @@ class HeaderReader {
 // Commas are decimal marks where they can be nothing else, and more so than points.
 char decimal_of(const Sample& sample, const Dialect& dialect, const Source& source) {
   if (!source.decimal.empty()) return source.decimal[0];
+  if (sample.labview.decimal != '\0') return sample.labview.decimal;
   if (source.thousands == ".") return ',';
   if (source.thousands == ",") return '.';
   std::size_t points = 0, commas = 0;
@@ -192,6 +215,12 @@ char decimal_of(const Sample& sample, const Dialect& dialect, const Source& sour
 }
 
 }  // namespace
+
+bool is_date_line(const Row& row) {
+  return stamp_in(row.cells.front().text) &&
+         std::all_of(row.cells.begin() + 1, row.cells.end(),
+                     [](const Cell& c) { return c.text.empty(); });
+}
 
 Dialect dialect_of(std::string_view text, const Source& source) {
   const Sample sample = sample_of(text, source.decimal == "," || source.thousands == ".");

@@ -24,8 +24,13 @@ struct Dialect {
   int header_line = 0;            // 0: the header came from elsewhere
   std::size_t body = 0;           // where the rows begin in the text
   int body_line = 1;
+  bool has_remarks = false;        // its last column is one of remarks, which rows may lack
+  double period = 0, first = 0;    // of a clock that LabVIEW's header has in place of a column [s]
   std::vector<std::string> notes;  // lines that stand before the header
 };
+
+// Returns whether a row is a date or an instant alone, as loggers write it above each recording.
+bool is_date_line(const Row& row);
 
 // Throws config::Error for a text without rows, without a header, or whose commas can be either.
 Dialect dialect_of(std::string_view text, const Source& source);

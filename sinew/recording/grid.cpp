@@ -52,6 +52,7 @@ Grid read_grid(std::string bytes, const Source& source) {
             .notes = std::move(text.notes)};
   grid.dialect = dialect_of(*grid.text, source);
   grid.read = source.read;
+  grid.drop_incomplete = source.drop_incomplete;
   grid.notes.insert(grid.notes.end(), grid.dialect.notes.begin(), grid.dialect.notes.end());
   return grid;
 }
@@ -64,6 +65,7 @@ Body::Body(const Grid& grid)
 bool Body::fits(Row& row) {
   const std::size_t width = grid_.headings().size();
   while (row.cells.size() > width && row.cells.back().text.empty()) row.cells.pop_back();
+  if (grid_.dialect.has_remarks && row.cells.size() + 1 == width) row.cells.push_back({});
   return row.cells.size() == width;
 }
 
@@ -75,6 +77,10 @@ bool Body::next(Row& row) {
       return true;
     }
     const std::size_t width = grid_.headings().size();
+    if (is_date_line(row)) {
+      ++dates_;
+      continue;
+    }
     if (row.cells.size() < width && count_ > 0 && reader_.at_end()) {
       cut_ = fmt::format("line {}, the last one, with {} of {} cells: left out", row.line,
                          row.cells.size(), width);
@@ -83,22 +89,36 @@ bool Body::next(Row& row) {
     if (ragged_++ > 0) continue;
     first_line_ = row.line;
     first_cells_ = row.cells.size();
+    of_digits_ = std::ranges::all_of(row.cells, [](const Cell& c) {
+      return !c.text.empty() && c.text.find_first_not_of("0123456789+-") == c.text.npos;
+    });
   }
   return false;
 }
 
 void Body::finish(std::vector<std::string>& notes) const {
   if (!cut_.empty()) notes.push_back(cut_);
+  if (dates_ > 0)
+    notes.push_back(
+        fmt::format("{} line{} with a date alone: left out", dates_, dates_ == 1 ? "" : "s"));
   if (ragged_ == 0) return;
   const std::size_t width = grid_.headings().size();
-  const bool doubled = first_cells_ == 2 * width && grid_.dialect.separator == ',';
+  if (grid_.drop_incomplete) {
+    notes.push_back(
+        fmt::format("{} line{} with another number of cells than the {} of the header, "
+                    "the first in line {}: left out",
+                    ragged_, ragged_ == 1 ? "" : "s", width, first_line_));
+    return;
+  }
+  const bool doubled = first_cells_ > width && grid_.dialect.separator == ',' &&
+                       (first_cells_ == 2 * width || of_digits_);
   config::fail(
       {grid_.file, first_line_, 1}, "row",
       fmt::format("{} cells ({} such row{})", first_cells_, ragged_, ragged_ == 1 ? "" : "s"),
       fmt::format("{} as in the header", width),
       doubled ? "decimal points, or semicolons between cells: with decimal commas every number is "
                 "cut in two"
-              : "to mend these rows");
+              : "drop_incomplete=true to leave such rows out");
 }
 
 }  // namespace sinew::recording

@@ -23,6 +23,7 @@ struct Grid {
   Dialect dialect;
   std::vector<std::string> notes;
   std::atomic<std::int64_t>* read = nullptr;  // the source's
+  bool drop_incomplete = false;               // the source's
 
   // Returns the columns, in the order of the file.
   const std::vector<Heading>& headings() const { return dialect.headings; }
@@ -44,8 +45,8 @@ class Body {
   // Reads the next row; rows with other numbers of cells are counted and passed over.
   bool next(Row& row);
 
-  // Throws config::Error if there was such a row. A last one that is short was cut when the logger
-  // was switched off: that is noted.
+  // Throws config::Error if there was such a row and rows that are not complete are not to be left
+  // out. A last one that is short was cut when the logger was switched off: that is noted.
   void finish(std::vector<std::string>& notes) const;
 
   // Returns how many rows were read.
@@ -56,8 +57,9 @@ class Body {
 
   const Grid& grid_;
   RowReader reader_;
-  std::size_t count_ = 0, ragged_ = 0;
-  int first_line_ = 0;  // of the rows that do not fit
+  std::size_t count_ = 0, ragged_ = 0, dates_ = 0;
+  bool of_digits_ = false;  // are the cells of the first such row whole numbers
+  int first_line_ = 0;      // of the rows that do not fit
   std::size_t first_cells_ = 0;
   std::string cut_;  // what is to be noted of the last row
 };

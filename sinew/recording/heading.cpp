@@ -4,6 +4,7 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/config/spelling.h"
+#include "sinew/config/utf8.h"
 
 namespace sinew::recording {
 
@@ -44,6 +45,23 @@ bool split_at_brackets(std::string_view text, char open, char close, Heading& h)
   return true;
 }
 
+// "Druck ABS. (MPa)": a name has the reference that its unit lacks.
+void add_reference(Heading& h) {
+  if (h.unit.empty() || !config::is_unit(h.unit + " gauge")) return;
+  constexpr std::pair<std::string_view, const char*> words[] = {
+      {"abs", " abs"},     {"abs.", " abs"},  {"absolute", " abs"}, {"absolut", " abs"},
+      {"gauge", " gauge"}, {"rel", " gauge"}, {"rel.", " gauge"},   {"relative", " gauge"}};
+  std::string name = h.name;
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string_view last = std::string_view(name).substr(name.find_last_of(" _,(") + 1);
+  for (const auto& [word, reference] : words) {
+    if (last != word || last == name) continue;
+    h.unit += reference;
+    h.file_unit = h.unit;
+  }
+}
+
 }  // namespace
 
 std::string_view without_brackets(std::string_view text) {
@@ -71,7 +89,7 @@ void set_unit(Heading& heading, std::string_view unit) {
 Heading heading_of(const Cell& cell) {
   Heading h;
   h.column = cell.column;
-  h.written = cell.text;
+  h.written = config::without_controls(cell.text);
   for (char& c : h.written)
     if (c == '\n' || c == '\r') c = ' ';  // a cell of two lines
   const std::string whole = h.written;
@@ -88,8 +106,8 @@ Heading heading_of(const Cell& cell) {
   const bool split = split_at_brackets(text, '[', ']', h) || split_at(" in ", text, h) ||
                      split_at("/", text, h) || split_at_brackets(text, '(', ')', h) ||
                      split_at(", ", text, h);
-  if (split) return h;
-  h.name = text;
+  if (!split) h.name = text;
+  add_reference(h);
   return h;
 }
 

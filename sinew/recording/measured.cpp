@@ -39,8 +39,11 @@ class Table {
     Measured out{.file = grid_.file, .notes = grid_.notes};
     const std::size_t rows = grid_.rows_about();
     for (const Found& f : found_) {
-      out.columns.push_back(
-          {std::string(f.wanted->name), std::string(f.wanted->unit), {}, f.shown});
+      out.columns.push_back({std::string(f.wanted->name),
+                             std::string(f.wanted->unit),
+                             {},
+                             f.shown,
+                             f.constant.has_value()});
       out.columns.back().values.reserve(rows);
     }
     out.lines.reserve(rows);
@@ -62,7 +65,9 @@ class Table {
     const std::size_t none = grid_.headings().size();
     for (const Found& f : found_) {
       if (f.wanted->name != "time") continue;
-      if (f.index == none) period_ = period_of_rate(source_.rate);
+      if (f.constant) return;
+      if (f.index == none)
+        period_ = source_.rate.empty() ? grid_.dialect.period : period_of_rate(source_.rate);
       if (f.index == none || f.is_at) return;
       if (tells_time(grid_.dialect.kinds[f.index]))
         clock_ = std::make_unique<StampClock>(grid_, source_, f.index);
@@ -121,6 +126,7 @@ class Table {
 
   std::optional<double> value_of(const Row& row, std::size_t index, const Heading* at,
                                  const Found& f, bool& missing) {
+    if (f.constant) return *f.constant;
     if (f.index == grid_.headings().size()) return static_cast<double>(index) * period_;
     if ((clock_ || split_) && f.wanted->name == "time") return stamp(row, f, missing);
     return cell(row, column_of(f, at), f, missing);
@@ -180,7 +186,9 @@ class Table {
   void bad_cell(const Row& row, std::size_t index, const Found& f, const std::string& expected,
                 bool& missing) {
     const std::string_view text = row.cells[index].text;
-    const bool is_none = is_missing(text) || number_in(text);  // nan, inf
+    const bool is_word = hint_for(text, grid_.dialect.numbers).empty() && f.wanted->words.empty();
+    const bool is_none = is_missing(text) || number_in(text) ||  // nan, inf
+                         (is_word && source_.drop_incomplete);
     if (is_none && source_.drop_incomplete) {
       ++missing_[f.wanted->name];
       missing = true;
@@ -332,7 +340,7 @@ const std::vector<double>& Measured::operator[](std::string_view name) const {
 Measured Measured::subset(std::span<const std::size_t> keep) const {
   Measured out{.file = file, .notes = notes};
   for (const Column& column : columns)
-    out.columns.push_back({column.name, column.unit, {}, column.shown});
+    out.columns.push_back({column.name, column.unit, {}, column.shown, column.is_stated});
   for (const std::size_t row : keep) {
     out.lines.push_back(lines.at(row));
     for (std::size_t i = 0; i < columns.size(); ++i)

@@ -38,7 +38,8 @@ struct Column {
   std::string name;  // the wanted name
   std::string unit;  // the wanted unit
   std::vector<double> values;
-  std::string shown;  // unit for messages: the file's, where Sinew has it; empty: `unit`
+  std::string shown;       // unit for messages: the file's, where Sinew has it; empty: `unit`
+  bool is_stated = false;  // a value for the whole file, in place of its column
 };
 
 // A table of measurements, its columns called as they were wanted.

@@ -59,6 +59,21 @@ TEST(Measured, AFileWithoutAHeaderIsReadByItsColumns) {
   EXPECT_EQ(m["time"][1], 0.001);
 }
 
+TEST(Measured, AValueOfTheWholeFileAndAnOffsetTakeTheirPlace) {
+  static constexpr Wanted of[] = {{.name = "length", .unit = "m", .doc = "of the muscle"},
+                                  {.name = "pressure", .unit = "Pa gauge", .doc = "inside"},
+                                  {.name = "force", .unit = "N", .doc = "it pulls with"}};
+  Source source{.path = "runs/bar2.csv"};
+  source.names["length"] = "extension";
+  source.offsets["length"] = "200 mm";
+  source.values = {"bar3:pressure=3 bar gauge", "bar2:pressure=2 bar gauge"};
+  const std::string text = "extension [mm],force [N]\n0,10\n5,20\n";
+  const Measured m = parse_measured(text, source, of);
+  EXPECT_DOUBLE_EQ(m["length"][1], 0.205);
+  EXPECT_EQ(m["pressure"], (std::vector<double>{2e5, 2e5}));
+  EXPECT_EQ(m["force"][1], 20);
+}
+
 TEST(Measured, AMakersTableBecomesRows) {
   const Measured m = read(
       "length [mm],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge\n"

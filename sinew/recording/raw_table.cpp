@@ -187,6 +187,13 @@ class RawReader {
       return;
     }
     const Heading& h = grid_.headings()[*column];
+    if (grid_.dialect.period > 0 && *column == 0) {
+      period_ = grid_.dialect.period;
+      out.clock = "rate of its header";
+      out.first = grid_.dialect.first;
+      of_clock_.insert(*column);
+      return;
+    }
     if ((split_ = split_seconds(grid_, *column))) {
       out.clock = fmt::format("column {} and {}", h.name, grid_.headings()[split_->rest].name);
       of_clock_.insert({split_->seconds, split_->rest});
@@ -307,7 +314,9 @@ class RawReader {
       out.columns[i].values.push_back(finite ? *number * factors_[i] : no_value);
       if (finite) continue;
       ++out.columns[i].missing;
-      if (!number && !is_missing(cell.text)) refuse(row, cell, out.columns[i].name);
+      const bool is_left_out =
+          source_.drop_incomplete && hint_for(cell.text, grid_.dialect.numbers).empty();
+      if (!number && !is_missing(cell.text) && !is_left_out) refuse(row, cell, out.columns[i].name);
     }
   }
 
@@ -344,15 +353,15 @@ class RawReader {
   }
 
   bool refuse_time(const Row& row, const Cell& cell) {
-    if (source_.drop_incomplete && is_missing(cell.text)) {
+    const std::string hint = hint_for(cell.text, grid_.dialect.numbers);
+    if (source_.drop_incomplete && (is_missing(cell.text) || hint.empty())) {
       ++without_time_;
       return false;
     }
     problems_.add(row.line, cell.column, "time",
                   cell.text.empty() ? "an empty cell" : config::in_quotes(cell.text),
                   stamps_ ? "a date or a time of day as in the other rows" : "a number",
-                  is_missing(cell.text) ? "drop_incomplete=true to leave such rows out"
-                                        : hint_for(cell.text, grid_.dialect.numbers));
+                  is_missing(cell.text) ? "drop_incomplete=true to leave such rows out" : hint);
     return false;
   }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/utf8.h"
 #include "sinew/log/mcap.h"
 #include "sinew/log/reader.h"
 #include "sinew/recording/matlab.h"
@@ -106,10 +107,11 @@ Recorded read_mcap(const std::string& path) {
     for (std::size_t f = 0; f < s.columns.size(); ++f) {
       const signals::Field& field = s.topic.fields[f];
       const bool whole = s.columns.size() == 1 && field.name == "value";
-      out.columns.push_back({.name = whole ? s.topic.name : s.topic.name + "." + field.name,
-                             .unit = field.unit,
-                             .clock = out.clocks.size() - 1,
-                             .values = s.columns[f]});
+      out.columns.push_back(
+          {.name = config::without_controls(whole ? s.topic.name : s.topic.name + "." + field.name),
+           .unit = field.unit,
+           .clock = out.clocks.size() - 1,
+           .values = s.columns[f]});
     }
   }
   count_from_the_first(out);

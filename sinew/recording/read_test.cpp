@@ -87,6 +87,79 @@ TEST_F(ReadTest, ALogOfAnotherProgramCountsFromItsFirstMessage) {
   EXPECT_TRUE(r.find("state.angle") == &r.columns[0] || r.find("angle") == &r.columns[0]);
 }
 
+// Two topics in JSON whose schema, number `schema`, has no number; one message has no value.
+std::string open_log(std::uint16_t schema) {
+  log::Bytes out;
+  out.raw(log::kMagic);
+  log::put_header(out, "");
+  log::put_schema(out, {1, "any", "jsonschema", R"({"type": "object"})"});
+  log::put_channel(out, {7, schema, "/elbow", "json"});
+  for (const char* angle : {"30", "NaN", "-Infinity", "60"}) {
+    const std::size_t message = log::open_message(out, 7, 0, 10'000'000);
+    out.raw(fmt::format(R"({{"note": "NaN", "state": {{"angle": {}}}}})", angle));
+    out.close(message);
+  }
+  log::put_data_end(out, 0);
+  log::put_footer(out, 0, 0, 0);
+  return out.data();
+}
+
+TEST_F(ReadTest, ALogWithAnOpenSchemaOrNoneHasTheNumbersOfItsMessages) {
+  for (const std::uint16_t schema : {0, 1}) {
+    const Recorded r = read_recording(put("a.mcap", open_log(schema)), {});
+    ASSERT_EQ(r.columns.size(), 1u);
+    EXPECT_EQ(r.columns[0].name, "/elbow.state.angle");
+    const std::vector<double> values = r.columns[0].values.in_memory();
+    ASSERT_EQ(values.size(), 4u);
+    EXPECT_EQ(values[0], 30);
+    EXPECT_TRUE(std::isnan(values[1]) && std::isnan(values[2]));
+    EXPECT_EQ(values[3], 60);
+    EXPECT_TRUE(r.complete);
+  }
+}
+
+TEST_F(ReadTest, LabViewsHeaderHasTheClockAndTheUnits) {
+  const std::string head =
+      "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tNo\n"
+      "***End_of_Header***\t\n\t\nChannels\t1\t\nY_Unit_Label\tMPa\t\nX0\t0,5\t\n"
+      "Delta_X\t0,01\t\n***End_of_Header***\t\t\nX_Value\tDruck ABS.\tComment\n";
+  const Recorded r = read_recording(put("a.lvm", head + "\t0,1\tok\n\t0,2\n\t0,3\n\t0,4\n"), {});
+  ASSERT_EQ(r.columns.size(), 1u);
+  EXPECT_EQ(r.columns[0].values.in_memory(), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(r.clocks[0].time_ns.in_memory(),
+            (std::vector<std::int64_t>{500'000'000, 510'000'000, 520'000'000, 530'000'000}));
+}
+
+TEST_F(ReadTest, MarkersDatesAndShortRowsAreLeftOutAndCounted) {
+  const std::string text =
+      "t [s],angle [deg]\n01/17/26 12:50:48\n0,1\n1,2\n__ERROR__\n2,3\n3,lost\n4,5\n5\n6,7\n";
+  Mapping m;
+  EXPECT_NE(error_of(put("a.csv", text)).find("drop_incomplete=true"), std::string::npos);
+  m.table.drop_incomplete = true;
+  const Recorded r = read_recording(put("a.csv", text), m);
+  EXPECT_EQ(r.clocks[0].time_ns.size(), 6u);
+  EXPECT_EQ(r.columns[0].values[1], 2);
+  EXPECT_EQ(r.columns[0].values[5], 7);
+  std::string notes;
+  for (const std::string& note : r.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("2 lines with another number of cells"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("\"01/17/26 12:50:48\": left out"), std::string::npos) << notes;
+}
+
+TEST_F(ReadTest, ShiftJisAndGitLfsAreNamed) {
+  EXPECT_NE(error_of(put("a.csv", "\x8E\x9E\x8A\xD4[s],\x88\xB3\x97\xCD\n0,1\n"))
+                .find("iconv -f SHIFT_JIS"),
+            std::string::npos);
+  EXPECT_NE(error_of(put("b.csv",
+                         "time [s],T [\xB0"
+                         "C]\n0,1\n"))
+                .find("latin1"),
+            std::string::npos);
+  EXPECT_NE(error_of(put("c.csv", "version https://git-lfs.github.com/spec/v1\noid a\n"))
+                .find("git lfs pull"),
+            std::string::npos);
+}
+
 TEST_F(ReadTest, ALogThatIsCompressedSaysWhatToDo) {
   log::Bytes out;
   out.raw(log::kMagic);

@@ -34,6 +34,20 @@ SaidSeparator said_separator(std::string_view text) {
   return {line[4], next};
 }
 
+// A line of LabVIEW's header: a key, then its value, or one for each column.
+void take_labview(const Row& line, LabViewHeader& out) {
+  out.is_there = true;
+  if (line.cells.size() < 2) return;
+  const std::string_view key = line.cells[0].text, value = line.cells[1].text;
+  const auto number = number_in(value) ? number_in(value) : number_in(value, {','});
+  if (key == "X_Columns") out.has_x = value != "No";
+  if (key == "Decimal_Separator" && value.size() == 1) out.decimal = value[0];
+  if (key == "Delta_X" && number) out.step = *number;
+  if (key == "X0" && number) out.first = *number;
+  if (key != "Y_Unit_Label") return;
+  for (std::size_t i = 1; i < line.cells.size(); ++i) out.units.emplace_back(line.cells[i].text);
+}
+
 Sample read_sample(std::string_view text, char separator, std::size_t begin) {
   Sample out{.separator = separator};
   RowReader reader(text, separator, begin, begin > 0 ? 2 : 1);
@@ -46,6 +60,7 @@ Sample read_sample(std::string_view text, char separator, std::size_t begin) {
     }
     // LabVIEW's own table begins behind the last of these.
     if (row.cells.front().text == "***End_of_Header***") {
+      for (const Row& line : out.rows) take_labview(line, out.labview);
       out.rows.clear();
       continue;
     }

@@ -11,7 +11,16 @@
 
 namespace sinew::recording {
 
+// What the header of LabVIEW's own tables has of the rows below it.
+struct LabViewHeader {
+  bool is_there = false, has_x = true;
+  double step = 0, first = 0;      // Delta_X and X0  [s]
+  char decimal = '\0';             // '\0': not given
+  std::vector<std::string> units;  // of the columns behind X_Value
+};
+
 struct Sample {
+  LabViewHeader labview;
   char separator = ',';
   int first_line = 0;             // that holds something
   std::vector<Row> rows;          // of these and the following lines

@@ -23,8 +23,12 @@ struct Source {
   std::map<std::string, std::string> clock_units;
   // The file's name -> "fill" or "100, 200": only rows with one of these values are read.
   std::map<std::string, std::string> where;
-  bool drop_incomplete = false;           // leave out rows with cells that are no numbers
-  double atmosphere = units::atmosphere;  // [Pa]
+  // "NAME=VALUE" of a wanted column that the file does not have, "pressure=2 bar gauge"; of files
+  // with PART in their name: "PART:NAME=VALUE".
+  std::vector<std::string> values;
+  std::map<std::string, std::string> offsets;  // wanted name -> added to its numbers, "200 mm"
+  bool drop_incomplete = false;                // leave out rows with cells that are no numbers
+  double atmosphere = units::atmosphere;       // [Pa]
 
   // A file may leave these open. Empty: they are read off the file, and it is refused where it does
   // not show them.

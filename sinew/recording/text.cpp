@@ -42,6 +42,8 @@ constexpr Known known_files[] = {
      "a file packed by xz", "unxz, which unpacks it"},
     {"7z\xBC\xAF"sv, "an archive (.7z)", "to unpack it"},
     {"\x89MCAP"sv, "a log in MCAP", "`time [s]` and the columns as CSV, which `export` writes"},
+    {"version https://git-lfs"sv, "a pointer of git-lfs, without the file's content",
+     "git lfs pull, which fetches it"},
     {"PAR1"sv, "a Parquet file", "pandas' to_csv"},
     {"SQLite format 3"sv, "an SQLite database", "a query whose rows are saved as CSV"},
     {"\x93NUMPY"sv, "an array of NumPy (.npy)", "numpy.savetxt with a header and delimiter=','"},
@@ -191,12 +193,31 @@ void refuse_zeros(Text& text, const std::string& file) {
                "another copy of the file: this one is damaged, or no table");
 }
 
+// Letters of Shift-JIS: bytes of 81 to 9F, which Latin-1 does not use, before a second byte.
+bool is_shift_jis(std::string_view bytes) {
+  std::size_t pairs = 0;
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    const auto byte = [&](std::size_t i) {
+      return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
+    };
+    const unsigned first = byte(at), second = byte(at + 1);
+    if (first < 0x80 || (first >= 0xA1 && first <= 0xDF)) continue;
+    const bool leads = (first >= 0x81 && first <= 0x9F) || (first >= 0xE0 && first <= 0xFC);
+    if (!leads || second < 0x40 || second == 0x7F || second > 0xFC) return false;
+    pairs += first <= 0x9F ? 1 : 0;
+    ++at;
+  }
+  return pairs > 1;
+}
+
 void refuse_other_encodings(const std::string& utf8, const std::string& file) {
   const std::size_t at = first_other_byte(utf8);
   if (at == utf8.size()) return;
   config::fail(place_of(file, utf8, at), "",
                fmt::format("a byte {:02x} that is no UTF-8", static_cast<unsigned char>(utf8[at])),
-               "a table in UTF-8", "encoding=latin1, or iconv -f LATIN1 -t UTF-8");
+               "a table in UTF-8",
+               is_shift_jis(utf8) ? "iconv -f SHIFT_JIS -t UTF-8, as it looks like Shift-JIS"
+                                  : "encoding=latin1, or iconv -f LATIN1 -t UTF-8");
 }
 
 // A table takes memory for its text, and 8 bytes for each of its cells, which are shorter than that

@@ -24,7 +24,8 @@ constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
 constexpr int fewest_rests = 6;                 // of a recording that goes from level to level
 constexpr std::size_t most_omitted = 60;        // samples of a recording that are kept to be shown
 
-constexpr std::pair<std::string_view, double> branch_words[] = {{"fill", 1.0}, {"vent", -1.0}};
+constexpr std::pair<std::string_view, double> branch_words[] = {
+    {"fill", 1.0}, {"vent", -1.0}, {"auf", 1.0}, {"ab", -1.0}};
 
 const Wanted static_wanted[] = {
     {.name = "force",
@@ -110,9 +111,12 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
 }
 
 void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {
-  refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
-                  "several pressures: a static law says how force grows with them",
-                  "fill the muscle step by step");
+  const auto pressure = std::ranges::find(m.columns, "pressure", &recording::Column::name);
+  const bool is_one_of_several = pressure != m.columns.end() && pressure->is_stated;
+  if (!is_one_of_several)
+    refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
+                    "several pressures: a static law says how force grows with them",
+                    "fill the muscle step by step");
   if (m.has("time")) refuse_full(m, "pressure", m["pressure"]);
   if (m.has("time")) refuse_full(m, "force", force);
 

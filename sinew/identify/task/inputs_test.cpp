@@ -153,7 +153,7 @@ TEST(Inputs, AreToldAsJson) {
   };
   EXPECT_TRUE(contains(named("rest_length")["units"], "mm"));
   EXPECT_TRUE(contains(named("pressure")["units"], "psi gauge"));
-  EXPECT_EQ(named("branch")["words"], (Json{"fill", "vent"}));
+  EXPECT_EQ(named("branch")["words"], (Json{"fill", "vent", "auf", "ab"}));
   EXPECT_EQ(named("time")["quantity"], "time");
 }
 

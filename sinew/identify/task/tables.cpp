@@ -52,6 +52,8 @@ std::vector<std::string> words_of(const std::vector<Source>& sources) {
   for (const auto& [name, unit] : how.units) out.push_back("unit " + name + "=" + unit);
   for (const auto& [name, values] : how.where)
     out.push_back("only rows with " + name + "=" + values);
+  for (const std::string& value : how.values) out.push_back("value " + value);
+  for (const auto& [name, offset] : how.offsets) out.push_back("added to " + name + ": " + offset);
   std::string header;
   for (const std::string& column : how.columns) header += (header.empty() ? "" : ",") + column;
   if (!header.empty()) out.push_back("header " + header);

@@ -62,7 +62,7 @@ const char* kind_of(const matvar_t& of) {
       return "a function";
     case MAT_C_OBJECT:
     case MAT_C_OPAQUE:
-      return "an object of a class";
+      return "an object of a class; of a table, table2struct(T, 'ToScalar', true) makes vectors";
     default:
       return "more than two dimensions";
   }

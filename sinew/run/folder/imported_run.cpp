@@ -12,6 +12,7 @@
 #include "sinew/log/file.h"
 #include "sinew/recording/assemble.h"
 #include "sinew/recording/read.h"
+#include "sinew/recording/stated.h"
 #include "sinew/robot/legs.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/files.h"
@@ -55,9 +56,17 @@ recording::Assembled read(const ImportRequest& request, const std::vector<signal
       config::fail({file, 0, 0}, "", "the same file a second time", "each file once");
     files.push_back(recording::read_recording(file, mapping, request.read));
   }
-  return recording::assemble(
+  recording::check_stated(request.values, request.files);
+  for (recording::Recorded& file : files) recording::add_stated(request.values, file);
+  recording::Assembled out = recording::assemble(
       files, mapping, topics,
       {.at_end = request.join_at_end, .shifts = request.shifts, .atmosphere = atmosphere});
+  // A mapping is of columns, which such a value has not.
+  for (const std::string& text : request.values)
+    std::erase_if(out.used.columns, [name = recording::stated_in(text).name](const auto& c) {
+      return c.name == name;
+    });
+  return out;
 }
 
 std::vector<experiment::ImportedFile> facts_of(const recording::Assembled& of) {

@@ -33,6 +33,7 @@ struct ImportRequest {
   recording::Mapping mapping;                 // besides, and in place of the file's
   bool join_at_end = false;                   // files follow each other; else they are side by side
   std::map<std::string, std::string> shifts;  // file -> "0.12 s", by which it is later
+  std::vector<std::string> values;            // "[PART:]CHANNEL=VALUE" of a whole file
   std::string save_mapping;  // a file for what the columns were taken for; empty: none
   std::string folder;        // as RunRequest's
   bool force = false;
