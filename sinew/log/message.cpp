@@ -120,14 +120,15 @@ void add_numbers(const Json& object, const std::string& prefix, std::vector<sign
   }
 }
 
-// Numbers that JSON does not have, and most programs write: null in their place.
+// Numbers that JSON does not have, in the words in which Python and others write them: null in
+// their place.
 std::string with_nulls(std::string_view text) {
   std::string out;
   bool in_text = false;
   for (std::size_t at = 0; at < text.size(); ++at) {
     if (text[at] == '"' && (at == 0 || text[at - 1] != '\\')) in_text = !in_text;
     std::string_view rest = text.substr(at);
-    for (const std::string_view word : {"-Infinity", "Infinity", "NaN", "-inf", "inf", "nan"}) {
+    for (const std::string_view word : {"-Infinity", "Infinity", "NaN"}) {
       if (in_text || !rest.starts_with(word)) continue;
       out += "null";
       at += word.size();
@@ -148,6 +149,14 @@ Json object_in(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_open_schema(std::string_view schema) {
+  if (schema.empty()) return true;
+  Json json;
+  if (!Json::parse(schema, json) || !json.is_object()) return false;
+  const Json* properties = json.find("properties");
+  return !properties || (properties->is_object() && properties->items().empty());
+}
 
 std::optional<signals::Topic> from_message(std::string_view text, std::string_view topic) {
   const Json json = object_in(text);

@@ -30,6 +30,9 @@ std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topi
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
 
 // Writes and reads the messages of one topic.
+// Is it a JSON schema of objects that names none of their properties?
+bool is_open_schema(std::string_view schema);
+
 // Returns a topic with a field for each number in a message, of a log whose schema has none of
 // them.
 std::optional<signals::Topic> from_message(std::string_view text, std::string_view topic);

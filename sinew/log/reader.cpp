@@ -125,7 +125,7 @@ bool Collector::take_channel(std::string_view content) {
   auto topic = has_schema ? from_schema(schema->second.data, channel->topic) : std::nullopt;
   if (topic)
     add_series(channel->id, std::move(*topic), channel->metadata);
-  else
+  else if (schema == schemas_.end() || is_open_schema(schema->second.data))
     open_.emplace(channel->id, channel->topic);
   return true;
 }

@@ -106,13 +106,13 @@ TEST(Wrong, NumbersThatCanBeTwoThingsAreNotGuessed) {
        "lab.csv:2:5: F: found \"1.234\"; expected a number; try thousands=\".\" if the point parts "
        "thousands"},
       {header + "0,5;1.234,5\n",
-       "found \"1.234,5\"; expected a number; try thousands=\".\", which parts"},
+       "found \"1.234,5\"; expected a number; try thousands=\".\", the mark"},
       {header + "0.5;1,234.5\n",
-       "found \"1,234.5\"; expected a number; try thousands=\",\", which parts"},
+       "found \"1,234.5\"; expected a number; try thousands=\",\", the mark"},
       {header + "0.5;1 234.5\n",
-       "found \"1 234.5\"; expected a number; try thousands=\" \", which"},
+       "found \"1 234.5\"; expected a number; try thousands=\" \", the mark"},
       {header + "0.5;1'234.5\n",
-       "found \"1'234.5\"; expected a number; try thousands=\"'\", which"},
+       "found \"1'234.5\"; expected a number; try thousands=\"'\", the mark"},
       {header + "0,5;12,5\n0,6;12.5\n", "a decimal comma, as in other rows: 12,5"},
       {header + "0.5;12.5\n0.6;13.5\n0.7;12,5\n",
        "lab.csv:4:5: F: found \"12,5\"; expected a "
