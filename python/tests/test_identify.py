@@ -32,7 +32,8 @@ class Static(unittest.TestCase):
         for wrong in (-1.0, 0.0, float("inf")):
             with self.assertRaisesRegex(ValueError, "rest_length: found"):
                 sinew.identify.static(length, pressure, force, rest_length=wrong)
-        masked = numpy.ma.masked_less(numpy.asarray(force), 10)
+        held = numpy.asarray(force)
+        masked = numpy.ma.MaskedArray(held, mask=held < 10)
         with self.assertRaisesRegex(ValueError, "force: found a masked array"):
             sinew.identify.static(length, pressure, masked)
 
