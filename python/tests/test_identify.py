@@ -33,7 +33,7 @@ class Static(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "rest_length: found"):
                 sinew.identify.static(length, pressure, force, rest_length=wrong)
         held = numpy.asarray(force)
-        masked = numpy.ma.MaskedArray(held, mask=held < 10)
+        masked: Any = numpy.ma.MaskedArray(held, mask=held < 10)  # type: ignore[no-untyped-call]
         with self.assertRaisesRegex(ValueError, "force: found a masked array"):
             sinew.identify.static(length, pressure, masked)
 
