@@ -29,7 +29,6 @@ std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topi
 // kinds, which foreign logs have, are left out; those of an object within it are called `pose.x`.
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
 
-// Writes and reads the messages of one topic.
 // Is it a JSON schema of objects that names none of their properties?
 bool is_open_schema(std::string_view schema);
 
@@ -37,6 +36,7 @@ bool is_open_schema(std::string_view schema);
 // them.
 std::optional<signals::Topic> from_message(std::string_view text, std::string_view topic);
 
+// Writes and reads the messages of one topic.
 class MessageFormat {
  public:
   // Takes the fields of the topic, in their order.

@@ -16,6 +16,7 @@ class Unwrapper {
   // where a power of two explains it to within one sample: any other is left as it is.
   double operator()(double time);
 
+  // Returns how often it has begun again.
   std::size_t wraps() const { return wraps_; }
   int bits() const { return bits_; }  // of the counter, once it has begun again
 
