@@ -82,6 +82,7 @@ async function follow(page, hit) {
 const searches = [
   ['effectiveness', /actuator/, /effectiveness/i],
   ['inlet', /./, /inlet/i],
+  ['pressure', /./, /pressure/i],
   ['predict.dat', /./, /predict[._]dat/],
   ['AirNetwork::move_valves', /^reference\/cpp\/air\.html/, /AirNetwork::move_valves/],
   ['stiffness_at_constant_pressure', /^reference\/cpp\/actuator\.html/, /stiffness_at_constant_pressure/],
