@@ -52,7 +52,7 @@ ExitCode compare_runs(const CompareOptions& options) {
   const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
                                                           options.channels, messages.notices());
 
-  // Files come before what is printed: a reader of it that ends early, such as head, ends the
+  // Files come before what is printed: a reader that ends early, such as head, ends the
   // program.
   if (!options.residuals.empty()) {
     run::write_file(options.residuals, report::residuals_csv(comparison));

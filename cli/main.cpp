@@ -27,7 +27,7 @@ namespace {
 using namespace sinew;
 
 // Returns the error's words. Where a robot was given in place of an experiment, they name the
-// command that makes one of it, with its option, which the library does not know.
+// command that makes an experiment from a robot, with its option, which the library does not have.
 std::string words_of(const std::exception& e) {
   const auto* file = dynamic_cast<const config::Error*>(&e);
   if (!file || file->problems().size() != 1) return e.what();

@@ -119,7 +119,7 @@ ExitCode tune_all(const TuneOptions& given) {
                     tuned.candidates.size() / tuning.method.population, tuning.generations,
                     options.runs.results));
   }
-  // Files come before what is printed: a reader of it that ends early ends the program.
+  // Files come before what is printed: a reader that ends early ends the program.
   if (!options.out.empty()) write_table(tuning, tuned, options);
   if (!options.best.empty())
     run::write_file(options.best,

@@ -39,8 +39,8 @@ std::vector<run::Delivered> deliveries(const gas::Valve& valve, const ValveOptio
   return out;
 }
 
-// By an energy balance between its two limits, and with walls where somebody stated them; or by an
-// exponent.
+// Returns the times by an energy balance: its two limits and, where a wall time is given, what lies
+// between them; or those by an exponent.
 std::vector<run::Transfers> transfers(const gas::Valve& valve, gas::Air air, double volume,
                                       const gas::ValveFlow& f, const ValveOptions& options) {
   std::vector<run::Transfers> out;

@@ -66,8 +66,8 @@ inline double clamped_tension(const Actuator& a, double length, double velocity,
   return inside + a.short_end.stiffness * (length - shortest) + a.short_end.damping * velocity;
 }
 
-// What a muscle pulls with whose ends are free to come together: it cannot push, so that the law of
-// the clamped actuator ends at 0  [N].
+// Returns the tension of a muscle whose ends are free to come together  [N]. It cannot push: where
+// the clamped actuator would, the tension is 0.
 inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
                       double atmosphere) {
   const double both_ways = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);

@@ -52,7 +52,7 @@ class DrivenMuscle {
   void exhaust(bool on);
 
   // Set point of a regulator in the inlet's place from now on, 0 to 1 of its range. Throws
-  // std::invalid_argument where there is none.
+  // std::invalid_argument if the muscle has no such valve.
   void set_point(double share);
 
   // Lets `step` [s] pass, in which the muscle comes to be `length` [m] long.

@@ -27,7 +27,7 @@ std::optional<double> gained(const signals::Table& table, const std::string& top
   return s->columns[0].back() - s->columns[0].front();
 }
 
-// From the first sample of any topic to the last one  [s].
+// Returns the span from the first sample of any topic to the last one  [s].
 Span span_of(const signals::Table& table) {
   std::int64_t from = std::numeric_limits<std::int64_t>::max(), to = 0;
   for (const signals::Series& s : table.series) {
@@ -38,7 +38,7 @@ Span span_of(const signals::Table& table) {
   return {1e-9 * static_cast<double>(from), 1e-9 * static_cast<double>(to)};
 }
 
-// What one valve of a muscle was commanded, and what came through.
+// Holds the pulses of one valve of a muscle, and how much of its duty it delivers.
 struct Pulses {
   Occasions times;
   std::vector<double> lasts;            // of each, but one that the log's end cuts off [s]
@@ -67,7 +67,7 @@ struct Unopened {
 };
 
 constexpr double hardly = 0.1;       // delivered of what was commanded [-]
-constexpr double commanded = 0.005;  // of the time, from which on a valve is asked to do something
+constexpr double commanded = 0.005;  // least share of the time that counts as a duty [-]
 
 void add_unopened(const signals::Table& table, const Machine& machine, const robot::Muscle& muscle,
                   bool inlet, Unopened& out) {

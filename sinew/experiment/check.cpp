@@ -116,6 +116,10 @@ void check_muscles(const Experiment& e, List& out) {
     for (const auto& [which, valve] :
          {std::pair{".inlet.valve", &chamber->inlet}, {".exhaust.valve", &chamber->exhaust}})
       if (!valve->empty()) need(std::string(key) + which, *valve, e.valves, out);
+}
+
+// A braid cannot be longer than its thread.
+void check_lengths(const Experiment& e, List& out) {
   for (const robot::Muscle& m : e.robot.muscles)
     for (const actuator::Actuator& a : e.actuators) {
       if (a.name != m.actuator || m.mount_length < a.braid.thread_length) continue;
@@ -284,6 +288,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   if (!runs && kind != "robot") return;
   List wrong;
   check_muscles(e, wrong);
+  check_lengths(e, wrong);
   check_valves(e, wrong);
   check_pressure_law(e, wrong);
   check_supply(e, wrong);

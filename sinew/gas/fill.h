@@ -14,7 +14,7 @@
 // The polytrope is the law of a muscle whose air has an exponent. For a rigid volume the balance of
 // energy is the better law. Its two limits are walls that pass no heat and walls that keep the air
 // at the room's temperature; real walls lie between them, or some percent beyond the slower one, as
-// air that was warmed or cooled first goes on changing its pressure.
+// air that was warmed or cooled first continues to change its pressure.
 //
 // Without the valve's opening delay; a volume that moves or hoses that resist take longer.
 #pragma once
@@ -91,7 +91,7 @@ double transfer_time_by(const Flow& flow, const Air& air, double volume, double 
   return time;
 }
 
-// By the polytrope of `air`, [40].
+// Returns the time by the polytrope of `air`, [40]  [s].
 inline double transfer_time(const Flow& flow, const Air& air, double volume, double port,
                             double from, double to) {
   return transfer_time_by(flow, air, volume, port, from, to, [&](double p) {
@@ -99,9 +99,9 @@ inline double transfer_time(const Flow& flow, const Air& air, double volume, dou
   });
 }
 
-// By the balance of energy, through walls that pass no heat  [s]: air that enters brings
-// c_p T_room, P' = gamma R T_room m'/V; air that stays expands along its adiabat, so that what
-// leaves is cold.
+// Returns the time by the balance of energy, with walls that pass no heat  [s]: air that enters
+// brings c_p T_room, P' = gamma R T_room m'/V; air that stays expands along its adiabat, so that
+// what leaves is cold.
 inline double adiabatic_transfer_time(const Flow& flow, const Air& air, double volume, double port,
                                       double from, double to) {
   constexpr double k = heat_capacity_ratio;
@@ -111,7 +111,7 @@ inline double adiabatic_transfer_time(const Flow& flow, const Air& air, double v
   });
 }
 
-// Through walls that keep the air at the room's temperature  [s].
+// Returns the time with walls that keep the air at the room's temperature  [s].
 inline double isothermal_transfer_time(const Flow& flow, const Air& air, double volume, double port,
                                        double from, double to) {
   const double room = 1.0 / (air.gas_constant * air.temperature);

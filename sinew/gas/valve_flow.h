@@ -27,8 +27,8 @@ struct Transfer {
   double share = 0, fill = 0, vent = 0;  // [-], [s]
 };
 
-// What the air of the volume exchanges with its walls: nothing; heat, with the air's wall_time; as
-// much heat as keeps it at the room's temperature; or whatever makes it the polytrope of the air.
+// Names how the air of the volume exchanges heat with its walls: not; with the air's wall_time; so
+// quickly that it keeps the room's temperature; or as the polytrope of the air has it.
 enum class Exchange { adiabatic, walls, isothermal, polytrope };
 
 // Returns the flow from `upstream` to `downstream` [Pa abs].

@@ -111,7 +111,7 @@ TEST(Transfers, WallsLieBetweenTheirLimits) {
       const auto walls = times(Exchange::walls);
       for (std::size_t k = 0; k < walls.size(); ++k) {
         EXPECT_GT(walls[k].fill, (1 - 1e-4) * quick[k].fill);
-        EXPECT_LT(walls[k].fill, 1.08 * slow[k].fill);  // what cools goes on
+        EXPECT_LT(walls[k].fill, 1.08 * slow[k].fill);  // cooling continues
         if (share < 1) continue;
         EXPECT_NEAR(walls[k].fill, quick[k].fill, 5e-3 * quick[k].fill);
         EXPECT_NEAR(walls[k].vent, quick[k].vent, 5e-3 * quick[k].vent);

@@ -140,7 +140,7 @@ std::string with_nulls(std::string_view text) {
   return out;
 }
 
-// The object of a message; another kind of value where it is none.
+// Returns the object of a message; another kind of value where the message holds no object.
 Json object_in(std::string_view text) {
   Json json;
   if (Json::parse(text, json)) return json;

@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topi
 // kinds, which foreign logs have, are left out; those of an object within it are called `pose.x`.
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
 
-// Is it a JSON schema of objects that names none of their properties?
+// Returns whether it is a JSON schema of objects that names no property of theirs.
 bool is_open_schema(std::string_view schema);
 
 // Returns a topic with a field for each number in a message, of a log whose schema has none of

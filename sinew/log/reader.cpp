@@ -61,7 +61,7 @@ class Collector {
   std::map<std::uint16_t, Schema> schemas_;
   // By channel number; null for a channel that is passed over.
   std::map<std::uint16_t, std::unique_ptr<Source>> sources_;
-  // Channels whose schema has no number, until a message shows theirs; and their topics.
+  // Channels with an open schema and their topics, until a first message shows the fields.
   std::map<std::uint16_t, std::string> open_;
   const signals::PageFile pages_ = signals::PageFile::make();
   std::vector<signals::Series> series_;

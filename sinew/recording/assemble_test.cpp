@@ -281,10 +281,10 @@ TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
   ASSERT_EQ(s.time_ns.size(), 235u);
   for (std::size_t i = 0; i < s.time_ns.size(); ++i)
     EXPECT_NEAR(static_cast<double>(s.time_ns[i]), 1e7 * static_cast<double>(i), 1e3);
-  // A pause is none of its step.
+  // A pause is no step.
   const std::string pause = "time [s],w [rad]\n0,1\n0,2\n1,3\n1,4\n9,5\n9,6\n";
   EXPECT_EQ(series(take({put("b.csv", pause)}, m), "/joint/elbow/angle").time_ns[3], 1'500'000'000);
-  // One time alone says nothing: the rate of the rows has to.
+  // One time alone gives no rate: the rate of the rows must.
   const std::string six = "time,w [rad]\n1.73234e+09,1\n1.73234e+09,2\n";
   EXPECT_NE(error_of({put("c.csv", six)}, m).find("rate=\"100 Hz\""), std::string::npos);
   m.table.spread_times = false;

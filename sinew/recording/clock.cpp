@@ -105,7 +105,7 @@ std::optional<std::int64_t> SplitSeconds::read(const Row& row, NumberStyle style
 
 namespace {
 
-// How the names of the two columns end.
+// Ends of the names of the two columns.
 struct SplitName {
   std::string_view seconds, rest;
   double unit;

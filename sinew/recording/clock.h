@@ -51,7 +51,7 @@ struct SplitSeconds {
   std::size_t seconds = 0, rest = 0;  // columns
   double unit = 1;                    // of the rest  [s]
 
-  // Returns the time  [ns]; nothing where a cell is no number, `cell` is that one.
+  // Returns the time  [ns]; nothing if a cell holds no number, and `cell` is that one.
   std::optional<std::int64_t> read(const Row& row, NumberStyle style, std::size_t& cell) const;
 };
 

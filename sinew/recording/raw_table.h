@@ -29,8 +29,8 @@ struct RawTable {
   std::vector<double> time;        // since the first row  [s]; empty where the file has no clock
   double first = 0;                // the first row's own, of a clock of numbers  [s]
   std::string clock;               // what the times are from: "column Zeit", "rate 100 Hz"
-  std::string start;  // of the first row, "2026-11-24T10:15:30.125"; empty where nobody knows
-  // The same since 1970 or, without dates, since a midnight [ns]; UTC where there is a zone.
+  std::string start;               // of the first row, "2026-11-24T10:15:30.125"; empty: unknown
+  // The same since 1970 or, without dates, since a midnight [ns]; UTC if the table has a zone.
   std::optional<std::int64_t> instant;
   bool has_date = true;
   std::optional<std::int64_t> zone;  // local minus UTC [ns]; absent: the file gives no zone

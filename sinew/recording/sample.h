@@ -11,7 +11,7 @@
 
 namespace sinew::recording {
 
-// What the header of LabVIEW's own tables has of the rows below it.
+// Holds the clock and units that the header of a LabVIEW table gives for its rows.
 struct LabViewHeader {
   bool is_there = false, has_x = true;
   double step = 0, first = 0;      // Delta_X and X0  [s]

@@ -27,7 +27,7 @@ struct Source {
   // with PART in their name: "PART:NAME=VALUE".
   std::vector<std::string> values;
   std::map<std::string, std::string> offsets;  // wanted name -> added to its numbers, "200 mm"
-  bool drop_incomplete = false;                // leave out rows with cells that are no numbers
+  bool drop_incomplete = false;                // leave out rows with cells that hold no number
   double atmosphere = units::atmosphere;       // [Pa]
 
   // A file may leave these open. Empty: they are read off the file, and it is refused where it does

@@ -20,7 +20,7 @@ struct Stated {
 Stated stated_in(const std::string& text);
 
 // Adds a column for each value of that file, called as its channel, with the times of its first
-// clock. Throws config::Error for a value that is no number with a unit.
+// clock. Throws config::Error for a value other than a number with a unit.
 void add_stated(const std::vector<std::string>& values, Recorded& file);
 
 // Throws config::Error where the part of a value is in the name of no file: a slip.

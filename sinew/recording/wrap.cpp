@@ -32,7 +32,7 @@ std::optional<double> Unwrapper::range_of(double time) const {
       const bool as_far = std::abs(range - (last_ - time) - step_) <= step_;
       const double begin = time < 0 ? -range / 2 : 0;
       const bool at_ends = time >= begin && time - begin <= 2 * step_;
-      // Fewer samples than these in a whole turn say nothing about its length.
+      // Fewer samples than these in a whole turn do not show its length.
       if (!as_far || !at_ends || range < 16 * step_) continue;
       bits_ = bits;
       return range;

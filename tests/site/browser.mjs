@@ -57,7 +57,7 @@ async function first_hit(page, words) {
   const items = page.locator('.md-search-result__item');
   const type = async (text) => {
     await page.fill('.md-search__input', text);
-    await page.press('.md-search__input', 'End');  // the page looks at what was typed when a key goes up
+    await page.press('.md-search__input', 'End');  // the page reads its box when a key goes up
   };
   await page.click('.md-search__input');
   await type('');

@@ -92,7 +92,8 @@ void fields(Visitor& v, MachineFault& fault) {
   fault.end = fault.begin + lasts;
 }
 
-// Did somebody set a key with --set? A seed, a log and a page change nothing of the experiment.
+// Returns whether a key was set with --set. A seed, a log and a page change nothing of the
+// experiment.
 bool is_changed(const config::Node& node, std::string_view key = {}) {
   for (const std::string_view same : {"seed", "log", "page", "title"})
     if (key == same) return false;

@@ -69,7 +69,8 @@ std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
                              double atmosphere = units::atmosphere,
                              const units::ShownUnits* shown = nullptr);
 
-// Takes the judgement away where a run was changed: what the source reports is of another one.
+// Returns the verdicts without their judgement: for a changed run, which the source does not
+// describe.
 std::vector<Verdict> unjudged(std::vector<Verdict> verdicts);
 
 // Returns the unit in which `shown` has a figure of that key, for show(): "mm", "bar gauge".

@@ -165,7 +165,7 @@ TEST(Reported, AWordingNeedsItsNumber) {
   EXPECT_THAT(with("share", "0.94", Wording::percentage), HasSubstr("a value in %"));
 }
 
-// A run that was changed is not what the source speaks of: neither green nor red.
+// The source describes another run than one that was changed: no verdict is green or red.
 TEST(Reported, IsNotJudgedWhereTheRunWasChanged) {
   std::vector<Verdict> verdicts(2);
   verdicts[0].is = Verdict::Is::differs;

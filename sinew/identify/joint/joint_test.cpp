@@ -302,7 +302,7 @@ TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
 }
 
 // A load in grams that is called kilograms, a pressure of the other muscle: the numbers that fit
-// lie at the bounds of all ranges, so that no covariance is left. An answer in words or in numbers.
+// lie at the bounds of all ranges, so that no covariance is left. The result is words or numbers.
 TEST(Joint, AnyColumnThatIsAThousandTimesOffOrExchangedIsAnswered) {
   const Measured right = poses({}, true, 1e-3, 39, 12);
   const auto is_answered = [](const Measured& data) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double answer_seconds = 0.5;
 constexpr int tries = 3;
 constexpr double read_seconds = 0.05;  // of one read at most, so that a signal is heeded
-// How long after a run's first command an armed board is sent it again.
+// A board that is still armed so long after a run's first command gets it again.
 constexpr double patience_to_begin = 0.05;
 
 double wall_seconds() {
@@ -137,7 +137,7 @@ void RemoteBoard::hear(const link::Frame& frame) noexcept {
 // --- before a run -------------------------------------------------------------------------------
 
 // As listen(), where what is waited for may be given up. A board that streams is heard all the
-// time, so whoever calls this in a loop looks at the clock as well.
+// time, so a caller's loop reads the clock as well.
 void RemoteBoard::listen_or_throw(double seconds) {
   telemetry_ = nullptr;
   (void)listen(std::min(seconds, read_seconds));
@@ -190,7 +190,7 @@ link::Identity RemoteBoard::identify() {
   throw BoardError("nobody answers: is the board powered, and this its line?");
 }
 
-// Sends one transfer, up to the first message that is refused. Returns the last answer.
+// Sends one transfer, up to the first message that is refused. Returns the last reply.
 link::Answer RemoteBoard::transfer(const link::ConfigurationSender& sender) {
   link::Answer answer = ask(sender.begin());
   for (std::size_t i = 0; i < sender.chunks && answer.code == Code::done; ++i)
@@ -198,8 +198,8 @@ link::Answer RemoteBoard::transfer(const link::ConfigurationSender& sender) {
   return answer.code == Code::done ? ask(sender.end()) : answer;
 }
 
-// A message whose answer was lost is there twice, and so is what a host that was ended has left of
-// a transfer: the board refuses that by its order, and another transfer begins anew.
+// A message whose reply was lost is there twice, and so is what a host that was ended has left of
+// a transfer: the board refuses that by its order, and another transfer begins again.
 void RemoteBoard::configure(const link::Configuration& configuration) {
   const link::ConfigurationSender sender(configuration);
   if (!sender.ok()) throw BoardError("the configuration has a number that a board cannot have");
@@ -227,7 +227,7 @@ void RemoteBoard::ask_until_done(const M& message, double seconds, const std::st
     const link::Answer answer = ask(message);
     if (answer.code == Code::done) return;
     if (answer.code != Code::state || now() >= until) refuse(answer, what);
-    // Where the answer to an earlier try was lost, it is there already.
+    // It is there already if the reply to an earlier try was lost.
     if (M::type == link::Type::clear_fault && is_seen(BoardState::idle, pause)) return;
     for (const double end = now() + pause; now() < end;) listen_or_throw(0.01);
   }
@@ -238,14 +238,14 @@ void RemoteBoard::clear_fault() {
   ask_until_done(link::ClearFault{}, 1.0, "to leave its fault");
 }
 
-// Sends both frames. Returns the answer to the second.
+// Sends both frames. Returns the reply to the second.
 link::Answer RemoteBoard::arm_twice() {
   ask_until_done(link::ArmFirst{configuration_}, 1.0, "to be armed");
   return ask(link::ArmSecond{answer_->value, configuration_});
 }
 
-// Where the answer to the second frame was lost, the board is armed and refuses the same again;
-// where the frame came too late, both are sent anew.
+// If the reply to the second frame was lost, the board is armed and refuses the same again;
+// where the frame came too late, both are sent again.
 void RemoteBoard::arm() {
   for (int i = 1;; ++i) {
     const link::Answer second = arm_twice();

@@ -30,7 +30,7 @@ struct BoardError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What was waited for of a board was given up, as RemoteBoard::stop_when() has it.
+// Reports that a wait for a board was given up, as RemoteBoard::stop_when() requires.
 struct BoardStopped : BoardError {
   // Has one text, as nothing has moved before a run begins.
   BoardStopped() : BoardError("interrupted before the run has begun; no valve has moved") {}

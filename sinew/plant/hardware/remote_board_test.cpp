@@ -13,7 +13,7 @@
 namespace sinew::plant::remote_board_test {
 namespace {
 
-// A board that says one thing to whatever it hears. Each read of its line takes 10 ms.
+// A board that sends one message whatever it receives. Each read of its line takes 10 ms.
 struct Parrot {
   BoardLine line() {
     return {[this](std::span<const std::uint8_t>) {
@@ -128,7 +128,7 @@ TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
             "board 1 does not answer: is it on this line, at this rate?");
 }
 
-// A line that is never silent, and brings nothing that anybody has said.
+// A line that is never silent and carries only noise.
 struct Noise {
   BoardLine line() {
     return {[](std::span<const std::uint8_t>) { return true; },
@@ -141,7 +141,7 @@ struct Noise {
             },
             [this] { return time; }};
   }
-  link::Bytes said;  // what the board said before the noise began
+  link::Bytes said;  // what the board sent before the noise began
   std::mt19937 random{39};
   double time = 0;
 };

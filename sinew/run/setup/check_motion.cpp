@@ -120,7 +120,7 @@ void warn_of_reach(const Experiment& e, const plant::Setup& setup,
   plant::MuscleRouting::MomentArms<plant::most_muscles> arms{};
   cords.at(angle.data(), still.data(), length, rate, arms);
   int nearest = -1;  // the one that gets furthest
-  double left = 0;   // of it: length above the shortest [m]
+  double left = 0;   // its length above the shortest [m]
   for (int i = 0; i < cords.count(); ++i)
     for (std::size_t s = 0; s < plant::MuscleRouting::most; ++s) {
       const auto m = static_cast<std::size_t>(i);

@@ -14,7 +14,7 @@ struct Delivered {
   double duty = 0, delivered = 0;
 };
 
-// How long a volume takes, by what its air exchanges with the walls, in words.
+// Holds the times that a volume takes, and in words what its air exchanges with the walls.
 struct Transfers {
   std::string exchange;
   std::vector<gas::Transfer> times;

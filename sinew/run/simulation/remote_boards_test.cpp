@@ -61,7 +61,7 @@ TEST(RemoteBoards, ABoardsProgramHasTheSimulationsLogBitForBit) {
 }
 
 // A line that loses one frame of a start-up: the n-th that the host sends, or the n-th identity or
-// answer of the board, which streams telemetry all the while.
+// reply of the board, which streams telemetry all the while.
 struct LosesOne {
   enum class From { host, board } from = From::host;
   int left = 0;

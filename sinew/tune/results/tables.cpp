@@ -135,7 +135,7 @@ std::string json_of(const std::vector<Case>& cases) {
   return out.text();
 }
 
-// The checksum of all but the rows: of what was asked for, the headings and the tables themselves.
+// Returns the checksum of all but the rows: of the request, the headings and the tables themselves.
 std::string checksum_of(Database& database, bool tuning) {
   std::uint64_t h = units::hash("");
   const auto add = [&](const std::string& sql, int columns) {

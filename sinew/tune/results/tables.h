@@ -18,7 +18,7 @@ bool has_study(Database& database, const std::filesystem::path& file);
 // words for each cell, called as its heading; one that would be there twice has a number behind it.
 void make_tables(Database& database, const Asked& asked);
 
-// Writes the checksum of all but the rows into the table `study`, after a change of it.
+// Writes the checksum of all but the rows into the table `study`, after a change.
 void write_checksum(Database& database);
 
 // Returns what the file says was asked for. Throws log::Error for a damaged one.
