@@ -15,6 +15,7 @@
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/legs.h"
+#include "sinew/signals/tick.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::analysis {
@@ -41,7 +42,8 @@ Span span_of(const signals::Table& table) {
 // Holds the pulses of one valve of a muscle, and how much of its duty it delivers.
 struct Pulses {
   Occasions times;
-  std::vector<double> lasts;            // of each, but one that the log's end cuts off [s]
+  std::map<signals::Tick, std::size_t>
+      lasts;                            // how many so long, without one that the end cuts off
   double commanded = 0, delivered = 0;  // shares of the log's time [-]
 };
 
@@ -51,12 +53,24 @@ Pulses pulses_of(const signals::Series& series, const MachineValve& valve, doubl
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].open) continue;
     out.times.add(std::llround(1e9 * list[i].time));
-    if (i + 1 < list.size()) out.lasts.push_back(list[i + 1].time - list[i].time);
+    if (i + 1 == list.size()) continue;
+    // A pulse of a second or more is long in any period, and a long run has few lengths that way.
+    constexpr double longest = 1;  // [s]
+    const double lasts = std::min(list[i + 1].time - list[i].time, longest);
+    ++out.lasts[std::llround(lasts / signals::tick_seconds)];
   }
-  std::ranges::sort(out.lasts);
   out.commanded = open_time(list, from, to) / (to - from);
   out.delivered = open_time(delivered(list, valve.shut, valve.closing), from, to) / (to - from);
   return out;
+}
+
+// Returns how long half of the pulses last at most  [s].
+double half_lasts(const Pulses& pulses) {
+  std::size_t all = 0, so_far = 0;
+  for (const auto& [length, count] : pulses.lasts) all += count;
+  for (const auto& [length, count] : pulses.lasts)
+    if ((so_far += count) > all / 2) return static_cast<double>(length) * signals::tick_seconds;
+  return 0;
 }
 
 // Muscles whose valves of one kind hardly open.
@@ -104,7 +118,7 @@ std::string text_of(const Unopened& all, std::string_view which) {
       "low_level.pwm_ticks, or "
       "a quicker valve",
       all.muscles.front(), more, which, 100 * p.delivered, 100 * p.commanded, p.times.count,
-      1e3 * p.lasts[p.lasts.size() / 2], 1e3 * all.valve.shut);
+      1e3 * half_lasts(p), 1e3 * all.valve.shut);
 }
 
 constexpr double held = units::degree;  // a desired angle that changes by less is held [rad]
