@@ -80,6 +80,14 @@ class AirNetwork {
   const gas::FlowConstants& flow(int valve) const noexcept {
     return taps_[static_cast<std::size_t>(valve)].flow;
   }
+  const gas::Valve& valve(int index) const noexcept {
+    return taps_[static_cast<std::size_t>(index)].valve;
+  }
+  bool ramping() const noexcept { return ramping_; }  // some shutter opens or closes gradually
+  // Replaces the law of a valve's flow, for steps that are cut where it jumps.
+  void set_flow(int valve, const gas::FlowConstants& flow) noexcept {
+    taps_[static_cast<std::size_t>(valve)].flow = flow;
+  }
   double supply_y() const noexcept { return supply_y_; }  // (P/P_atm)^(1/7) of the supply [-]
 
   // 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up exhaust, down inlet, down

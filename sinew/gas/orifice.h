@@ -244,4 +244,18 @@ inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
   return c;
 }
 
+// Returns appendix A's law on one side of its jump, continued beyond it: the choked flow whatever
+// the lower pressure, or the free flow below the limit as well. The free flow is the greater one
+// there, so that a chamber which has passed the limit is not driven back over it.
+inline FlowConstants on_one_side(FlowConstants c, bool choked) {
+  if (choked) {
+    const double d2 = c.choke * c.choke;
+    c.gain = c.choked_gain *= d2 * d2 * c.choke * std::sqrt(1.0 - d2);
+    c.iso = 1, c.choke = 1, c.spread = 0;  // the root is then y_up^7
+  } else {
+    c.choke = 0;
+  }
+  return c;
+}
+
 }  // namespace sinew::gas

@@ -1,8 +1,13 @@
 // plant/slide/stand_air.h - the air of the stand's element: a network; valves, hoses,
 // leaks, walls, tank and delays all work. Of a regulated stand its pressure is prescribed instead,
 // and what the volume asks for has come in or gone out by the next look.
+//
+// The flow of Law::appendix_a jumps by .38 % where it chokes. Over a smooth part of a step each
+// such valve has the law of the side on which the part began, and the step is cut where the
+// pressures pass the limit.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -35,6 +40,12 @@ class StandAir : public ElementAir {
         exponent_(exponent_of(s.air)),
         longest_settling_(longest_settling(s.accuracy)) {
     take_long_steps();
+    for (int valve = 0; valve < valves(); ++valve) {
+      const gas::Valve& of = this->valve(valve);
+      jumps_[static_cast<std::size_t>(valve)] =
+          of.kind != gas::Valve::Kind::regulator && of.flow.law == gas::Flow::Law::appendix_a;
+      whole_[static_cast<std::size_t>(valve)] = flow(valve);
+    }
   }
 
   // Valve 0 is the inlet or a 3-way valve, 1 the exhaust.
@@ -50,6 +61,39 @@ class StandAir : public ElementAir {
                      : gained > 0 ? s.in[0]
                                   : s.out[0];
     passed += std::fabs(gained);
+  }
+
+  // A smooth part begins with a look by the whole laws of the valves' flows, and continues by those
+  // of one side, chosen by the pressures of that look.
+  void use_whole_laws() noexcept {
+    for (int v = 0; v < valves(); ++v)
+      if (jumps(v)) set_flow(v, whole_[static_cast<std::size_t>(v)]);
+  }
+  void choose_sides(const Answer& look, const Valves& valves) noexcept {
+    for (int v = 0; v < this->valves(); ++v) {
+      if (!jumps(v)) continue;
+      const auto index = static_cast<std::size_t>(v);
+      choked_[index] = !(past_choke(v, look, valves) > 0);
+      set_flow(v, gas::on_one_side(whole_[index], choked_[index]));
+    }
+  }
+
+  // Returns whether a flow that jumps is open.
+  bool watches(const Valves& valves) const noexcept {
+    return watches(0, valves) || watches(1, valves);
+  }
+
+  // Returns how far the pressures of an open valve are past the limit of the side that was chosen,
+  // as a share of the upstream pressure: above 0 where its flow has jumped, -infinity without such
+  // a valve [-].
+  double gap(const Answer& look, const Valves& valves) const noexcept {
+    double most = -std::numeric_limits<double>::infinity();
+    for (int v = 0; v < this->valves(); ++v) {
+      if (!watches(v, valves)) continue;
+      const double past = past_choke(v, look, valves);
+      most = std::fmax(most, choked_[static_cast<std::size_t>(v)] ? past : -past);
+    }
+    return most;
   }
 
   // The law: the network's, or that of a prescribed pressure.
@@ -86,6 +130,18 @@ class StandAir : public ElementAir {
     return air.wall_time > 0 ? gas::heat_capacity_ratio : air.polytropic_exponent;
   }
 
+  bool jumps(int valve) const noexcept { return jumps_[static_cast<std::size_t>(valve)]; }
+  bool watches(int valve, const Valves& valves) const noexcept {
+    return jumps(valve) && (ramping() || valves[static_cast<std::size_t>(valve)].share > 0);
+  }
+
+  // Returns P_down/P_up less the limit: above 0 where the flow is free [-].
+  double past_choke(int valve, const Answer& look, const Valves& valves) const noexcept {
+    const double element = cylinder_ ? look.cylinder_pressure[air::up] : manifold(look, 0, valves);
+    const double other = valve == 0 ? look.supply_pressure : atmosphere();
+    return std::fmin(element, other) / std::fmax(element, other) - 1.0 / gas::appendix_limit;
+  }
+
   // Returns the rate of a chamber that settles at the pressure behind an open valve: the flow's
   // slope is steep there [1/s].
   double settling_rate(const Answer& at, const State& s, const Valves& valves) const noexcept {
@@ -100,6 +156,11 @@ class StandAir : public ElementAir {
 
   bool cylinder_ = false, by_valves_ = false;
   double exponent_ = 0, longest_settling_ = 0;
+  std::array<bool, 2> jumps_{};                // of the valves' flows where they choke
+  std::array<gas::FlowConstants, 2> whole_{};  // their laws on both sides
+
+  // Scratch: of the smooth part at hand.
+  std::array<bool, 2> choked_{};
 };
 
 }  // namespace sinew::plant

@@ -187,6 +187,32 @@ TEST(Stand, IsAsExactAsItIsAsked) {
   EXPECT_LT(middle, 0.1 * coarse);
 }
 
+// Appendix A's flow jumps by .38 % where it chokes. With the step cut there, steps of the usual
+// accuracy and steps a thousand times finer give one mass of air.
+TEST(Stand, CutsItsStepsWhereAppendixAsFlowJumps) {
+  const auto passed = [](double accuracy, double pounds) {
+    StandSetup s = pulsed(pounds);
+    s.muscle.inlet.flow.law = gas::Flow::Law::appendix_a;
+    s.accuracy = accuracy;
+    Stand stand(s);
+    std::vector<double> out;
+    for (signals::Tick t = 0; t < 10000; t += 200) {
+      stand.drive({.at = t, .open = true});
+      stand.drive({.at = t + 70, .open = false});
+      const StandTruth x = stand.truth(1e-4 * static_cast<double>(t + 200));
+      out.push_back(x.air_in), out.push_back(x.air_out);
+    }
+    return out;
+  };
+  for (const double pounds : {1.0, 5.0, 15.0}) {
+    const std::vector<double> exact = passed(1e-11, pounds), usual = passed(3.4e-7, pounds);
+    double most = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      most = std::max(most, std::fabs(usual[i] / exact[i] - 1));
+    EXPECT_LT(most, 1e-7) << pounds << " lb";
+  }
+}
+
 TEST(Stand, LooksAndStrayEdgesChangeNoBit) {
   Stand alone(pulsed(5)), watched(pulsed(5));
   std::mt19937 random(2);

@@ -19,7 +19,9 @@ void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& 
   mechanism_.begin(t, s.motion);
   mechanism_.route(t, s.motion, look.ends, look.arms);
   air_.place(look.ends, s.air);
+  air_.use_whole_laws();
   air_.evaluate(t, look.ends, s.air, state_.valves, memory, look.air);
+  air_.choose_sides(look.air, state_.valves);
   const typename M::Pose pose = mechanism_.pose(t, s.motion);
   mechanism_.load(pose, s.motion, look.arms, look.air, look.load);
   held = mechanism_.hold(s.motion, look.load, held);
@@ -41,6 +43,7 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
       air_.remember(first.air, now->air, memory);
     } else {
       mechanism_.begin(t, now->motion);
+      air_.choose_sides(first.air, state_.valves);
     }
     const double target = std::min(to, mechanism_.corner()), whole = target - t;
     const double pieces = std::ceil(whole / std::max(longest_piece(*now, first), shortest) - 1e-9);
@@ -54,7 +57,8 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
     const double broken = gap(reached, *now, *after, memory, held);
     if (broken > 0) {
       // The end of the piece is put where it breaks, on the far side of it.
-      const double unbroken = mechanism_.gap(now->motion, now->motion, held, first.load);
+      const double unbroken = std::max(mechanism_.gap(now->motion, now->motion, held, first.load),
+                                       air_.gap(first.air, state_.valves));
       h = cut(h, unbroken, broken, mechanism_.cut_within(), [&](double within) {
         integrate(*spare, within);
         const double g = gap(t + within, *now, *spare, memory, held);
@@ -77,8 +81,10 @@ template <CutsSteps>
 double World<M, A>::gap(double t, const Moving& before, const Moving& after, const Memory& memory,
                         const Forces& held) const noexcept {
   Look look;
-  if (mechanism_.watches(held)) look_at(t, after, memory, held, look);
-  return mechanism_.gap(before.motion, after.motion, held, look.load);
+  const bool watches = air_.watches(state_.valves);
+  if (watches || mechanism_.watches(held)) look_at(t, after, memory, held, look);
+  const double of_body = mechanism_.gap(before.motion, after.motion, held, look.load);
+  return watches ? std::max(of_body, air_.gap(look.air, state_.valves)) : of_body;
 }
 
 template <IsMechanism M, IsAirOf<M> A>
