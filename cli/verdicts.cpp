@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/terminal.h"
 #include "sinew/config/quantity.h"
 #include "sinew/report/text/text_table.h"
@@ -40,16 +42,15 @@ report::TextTable verdict_table(const std::vector<analysis::Verdict>& verdicts, 
 
 bool print_reported(const analysis::Summary& summary,
                     const std::vector<analysis::Reported>& reported, double atmosphere,
-                    const units::ShownUnits* shown, bool changed = false) {
+                    const units::ShownUnits* shown) {
   fmt::print("{}", summary.title);
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
-  if (changed && !reported.empty())
+  if (std::ranges::any_of(reported, &analysis::Reported::changed))
     fmt::print(", changed with --set: what is reported is of the experiment without that");
   fmt::print("\n");
 
-  std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere, shown);
+  const std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere, shown);
   if (verdicts.empty()) return false;
-  if (changed) verdicts = unjudged(std::move(verdicts));
   const std::size_t width = width_of_output();
   const report::TextTable table = verdict_table(verdicts, true);
   const bool fits = width == 0 || table.width_before_last() <= width;
@@ -61,7 +62,7 @@ bool print_reported(const analysis::Summary& summary,
 
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine,
                     const units::ShownUnits* shown) {
-  if (!print_reported(summary, machine.reported, machine.atmosphere, shown, machine.changed))
+  if (!print_reported(summary, machine.reported, machine.atmosphere, shown))
     fmt::print("{}", run::main_figures(summary, machine, shown));
 }
 

@@ -65,7 +65,6 @@ cat >my-walk.toml <<END
 format = "sinew.experiment/1"
 base   = "$root/experiments/walk-test-1.toml"
 robot  = "my-leg.toml"
-reported = []
 END
 echo '$ sinew run my-walk.toml'
 "$program" run my-walk.toml -o walk --quiet

@@ -221,6 +221,7 @@ StandFile read_stand(const config::Node& root) {
               [&](auto& g, Reported& r) { analysis::fields(g, r, f.atmosphere); });
   read_faults(reader, f.faults);
   reader.finish_part();
+  mark_changed(f.reported, root);
   return f;
 }
 

@@ -92,16 +92,6 @@ void fields(Visitor& v, MachineFault& fault) {
   fault.end = fault.begin + lasts;
 }
 
-// Returns whether a key was set with --set. A seed, a log and a page change nothing of the
-// experiment.
-bool is_changed(const config::Node& node, std::string_view key = {}) {
-  for (const std::string_view same : {"seed", "log", "page", "title"})
-    if (key == same) return false;
-  if (node.where.file == "--set" || (key == "source" && node.text == "--set")) return true;
-  return std::ranges::any_of(
-      node.children, [](const config::Node& child) { return is_changed(child, child.key); });
-}
-
 void read_run(config::Reader& reader, Machine& m) {
   reader.text({.name = "title", .optional = true}, m.title);
   reader.text({.name = "reproduces", .optional = true}, m.reproduces);
@@ -134,7 +124,7 @@ Machine read_machine(const config::Node& root) {
   read_parts(reader, m);
   read_run(reader, m);
   reader.finish_part();
-  m.changed = is_changed(root);
+  mark_changed(m.reported, root);
   return m;
 }
 

@@ -42,7 +42,6 @@ struct Machine {
   std::vector<std::string> sequence;  // of one step
   double period = 0.01;               // between samples [s]
   std::vector<Reported> reported;
-  bool changed = false;  // by --set: what the source reports is of another experiment
   std::vector<MachineFault> faults;
 };
 

@@ -156,6 +156,14 @@ std::string_view after_last_number(std::string_view text) {
   return unit == text.npos ? std::string_view{} : text.substr(unit);
 }
 
+// Returns whether a key was set with --set that changes the experiment.
+bool is_changed(const config::Node& node) {
+  for (const std::string_view same : {"seed", "log", "page", "title"})
+    if (node.key == same) return false;
+  if (node.where.file == "--set" || (node.key == "source" && node.text == "--set")) return true;
+  return std::ranges::any_of(node.children, is_changed);
+}
+
 // "53 in to 60 in", "at most 6 in".
 std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
                         double atmosphere) {
@@ -206,7 +214,7 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
   };
   const double width = band ? spoken_in(band->highest) - spoken_in(band->lowest) : 0;
   v.ours = show(*ours, r.key, unit, atmosphere, std::isfinite(width) ? width : 0);
-  if (!band) return v;
+  if (!band || r.changed) return v;
   const bool inside = band->holds(*ours);
   v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
   if (r.because.empty()) return v;
@@ -245,9 +253,9 @@ std::optional<config::Mistake> mistake_in_band(const Reported& r, double atmosph
   return read_band(r, atmosphere).mistake;
 }
 
-std::vector<Verdict> unjudged(std::vector<Verdict> verdicts) {
-  for (Verdict& v : verdicts) v.is = Verdict::Is::not_applicable;
-  return verdicts;
+void mark_changed(std::vector<Reported>& reported, const config::Node& root) {
+  const bool changed = is_changed(root);
+  for (Reported& r : reported) r.changed = changed;
 }
 
 std::string_view to_text(Verdict::Is is) {

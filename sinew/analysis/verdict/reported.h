@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "sinew/analysis/verdict/band.h"
+#include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
@@ -57,7 +58,7 @@ struct Verdict {
   config::StatementClass statement_class = config::StatementClass::none;
   Wording wording = Wording::another;  // which rule `accept` follows
   std::string band_reason;             // of another band
-  Is is = Is::not_applicable;          // no such key in the summary, or nothing to judge by
+  Is is = Is::not_applicable;  // no such key in the summary, nothing to judge by, or a changed run
 };
 
 std::string_view to_text(Verdict::Is is);  // "agrees", "differs as known", …
@@ -69,9 +70,9 @@ std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
                              double atmosphere = units::atmosphere,
                              const units::ShownUnits* shown = nullptr);
 
-// Returns the verdicts without their judgement: for a changed run, which the source does not
-// describe.
-std::vector<Verdict> unjudged(std::vector<Verdict> verdicts);
+// Marks what is reported where a key of the experiment, as it was composed or kept, was set with
+// --set: the source describes another run. A seed, a log, a page and a title change nothing.
+void mark_changed(std::vector<Reported>&, const config::Node& root);
 
 // Returns the unit in which `shown` has a figure of that key, for show(): "mm", "bar gauge".
 std::string shown_unit(std::string_view key, const units::ShownUnits& shown, double value);

@@ -167,10 +167,16 @@ TEST(Reported, AWordingNeedsItsNumber) {
 
 // The source describes another run than one that was changed: no verdict is green or red.
 TEST(Reported, IsNotJudgedWhereTheRunWasChanged) {
-  std::vector<Verdict> verdicts(2);
-  verdicts[0].is = Verdict::Is::differs;
-  verdicts[1].is = Verdict::Is::agrees;
-  for (const Verdict& v : unjudged(verdicts)) EXPECT_EQ(v.is, Verdict::Is::not_applicable);
+  const std::string experiment = "[load]\nmass = \"5 lb\"\n", kept = "source = \"--set\"\n";
+  Summary summary;
+  summary.add("d_m", 1);
+  for (const char* lowest : {"1 m", "2 m"}) {
+    std::vector<Reported> reported = {{"d_m", "1 m", {lowest, "3 m"}, "6.3"}};
+    mark_changed(reported, config::parse_text(experiment, "a.toml"));
+    EXPECT_NE(compare(summary, reported).at(0).is, Verdict::Is::not_applicable);
+    mark_changed(reported, config::parse_text(experiment + kept, "resolved.toml"));
+    EXPECT_EQ(compare(summary, reported).at(0).is, Verdict::Is::not_applicable);
+  }
 }
 
 }  // namespace

@@ -134,9 +134,8 @@ Content of_robot(const Run& run) {
   std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
   std::ranges::move(analysis::warnings(run.table, machine), std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));
-  auto verdicts = compare(summary, machine.reported, machine.atmosphere);
-  if (machine.changed) verdicts = unjudged(std::move(verdicts));
-  return finish(std::move(json), run, summary, verdicts, blob);
+  return finish(std::move(json), run, summary,
+                compare(summary, machine.reported, machine.atmosphere), blob);
 }
 
 Content of_stand(const Run& run) {
