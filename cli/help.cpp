@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/help_topics.h"
+#include "cli/table_options.h"
 #include "cli/terminal.h"
 #include "cli/wrapped.h"
 #include "sinew/config/diagnostics.h"
@@ -50,13 +51,21 @@ std::vector<std::string> split(std::string_view text) {
 
 // --- one command ---
 
+// "sobol|morris|ends"; empty where they are many, or one of them would need quotes.
+std::string choices_in_short(const Shape& option) {
+  if (option.choices.empty() || option.names.empty()) return "";
+  if (either_of(option.choices).find('"') != std::string::npos) return "";
+  std::string words;
+  for (const std::string& word : option.choices) words += (words.empty() ? "" : "|") + word;
+  return words.size() <= 24 ? words : "";
+}
+
 // "--units VALUE", "--method sobol|morris|ends".
 std::string value_of(const Shape& option) {
   std::string out = option.value;
   if (!option.choices.empty() && !option.names.empty()) {
-    std::string words;
-    for (const std::string& word : option.choices) words += (words.empty() ? "" : "|") + word;
-    out = words.size() <= 24 ? words : "WORD";
+    out = choices_in_short(option);
+    if (out.empty()) out = "WORD";
   }
   return option.most > 1 ? out + " …" : out;
 }
@@ -71,9 +80,8 @@ std::string title_of(const Shape& option) {
 // The description with what else is to be known of it.
 std::string words_of(const Shape& option) {
   std::string out = option.description;
-  std::vector<std::string_view> words(option.choices.begin(), option.choices.end());
-  const bool listed = value_of(option).find('|') != std::string::npos;
-  if (!words.empty() && !listed) out += ": " + config::either(words);
+  if (!option.choices.empty() && choices_in_short(option).empty())
+    out += ": " + either_of(option.choices);
   if (option.takes_value() && !option.default_text.empty())
     out += "; default " + option.default_text;
   if (option.repeats && out.find("repeated") == out.npos) out += "; may be named several times";
@@ -81,11 +89,32 @@ std::string words_of(const Shape& option) {
   return out;
 }
 
-std::vector<Row> rows_of(const CommandTree& command, bool named) {
+// Its words, or its options under a heading; empty: those that have no heading of their own.
+std::vector<Row> rows_of(const CommandTree& command, bool named, std::string_view heading = "") {
   std::vector<Row> out;
   for (const Shape& option : command.options)
-    if (option.names.empty() != named) out.push_back({title_of(option), words_of(option)});
+    if (option.names.empty() != named && option.heading == heading)
+      out.push_back({title_of(option), words_of(option)});
   return out;
+}
+
+// Options that many commands share are named alone: the page `sinew help tables` describes them.
+std::string names_of_table_options(const CommandTree& command) {
+  std::string out;
+  for (const Shape& option : command.options)
+    if (option.heading == table_heading) out += (out.empty() ? "" : ", ") + option.name();
+  if (out.empty()) return "";
+  return fmt::format("\n{}, described by `sinew help tables`:\n{}", table_heading, wrapped(out, 2));
+}
+
+std::string about_tables(const CommandTree& program) {
+  const CommandTree* import = find(program, "import");
+  return wrapped(
+             "Sinew reads separators, decimal marks, units in the header, dates and clocks off a "
+             "table. What a table does not show, these options of sinew import and of the methods "
+             "of sinew identify state. The columns that a method reads: sinew identify columns "
+             "METHOD; the channels of a run: sinew help channels.") +
+         "\n" + (import ? table(rows_of(*import, true, table_heading)) : "");
 }
 
 // "--foot VALUE | --angles VALUE" of a group, of which just one is given.
@@ -165,6 +194,7 @@ std::string all_commands(const CommandTree& command, const std::string& words) {
 
 // The text of a topic, of all commands, or of none.
 std::string shared_page(const std::string& word, const CommandTree& program) {
+  if (word == "tables") return about_tables(program);
   return word == "commands" ? all_commands(program, "") : topic(word);
 }
 
@@ -231,7 +261,7 @@ std::string help_of(const CommandTree& command, const std::string& words) {
     out += "\nWords:\n" + table(rows);
   if (const std::vector<Row> rows = rows_of(command, true); !rows.empty())
     out += "\nOptions:\n" + table(rows);
-  return out + examples_of(command);
+  return out + names_of_table_options(command) + examples_of(command);
 }
 
 std::string help_command(const std::string& words) {

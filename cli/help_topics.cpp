@@ -178,6 +178,7 @@ constexpr Topic topics[] = {{"units", about_units},
 std::vector<std::string> topics_of_help() {
   std::vector<std::string> out;
   for (const Topic& topic : topics) out.emplace_back(topic.word);
+  out.emplace_back("tables");
   out.emplace_back("commands");
   return out;
 }

@@ -160,74 +160,35 @@ void print(const identify::Report& report, const config::UnitsToShow& asked, dou
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 
-// A file may leave these open; most files show them all.
-void add_dialect_options(Command sub, DataOptions& options) {
-  sub.add_option("--encoding", options.encoding, "of files whose letters do not show it: latin1")
-      .is_one_of({"utf-8", "utf-16le", "utf-16be", "latin1"});
-  sub.add_option("--decimal", options.decimal, "the mark, where the numbers do not show it")
-      .is_one_of({".", ","});
-  sub.add_option("--thousands", options.thousands, "mark between groups of three digits")
-      .is_one_of({".", ",", " ", "'"});
-  sub.add_option("--dates", options.dates, "what comes first in 11/03/2026; excel: days since 1900")
-      .is_one_of({"day first", "month first", "excel"});
-  sub.add_option("--rate", options.rate,
-                 "\"100 Hz\" or \"10 ms\": of the rows, in place of a column of times");
-  sub.add_option("--part", options.part,
-                 "N: of several recordings in a file, one after the other, the first is 1")
-      .is_between(1, 1000000);
-  sub.add_flag("--spread-times", options.spread_times,
-               "spread rows that share a time evenly up to the next one");
-}
-
 }  // namespace
 
 void add_data_options(Command sub, DataOptions& options) {
   sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run").required();
-  sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
-      .takes_one();
-  sub.add_option("--unit", options.units,
-                 "NAME=UNIT: unit of a column of the file, as it calls it; may be repeated")
-      .takes_one();
-  sub.add_option("--where", options.where,
-                 "NAME=VALUE,...: only rows whose column NAME has one of these values; may be "
-                 "repeated")
-      .takes_one();
-  sub.add_option(
-         "--value", options.values,
-         "[PART:]NAME=VALUE: of a column that a file does not have, \"pressure=2 bar gauge\"; "
-         "PART is in the name of the files that it is for; may be repeated")
-      .takes_one();
-  sub.add_option("--offset", options.offsets,
-                 "NAME=VALUE: added to a column, \"length=200 mm\"; may be repeated")
-      .takes_one();
-  sub.add_option("--columns", options.columns,
-                 "\"force [N],time [s]\": the header of a file without one; alone: tells which "
-                 "columns are read, without DATA");
+  add_table_options(sub, options.table);
   sub.add_option("--template", options.template_file,
-                 "FILE.csv: writes a table to fill in, without DATA");
+                 "FILE.csv: writes a table to fill in, without DATA; --columns alone lists its "
+                 "columns");
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
-  sub.add_flag("--drop-incomplete", options.drop_incomplete,
-               "leave out rows with cells that are empty or no numbers");
-  add_dialect_options(sub, options);
 }
 
 std::vector<identify::Source> sources_of(const DataOptions& options) {
   identify::Source how;
-  for (const std::string& map : pairs_of(options.maps)) add_pair("--map", map, how.names);
-  for (const std::string& unit : options.units) add_pair("--unit", unit, how.units);
-  for (const std::string& where : options.where) add_pair("--where", where, how.where);
-  for (const std::string& offset : options.offsets) add_pair("--offset", offset, how.offsets);
-  how.values = options.values;
+  const TableOptions& table = options.table;
+  for (const std::string& map : pairs_of(table.maps)) add_pair("--map", map, how.names);
+  for (const std::string& unit : table.units) add_pair("--unit", unit, how.units);
+  for (const std::string& where : table.where) add_pair("--where", where, how.where);
+  for (const std::string& offset : table.offsets) add_pair("--offset", offset, how.offsets);
+  how.values = table.values;
   recording::check_stated(how.values, options.files);
-  how.columns = config::at_commas(options.columns);
-  how.drop_incomplete = options.drop_incomplete;
-  how.encoding = options.encoding;
-  how.decimal = options.decimal;
-  how.thousands = options.thousands;
-  how.dates = options.dates;
-  how.rate = options.rate;
-  how.spread_times = options.spread_times;
-  how.part = options.part;
+  how.columns = config::at_commas(table.columns);
+  how.rate = table.rate;
+  how.drop_incomplete = table.settings.drop_incomplete;
+  how.encoding = table.settings.encoding;
+  how.decimal = table.settings.decimal;
+  how.thousands = table.settings.thousands;
+  how.dates = table.settings.dates;
+  how.spread_times = table.settings.spread_times;
+  how.part = table.settings.part;
   how.atmosphere = identify::atmosphere_setting(options.atmosphere);
   return identify::sources_of(options.files, how);
 }

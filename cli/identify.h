@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/table_options.h"
 #include "cli/terminal.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
@@ -39,17 +40,9 @@ void add_identify_run(Command identify, Action& action);
 // How files of measurements are read.
 struct DataOptions {
   std::vector<std::string> files;
-  std::vector<std::string> maps, units;  // "force=F_N"
-  std::vector<std::string> where;        // "phase=fill"
-  std::vector<std::string> values;       // "pressure=2 bar gauge"
-  std::vector<std::string> offsets;      // "length=200 mm"
-  std::string columns;                   // "force [N],pressure [kPa gauge]"
-  std::string template_file;             // of the help alone: see cli/identify_columns.h
+  TableOptions table;
+  std::string template_file;  // of the help alone: see cli/identify_columns.h
   std::string atmosphere = "14.7 psi";
-  bool drop_incomplete = false;
-  std::string encoding, decimal, thousands, dates, rate;  // what a file leaves open
-  bool spread_times = false;
-  int part = 0;  // of several recordings in a file; 0: there is but one
 };
 void add_data_options(Command sub, DataOptions& options);
 

@@ -67,7 +67,8 @@ void add_length_options(Command sub, std::string& rest_length, std::vector<std::
 void add_static_data_options(Command sub, identify::StaticSettings& settings) {
   add_length_options(sub, settings.rest_length, settings.lengths);
   sub.add_option("--actuator", settings.actuator, "a file whose braid is taken as known");
-  sub.add_option("--branch", settings.branch, "fill, vent or both")
+  sub.add_option("--branch", settings.branch,
+                 "the points that are fitted: of filling, of venting, or both")
       .is_one_of({"fill", "vent", "both"})
       .show_default();
   sub.add_option("--fit-where", settings.fit_where,

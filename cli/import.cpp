@@ -6,8 +6,10 @@
 #include <fstream>
 
 #include "cli/run.h"
+#include "cli/table_options.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
 #include "sinew/config/text_file.h"
 #include "sinew/recording/number.h"
 #include "sinew/run/folder/imported_run.h"
@@ -20,7 +22,8 @@ namespace {
 
 struct ImportOptions {
   run::ImportRequest request;
-  std::vector<std::string> maps, units, scales, offsets, where, shifts;  // "name=value"
+  TableOptions table;
+  std::vector<std::string> scales, shifts;  // "name=value"
   std::string join = "side";
   bool json = false, quiet = false;
 };
@@ -39,12 +42,16 @@ Pair pair_at(std::size_t equals, const std::string& text, const char* option,
 
 void take_pairs(ImportOptions& options) {
   recording::Mapping& mapping = options.request.mapping;
-  for (const std::string& text : options.maps) {
+  mapping.table = options.table.settings;
+  mapping.table.columns = config::at_commas(options.table.columns);
+  mapping.clock.rate = options.table.rate;
+  options.request.values = options.table.values;
+  for (const std::string& text : options.table.maps) {
     const Pair p =
         pair_at(text.find('='), text, "--map", "CHANNEL=COLUMN, /joint/elbow/angle=Winkel");
     map_channel(mapping, p.name, p.value);
   }
-  for (const std::string& text : options.units) {
+  for (const std::string& text : options.table.units) {
     const Pair p = pair_at(text.rfind('='), text, "--unit", "COLUMN=UNIT, Winkel=deg");
     map_unit(mapping, p.name, p.value);
   }
@@ -54,11 +61,11 @@ void take_pairs(ImportOptions& options) {
     if (!number) config::fail({"--scale", 0, 0}, "", config::in_quotes(p.value), "a number");
     map_scale(mapping, p.name, *number);
   }
-  for (const std::string& text : options.offsets) {
+  for (const std::string& text : options.table.offsets) {
     const Pair p = pair_at(text.rfind('='), text, "--offset", "COLUMN=VALUE, \"Winkel=90 deg\"");
     map_offset(mapping, p.name, p.value);
   }
-  for (const std::string& text : options.where) {
+  for (const std::string& text : options.table.where) {
     const Pair p = pair_at(text.find('='), text, "--where", "COLUMN=VALUE, test=3");
     map_where(mapping, p.name, p.value);
   }
@@ -133,26 +140,14 @@ ExitCode import_recording(ImportOptions& options) {
 
 void add_mapping_options(Command sub, ImportOptions& options) {
   run::ImportRequest& request = options.request;
-  sub.add_option("--map", options.maps,
-                 "CHANNEL=COLUMN: what a column is, /joint/elbow/angle=Winkel; may be repeated")
-      .takes_one();
-  sub.add_option("--unit", options.units,
-                 "COLUMN=UNIT: of its numbers, where its header says none; may be repeated")
-      .takes_one();
-  sub.add_option("--scale", options.scales,
-                 "COLUMN=NUMBER: by which its numbers are multiplied; -1 turns the sign")
-      .takes_one();
-  sub.add_option("--offset", options.offsets, "COLUMN=VALUE: added then, in the channel's unit")
-      .takes_one();
-  sub.add_option("--value", request.values,
-                 "[PART:]CHANNEL=VALUE: of a whole file, \"/muscle/flexor/pressure=2 bar gauge\"; "
-                 "PART is in the name of the files that it is for")
-      .takes_one();
-  sub.add_option("--where", options.where,
-                 "COLUMN=VALUE,...: only rows whose column has one of these values")
+  add_table_options(sub, options.table);
+  sub.add_option(
+         "--scale", options.scales,
+         "COLUMN=NUMBER: by which its numbers are multiplied, before --offset; -1 turns the "
+         "sign; may be repeated")
       .takes_one();
   sub.add_option("--mapping", request.mapping_file,
-                 "a file that says all of this, sinew.mapping/1");
+                 "a file with these and the options of how a table is read, sinew.mapping/1");
   sub.add_option("--save-mapping", request.save_mapping, "write such a file, for the next time");
   sub.add_flag("--all", request.mapping.keep_others,
                "keep columns that are no channel, as /recorded/NAME");
@@ -162,7 +157,6 @@ void add_clock_options(Command sub, ImportOptions& options) {
   recording::ClockMapping& clock = options.request.mapping.clock;
   sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
   sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
-  sub.add_option("--rate", clock.rate, "of the rows, \"100 Hz\", in place of a column with times");
   sub.add_option("--clock-scale", clock.scale,
                  "true seconds in a second of the recording's clock: 0.997");
   sub.add_option("--start", clock.start,
@@ -171,23 +165,6 @@ void add_clock_options(Command sub, ImportOptions& options) {
       .is_one_of({"side", "end"});
   sub.add_option("--shift", options.shifts, "FILE=TIME: by which a file is later than it says")
       .takes_one();
-}
-
-void add_table_options(Command sub, recording::TableSettings& table) {
-  sub.add_option("--columns", table.columns, "the header, name [unit],..., of a table without one")
-      .takes_one()
-      .split_at(',');
-  sub.add_option("--encoding", table.encoding, "of a table: utf-8, utf-16le, utf-16be, latin1");
-  sub.add_option("--decimal", table.decimal, "decimal mark of a table: . or ,");
-  sub.add_option("--thousands", table.thousands,
-                 "mark between groups of three digits in a table: . , ' or a blank");
-  sub.add_option("--dates", table.dates, "of a table: day first, month first, or excel");
-  sub.add_option("--part", table.part,
-                 "N: of several recordings in a table, one after the other, the first is 1")
-      .is_between(1, 1000000);
-  sub.add_flag("--spread-times", table.spread_times,
-               "rows that share a time are spread evenly up to the next");
-  sub.add_flag("--drop-incomplete", table.drop_incomplete, "leave out rows without a time");
 }
 
 }  // namespace
@@ -205,7 +182,6 @@ void add_import(Command app, Action& action) {
       .required();
   add_mapping_options(sub, *options);
   add_clock_options(sub, *options);
-  add_table_options(sub, request.mapping.table);
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", request.force, "replace the run that is in the folder");
   add_sets(sub, request.sets);

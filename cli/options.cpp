@@ -2,10 +2,10 @@
 #include "cli/options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <limits>
@@ -20,13 +20,21 @@ namespace sinew::cli {
 namespace {
 
 constexpr const char* whole_number = "N";
+constexpr const char* usual_heading = "Options";  // CLI11's
 
-// "{sobol,latin,random}" describes the words that is_one_of() takes.
+// CLI11 has no place for the words that is_one_of() takes: they are in the description of its
+// check, each behind this letter, which no word contains. Words may contain commas and blanks.
+constexpr char before_choice = '\x1f';
+
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  const std::size_t begin = type.find('{'), end = type.find('}');
-  if (begin == type.npos || end == type.npos) return {};
-  return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
+  std::vector<std::string> out;
+  for (std::size_t at = type.find(before_choice); at < type.size();) {
+    const std::size_t end = std::min(type.find(before_choice, at + 1), type.size());
+    out.push_back(type.substr(at + 1, end - at - 1));
+    at = end;
+  }
+  return out;
 }
 
 CommandTree::Shape shape_of(const CLI::Option& option, const CLI::App& of) {
@@ -39,6 +47,7 @@ CommandTree::Shape shape_of(const CLI::Option& option, const CLI::App& of) {
   out.description = option.get_description();
   out.default_text = option.get_default_str();
   if (of.get_name().empty() && of.get_parent()) out.group = of.get_group();
+  if (option.get_group() != usual_heading) out.heading = option.get_group();
   if (option.get_items_expected_max() > 0) {
     const auto count = [](int n) { return std::min(n, CommandTree::many); };
     out.least = count(option.get_items_expected_min());
@@ -124,6 +133,20 @@ class HelpOf final : public CLI::FormatterBase {
 
 }  // namespace
 
+std::string either_of(const std::vector<std::string>& choices) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '_' || c == '.';
+  };
+  const auto has_letters = [&](const std::string& word) {
+    return std::ranges::all_of(word, plain) &&
+           std::ranges::any_of(word, [](unsigned char c) { return std::isalnum(c); });
+  };
+  std::vector<std::string> out = choices;
+  if (!std::ranges::all_of(out, has_letters))
+    for (std::string& word : out) word = config::in_quotes(word);
+  return config::either({out.begin(), out.end()});
+}
+
 std::string CommandTree::Shape::name() const { return names.empty() ? value : names.back(); }
 
 std::string words_to(const CLI::App& app) {
@@ -159,14 +182,15 @@ Option Option::needs(Option other) {
 }
 
 Option Option::is_one_of(std::vector<std::string> words) {
-  const std::string shown = fmt::format("{{{}}}", fmt::join(words, ","));
+  std::string choices;
+  for (const std::string& word : words) choices += before_choice + word;
   const auto wrong = [words = std::move(words)](const std::string& text) -> std::string {
     const std::vector<std::string_view> all(words.begin(), words.end());
     if (std::ranges::find(all, text) != all.end()) return "";
     const std::string near = config::closest_in_quotes(text, all);
-    return complaint(config::in_quotes(text), config::either(all), near);
+    return complaint(config::in_quotes(text), either_of(words), near);
   };
-  option_->check(CLI::Validator(wrong, shown));
+  option_->check(CLI::Validator(wrong, choices));
   return *this;
 }
 
@@ -202,6 +226,11 @@ Option Option::takes(int least, int most, const std::string& in_the_help) {
 
 Option Option::split_at(char delimiter) {
   option_->delimiter(delimiter);
+  return *this;
+}
+
+Option Option::under(const std::string& heading) {
+  option_->group(heading);
   return *this;
 }
 

@@ -29,7 +29,8 @@ class Option {
   Option takes_all();  // the words that follow
   Option takes(int least, int most, const std::string& in_the_help);
   Option split_at(char delimiter);
-  Option show_default();  // in the help: the variable's value at this moment
+  Option show_default();                     // in the help: the variable's value at this moment
+  Option under(const std::string& heading);  // in the help, which otherwise has it under Options
 
   std::string name() const;
 
@@ -46,6 +47,7 @@ struct CommandTree {
     std::vector<std::string> choices;  // the only words that it takes, where they are known
     std::string default_text;          // empty: none that the help tells
     std::string group;                 // of this group just one is to be given; empty: none
+    std::string heading;               // in the help; empty: that of all options
     int least = 0, most = 0;           // how many words follow it, 0 for a flag; `many` for any
     bool required = false;
     bool repeats = false;  // may be named several times
@@ -60,6 +62,10 @@ struct CommandTree {
   std::vector<Shape> options;
   std::vector<CommandTree> commands;
 };
+
+// Returns the words of a choice, "fill, vent or both"; in quotes where one has a blank or is a
+// mark.
+std::string either_of(const std::vector<std::string>& choices);
 
 // A command with its options, or a group of them. A copy is the same command.
 class Command {

@@ -133,8 +133,7 @@ void tell_of_leftovers(const CLI::App& command, const CLI::App& program, Problem
 std::string meaning_of(const CLI::Option& option) {
   const CommandTree::Shape shape = shape_of(option);
   std::string out = shape.description;
-  if (!shape.choices.empty())
-    out = config::either({shape.choices.begin(), shape.choices.end()}) + ": " + out;
+  if (!shape.choices.empty()) out = either_of(shape.choices) + ": " + out;
   return out;
 }
 
