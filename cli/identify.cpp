@@ -171,7 +171,8 @@ void add_data_options(Command sub, DataOptions& options) {
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
 }
 
-std::vector<identify::Source> sources_of(const DataOptions& options) {
+std::vector<identify::Source> sources_of(const DataOptions& options,
+                                         const std::vector<std::string>& held_out) {
   identify::Source how;
   const TableOptions& table = options.table;
   for (const std::string& map : pairs_of(table.maps)) add_pair("--map", map, how.names);
@@ -179,7 +180,9 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   for (const std::string& where : table.where) add_pair("--where", where, how.where);
   for (const std::string& offset : table.offsets) add_pair("--offset", offset, how.offsets);
   how.values = table.values;
-  recording::check_stated(how.values, options.files);
+  std::vector<std::string> files = options.files;
+  files.insert(files.end(), held_out.begin(), held_out.end());
+  recording::check_stated(how.values, files);
   how.columns = config::at_commas(table.columns);
   how.rate = table.rate;
   how.drop_incomplete = table.settings.drop_incomplete;

@@ -46,8 +46,8 @@ struct DataOptions {
 };
 void add_data_options(Command sub, DataOptions& options);
 
-// The lengths of a muscle that its files do not say, of `static`, `check` and `plan`.
-void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths);
+// The rest length of a muscle, of `static`, `check` and `plan`.
+void add_rest_length(Command sub, std::string& rest_length);
 
 // What files do not say of a muscle and its measurement, and which of their points are fitted: of
 // `static` and `check`.
@@ -56,8 +56,10 @@ void add_static_data_options(Command sub, identify::StaticSettings& settings);
 // What is known of parameters before they are fitted: frozen, prior, tied.
 void add_wish_options(Command sub, identify::WishTexts& wishes);
 
-// One source per file. Throws config::Error for what is no name=value.
-std::vector<identify::Source> sources_of(const DataOptions& options);
+// One source per file. A --value may also be of the files that are held out. Throws config::Error
+// for what is no name=value, and for a --value of no file.
+std::vector<identify::Source> sources_of(const DataOptions& options,
+                                         const std::vector<std::string>& held_out = {});
 
 // What is done with a result.
 struct ResultOptions {

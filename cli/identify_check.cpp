@@ -82,8 +82,8 @@ void print_determined(const identify::DeterminedLaw& law) {
 
 // Fails where a check is red, so that a script stops.
 ExitCode run_check(const IdentifyCheckOptions& options) {
-  const identify::Checkup found =
-      identify::check_before_static(sources_of(options.data), options.settings);
+  const identify::Checkup found = identify::check_before_static(
+      sources_of(options.data, {options.settings.hold_out}), options.settings);
   if (options.json) {
     fmt::print("{}\n", to_json(found).text(2));
   } else {

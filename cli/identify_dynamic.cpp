@@ -52,7 +52,7 @@ void print_methods(const identify::DynamicResult& found, const config::UnitsToSh
 
 ExitCode run_dynamic(const IdentifyDynamicOptions& options) {
   check_result_options(options.result);
-  const std::vector<identify::Source> sources = sources_of(options.data);
+  const std::vector<identify::Source> sources = sources_of(options.data, options.held_out);
   identify::DynamicSettings settings = options.settings;
   for (const std::string& file : options.held_out) {
     settings.held_out.push_back(sources[0]);

@@ -42,7 +42,7 @@ ExitCode run_joint(const IdentifyJointOptions& options) {
   actuator_result.no_report = true;
   check_result_options(actuator_result);
 
-  const std::vector<identify::Source> sources = sources_of(options.data);
+  const std::vector<identify::Source> sources = sources_of(options.data, {options.hold_out});
   if (!options.hold_out.empty())
     settings.held_out = identify::beside(sources, "hold_out", options.hold_out);
   const auto find = [&](identify::Tally& tried) {

@@ -65,7 +65,7 @@ void print_air(const identify::PairResult& found) {
 
 ExitCode run_pair(const IdentifyPairOptions& options) {
   check_result_options(options.result);
-  const std::vector<identify::Source> sources = sources_of(options.data);
+  const std::vector<identify::Source> sources = sources_of(options.data, options.held_out);
   identify::PairSettings settings = options.settings;
   for (const std::string& text : options.held_out) {
     if (identify::is_time_range(text)) {

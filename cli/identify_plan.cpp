@@ -176,7 +176,7 @@ void add_identify_plan(Command identify, Action& action) {
       "  sinew identify plan forces.csv --error \"1.5 %\"");
   add_data_options(sub, options->data);
   sub.option("DATA").required(false);
-  add_length_options(sub, options->settings.rest_length, options->how.lengths);
+  add_rest_length(sub, options->settings.rest_length);
   sub.add_option("--branch", options->how.branch, "of DATA: fill, vent or both")
       .is_one_of({"fill", "vent", "both"})
       .show_default();

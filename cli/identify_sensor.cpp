@@ -92,7 +92,7 @@ ExitCode run(const IdentifySensorOptions& options) {
   identify::SensorSettings settings = options.settings;
   if (!settings.base.empty() && options.result.out.empty())
     config::fail({"--base", 0, 0}, "", "no --out", "a file in which to name the base");
-  const std::vector<identify::Source> sources = sources_of(options.data);
+  const std::vector<identify::Source> sources = sources_of(options.data, {options.hold_out});
   if (options.hold_out != "level")
     settings.held_out = identify::beside(sources, "hold_out", options.hold_out);
   const identify::SensorFound found = identify::find_sensors(sources, settings);

@@ -39,7 +39,7 @@ ExitCode run_static(const IdentifyStaticOptions& options) {
   const auto find = [&](identify::Tally& tried) {
     identify::StaticSettings settings = options.settings;
     settings.tried = &tried;
-    return identify::find_static(sources_of(options.data), settings);
+    return identify::find_static(sources_of(options.data, {settings.hold_out}), settings);
   };
   const identify::StaticFound found =
       watched(identify::static_models().size(), options.result.quiet, find);
@@ -55,17 +55,13 @@ ExitCode run_static(const IdentifyStaticOptions& options) {
 
 }  // namespace
 
-void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths) {
+void add_rest_length(Command sub, std::string& rest_length) {
   sub.add_option("--rest-length", rest_length,
                  "of the muscle without pressure and load; without it the longest length");
-  sub.add_option("--length", lengths,
-                 "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
-                 "PART in their name; may be repeated")
-      .takes_one();
 }
 
 void add_static_data_options(Command sub, identify::StaticSettings& settings) {
-  add_length_options(sub, settings.rest_length, settings.lengths);
+  add_rest_length(sub, settings.rest_length);
   sub.add_option("--actuator", settings.actuator, "a file whose braid is taken as known");
   sub.add_option("--branch", settings.branch,
                  "the points that are fitted: of filling, of venting, or both")

@@ -32,7 +32,7 @@ void write_timing(const IdentifyValveOptions& options, const identify::ValveFoun
 }
 
 ExitCode run_identify_valve(const IdentifyValveOptions& options) {
-  const std::vector<identify::Source> sources = sources_of(options.data);
+  const std::vector<identify::Source> sources = sources_of(options.data, {options.hold_out});
   identify::refuse_fitted(sources, "predict_dat", options.predict);
   identify::ValveSettings settings = options.settings;
   if (!options.hold_out.empty())

@@ -14,7 +14,8 @@ namespace {
 struct Renamed {
   std::string_view setting, option;
 };
-constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
+constexpr Renamed renamed[] = {
+    {"names", "map"}, {"units", "unit"}, {"values", "value"}, {"offsets", "offset"}};
 
 // The settings that messages of the library name. A word that is not here stays a word: "time=0" is
 // no option.
@@ -22,18 +23,19 @@ constexpr std::string_view settings =
     " actuator added_volume align anyway base bits candidate columns conductance dates "
     "decimal diameter down drop_incomplete "
     "encoding exponent external_volume flexion flexor_length force frequency full_scale hold_out "
-    "keep_force known label largest law_error length lever load machine model moment_arm names "
+    "keep_force known label largest law_error lever load machine model moment_arm names offsets "
     "only "
     "part "
     "per_volume points port pressure range rate report rest rest_length root sensors shard "
-    "spread_times thousands units vary volume where ";
+    "spread_times thousands units values vary volume where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
 constexpr std::string_view subjects =
-    " candidate freeze known model names part points prior range report rigs sensors shard tie "
+    " candidate freeze known model names offsets part points prior range report rigs sensors shard "
+    "tie "
     "units "
-    "vary where ";
+    "values vary where ";
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =

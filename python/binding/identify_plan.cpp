@@ -45,7 +45,6 @@ py::tuple plan(const py::list& tables, const py::dict& given) {
   settings.quantity("lowest", "Pa gauge", s.lowest);
   settings.text("criterion", s.criterion);
   settings.integer("most", s.most);
-  settings.texts("lengths", how.lengths);
   settings.text("branch", how.branch);
   how.rest_length = s.rest_length;
   how.actuator = s.actuator;

@@ -87,7 +87,6 @@ identify::StaticSettings static_settings(const Settings& given) {
   given.text("name", s.name);
   given.text("model", s.model);
   given.quantity("rest_length", "m", s.rest_length);
-  given.texts("lengths", s.lengths);
   given.path("actuator", s.actuator);
   given.text("branch", s.branch);
   given.texts("fit_where", s.fit_where);

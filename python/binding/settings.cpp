@@ -5,6 +5,7 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/recording/stated.h"
 
 namespace sinew::python {
 
@@ -122,8 +123,12 @@ identify::Source source_of(const py::handle& parts) {
   settings.text("path", out.path);
   if (const py::object text = given["text"]; !text.is_none()) out.text = text.cast<std::string>();
   settings.texts("columns", out.columns);
-  for (const auto& [name, to] :
-       {std::pair{"names", &out.names}, {"units", &out.units}, {"where", &out.where}}) {
+  std::map<std::string, std::string> values;
+  for (const auto& [name, to] : {std::pair{"names", &out.names},
+                                 {"units", &out.units},
+                                 {"where", &out.where},
+                                 {"offsets", &out.offsets},
+                                 {"values", &values}}) {
     const py::object pairs = given[name];
     if (pairs.is_none()) continue;
     if (!py::isinstance<py::dict>(pairs)) refuse(name, pairs, "a dict of texts");
@@ -132,6 +137,8 @@ identify::Source source_of(const py::handle& parts) {
       (*to)[key.cast<std::string>()] = value.cast<std::string>();
     }
   }
+  for (const auto& [column, value] : values) out.values.push_back(column + "=" + value);
+  recording::check_stated(out.values, {out.path});
   settings.flag("drop_incomplete", out.drop_incomplete);
   for (const auto& [name, to] : {std::pair{"encoding", &out.encoding},
                                  {"decimal", &out.decimal},

@@ -48,7 +48,6 @@ def static_from(
     data: Any,
     *,
     rest_length: Optional[Quantity] = None,
-    lengths: Union[str, Sequence[str]] = (),
     actuator: Optional[Path] = None,
     branch: str = "both",
     fit_where: Union[str, Sequence[str]] = (),
@@ -62,8 +61,8 @@ def static_from(
     """Return the static law of an actuator from tables, or recordings with a column of time.
 
     Columns force [N] or load [kg], pressure [Pa gauge], length [m]; rest_length, branch, time where there
-    are such. data: a table, or several. lengths: of files without that column, "205 mm", or "PART=205 mm"
-    for those with PART in their name. actuator: a file whose braid is known. branch: "fill", "vent" or
+    are such. data: a table, or several; of a file without a column sinew.identify.Table states its value,
+    Table("rig.csv", values={"length": "205 mm"}). actuator: a file whose braid is known. branch: "fill", "vent" or
     "both". fit_where: only rows with "NAME=VALUE,..." are fitted, the others held out. hold_out: "pressure"
     (every second), "length" or "muscle" (each once), or another table. diameter [m] without pressure, and
     anyway: as static() has them. predict: rest lengths [m] that nobody measured; their files follow those
@@ -108,7 +107,6 @@ def check(
     data: Any,
     *,
     rest_length: Optional[Quantity] = None,
-    lengths: Union[str, Sequence[str]] = (),
     actuator: Optional[Path] = None,
     branch: str = "both",
     fit_where: Union[str, Sequence[str]] = (),
@@ -168,7 +166,6 @@ def plan(
     lowest: Optional[Quantity] = None,
     criterion: str = "mean",
     most: int = 12,
-    lengths: Union[str, Sequence[str]] = (),
     branch: str = "both",
 ) -> Plan:
     """Return which lengths and pressures to measure so that a static law is known well enough.
@@ -197,7 +194,6 @@ def plan(
         "lowest": lowest,
         "criterion": criterion,
         "most": most,
-        "lengths": lengths,
         "branch": branch,
     }
     report, table = _sinew.identify_plan([] if data is None else tables_of("static", data), settings)

@@ -17,6 +17,8 @@ class Table:
 
     data: the path of a CSV file; or columns by their names, each an array or one number for all rows: a
         dict, a pandas frame, a structured array. A column is called "force [lbf]", or "force" in SI.
+    values: of columns that the table does not have, {"length": "205 mm"}. offsets: added to columns, {"length":
+        "200 mm"}.
     names: what the table calls a column, {"force": "F_N"}. units: of its columns, {"F_N": "N"}.
     where: only rows with these values, {"phase": "fill"}. columns: the header of a file without one,
         ["force [N]", "time [s]"]. atmosphere: that gauges read against [Pa], absolute.
@@ -42,6 +44,8 @@ class Table:
     rate: Optional[str] = None
     spread_times: bool = False
     part: int = 0
+    values: Optional[Mapping[str, str]] = None
+    offsets: Optional[Mapping[str, str]] = None
 
 
 def names_of(data: Any) -> "Optional[List[str]]":
@@ -127,6 +131,8 @@ def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, An
         "rate": table.rate,
         "spread_times": table.spread_times,
         "part": table.part,
+        "values": texts_of("values", table.values),
+        "offsets": texts_of("offsets", table.offsets),
     }
     if isinstance(table.data, (str, os.PathLike)):
         parts["path"] = os.fspath(table.data)

@@ -78,10 +78,11 @@ TEST(Settings, TheOptionsExist) {
   };
   const Case cases[] = {
       {{"identify", "static"},
-       "names.a=b units.a=b columns=a where=a drop_incomplete=true length=a rest_length=a "
+       "names.a=b units.a=b columns=a where=a drop_incomplete=true values.length=a "
+       "offsets.length=a rest_length=a "
        "actuator=a "
        "hold_out=a model=a"},
-      {{"identify", "static"}, subjects({"length", "rest_length", "fit_where", "branch", "name"})},
+      {{"identify", "static"}, subjects({"values", "rest_length", "fit_where", "branch", "name"})},
       {{"identify", "geometry"}, subjects({"thread_thickness", "trapezoids", "side"})},
       {{"identify", "dynamic"}, subjects({"mass", "count", "pressure", "atmosphere"})},
       {{"identify", "joint"},

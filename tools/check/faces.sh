@@ -46,8 +46,8 @@ step_web() {
   mkdir "$runs/static-left" && for name in 200 215 232 250 rows; do
     node web/test/recording.mjs $name >"$runs/static-left/mount-$name.csv" || return 1
   done
-  "$sinew" identify static "$runs"/static-left/mount-*.csv --length mount-200="200 mm" --length mount-215="215 mm" \
-    --length mount-232="232 mm" --length mount-250="250 mm" --rest-length "250 mm" --json \
+  "$sinew" identify static "$runs"/static-left/mount-*.csv --value "mount-200:length=200 mm" --value "mount-215:length=215 mm" \
+    --value "mount-232:length=232 mm" --value "mount-250:length=250 mm" --rest-length "250 mm" --json \
     --report "$runs/static-left/report.html" --quiet >"$runs/static-left/report.json" || return 1
   "$sinew" run experiments/walk-test-1.toml -o "$runs/long" --quiet --set sequence.repeat=200 \
     --set "trolley.track_length=1000 ft" >/dev/null || return 1

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "sinew/config/quantity.h"
@@ -68,12 +71,10 @@ std::vector<double> force_of(const Measured& m) {
 }
 
 // Length of every row.
-std::vector<double> length_of(const Measured& m, const StaticInput& input) {
+std::vector<double> length_of(const Measured& m) {
   if (m.has("length")) return m["length"];
-  if (!(input.length > 0))
-    throw Refusal(m.file, "no length", "a column of lengths, or the one length of this file",
-                  "names.length=NAME, or length=\"205 mm\"");
-  return std::vector<double>(m.rows(), input.length);
+  throw Refusal(m.file, "no length", "a column of lengths, or the one length of this file",
+                "names.length=NAME, or values.length=\"205 mm\"");
 }
 
 // A sensor at its upper end. At the lower one it may well stay: a slack muscle leaves it there.
@@ -93,7 +94,8 @@ void refuse_full(const Measured& m, std::string_view column, const std::vector<d
 void refuse_falling(const Measured& m, const std::vector<double>& force,
                     const std::vector<double>& length) {
   const std::vector<double>& p = m["pressure"];
-  const std::vector<int> group = groups_of(length, 0.005 * largest(length), 1e9);
+  const std::vector<int> group =
+      mount_groups(length, 0.005 * largest(length), widest_mount * largest(length));
   double rise = 0;
   for (int g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
     std::vector<double> ps, fs;
@@ -255,7 +257,7 @@ void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
 
 Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
   std::vector<double> p = m["pressure"], f = force_of(m);
-  const std::vector<double> lengths = length_of(m, input);
+  const std::vector<double> lengths = length_of(m);
   const double length = median(lengths);
   if (largest(lengths) - smallest(lengths) > 0.01 * length)
     throw Refusal(m.file, "a recording whose length changes", "one at one length",
@@ -285,7 +287,8 @@ Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data
 double slack_force(const std::vector<double>& length, const std::vector<double>& p,
                    const std::vector<double>& f) {
   const double range = largest(p) - smallest(p), near = 0.005 * (largest(f) - smallest(f));
-  const std::vector<int> group = groups_of(length, 0.005 * largest(length), 1e9);
+  const std::vector<int> group =
+      mount_groups(length, 0.005 * largest(length), widest_mount * largest(length));
   std::vector<double> slack;
   for (int g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
     std::vector<std::size_t> rows;
@@ -307,7 +310,7 @@ double slack_force(const std::vector<double>& length, const std::vector<double>&
 }
 
 Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
-  const std::vector<double> length = length_of(m, input);
+  const std::vector<double> length = length_of(m);
   std::vector<double> force = force_of(m);
   Zero zero{.force = slack_force(length, m["pressure"], force)};
   if (std::abs(zero.force) > largest_zero_force * (largest(force) - smallest(force))) {
@@ -344,7 +347,7 @@ std::span<const Wanted> static_columns() { return static_wanted; }
 
 Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
   if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");
-  check(m, force_of(m), length_of(m, input));
+  check(m, force_of(m), length_of(m));
   for (const std::string& note : m.notes) data.notes.push_back(m.file + ": " + note);
   return m.has("time") ? add_recording(m, input, data) : add_table(m, input, data);
 }
@@ -380,6 +383,30 @@ std::vector<int> groups_of(std::span<const double> values, double gap, double mo
   const double lowest = values[order[0]];
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = static_cast<int>(std::floor((values[i] - lowest) / (0.5 * most)));
+  return out;
+}
+
+std::vector<int> mount_groups(std::span<const double> lengths, double gap, double widest) {
+  const std::vector<int> chain = groups_of(lengths, gap, std::numeric_limits<double>::infinity());
+  std::map<int, std::pair<double, double>> ends;  // of each chain
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    auto& [first, last] = ends.try_emplace(chain[i], lengths[i], lengths[i]).first->second;
+    first = std::min(first, lengths[i]);
+    last = std::max(last, lengths[i]);
+  }
+  // A sweep ends in a whole step, so that no group of it is a sliver.
+  std::vector<std::pair<int, int>> step;  // of each length its chain, and the step there
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const auto [first, last] = ends.at(chain[i]);
+    const double width = last - first;
+    const double steps = width > widest ? std::round(width / (0.5 * widest)) : 1;
+    const double at = width > 0 ? std::floor((lengths[i] - first) / width * steps) : 0;
+    step.emplace_back(chain[i], static_cast<int>(std::min(at, steps - 1)));
+  }
+  const std::set<std::pair<int, int>> all(step.begin(), step.end());
+  std::vector<int> out;
+  for (const auto& one : step)
+    out.push_back(static_cast<int>(std::distance(all.begin(), all.find(one))));
   return out;
 }
 

@@ -53,7 +53,6 @@ struct StaticData {
 
 // Holds what is known of a file's points beside its columns.
 struct StaticInput {
-  double length = 0;       // of a file without that column; 0: none [m]
   double rest_length = 0;  // 0: not known [m]
   bool fitted = true;
 };
@@ -71,5 +70,13 @@ void sort_points(std::vector<StaticPoint>& points);
 // Groups of values that differ by less than `gap`; where one group would be wider than `most`,
 // equal steps of `most`/2 instead. The group of each value, counted from the smallest.
 std::vector<int> groups_of(std::span<const double> values, double gap, double most);
+
+// Readings of one mount differ by less than this share of the longest length.
+inline constexpr double widest_mount = 0.02;
+
+// Returns the group of each length, counted from the smallest: those that differ by less than `gap`
+// are of one mount, unless their chain is wider than `widest`. Such a chain is a sweep, and is
+// parted in equal steps of about widest/2.
+std::vector<int> mount_groups(std::span<const double> lengths, double gap, double widest);
 
 }  // namespace sinew::identify

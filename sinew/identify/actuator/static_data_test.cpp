@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <numbers>
 #include <random>
 
 #include "sinew/identify/actuator/static.h"
@@ -52,6 +54,11 @@ Measured read(const std::string& text, Source source = {.path = "muscle.csv"}) {
   return parse_measured(text, source, static_columns());
 }
 
+// A file of one length.
+Measured read_at(double length, const std::string& text) {
+  return read(text, {.path = "muscle.csv", .values = {fmt::format("length={} m", length)}});
+}
+
 std::string refusal_of(const std::string& text, const StaticInput& input = {}) {
   StaticData data;
   try {
@@ -70,7 +77,7 @@ TEST(StaticData, BranchesAndZerosOfARecordingAreFound) {
   for (unsigned trial = 0; trial < 10; ++trial) {
     const double f0 = force(random), p0 = pressure(random);
     StaticData data;
-    const Zero zero = add_points(read(recording(0.235, f0, p0, trial)), {.length = 0.235}, data);
+    const Zero zero = add_points(read_at(0.235, recording(0.235, f0, p0, trial)), {}, data);
     EXPECT_NEAR(zero.force, f0, 0.5);
     EXPECT_NEAR(zero.pressure, 1e3 * p0, 150);
     int fill = 0, vent = 0;
@@ -89,8 +96,7 @@ TEST(StaticData, ZerosDoNotMatterToTheParameters) {
     StaticData data;
     unsigned seed = 7;
     for (const double length : {0.25, 0.24, 0.22})
-      add_points(read(recording(length, f0, p0, seed++)), {.length = length, .rest_length = rest},
-                 data);
+      add_points(read_at(length, recording(length, f0, p0, seed++)), {.rest_length = rest}, data);
     return identify_static(data, {.model = "saturating"});
   };
   const StaticResult clean = identify(0, 0), off = identify(-27, 9);
@@ -156,6 +162,45 @@ TEST(StaticData, GroupsFollowGapsAndElseSteps) {
   EXPECT_EQ(even, (std::vector{0, 0, 1, 2, 3}));
 }
 
+TEST(StaticData, ASweepOfLengthsIsNoMountAndAMountIsOneWhateverItsReadings) {
+  // Two mounts with readings that scatter by 0.2 %, and a sweep between them.
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> off(-2.5e-4, 2.5e-4);
+  std::vector<double> lengths;
+  for (int i = 0; i < 40; ++i) lengths.push_back((i % 2 ? 0.200 : 0.250) + off(random));
+  const std::vector<int> mounts = mount_groups(lengths, 1e-3, widest_mount * 0.25);
+  EXPECT_EQ(mounts, groups_of(lengths, 1e-3, 1e9));
+  for (int i = 0; i <= 25; ++i) lengths.push_back(0.210 + 8e-4 * i);
+  const std::vector<int> all = mount_groups(lengths, 1e-3, widest_mount * 0.25);
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(all[i], i % 2 ? 0 : all[0]);
+  // 20 mm in steps of 2.5 mm, none of them empty.
+  EXPECT_EQ(all[40], 1);
+  EXPECT_EQ(all[65], 8);
+  EXPECT_EQ(all[0], 9);
+  EXPECT_TRUE(std::ranges::is_sorted(all.begin() + 40, all.end()));
+}
+
+// A tensile machine pulls at constant pressure: 205 to 249.8 mm in steps of 0.8 mm at three
+// pressures.
+TEST(StaticData, ASweepOfLengthsGivesTheBraid) {
+  const actuator::Braid braid{.thread_length = 0.3, .turns = 2.2};
+  std::string text = "length [mm],pressure [bar gauge],force [N]\n";
+  for (const int pressure : {2, 4, 6})
+    for (int i = 0; i <= 56; ++i) {
+      const double mm = 205 + 0.8 * i, l = 1e-3 * mm;
+      const double area_law = (3 * l * l - braid.thread_length * braid.thread_length) /
+                              (4 * std::numbers::pi * braid.turns * braid.turns);
+      text += fmt::format("{:.1f},{},{:.3f}\n", mm, pressure, 1e5 * pressure * area_law);
+    }
+  StaticData data;
+  add_points(read(text), {.rest_length = 0.25}, data);
+  const StaticResult result = identify_static(data, {.model = "ideal"});
+  std::map<std::string, double> found;
+  for (const Estimate& e : result.report.best().parameters) found[e.name] = e.value;
+  EXPECT_NEAR(found["thread_length"], braid.thread_length, 1e-6);
+  EXPECT_NEAR(found["turns"], braid.turns, 1e-4);
+}
+
 // --- what cannot be used says why ---
 
 void expect_refused(const std::string& message, std::initializer_list<const char*> words) {
@@ -184,7 +229,7 @@ TEST(StaticRefusal, TooFewPoints) {
 
 TEST(StaticRefusal, NoLength) {
   expect_refused(refusal_of("force [N],pressure [kPa gauge]\n1,100\n2,200\n"),
-                 {"no length", "length=\"205 mm\""});
+                 {"no length", "values.length=\"205 mm\""});
 }
 
 TEST(StaticRefusal, SwappedColumns) {
@@ -206,7 +251,7 @@ TEST(StaticRefusal, WrongUnit) {
 TEST(StaticRefusal, ASensorAtItsEnd) {
   StaticData data;
   try {
-    add_points(read(recording(0.25, 0, 0, 3, 300)), {.length = 0.25}, data);
+    add_points(read_at(0.25, recording(0.25, 0, 0, 3, 300)), {}, data);
     FAIL();
   } catch (const Refusal& e) {
     expect_refused(e.what(), {"force", "stay at", "at its end"});

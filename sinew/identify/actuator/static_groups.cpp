@@ -59,7 +59,7 @@ std::vector<int> length_groups(const Points& points) {
   double longest = 0;
   for (const StaticPoint& point : points) longest = std::max(longest, point.length);
   for (const StaticPoint& point : points) l.push_back(point.length + 10 * point.rest_length);
-  return groups_of(l, actuator::same_length * longest, 1e9);
+  return mount_groups(l, actuator::same_length * longest, widest_mount * longest);
 }
 
 int count_of(const std::vector<int>& groups) {

@@ -1,5 +1,6 @@
 // Static laws on public measurements. The force map of the DMSP-10-250 ships in data/; the 20 mm
 // muscles may not, and are read where SINEW_DATA_DIR has them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,9 +115,10 @@ TEST(PublicData, RecordingsOf20MmNeedNoHand) {
       {"Unkinked", 0.225}, {"Kinked9mm", 0.219}, {"Kinked19mm", 0.209}};
   for (const auto& [mount, length] : mounts) {
     Source source{.path = shared(std::string("psu_20mm/raw/20mm_23cm_") + mount + "_Test10.csv"),
-                  .columns = {"force [N]", "pressure [kPa gauge]", "time [s]"}};
-    const Zero zero = add_points(read_measured(source, static_columns()),
-                                 {.length = length, .rest_length = 0.225}, data);
+                  .columns = {"force [N]", "pressure [kPa gauge]", "time [s]"},
+                  .values = {fmt::format("length={} m", length)}};
+    const Zero zero =
+        add_points(read_measured(source, static_columns()), {.rest_length = 0.225}, data);
     EXPECT_NEAR(zero.pressure, 8.9e3, 300) << mount;
   }
   for (const Branch branch : {Branch::fill, Branch::vent})
@@ -143,9 +145,9 @@ TEST(PublicData, RecordingsOf10MmBySettledSamples) {
         const std::string name = mount ? "kinked" + std::to_string(25 * mount) : "Unkink";
         Source source{
             .path = folder + "/10mm_" + size + "_" + name + "_Test" + std::to_string(test) + ".csv",
-            .columns = {"force [N]", "pressure [kPa gauge]", "time [s]", "valve"}};
-        add_points(read_measured(source, static_columns()),
-                   {.length = 1e-3 * (muscle - kink * mount), .rest_length = 1e-3 * muscle}, data);
+            .columns = {"force [N]", "pressure [kPa gauge]", "time [s]", "valve"},
+            .values = {fmt::format("length={} mm", muscle - kink * mount)}};
+        add_points(read_measured(source, static_columns()), {.rest_length = 1e-3 * muscle}, data);
       }
     const StaticResult found = identify_static(data, {.model = law});
     const Fit& best = found.report.best();

@@ -72,8 +72,9 @@ TEST(Checkup, FindsTheNoise) {
       text += fmt::format("{},{},{}\n", t, p, 0.9 * p + noise * normal(random));
     }
     CheckInput recording;
-    recording.add({parse_measured(text, {.path = "fill.csv"}, static_columns()),
-                   {.length = 0.25, .rest_length = 0.25}});
+    recording.add(
+        {parse_measured(text, {.path = "fill.csv", .values = {"length=0.25 m"}}, static_columns()),
+         {.rest_length = 0.25}});
     const Recognised said = recognise(recording);
     EXPECT_EQ(said.noise.from, "settled samples");
     EXPECT_NEAR(said.noise.deviation, noise, 0.1 * noise);

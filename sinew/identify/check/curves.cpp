@@ -67,7 +67,7 @@ std::vector<ForceCurve> curves_of(std::vector<StaticPoint> points) {
   }
   std::vector<double> lengths;
   for (const StaticPoint& p : points) lengths.push_back(p.length);
-  const std::vector<int> group = groups_of(lengths, 0.002 * longest, 1e9);
+  const std::vector<int> group = mount_groups(lengths, 0.002 * longest, widest_mount * longest);
 
   std::vector<std::tuple<double, int, int, std::size_t>> order;
   for (std::size_t i = 0; i < points.size(); ++i)

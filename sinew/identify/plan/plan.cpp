@@ -196,7 +196,8 @@ std::vector<MeasuredMount> mounts_of(std::span<const StaticPoint> points) {
   std::vector<double> lengths;
   for (const StaticPoint& p : points) lengths.push_back(p.length);
   if (lengths.empty()) return out;
-  const std::vector<int> group = groups_of(lengths, 5e-4, 1e9);
+  const std::vector<int> group =
+      mount_groups(lengths, 5e-4, widest_mount * *std::ranges::max_element(lengths));
   out.resize(static_cast<std::size_t>(*std::ranges::max_element(group)) + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     MeasuredMount& mount = out[static_cast<std::size_t>(group[i])];

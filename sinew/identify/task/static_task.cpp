@@ -22,46 +22,9 @@ namespace {
 constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
 constexpr config::Range across_a_muscle = config::above_zero(1, "of a muscle");
 
-// "Kinked19=206 mm" is for files with Kinked19 in their name, "205 mm" for all.
-struct LengthOf {
-  std::string part, text;
-
-  explicit LengthOf(const std::string& setting) : text(setting) {
-    const std::size_t equals = setting.find('=');
-    if (equals == setting.npos) return;
-    part = setting.substr(0, equals);
-    text = setting.substr(equals + 1);
-  }
-
-  bool is_for(const std::string& file) const {
-    return std::filesystem::path(file).filename().string().find(part) != part.npos;
-  }
-};
-
-double length_for(const std::vector<std::string>& lengths, const Source& source) {
-  double out = 0;
-  for (const std::string& setting : lengths)
-    if (const LengthOf length(setting); length.is_for(source.path))
-      out =
-          config::quantity_setting("length", length.text, "m", source.atmosphere, actuator_length);
-  return out;
-}
-
-// A part of a name that no file has is a slip: its files would take another length.
-void refuse_lengths_of_no_file(const std::vector<std::string>& lengths,
-                               const std::vector<Source>& sources) {
-  for (const std::string& setting : lengths) {
-    const LengthOf length(setting);
-    const auto fits = [&](const Source& s) { return length.is_for(s.path); };
-    if (!std::ranges::any_of(sources, fits))
-      config::fail({"length", 0, 0}, "", config::in_quotes(setting),
-                   "a part of the name of one of the files");
-  }
-}
-
 // Returns what the settings say of a file's points.
 StaticInput input_for(const StaticSettings& settings, const Source& source, bool fitted) {
-  StaticInput input{.length = length_for(settings.lengths, source), .fitted = fitted};
+  StaticInput input{.fitted = fitted};
   if (!settings.rest_length.empty())
     input.rest_length = config::quantity_setting("rest_length", settings.rest_length, "m",
                                                  source.atmosphere, actuator_length);
@@ -223,23 +186,15 @@ CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings&
   return out;
 }
 
-void refuse_lengths_of_no_file(const std::vector<Source>& sources, const StaticSettings& settings) {
-  std::vector<Source> all = sources;
-  if (const std::optional<Source> other = held_out_of(sources, settings)) all.push_back(*other);
-  refuse_lengths_of_no_file(settings.lengths, all);
-}
-
 }  // namespace
 
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  refuse_lengths_of_no_file(sources, settings);
   return read_tables(sources, settings, Unreadable::is_refused).data;
 }
 
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  refuse_lengths_of_no_file(sources, settings);
   CheckInput read = read_tables(sources, settings, Unreadable::is_refused);
   std::vector<double> lengths;
   for (const std::string& setting : settings.predict)
@@ -260,14 +215,7 @@ StaticFound find_static(const std::vector<Source>& sources, const StaticSettings
 
 Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  Checkup out = check_up(read_tables(sources, settings, Unreadable::is_red));
-  try {
-    refuse_lengths_of_no_file(sources, settings);
-  } catch (const config::Error& error) {
-    out.checks.insert(out.checks.begin(), {"lengths of files", Light::red, error.what(),
-                                           "Name a part that one of the files has."});
-  }
-  return out;
+  return check_up(read_tables(sources, settings, Unreadable::is_red));
 }
 
 }  // namespace sinew::identify

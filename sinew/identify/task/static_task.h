@@ -15,8 +15,6 @@ struct StaticSettings {
   std::string name = "bpa";            // of the actuator
   std::string model;                   // this one alone; empty: the data choose
   std::string rest_length;             // without pressure and load; empty: the longest length
-  std::vector<std::string> lengths;    // of files without a column of it: "205 mm", or
-                                       // "PART=205 mm" for files with PART in their name
   std::string actuator;                // a file whose braid is taken as known; empty: none
   std::string branch = "both";         // fill, vent or both
   std::vector<std::string> fit_where;  // "NAME=VALUE,...": only such rows are fitted
@@ -48,8 +46,7 @@ StaticData read_static(const std::vector<Source>& sources, const StaticSettings&
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
 // Asks the tables what a fit would not, and tells what it could find: see identify/check/checkup.h.
-// A length of no file is a red check, too. Throws config::Error for tables that cannot be read and
-// settings that are none.
+// Throws config::Error for settings that are none.
 Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
 }  // namespace sinew::identify
