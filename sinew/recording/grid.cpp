@@ -89,11 +89,19 @@ bool Body::next(Row& row) {
     if (ragged_++ > 0) continue;
     first_line_ = row.line;
     first_cells_ = row.cells.size();
-    of_digits_ = std::ranges::all_of(row.cells, [](const Cell& c) {
+    first_digits_ = static_cast<std::size_t>(std::ranges::count_if(row.cells, [](const Cell& c) {
       return !c.text.empty() && c.text.find_first_not_of("0123456789+-") == c.text.npos;
-    });
+    }));
   }
   return false;
+}
+
+// Returns whether the rows that do not fit are longer by numbers that a comma cuts in two: a
+// program has made commas of all semicolons, though the numbers have decimal commas.
+bool Body::is_cut_at_decimal_commas() const {
+  const std::size_t width = grid_.headings().size();
+  if (grid_.dialect.separator != ',' || first_cells_ <= width) return false;
+  return first_cells_ == 2 * width || first_digits_ >= 2 * (first_cells_ - width);
 }
 
 void Body::finish(std::vector<std::string>& notes) const {
@@ -103,15 +111,14 @@ void Body::finish(std::vector<std::string>& notes) const {
         fmt::format("{} line{} with a date alone: left out", dates_, dates_ == 1 ? "" : "s"));
   if (ragged_ == 0) return;
   const std::size_t width = grid_.headings().size();
-  if (grid_.drop_incomplete) {
+  const bool doubled = is_cut_at_decimal_commas();
+  if (grid_.drop_incomplete && !(doubled && count_ == 0)) {
     notes.push_back(
         fmt::format("{} line{} with another number of cells than the {} of the header, "
                     "the first in line {}: left out",
                     ragged_, ragged_ == 1 ? "" : "s", width, first_line_));
     return;
   }
-  const bool doubled = first_cells_ > width && grid_.dialect.separator == ',' &&
-                       (first_cells_ == 2 * width || of_digits_);
   config::fail(
       {grid_.file, first_line_, 1}, "row",
       fmt::format("{} cells ({} such row{})", first_cells_, ragged_, ragged_ == 1 ? "" : "s"),

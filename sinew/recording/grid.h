@@ -54,14 +54,15 @@ class Body {
 
  private:
   bool fits(Row& row);
+  bool is_cut_at_decimal_commas() const;
 
   const Grid& grid_;
   RowReader reader_;
   std::size_t count_ = 0, ragged_ = 0, dates_ = 0;
-  bool of_digits_ = false;  // are the cells of the first such row whole numbers
-  int first_line_ = 0;      // of the rows that do not fit
-  std::size_t first_cells_ = 0;
-  std::string cut_;  // what is to be noted of the last row
+  int first_line_ = 0;            // of the rows that do not fit
+  std::size_t first_cells_ = 0;   // of that row
+  std::size_t first_digits_ = 0;  // of these cells those that are whole numbers
+  std::string cut_;               // what is to be noted of the last row
 };
 
 }  // namespace sinew::recording

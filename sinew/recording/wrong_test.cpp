@@ -121,6 +121,14 @@ TEST(Wrong, NumbersThatCanBeTwoThingsAreNotGuessed) {
       {"time [s],F [N]\n0,5,12,5\n0,6,13,5\n",
        "lab.csv:2:1: row: found 4 cells (2 such rows); expected 2 as in the header; try decimal "
        "points, or semicolons between cells"},
+      {"date,t [s],F [N]\n2026-11-24,0,5,12\n2026-11-24,0,6,13\n",
+       "found 4 cells (2 such rows); expected 3 as in the header; try decimal points, or "
+       "semicolons between cells: with decimal commas every number is cut in two"},
+      {"time [s],F [N]\n0,5,12,5\n0,6,13,5\n",
+       "semicolons between cells: with decimal commas every number is cut in two",
+       {.drop_incomplete = true}},
+      {"time [s],F [N]\n0,5\n1,6\n2,7.5,left\n3,8\n",
+       "drop_incomplete=true to leave such rows out"},
       {header + "0,5;1\n", "decimal: found \";\"; expected \".\" or \",\"", {.decimal = ";"}},
       {header + "0,5;1\n", "two different signs", {.decimal = ",", .thousands = ","}},
       {header + "0,5;1\n", "encoding: found \"utf8\"", {.encoding = "utf8"}},
