@@ -89,6 +89,17 @@ bool take_pairs(std::string_view list, Pairs& out) {
   return f.ok();
 }
 
+// All but the records.
+Chunk take_chunk_head(Fields& f) {
+  Chunk c;
+  c.start_time = f.u64();
+  c.end_time = f.u64();
+  c.uncompressed_size = f.u64();
+  c.crc = f.u32();
+  c.compression = f.text();
+  return c;
+}
+
 }  // namespace
 
 std::optional<Schema> parse_schema(std::string_view content) {
@@ -126,14 +137,22 @@ std::optional<Message> parse_message(std::string_view content) {
 
 std::optional<Chunk> parse_chunk(std::string_view content) {
   Fields f(content);
-  Chunk c;
-  c.start_time = f.u64();
-  c.end_time = f.u64();
-  c.uncompressed_size = f.u64();
-  c.crc = f.u32();
-  c.compression = f.text();
+  Chunk c = take_chunk_head(f);
   c.records = f.bytes(f.u64());
   return if_ok(f, c);
+}
+
+std::optional<Chunk> parse_cut_chunk(std::string_view beginning) {
+  if (!beginning.starts_with(static_cast<char>(Op::chunk))) return std::nullopt;
+  Fields f(beginning.substr(1));
+  const std::uint64_t length = f.u64();
+  const std::size_t before = f.rest().size();
+  Chunk c = take_chunk_head(f);
+  const std::uint64_t records = f.u64();
+  const std::size_t head = before - f.rest().size();
+  if (!f.ok() || length < head || records != length - head) return std::nullopt;
+  c.records = f.rest();
+  return c;
 }
 
 std::optional<std::pair<std::string, Pairs>> parse_metadata(std::string_view content) {

@@ -108,6 +108,8 @@ class Records {
   explicit Records(std::string_view bytes) : rest_(bytes) {}
   std::optional<Record> next();
   bool torn() const { return torn_; }
+  // What has not been taken yet: with torn(), the part of a record.
+  std::string_view rest() const { return rest_; }
 
  private:
   std::string_view rest_;
@@ -141,6 +143,10 @@ std::optional<Schema> parse_schema(std::string_view content);
 std::optional<Channel> parse_channel(std::string_view content);
 std::optional<Message> parse_message(std::string_view content);
 std::optional<Chunk> parse_chunk(std::string_view content);
+// The beginning of a chunk of which the file has no end, from its opcode on; its records are as
+// many bytes as there are. Nothing where it has no whole head, or where the lengths in it disagree:
+// such a chunk is damaged, and not cut off.
+std::optional<Chunk> parse_cut_chunk(std::string_view beginning);
 std::optional<std::pair<std::string, Pairs>> parse_metadata(std::string_view content);
 
 // Each appends one record of that kind.

@@ -46,6 +46,8 @@ class Collector {
   void add_series(std::uint16_t channel, signals::Topic topic, const Pairs& metadata);
   bool take_message(std::string_view content);
   bool take_chunk(std::string_view content);
+  void take_cut_chunk(std::string_view beginning);
+  bool take_records(const Chunk& chunk);
   bool leave_out();
   void repeat_steady();
   bool ends_properly(const Record& last) const;
@@ -81,6 +83,7 @@ signals::Table Collector::table() {
     if (!take(*record)) break;
     mapping_.forget_before(record->whole.data());
   }
+  if (records.torn()) take_cut_chunk(records.rest());
   repeat_steady();
   return {std::move(series_), ended && whole_};
 }
@@ -172,13 +175,23 @@ bool Collector::take_message(std::string_view content) {
 bool Collector::take_chunk(std::string_view content) {
   const auto chunk = parse_chunk(content);
   if (!chunk) return false;
-  if (chunk->compression == "zstd" || chunk->compression == "lz4")
-    throw Error(file_, fmt::format("the log is compressed with {}", chunk->compression),
-                "write an uncompressed copy with `mcap decompress IN -o OUT` and read that");
-  if (!chunk->compression.empty()) return false;
-  if (chunk->crc != 0 && chunk->crc != crc32(chunk->records)) return false;
+  const bool known = chunk->compression.empty();
+  if (known && chunk->crc != 0 && chunk->crc != crc32(chunk->records)) return false;
+  return take_records(*chunk);
+}
 
-  Records records(chunk->records);
+// The whole records in it: as the messages of a chunk are in the order in which they were logged,
+// all topics reach as far as the file. Its checksum is of all records and cannot be compared.
+void Collector::take_cut_chunk(std::string_view beginning) {
+  if (const auto chunk = parse_cut_chunk(beginning)) take_records(*chunk);
+}
+
+bool Collector::take_records(const Chunk& chunk) {
+  if (chunk.compression == "zstd" || chunk.compression == "lz4")
+    throw Error(file_, fmt::format("the log is compressed with {}", chunk.compression),
+                "write an uncompressed copy with `mcap decompress IN -o OUT` and read that");
+  if (!chunk.compression.empty()) return false;
+  Records records(chunk.records);
   while (const auto record = records.next())
     if (record->op == Op::chunk || !take(*record)) return false;
   return !records.torn();
