@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "cli/settings.h"
+#include "sinew/config/utf8.h"
 
 namespace sinew::cli {
 
@@ -51,16 +52,17 @@ void fill_closed_streams() {
 
 // Each line starts with its place, so that editors can jump there.
 void error(std::string_view text) {
-  to_stderr(in_color(STDERR_FILENO, as_options(text), "31") + "\n");
+  to_stderr(in_color(STDERR_FILENO, config::printable(as_options(text)), "31") + "\n");
 }
 
 void Messages::warning(std::string_view text) const {
   if (!quiet_)
-    to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), as_options(text)));
+    to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"),
+                          config::printable(as_options(text))));
 }
 
 void Messages::note(std::string_view text) const {
-  if (!quiet_) to_stderr(fmt::format("{}\n", as_options(text)));
+  if (!quiet_) to_stderr(config::printable(as_options(text)) + "\n");
 }
 
 run::Notices Messages::notices() const {

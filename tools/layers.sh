@@ -37,7 +37,7 @@ layers='
     plant/slide     plant/world air robot signals
     plant/recorded  air robot signals log
     plant/mujoco    air robot signals
-    plant/hardware  control/link control/board signals
+    plant/hardware  control/link control/board host signals
     plant/comedi    control/supervise host signals
     experiment      robot config control/gait
     experiment/rig  experiment plant/slide

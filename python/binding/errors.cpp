@@ -5,6 +5,7 @@
 
 #include "python/binding/bind.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/utf8.h"
 #include "sinew/log/error.h"
 #include "sinew/plant/comedi/comedi_port.h"
 #include "sinew/plant/hardware/remote_board.h"
@@ -18,6 +19,11 @@ void raise_input_error(const py::handle& type, const config::Error& error) {
   py::object exception = py::reinterpret_borrow<py::object>(type)(error.what());
   exception.attr("problems") = py::cast(error.problems());
   PyErr_SetObject(type.ptr(), exception.ptr());
+}
+
+// Raises `type` with the words, in which a file's name may have bytes that are not UTF-8.
+void raise(const py::handle& type, const std::exception& error) {
+  PyErr_SetString(type.ptr(), config::printable(error.what()).c_str());
 }
 
 }  // namespace
@@ -66,15 +72,15 @@ void bind_errors(py::module_& m) {
     } catch (const config::Error& e) {
       raise_input_error(input, e);
     } catch (const log::Error& e) {
-      PyErr_SetString(log.ptr(), e.what());
+      raise(log, e);
     } catch (const RunError& e) {
-      PyErr_SetString(run.ptr(), e.what());
+      raise(run, e);
     } catch (const plant::BoardError& e) {
-      PyErr_SetString(board.ptr(), e.what());
+      raise(board, e);
     } catch (const plant::CardError& e) {
-      PyErr_SetString(board.ptr(), e.what());
+      raise(board, e);
     } catch (const std::filesystem::filesystem_error& e) {
-      PyErr_SetString(PyExc_OSError, e.what());
+      raise(PyExc_OSError, e);
     }
   });
 }

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "sinew/config/utf8.h"
+
 namespace sinew::config {
 
 namespace {
@@ -30,19 +32,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-// One line, whatever bytes of a file are quoted in it.
-std::string without_controls(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F)
-      out += fmt::format("\\x{:02X}", byte);
-    else
-      out += c;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string to_text(const Problem& problem) {
@@ -56,7 +45,7 @@ std::string to_text(const Problem& problem) {
   text += missing ? "missing" : "found " + problem.found;
   text += "; expected " + problem.expected;
   if (!problem.try_this.empty()) text += "; try " + problem.try_this;
-  return without_controls(text);
+  return printable(text, "");  // one line
 }
 
 std::string to_text(const std::vector<Problem>& problems) {

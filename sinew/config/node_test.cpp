@@ -93,10 +93,13 @@ TEST(Diagnostics, AProblemIsOneLine) {
   EXPECT_EQ(to_text(std::vector{problem, problem}), to_text(problem) + "\n" + to_text(problem));
 }
 
-// A file may hold what moves a terminal's cursor.
+// A file, or its name, may hold what moves a terminal's cursor, turns the direction of writing or
+// is not UTF-8.
 TEST(Diagnostics, BytesThatAreNoTextAreShownAsNumbers) {
   const Problem problem{{"a.toml", 1, 1}, "x", in_quotes("1\n2\x1b[31m\x7f"), "a number"};
   EXPECT_EQ(to_text(problem), "a.toml:1:1: x: found \"1\\x0A2\\x1B[31m\\x7F\"; expected a number");
+  const Problem file{{"caf\xE9\xE2\x80\xAE.toml", 1, 1}, "\xC3\xA4", "1", "2"};
+  EXPECT_EQ(to_text(file), "caf\\xE9\\xE2\\x80\\xAE.toml:1:1: \xC3\xA4: found 1; expected 2");
 }
 
 TEST(Diagnostics, SuggestsOnlyWhatIsNear) {

@@ -27,22 +27,28 @@ inline std::size_t letter_at(std::string_view text, std::size_t at) {
   return length;
 }
 
+// Bytes of the sign that begins there and turns the direction of writing; 0 where none does.
+inline std::size_t turn_at(std::string_view text, std::size_t at) {
+  const std::string_view rest = text.substr(at);
+  const auto begins = [&](std::string_view two, unsigned from, unsigned to) {
+    const unsigned last = rest.size() > 2 ? static_cast<unsigned char>(rest[2]) : 0;
+    return rest.starts_with(two) && last >= from && last <= to;
+  };
+  const bool turns = begins("\xE2\x80", 0x8E, 0x8F) || begins("\xE2\x80", 0xAA, 0xAE) ||
+                     begins("\xE2\x81", 0xA6, 0xA9);
+  return turns ? 3 : 0;
+}
+
 // Returns the text without signs that turn the direction of writing, and without controls: names of
 // foreign files are printed on terminals.
 inline std::string without_controls(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
-    const std::string_view rest = text.substr(at);
-    const auto begins = [&](std::string_view two, unsigned from, unsigned to) {
-      const unsigned last = rest.size() > 2 ? static_cast<unsigned char>(rest[2]) : 0;
-      return rest.starts_with(two) && last >= from && last <= to;
-    };
-    const bool turns = begins("\xE2\x80", 0x8E, 0x8F) || begins("\xE2\x80", 0xAA, 0xAE) ||
-                       begins("\xE2\x81", 0xA6, 0xA9);
-    const auto byte = static_cast<unsigned char>(rest[0]);
+    const std::size_t turn = turn_at(text, at);
+    const auto byte = static_cast<unsigned char>(text[at]);
     const bool controls = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
-    if (!turns && !controls) out += rest[0];
-    at += turns ? 3 : 1;
+    if (!turn && !controls) out += text[at];
+    at += turn ? turn : 1;
   }
   return out;
 }
@@ -54,6 +60,30 @@ inline std::string in_utf8(std::string_view text) {
     const std::size_t length = letter_at(text, at);
     out += length > 0 ? text.substr(at, length) : std::string_view("\xEF\xBF\xBD");
     at += length > 0 ? length : 1;
+  }
+  return out;
+}
+
+// Returns the text for a terminal, whatever bytes of a file or of its name are quoted in it: a byte
+// that is not UTF-8 is shown as \xE9, a control as \x1B, and a sign that turns the direction of
+// writing by its three bytes. Those of `kept` remain.
+inline std::string printable(std::string_view text, std::string_view kept = "\n\t") {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t letter = letter_at(text, at), turn = turn_at(text, at);
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const bool control = (byte < 0x20 && kept.find(text[at]) == kept.npos) || byte == 0x7F;
+    const bool hidden = letter == 0 || turn || control;
+    const std::size_t length = letter == 0 ? 1 : letter;
+    for (const char c : text.substr(at, length)) {
+      const auto b = static_cast<unsigned char>(c);
+      if (hidden)
+        out.append({'\\', 'x', digits[b >> 4], digits[b & 15]});
+      else
+        out += c;
+    }
+    at += length;
   }
   return out;
 }

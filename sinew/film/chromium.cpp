@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "sinew/film/process.h"
+#include "sinew/host/temporary_folder.h"
 #include "sinew/json/json.h"
 
 namespace sinew::film {
@@ -19,12 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto patience = std::chrono::seconds(60);  // with an answer, on a slow machine
 constexpr int commands = 3, answers = 4;             // the files that the browser reads and writes
-
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "sinew-film-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be made");
-  return name;
-}
 
 // Its options, without the dashes before them. Letters are drawn alike on every screen.
 constexpr std::string_view browser_options[] = {"headless",
@@ -80,7 +75,7 @@ struct Chromium::Impl {
   [[noreturn]] void fail(const std::string& why) const;
 
   const std::atomic<bool>& stop;
-  fs::path folder = new_folder();
+  fs::path folder = host::make_temporary_folder("sinew-film");
   End to, from;
   pid_t pid = -1;
   int last = 0;  // number of a command

@@ -16,6 +16,7 @@
 #include <iterator>
 
 #include "sinew/control/board/lock_step.h"
+#include "sinew/host/temporary_folder.h"
 #include "sinew/plant/hardware/remote_board.h"
 
 namespace sinew::plant {
@@ -87,9 +88,7 @@ Emulator::Emulator(const std::string& image, Wires wires, int line) : wires_(std
   if (!std::filesystem::is_regular_file(image))
     throw BoardError(image + ": there is no such program for the emulator");
   require_kind(image, line < 0);
-  std::string folder = std::filesystem::temp_directory_path() / "sinew-board-XXXXXX";
-  if (::mkdtemp(folder.data()) == nullptr) throw BoardError(folder + ": " + std::strerror(errno));
-  folder_ = folder;
+  folder_ = host::make_temporary_folder("sinew-board");
   try {
     from_path_ = pipe_at(folder_ + "/from-board");
     to_path_ = pipe_at(folder_ + "/to-board");

@@ -1,7 +1,6 @@
 #include "sinew/run/bring_up/firmware.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include "sinew/control/link/baud.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/host/temporary_folder.h"
 #include "sinew/run/bring_up/wiring_drawing.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/setup/installation.h"
@@ -48,9 +48,7 @@ bool is_plain(const std::string& word) {
 
 // A folder that is gone with this.
 struct Workshop {
-  Workshop() : path((fs::temp_directory_path() / "sinew-firmware-XXXXXX").string()) {
-    if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
-  }
+  Workshop() : path(host::make_temporary_folder("sinew-firmware")) {}
   ~Workshop() {
     std::error_code ignored;
     fs::remove_all(path, ignored);

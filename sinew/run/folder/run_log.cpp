@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "sinew/config/utf8.h"
 #include "sinew/log/reader.h"
 
 namespace sinew::run {
@@ -46,7 +47,7 @@ RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int s
 
 std::vector<std::pair<std::string, std::string>> RunLog::metadata(
     const std::string& resolved) const {
-  return {{"experiment", name_},
+  return {{"experiment", config::in_utf8(name_)},
           {"seed", std::to_string(seed_)},
           {"version", SINEW_VERSION},
           {"resolved", resolved}};
