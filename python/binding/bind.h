@@ -61,6 +61,11 @@ using ExperimentPointer = std::shared_ptr<const HeldExperiment>;
 // Returns a path that was given as text or as pathlib's. Throws TypeError for anything else.
 std::string path_of(const py::handle& meant);
 
+// The bytes of a text, and the text of a path's bytes, as Python's os has them: a name that is not
+// UTF-8 keeps its bytes.
+std::string bytes_of(const py::handle& text);
+py::object path_text(const std::string& path);
+
 // Returns settings as "key=value": of None, a list of such texts, or a dict, whose numbers are in
 // the SI units that `origins` has of the keys. Throws TypeError for anything else.
 std::vector<std::string> sets_of(const py::object& sets,

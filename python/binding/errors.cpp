@@ -41,7 +41,8 @@ py::handle new_exception(py::module_& m, const char* name, const char* doc,
 void bind_errors(py::module_& m) {
   py::class_<config::Problem>(m, "Problem", "One thing that is wrong with a file or a setting.")
       .def_property_readonly(
-          "file", [](const config::Problem& p) { return p.where.file; }, "The file; may be empty.")
+          "file", [](const config::Problem& p) { return path_text(p.where.file); },
+          "The file; may be empty.")
       .def_property_readonly(
           "line", [](const config::Problem& p) { return p.where.line; },
           "The line, from 1 on; 0 where the place has no lines.")

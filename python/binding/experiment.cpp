@@ -9,6 +9,7 @@
 #include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/shown_units.h"
+#include "sinew/config/utf8.h"
 #include "sinew/control/gait/change.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/run/setup/buildable.h"
@@ -163,9 +164,17 @@ std::vector<std::string> sets_of(const py::object& sets,
 
 std::string path_of(const py::handle& meant) {
   if (py::isinstance<py::str>(meant) || py::hasattr(meant, "__fspath__"))
-    return py::module_::import("os").attr("fsdecode")(meant).cast<std::string>();
+    return bytes_of(py::module_::import("os").attr("fsdecode")(meant));
   throw py::type_error(fmt::format("found {}; expected a path, or an Experiment",
                                    py::repr(meant).cast<std::string>()));
+}
+
+std::string bytes_of(const py::handle& text) {
+  return py::bytes(text.attr("encode")("utf-8", "surrogateescape"));
+}
+
+py::object path_text(const std::string& path) {
+  return py::bytes(path).attr("decode")("utf-8", "surrogateescape");
 }
 
 ExperimentPointer experiment_of(const py::object& meant, const py::object& sets) {
@@ -186,7 +195,7 @@ void bind_experiment(py::module_& m) {
            "A number is in the key's SI unit, text has a unit of its own (\"35 lbf in/rad\").\n"
            "Raises InputError with everything that is wrong.")
       .def_property_readonly(
-          "path", [](const HeldExperiment& e) { return e.path; }, "Its file.")
+          "path", [](const HeldExperiment& e) { return path_text(e.path); }, "Its file.")
       .def_property_readonly(
           "name", [](const HeldExperiment& e) { return e.read.name; },
           "The file's name without its ending.")
@@ -247,7 +256,9 @@ void bind_experiment(py::module_& m) {
       .def("resolved", &resolved,
            "Returns a file with every value in SI and its source, which runs again.")
       .def("__repr__",
-           [](const HeldExperiment& e) { return fmt::format("<sinew.Experiment {}>", e.path); })
+           [](const HeldExperiment& e) {
+             return fmt::format("<sinew.Experiment {}>", config::printable(e.path));
+           })
       .def("__copy__", [](const std::shared_ptr<HeldExperiment>& e) { return e; })
       .def(
           "__deepcopy__",

@@ -19,7 +19,7 @@ py::dict migrate(const py::object& path, const py::object& folder, bool write) {
   if (!folder.is_none()) options.folder = path_of(folder);
   const files::Migration done = files::migrate(path_of(path), options);
   py::dict out;
-  out["file"] = done.file;
+  out["file"] = path_text(done.file);
   out["was"] = done.was;
   out["is"] = done.is;
   out["changes"] = done.changes;
@@ -48,7 +48,7 @@ py::list list_files(const std::string& kind, const py::object& folder) {
   for (const files::Listed& one : found.files) {
     py::dict row;
     row["kind"] = one.kind;
-    row["path"] = one.path;
+    row["path"] = path_text(one.path);
     row["title"] = one.title;
     row["problem"] = one.problem;
     row["shipped"] = one.shipped;

@@ -22,7 +22,7 @@ py::object start_of(const fmu::Variable& v) {
 
 py::dict told(const fmu::Fmu& made, const std::string& path) {
   py::dict out;
-  out["file"] = path;
+  out["file"] = path_text(path);
   out["kind"] = made.kind;
   out["name"] = made.name;
   out["model_identifier"] = made.identifier;

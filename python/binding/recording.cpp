@@ -174,7 +174,9 @@ void bind_recording(py::module_& m) {
           "complete", [](const Recording& r) { return r.table.complete; },
           "False: it was read from a log that was cut off.")
       .def_readonly("warnings", &Recording::warnings, "What is doubtful about it.")
-      .def_readonly("folder", &Recording::folder, "Where it is kept; empty: nowhere.")
+      .def_property_readonly(
+          "folder", [](const Recording& r) { return path_text(r.folder); },
+          "Where it is kept; empty: nowhere.")
       .def_readonly("board", &Recording::board,
                     "Who answered at the port of the run; empty: it was simulated, or read.")
       .def_property_readonly(

@@ -61,21 +61,21 @@ void Settings::text(const char* name, std::string& out) const {
   const py::object value = at(name);
   if (value.is_none()) return;
   if (!is_text(value)) refuse(name, value, "text");
-  out = value.cast<std::string>();
+  out = bytes_of(value);
 }
 
 void Settings::texts(const char* name, std::vector<std::string>& out) const {
   const py::object value = at(name);
   if (value.is_none()) return;
   if (is_text(value)) {
-    out = {value.cast<std::string>()};
+    out = {bytes_of(value)};
     return;
   }
   if (!py::hasattr(value, "__iter__")) refuse(name, value, "texts");
   out.clear();
   for (const py::handle one : value) {
     if (!is_text(one)) refuse(name, one, "text");
-    out.push_back(one.cast<std::string>());
+    out.push_back(bytes_of(one));
   }
 }
 

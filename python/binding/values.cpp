@@ -50,7 +50,7 @@ py::dict origin_of(const config::Origin& origin) {
   out["text"] = origin.text;
   out["unit"] = origin.unit;
   out["source"] = origin.source;
-  out["file"] = origin.where.file;
+  out["file"] = path_text(origin.where.file);
   out["line"] = origin.where.line;
   out["default"] = origin.is_default;
   out["fit"] = origin.fit;

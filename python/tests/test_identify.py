@@ -36,6 +36,14 @@ class Static(unittest.TestCase):
         masked: Any = numpy.ma.MaskedArray(held, mask=held < 10)  # type: ignore[no-untyped-call]
         with self.assertRaisesRegex(ValueError, "force: found a masked array"):
             sinew.identify.static(length, pressure, masked)
+        # In a table a masked place is a cell without a number, which may be left out.
+        columns = {"length [m]": length, "pressure [Pa gauge]": pressure, "force [N]": masked}
+        table = sinew.identify.Table(columns, drop_incomplete=True)
+        with self.assertRaisesRegex(ValueError, "nan"):
+            sinew.identify.static_from(columns)
+        few = {name: numpy.asarray(one)[held >= 10] for name, one in columns.items()}
+        left = sinew.identify.static_from(table, model="ideal").report["parameters"]
+        self.assertEqual(left, sinew.identify.static_from(few, model="ideal").report["parameters"])
 
     def test_is_the_programs(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -64,11 +64,15 @@ void true_fault_columns(const experiment::Experiment& e, Columns& out) {
   }
 }
 
-// Adds all of the machine's air, for its balance, where something of the air may break.
+// Adds all of the machine's air, for its balance, where something of the air may break or a hose
+// holds air, which is no muscle's.
 void true_air_columns(const experiment::Experiment& e, Columns& out) {
-  if (std::ranges::all_of(e.faults,
-                          [](const experiment::Fault& f) { return is_of_sensor(f.what); }))
-    return;
+  const bool breaks = !std::ranges::all_of(
+      e.faults, [](const experiment::Fault& f) { return is_of_sensor(f.what); });
+  const bool in_hoses = std::ranges::any_of(e.robot.muscles, [](const robot::Muscle& m) {
+    return m.hose.law != gas::Hose::Law::none && m.hose.volume > 0;
+  });
+  if (!breaks && !in_hoses) return;
   out.scalar("/true/air/mass", "kg", "in chambers, hoses and tank",
              [](const Snapshot& m) { return m.truth.air_mass; });
   const bool fails = std::ranges::any_of(e.faults, [](const experiment::Fault& f) {
