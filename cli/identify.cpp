@@ -260,15 +260,16 @@ void tell(const identify::Report& report, const std::string& parameter_file,
   const Messages messages(options.quiet);
   for (const std::string& note : report.notes) messages.note(note);
   for (const std::string& warning : report.warnings) messages.warning(warning);
+  // Files come before what is printed: a reader that ends early, such as head, ends the program.
+  write_parameter_file(parameter_file, options);
+  leave_page(report.title.empty() ? report.subject : report.title, {&report}, parameter_file, data,
+             options);
   if (options.json) {
     fmt::print("{}\n", (json.is_null() ? to_json(report) : json).text(2));
   } else {
     print(report, units_asked(options.units, units::UnitSet::si),
           identify::atmosphere_setting(data.atmosphere));
   }
-  write_parameter_file(parameter_file, options);
-  leave_page(report.title.empty() ? report.subject : report.title, {&report}, parameter_file, data,
-             options);
 }
 
 void add_identify(Command app, Action& action) {

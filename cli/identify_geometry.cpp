@@ -25,6 +25,7 @@ ExitCode from_pairs(const IdentifyGeometryOptions& options) {
 
 ExitCode from_trapezoids(const IdentifyGeometryOptions& options) {
   const auto found = identify::count_geometry(options.settings);
+  write_parameter_file(found.file, options.result);
   if (options.result.json) {
     fmt::print("{}\n", to_json(found).text(2));
   } else {
@@ -35,7 +36,6 @@ ExitCode from_trapezoids(const IdentifyGeometryOptions& options) {
                config::format_number(found.braid.turns),
                config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
   }
-  write_parameter_file(found.file, options.result);
   return ok;
 }
 

@@ -51,10 +51,10 @@ ExitCode run_joint(const IdentifyJointOptions& options) {
   };
   const identify::JointFound found =
       watched(identify::joint_models().size(), options.result.quiet, find);
+  write_parameter_file(found.actuator_file, actuator_result);
   tell(found.result.report, found.file(options.result.out), options.data, options.result,
        to_json(found));
   if (!options.result.json) print_combinations(found.result);
-  write_parameter_file(found.actuator_file, actuator_result);
   return ok;
 }
 

@@ -83,6 +83,9 @@ ExitCode run_pair(const IdentifyPairOptions& options) {
   ResultOptions result = options.result;
   result.no_report = true;  // the page has the air as well
   const std::string file = out.empty() ? "" : found.file(out);
+  std::vector<const identify::Report*> reports{&pair.report};
+  if (pair.air) reports.push_back(&pair.air->report);
+  leave_page(pair.report.subject, reports, file, options.data, options.result);
   tell(pair.report, file, options.data, result, to_json(found));
   if (!options.result.json) {
     const config::UnitsToShow asked = units_asked(options.result.units, units::UnitSet::si);
@@ -90,9 +93,6 @@ ExitCode run_pair(const IdentifyPairOptions& options) {
     print_stiffness(pair, asked);
     print_air(pair);
   }
-  std::vector<const identify::Report*> reports{&pair.report};
-  if (pair.air) reports.push_back(&pair.air->report);
-  leave_page(pair.report.subject, reports, file, options.data, options.result);
   return ok;
 }
 

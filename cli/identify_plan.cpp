@@ -127,13 +127,14 @@ ExitCode run_plan(const IdentifyPlanOptions& options) {
                                  : identify::find_next(sources_of(options.data), how, settings);
   const Messages messages(options.quiet);
   for (const std::string& note : found.notes) messages.note(as_options(note));
+  if (!options.out.empty()) {
+    run::write_file(options.out, plan_table(found));
+    messages.note(fmt::format("{}: written", options.out));
+  }
   if (options.json)
     fmt::print("{}\n", to_json(found).text(2));
   else
     print(found, {units_asked(options.units, units::UnitSet::metric), atmosphere});
-  if (options.out.empty()) return ok;
-  run::write_file(options.out, plan_table(found));
-  messages.note(fmt::format("{}: written", options.out));
   return ok;
 }
 

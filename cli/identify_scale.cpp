@@ -32,6 +32,7 @@ void print_scaled(const identify::ScaleFound& found) {
 ExitCode run_scale(const IdentifyScaleOptions& options) {
   check_result_options(options.result);
   const identify::ScaleFound found = identify::find_scaled(options.settings);
+  write_parameter_file(found.file, options.result);
   if (options.result.json)
     fmt::print("{}\n", (identify::to_json(found)).text(2));
   else
@@ -41,7 +42,6 @@ ExitCode run_scale(const IdentifyScaleOptions& options) {
         .warning(
             "how far off it is cannot be told: no muscle was left out when the file was made; fit "
             "muscles of two rest lengths at least");
-  write_parameter_file(found.file, options.result);
   return ok;
 }
 

@@ -100,16 +100,16 @@ ExitCode run(const IdentifySensorOptions& options) {
 
   const Messages messages(options.result.quiet);
   for (const std::string& note : c.notes) messages.note(note);
-  if (options.result.json)
-    fmt::print("{}\n", to_json(c).text(2));
-  else
-    print(c, found.display, options.result);
   for (const std::string& warning : c.warnings) messages.warning(warning);
   const std::string file = found.file(options.result.out);
   write_parameter_file(file, options.result);
   std::vector<const identify::Report*> reports;
   for (const SensorResult& r : c.sensors) reports.push_back(&r.report);
   leave_page("calibration of sensors from " + c.file, reports, file, options.data, options.result);
+  if (options.result.json)
+    fmt::print("{}\n", to_json(c).text(2));
+  else
+    print(c, found.display, options.result);
   return ok;
 }
 

@@ -43,13 +43,14 @@ ExitCode run_static(const IdentifyStaticOptions& options) {
   };
   const identify::StaticFound found =
       watched(identify::static_models().size(), options.result.quiet, find);
-  tell(found.result.report, found.files[0], options.data, options.result);
 
-  // Others of its make, each in a file of its own.
+  // Others of its make, each in a file of its own, before what is printed: a reader that ends early
+  // ends the program.
   for (std::size_t i = 1; i < found.files.size(); ++i)
     write_muscle(found.result.muscles[i], found.files[i], options.result);
   for (std::size_t i = 0; i < found.predicted.size(); ++i)
     write_muscle(found.predicted[i], found.predicted_files[i], options.result);
+  tell(found.result.report, found.files[0], options.data, options.result);
   return ok;
 }
 

@@ -74,11 +74,12 @@ ExitCode tell_sensitivity(const SensitivityOptions& options) {
   if (csv) messages.note(options.runs);
 
   const auto all = tune::sensitivities(design, runs, rows);
+  // A reader that ends early ends the program.
+  if (!options.out.empty()) write_table(options, design, runs, all, messages);
   if (options.json)
     fmt::print("{}", tune::sensitivity_json(design, runs, all));
   else
     for (const tune::FigureSensitivity& f : all) fmt::print("{}\n", tune::text_of(design, runs, f));
-  if (!options.out.empty()) write_table(options, design, runs, all, messages);
   return std::ranges::any_of(all, [](const auto& f) { return f.found.has_value(); }) ? ok : failed;
 }
 
