@@ -124,6 +124,25 @@ class Env(unittest.TestCase):
         self.assertEqual(found.tolist(), [[False, False, True, False], [False] * 4])
         self.assertEqual(many.step(numpy.zeros((2, 4)))[4], {})
 
+    def test_channels_without_a_value_are_zero_and_marked(self) -> None:
+        task = dataclasses.replace(
+            sinew.gym.task("walk"),
+            sights=[sinew.gym.Sight("/joint/hip/angle"), sinew.gym.Sight("/desired/foot/position.x")],
+        )
+        env = sinew.gym.Env(task)
+        seen, info = env.reset(seed=1)
+        marks = []
+        for _ in range(40):
+            marks.append(bool(info["missing"][1]) if "missing" in info else False)
+            self.assertTrue(numpy.isfinite(seen).all())
+            self.assertEqual(seen[1] == 0.0, marks[-1])
+            seen, _, _, _, info = env.step(numpy.zeros(4))
+        self.assertIn(True, marks)
+        many = sinew.gym.VectorEnv(task, 2)
+        rows, info = many.reset(seed=1)
+        self.assertTrue(numpy.isfinite(rows).all())
+        self.assertEqual(info["missing"].tolist(), [[False, marks[0]]] * 2)
+
     def test_refuses_options(self) -> None:
         envs: List[Any] = [sinew.gym.Env("walk"), sinew.gym.VectorEnv("walk", 2)]
         for env in envs:

@@ -1,5 +1,7 @@
 // rollers.*, cylinder.*, supply.*, sensors.*: the parts of a whole machine beside its joints and
 // muscles.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -51,12 +53,17 @@ void add_sensors(Figures& f) {
 }
 
 // How long, how many complete steps and how far the line holds its first pressure, to a hundredth.
+// Where it holds it to the end of the sequence these are lower bounds, and their keys say so.
 void add_endurance(Figures& f) {
   const Column line = f.record.column("/true/supply/pressure");
   if (line.empty() || !f.record.has_sequence()) return;
   std::size_t row = f.record.first_row();
   while (row < f.record.end_row() && line[row] > 0.99 * line.front()) ++row;
-  f.summary.add("supply.full_time_s", f.record.time(row) - f.record.sequence_start());
+  const char* bound = line[row] > 0.99 * line.front() ? "_at_least" : "";
+  const auto add = [&](const char* of, double value, const char* unit) {
+    f.summary.add(fmt::format("supply.full_{}{}{}", of, bound, unit), value);
+  };
+  add("time", f.record.time(row) - f.record.sequence_start(), "_s");
 
   double steps = 0;
   for (const int step : f.record.complete_steps()) {
@@ -65,9 +72,9 @@ void add_endurance(Figures& f) {
       if (s.step == step) last = s.last;
     if (last <= row) ++steps;
   }
-  f.summary.add("supply.full_steps", steps);
+  add("steps", steps, "");
   const Column x = f.record.column("/true/trolley/position");
-  if (!x.empty()) f.summary.add("supply.full_distance_m", x[row] - x[f.record.first_row()]);
+  if (!x.empty()) add("distance", x[row] - x[f.record.first_row()], "_m");
 }
 
 }  // namespace

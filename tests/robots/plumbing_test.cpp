@@ -100,6 +100,16 @@ TEST(Endurance, PlumbingDecidesHowFarATankLasts) {
   EXPECT_GT(regulated, 10 * three);
 }
 
+// A line that never falls was full for at least the whole run, and has no time at which it fell.
+TEST(Endurance, ALineThatHoldsOutHasALowerBound) {
+  const analysis::Summary s = summary_of("endurance", {"sequence.repeat=1"});
+  EXPECT_EQ(s.find("supply.full_time_s"), nullptr);
+  EXPECT_EQ(s.find("supply.full_steps"), nullptr);
+  EXPECT_NEAR(figure(s, "supply.full_time_at_least_s"), figure(s, "duration_s"), 2.0);
+  EXPECT_EQ(figure(s, "supply.full_steps_at_least"), 1);
+  EXPECT_GT(figure(s, "supply.full_distance_at_least_m"), 0);
+}
+
 // 4.2's tank of 100 gallons, at its own 100 psi: a walk is a drop in it.
 TEST(Endurance, TheThesissTankHardlyMoves) {
   const analysis::Summary s = summary_of(

@@ -70,6 +70,17 @@ def _clipped(action: numpy.typing.ArrayLike) -> "Optional[numpy.typing.NDArray[n
     return beyond if beyond.any() else None
 
 
+def _without_gaps(
+    seen: "numpy.typing.NDArray[numpy.float64]", info: Info
+) -> "numpy.typing.NDArray[numpy.float64]":
+    """Return what was seen with 0 for channels without a value, which info["missing"] marks."""
+    missing = numpy.isnan(seen)
+    if not missing.any():
+        return seen
+    info["missing"] = missing
+    return numpy.where(missing, 0.0, seen)
+
+
 def _refuse(options: Optional[Dict[str, Any]]) -> None:
     if options:
         raise ValueError(
@@ -102,7 +113,8 @@ class Env(_Base):  # type: ignore[misc]
     An action has a number from -1 to 1 for each of the task's actions; 0 is what the plan does. An
     episode is terminated where the run fails, and truncated where the plan ends. The same seed and
     actions give the same bits. Numbers of an action beyond -1 and 1 are clipped; info["clipped"] then
-    marks them with True, by their places.
+    marks them with True, by their places. A channel that has no value, such as a desired position of
+    the foot while joint angles are desired, is seen as 0, and info["missing"] marks it.
     """
 
     metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20}
@@ -161,7 +173,8 @@ class Env(_Base):  # type: ignore[misc]
         self._number = number
         self._over = False
         seen, self._measured = self._episode.look()
-        return seen, {"seed": number, "time": self._episode.simulation.time}
+        info: Info = {"seed": number, "time": self._episode.simulation.time}
+        return _without_gaps(seen, info), info
 
     def step(
         self, action: numpy.typing.ArrayLike
@@ -184,7 +197,7 @@ class Env(_Base):  # type: ignore[misc]
         reward = self.task.reward(before, self._measured, self.task.period)
         truncated = ended and not terminated
         self._over = ended or terminated
-        return seen, reward, terminated, truncated, info
+        return _without_gaps(seen, info), reward, terminated, truncated, info
 
     def render(self) -> Any:
         """Return the machine as it stands, in the way of `render_mode`."""
@@ -207,7 +220,7 @@ class VectorEnv:
     Observations, rewards and flags have a row for each. An environment whose episode has ended
     begins the next one by itself in the next step, as Gymnasium's vector environments do; its
     action is then not looked at, and its reward is 0. info["clipped"] marks numbers of actions that
-    were clipped to -1 and 1; it is missing where none was.
+    were clipped to -1 and 1, info["missing"] channels without a value; each is left out where none was.
     """
 
     def __init__(self, task: Union[str, Task] = "walk", num_envs: int = 16) -> None:
@@ -255,7 +268,8 @@ class VectorEnv:
         self._over[:] = False
         looks = [e.look() for e in self._episodes]
         self._measured = numpy.array([measured for _, measured in looks])
-        return numpy.array([seen for seen, _ in looks]), {"seed": numpy.array(numbers)}
+        info: Info = {"seed": numpy.array(numbers)}
+        return _without_gaps(numpy.array([seen for seen, _ in looks]), info), info
 
     def step(self, actions: numpy.typing.ArrayLike) -> Tuple[Any, Any, Any, Any, Info]:
         """Run all on by a period: observations, rewards, terminated, truncated, info."""
@@ -283,7 +297,7 @@ class VectorEnv:
         if beyond is not None:
             beyond &= ~skipped[:, numpy.newaxis]
         info: Info = {"clipped": beyond} if beyond is not None and beyond.any() else {}
-        return seen, rewards, terminated, ended & ~terminated, info
+        return _without_gaps(seen, info), rewards, terminated, ended & ~terminated, info
 
     def close(self) -> None:
         """End all episodes."""
