@@ -26,7 +26,8 @@ std::string Alignment::given() const {
 
 void add_alignment(Command sub, Alignment& alignment) {
   sub.add_option("--align", alignment.align,
-                 "how times are laid on the first run's: start, sequence, event, correlation")
+                 "how the times of runs are aligned with those of the first one: start, sequence, "
+                 "event, correlation")
       .is_one_of({"start", "sequence", "event", "correlation"});
   sub.add_option("--event", alignment.event,
                  "of --align event: '/joint/elbow/angle > 10 deg'; else the surest first motion");

@@ -67,7 +67,7 @@ void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
                          "what a run is called, in their order; the runs are in the same axes")
               .takes_one());
   Option align = sub.add_option("--align", runs.align,
-                                "how the others are laid on the first run: start, event or "
+                                "how the others are aligned with the first run: start, event or "
                                 "correlation; start")
                      .is_one_of({"start", "event", "correlation"});
   of_runs(align);

@@ -38,7 +38,7 @@ void check_runs(const FilmCommandOptions& options) {
   };
   const std::string given = options.alignment.given();
   if (options.runs.size() == 1 && !given.empty())
-    wrong(given, "one run", "two runs or more, which are laid on each other");
+    wrong(given, "one run", "two runs or more, which are aligned with each other");
   if (options.runs.size() > 1 && !options.machine.empty())
     wrong("machine", config::in_quotes(options.machine),
           "none: of several runs each says itself what was run");

@@ -101,7 +101,8 @@ int film(const py::object& runs, const py::object& path, const py::object& start
   for (const std::filesystem::path& run : paths_of(runs)) of.push_back(run.string());
   const report::AlignWish wish = wish_of(align, fit_clock);
   if (of.size() == 1 && (wish.by != report::Align::start || fit_clock))
-    throw py::value_error("align: found one run; expected several, which are laid on each other");
+    throw py::value_error(
+        "align: found one run; expected several, which are aligned with each other");
   const std::string file = path_of(path);
   film::check(options, film::kind_of(file));
   run::refuse_to_overwrite(file, force, {}, std::filesystem::path(file).extension().string());
@@ -130,7 +131,8 @@ void bind_figures(py::module_& m) {
       py::arg("title") = "", py::arg("start") = py::none(), py::arg("stop") = py::none(),
       py::arg("force") = false,
       "Draws the figures of a run into a folder, for print, with the CSV behind each; of several\n"
-      "runs in the same axes, which `names` call in the legend. `align` lays the others on the\n"
+      "runs in the same axes, which `names` call in the legend. `align` aligns the others with "
+      "the\n"
       "first run: start, event or correlation; `fit_clock` takes out their clocks' rates, too.\n"
       "`formats` are pdf, svg and png.\n"
       "`only` are names of figures; `channels` are figures of your choice in their place:\n"
@@ -147,7 +149,8 @@ void bind_figures(py::module_& m) {
       py::arg("force") = false,
       "Makes a film of the replay of a run that is kept, or of several over each other, the "
       "others\n"
-      "as ghosts over the first: .gif, .mp4 or .webm. `align` lays these on the first run: start,\n"
+      "as ghosts over the first: .gif, .mp4 or .webm. `align` aligns these with the first run: "
+      "start,\n"
       "sequence, event or correlation; `fit_clock` takes out their clocks' rates. Chromium draws\n"
       "its frames, ffmpeg makes MP4 and WebM of them. `start` and `stop` are in s of the run; "
       "`speed`\n"

@@ -50,7 +50,8 @@ inline double beside_the_braid(const Actuator& a, double x, double pull) {
   return a.toe.tension > 0 ? toe_tension(a.toe, pull + bladder) - pull : bladder;
 }
 
-// [31], [33] without dry friction: an actuator clamped at both ends, so the result may push  [N].
+// [31], [33] without dry friction: an actuator clamped at both ends, so the result is negative
+// where it pushes  [N].
 inline double clamped_tension(const Actuator& a, double length, double velocity,
                               double gauge_pressure, double atmosphere) {
   const double x = braid_length(a, length, gauge_pressure, atmosphere);

@@ -33,8 +33,8 @@ struct BraidConstants {
 // Returns a bundle's law for this air.
 BraidConstants<double> braid_constants(const Muscle& muscle, const gas::Air& air);
 
-// Absolute pressure [Pa]; tension of the bundle, and that of one held at both ends, which may push
-// [N]; bound of its dry friction [N].
+// Absolute pressure [Pa]; tension of the bundle, and that of one held at both ends, negative where
+// it pushes [N]; bound of its dry friction [N].
 template <class S>
 struct BraidPull {
   S pressure, tension, clamped, friction_bound;

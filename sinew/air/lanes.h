@@ -40,7 +40,8 @@ template <int Most, class S = double>
 struct Pull {
   Lanes<Most, S>
       tension;  // of the bundle, static and viscous, never negative: a cord cannot push [N]
-  Lanes<Most, S> clamped;   // the same of a muscle that is held at both ends: it may push [N]
+  Lanes<Most, S>
+      clamped;  // the same of a muscle that is held at both ends: negative where it pushes [N]
   Lanes<Most, S> pressure;  // absolute [Pa]
   Lanes<Most, S>
       friction_bound;    // bound of the bundle's dry friction, [33], [34]; 0 if not `stick` [N]

@@ -61,7 +61,7 @@ function with_uncertainty(value, uncertainty, unit) {
 const pace = (rate, uncertainty) =>
   `${with_uncertainty(100 * Math.abs(rate), uncertainty && 100 * uncertainty, '%').slice(1)} ${rate < 0 ? 'slower' : 'faster'}`;
 
-// How a run was laid on the first one.
+// How a run was aligned with the first one.
 function alignment_words(run, i, fitted) {
   const a = run.alignment;
   if (!a) return '';
@@ -98,7 +98,7 @@ class ComparePage {
     const titles = [...new Set(runs.map((r) => r.title || r.label))];
     by_id('title').textContent = titles.length > 2 ? `${titles[0]} and ${titles.length - 1} others` : titles.join(' · ');
     const laid = { start: 'times from the start of each run', sequence: 'their sequences begin together, at the time of the first',
-                   event: 'laid on each other by an event', correlation: 'laid on each other by the greatest correlation' };
+                   event: 'aligned by an event', correlation: 'aligned by the greatest correlation' };
     by_id('facts').textContent = `${runs.length} runs, each beside the first; ${laid[align]}` +
       runs.map((run, i) => alignment_words(run, i, this.data.clock === 'fit')).filter(Boolean).map((w) => `. ${w}`).join('');
     const differing = figures.filter((f) => differ(f.values)).length;
@@ -137,7 +137,7 @@ class ComparePage {
     this.plots.on_view = () => this.draw_view();
     this.plots.on_values = (t) => this.show(t);
     document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
-    // Runs that are laid on each other are looked at by what is left.
+    // Runs that are aligned with each other are looked at by what is left.
     this.apart = data.align === 'event' || data.align === 'correlation';
     by_id('show-differences').setAttribute('aria-pressed', String(this.apart));
     this.all = false;

@@ -52,7 +52,7 @@ class Ghost extends Scene {
     return false;
   }
 
-  // `base`: where the first machine's body is, which this one's is laid on; null: where it is itself.
+  // `base`: where the first machine's body is, with which this one's is aligned; null: where it is itself.
   paint(ctx, view, t, base, color) {
     this.color = color;
     this.read_look();
@@ -172,7 +172,7 @@ export class Machines {
     const ghosts = this.ghosts.map(({ run }) => letter_of(run)).join(', ');
     const beside = this.runs.length - this.drawn.length;
     return [`${letter_of(this.drawn[0])} as it is`, ghosts && `${ghosts} over it as ${this.ghosts.length > 1 ? 'ghosts in their colors' : 'a ghost in its color'}`,
-            this.can_follow() && ghosts && 'bodies laid on each other while the trolley is followed',
+            this.can_follow() && ghosts && 'bodies aligned while the trolley is followed',
             beside && `${beside} without angles to draw`, this.first.note()].filter(Boolean).join('; ');
   }
 }

@@ -1,6 +1,6 @@
 // The page of several runs: RUNS/compare/{two,same,stand,measured,long}.html of walk-test-1 and
 // walk-test-2, of a run with itself, of weights-60 and weights-90, of the bench's lever and a recording
-// of another one's angle alone, laid on it by correlation, and of two runs of 10 min.
+// of another one's angle alone, aligned by correlation, and of two runs of 10 min.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawing_of, picture, seek, summary_of, time_of, vectors_of, with_page } from './pages.mjs';

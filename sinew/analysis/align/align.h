@@ -1,4 +1,4 @@
-// analysis/align/align.h - two recordings of one motion, laid on each other in time.
+// analysis/align/align.h - two recordings of one motion, aligned in time.
 //
 //   Alignment found = align(a, b, {.by = AlignBy::correlation, .fit_clock = true});
 //   reclock(b, found.clock);              b's times are those of a's clock now
@@ -25,7 +25,7 @@ namespace sinew::analysis {
 // How shifts are found; `known`: it is given.
 enum class AlignBy { known, event, correlation };
 
-// A wish how recordings are laid on each other.
+// A wish how recordings are aligned with each other.
 struct AlignRequest {
   std::string name = {};  // of the other recording, for errors
   AlignBy by = AlignBy::correlation;
@@ -37,7 +37,7 @@ struct AlignRequest {
   double atmosphere = units::atmosphere;                        // [Pa]
 };
 
-// How the other recording was laid on the first one.
+// How the other recording was aligned with the first one.
 struct Alignment {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -52,7 +52,7 @@ struct Alignment {
   double rate_seen = 0, rate_seen_uncertainty = 0;
 };
 
-// Throws config::Error, saying why, where the recordings cannot be laid on each other so: no common
+// Throws config::Error, saying why, where the recordings cannot be aligned so: no common
 // channel moves, an event does not happen, a correlation stays below 0.6, hardly changes with the
 // shift, or is as high at another one.
 Alignment align(const signals::Table& first, const signals::Table& other,

@@ -81,15 +81,15 @@ inline double longest_settling(double accuracy) {
 // What only a simulation knows, at one instant.
 struct StandTruth {
   double length = 0, velocity = 0, acceleration = 0;  // L [m], [m/s], [m/s^2]
-  double force = 0;                               // on the load, dry friction in it; may push [N]
-  double friction = 0;                            // the dry part of it [N]
-  bool sticks = false;                            // dry friction holds the load
-  double load = 0;                                // hanging: M [kg]
-  double pressure = 0;                            // of the air in the element, absolute [Pa]
-  double air = 0;                                 // its mass [kg]
-  double air_in = 0, air_out = 0;                 // through the valves since the start [kg]
-  double air_leaked = 0;                          // since the start [kg]
-  double inlet = 0, exhaust = 0;                  // open shares of the valves' areas [-]
+  double force = 0;                // on the load, dry friction in it; negative where it pushes [N]
+  double friction = 0;             // the dry part of it [N]
+  bool sticks = false;             // dry friction holds the load
+  double load = 0;                 // hanging: M [kg]
+  double pressure = 0;             // of the air in the element, absolute [Pa]
+  double air = 0;                  // its mass [kg]
+  double air_in = 0, air_out = 0;  // through the valves since the start [kg]
+  double air_leaked = 0;           // since the start [kg]
+  double inlet = 0, exhaust = 0;   // open shares of the valves' areas [-]
   double supply_pressure = 0, tank_pressure = 0;  // absolute [Pa]
 };
 

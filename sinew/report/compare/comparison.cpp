@@ -72,7 +72,7 @@ void open(ComparedRun& run, const Machine& machine, const config::Node& resolved
                "a run that goes through a sequence", "align=start");
 }
 
-// Holds what runs are laid on: the first one, when it is there.
+// Holds what runs are aligned with: the first one, when it is there.
 struct Base {
   const ComparedRun* run = nullptr;
   std::optional<std::int64_t> sequence;  // its start [ns]

@@ -31,16 +31,15 @@
 
 namespace sinew::report {
 
-// Where times are counted from: the start of each run, or its sequence's start, laid on the first
-// one's; or both laid on each other by an event or by the greatest correlation
-// (analysis/align/align.h).
+// Where times are counted from: the start of each run, or its sequence's start, aligned with the
+// first one's; or both aligned by an event or by the greatest correlation (analysis/align/align.h).
 enum class Align { start, sequence, event, correlation };
 // Returns it in words.
 std::string_view to_text(Align align);
 
-// How runs are laid on the first one.
+// How runs are aligned with the first one.
 struct AlignWish {
-  // Lays runs on each other in this way; clocks are taken as they are.
+  // Aligns runs in this way; clocks are taken as they are.
   AlignWish(Align how = Align::start) : by(how) {}
 
   Align by;
@@ -99,7 +98,8 @@ struct Comparison {
 };
 
 // Two runs or more. Throws config::Error for a resolved.toml that cannot be read, for runs without
-// a common channel, and where a run cannot be laid on the first one as it is wished, saying why.
+// a common channel, and where a run cannot be aligned with the first one as it is wished, saying
+// why.
 Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish);
 
 // Leaves only the channels of these topics.

@@ -113,7 +113,7 @@ std::string pace(double rate, double uncertainty) {
   return words.substr(1) + (rate < 0 ? " slower" : " faster");  // without its sign
 }
 
-// How a run was laid on the first one, and what that says of its clock.
+// How a run was aligned with the first one, and what that says of its clock.
 std::string alignment_text(const Comparison& c, std::size_t i, const std::string& fit_clock) {
   if (!c.runs[i].alignment) return "";
   const analysis::Alignment& a = *c.runs[i].alignment;
@@ -123,7 +123,7 @@ std::string alignment_text(const Comparison& c, std::size_t i, const std::string
     by = channels;
   else if (!a.channels.empty())
     by += ", its clock by " + channels;
-  std::string out = fmt::format("\n{} is laid on A by {}\n", letter_of(i), by);
+  std::string out = fmt::format("\n{} is aligned with A by {}\n", letter_of(i), by);
   if (a.same) return out + "  both hold the same samples: nothing is moved\n";
   out += fmt::format("  its clock shows {} where A's shows 0\n",
                      with_uncertainty(a.clock.shift, a.shift_uncertainty, "s"));

@@ -1,4 +1,4 @@
-// report/figures/overlay.h - figures of several runs laid on each other.
+// report/figures/overlay.h - figures of several runs aligned with each other.
 //
 //   const std::vector<Figure> both = overlaid({{"measured", a}, {"simulated", b}});
 //

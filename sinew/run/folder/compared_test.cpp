@@ -1,5 +1,5 @@
-// A measurement is laid on a simulation although its clock is another one, and what is left shows
-// which parameter differs.
+// A measurement is aligned with a simulation although its clock is another one, and what is left
+// shows which parameter differs.
 #include "sinew/run/folder/compared.h"
 
 #include <gtest/gtest.h>
@@ -138,7 +138,7 @@ TEST_F(Compared, AConstantMeasurementIsRefusedByItsName) {
       keep_table(still, e, {.folder = (root_ / "still").string(), .report = false}).folder.string();
   try {
     (void)compare_runs({a, b}, by_correlation(false));
-    ADD_FAILURE() << "laid on each other";
+    ADD_FAILURE() << "aligned with each other";
   } catch (const config::Error& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("still"), text.npos) << text;

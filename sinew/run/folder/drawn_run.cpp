@@ -184,8 +184,8 @@ void lay_on_first(std::vector<Drawn>& runs, const OverlaidRuns& asked,
     request.name = asked.runs[i].string();
     const analysis::Alignment found = analysis::align(runs[0].table, runs[i].table, request);
     analysis::reclock(runs[i].table, found.clock);
-    std::string how =
-        fmt::format("{}: laid on {} by a shift of {:.4g} s", names[i], names[0], found.clock.shift);
+    std::string how = fmt::format("{}: aligned with {} by a shift of {:.4g} s", names[i], names[0],
+                                  found.clock.shift);
     if (found.clock.rate != 0)
       how += fmt::format(" and a clock that is {:.3g} % too {}", 100 * std::abs(found.clock.rate),
                          found.clock.rate > 0 ? "fast" : "slow");

@@ -30,11 +30,12 @@ struct DrawingRequest {
   FigureFiles files = {};
 };
 
-// Runs that are laid on each other.
+// Runs that are aligned with each other.
 struct OverlaidRuns {
   std::vector<std::filesystem::path> runs;  // folders, or logs
   std::vector<std::string> labels = {};     // of the first ones; else a run is called as its folder
-  // How the times of the others are laid on those of the first one; absent: they begin together.
+  // How the times of the others are aligned with those of the first one; absent: they begin
+  // together.
   std::optional<analysis::AlignRequest> align = {};
 };
 
@@ -50,8 +51,9 @@ std::string draw_run(const std::filesystem::path& named, const std::filesystem::
 std::string draw_muscles(const std::filesystem::path& file, const std::filesystem::path& folder,
                          const DrawingRequest& request, const Notices& notices = {});
 
-// Draws several runs in the same axes; notes say how they were laid on the first one. Throws
-// config::Error, too, where there are no such labels, or the runs cannot be laid on each other.
+// Draws several runs in the same axes; notes say how they were aligned with the first one. Throws
+// config::Error, too, where there are no such labels, or the runs cannot be aligned with each
+// other.
 std::string draw_runs(const OverlaidRuns& runs, const std::filesystem::path& folder,
                       const DrawingRequest& request, const Notices& notices = {});
 
