@@ -30,10 +30,12 @@ std::vector<std::string_view> split(std::string_view text, char at) {
                std::move(try_this));
 }
 
-// "1 in:2 in:0.1 in", in the unit's usual words; a step of pressures is neither gauge nor absolute.
-std::string example_of(std::string_view unit) {
+// "1 in:2 in:0.1 in" in the unit that was written, or else in a usual one; a step of pressures is
+// neither gauge nor absolute.
+std::string example_of(std::string_view unit, std::string_view written) {
   if (unit == "1") return "\"0:1:0.1\"";
-  const std::string usual = config::usual_units(unit).front();
+  std::string usual = unit_text(written);
+  if (config::parse_quantity("1 " + usual, unit).mistake) usual = config::usual_units(unit).front();
   std::string step = usual;
   for (const std::string_view point : {" gauge", " abs"})
     if (step.ends_with(point)) step.resize(step.size() - point.size());
@@ -63,7 +65,7 @@ Values arguments(std::string_view option, std::string_view text, std::string_vie
                  double atmosphere, const Range& range) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (parts.size() != 1 && parts.size() != 3)
-    refuse(option, text, "a quantity, or from:to:step", example_of(unit));
+    refuse(option, text, "a quantity, or from:to:step", example_of(unit, parts[0]));
   Values out{{argument(option, parts[0], unit, atmosphere, range)}, unit_text(parts[0])};
   if (parts.size() == 1) return out;
 
@@ -81,7 +83,8 @@ Values arguments(std::string_view option, std::string_view text, std::string_vie
   // The last value belongs to it although steps round.
   const double steps = step != 0 ? std::floor((last - first) / step + 1e-9) : -1;
   if (!(steps >= 0))
-    refuse(option, text, "a step that leads from the first to the last", example_of(unit));
+    refuse(option, text, "a step that leads from the first to the last",
+           example_of(unit, parts[0]));
   if (steps >= most_values) refuse(option, text, "at most 10000 values", "a larger step");
   for (int i = 1; i <= static_cast<int>(steps); ++i) out.si.push_back(first + i * step);
   return out;

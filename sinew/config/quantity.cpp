@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -87,7 +91,42 @@ std::string describe_dimension(Dimension dimension) {
   return fmt::format("{} ({})", name->unit, name->word);
 }
 
-// The unit in which a word of the field's is usually written; per radian stays per radian.
+// The units in which a quantity of that SI unit is usually written, and which sizes it has in
+// robots such as these, in SI: of a bare 164 for a length only 164 mm is meant.
+struct UsualUnits {
+  std::string_view si;
+  std::initializer_list<std::string_view> units;
+  double least = 0, most = std::numeric_limits<double>::infinity();
+};
+
+std::span<const UsualUnits> kinds_of_units() {
+  static const UsualUnits kinds[] = {{"m", {"m", "mm", "in"}, 3e-3, 3},
+                                     {"m2", {"in2", "m2"}},
+                                     {"m3", {"L", "mL", "in3", "m3"}, 1e-7, 0.1},
+                                     {"kg", {"kg", "g", "lb"}, 1e-3, 500},
+                                     {"N", {"N", "lbf"}, 1e-2, 2e4},
+                                     {"Pa", {"bar", "kPa", "psi", "Pa"}, 5e3, 2e6},
+                                     {"s", {"s", "ms"}, 1e-4, 1e5},
+                                     {"rad", {"deg", "rad"}, 1e-3, 13},
+                                     {"m3/(s Pa)", {"L/(s bar)", "m3/(s Pa)"}},
+                                     {"s/count", {"% s/count", "s/count"}}};
+  return kinds;
+}
+
+// " gauge" of "Pa gauge"; empty for most units.
+std::string_view reference_of(std::string_view unit) {
+  for (const std::string_view word : {" gauge", " abs", " diff"})
+    if (unit.ends_with(word)) return unit.substr(unit.size() - word.size());
+  return {};
+}
+
+const UsualUnits* kind_of_unit(std::string_view unit) {
+  unit.remove_suffix(reference_of(unit).size());
+  const auto at = std::ranges::find(kinds_of_units(), unit, &UsualUnits::si);
+  return at == kinds_of_units().end() ? nullptr : &*at;
+}
+
+// The unit of the thesis for a word of a longer unit's; per radian stays per radian.
 std::string_view usual_word(std::string_view word) {
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"m", "in"}, {"m2", "in2"}, {"m3", "in3"}, {"kg", "lb"}, {"N", "lbf"}, {"Pa", "psi"}};
@@ -107,11 +146,11 @@ std::string with_usual_words(std::string_view unit) {
   return out;
 }
 
-std::string quoted_units(std::string_view number, std::string_view unit) {
+std::string quoted_units(std::string_view number, const std::vector<std::string>& units) {
   std::string out;
-  for (const std::string& usual : usual_units(unit))
+  for (const std::string& unit : units)
     out += fmt::format("{}\"{}{}{}\"", out.empty() ? "" : " or ", number, number.empty() ? "" : " ",
-                       usual);
+                       unit);
   return out;
 }
 
@@ -125,7 +164,7 @@ std::string dimension_hint(Dimension found, Dimension expected, std::string_view
     return pounds ? "lbf: lb is mass, lbf is force" : "N: kg and g are mass, N is force";
   if (force_for_mass) return pounds ? "lb: lbf is force, lb is mass" : "kg: N is force, kg is mass";
   if (combine(found, angle, -1) == expected || combine(found, angle) == expected)
-    return quoted_units("", unit) + ": rad counts as a dimension here";
+    return quoted_units("", usual_units(unit)) + ": rad counts as a dimension here";
   return fmt::format("a quantity such as \"1 {}\"", unit);
 }
 
@@ -234,17 +273,43 @@ double moved(double pressure, Reference from, Reference to, double atmosphere) {
 }  // namespace
 
 std::vector<std::string> usual_units(std::string_view unit) {
-  constexpr std::pair<std::string_view, std::string_view> whole[] = {
-      {"rad", "deg"}, {"s", "ms"}, {"m3/(s Pa)", "L/(s bar)"}, {"s/count", "% s/count"}};
+  std::vector<std::string> out;
+  if (const UsualUnits* kind = kind_of_unit(unit)) {
+    for (const std::string_view one : kind->units)
+      out.push_back(std::string(one) + std::string(reference_of(unit)));
+    return out;
+  }
   std::string usual = with_usual_words(unit);
-  for (const auto& [si, other] : whole)
-    if (unit == si) usual = other;
-  if (usual.starts_with("1/") && (unit.find("count") != unit.npos || unit.find('N') != unit.npos))
-    usual.replace(0, 1, "%");
-  std::vector<std::string> out{std::move(usual)};
-  if (out.front() != unit) out.emplace_back(unit);
+  const bool percent =
+      usual.starts_with("1/") && (unit.find("count") != unit.npos || unit.find('N') != unit.npos);
+  if (percent) usual.replace(0, 1, "%");
+  out.emplace_back(unit);
+  if (usual != unit) out.insert(percent ? out.begin() : out.end(), std::move(usual));
   return out;
 }
+
+namespace {
+
+// Usual units in which the number has a size that is plausible; all where it has none in any. A
+// pressure without its reference may be either.
+std::vector<std::string> plausible_units(double number, std::string_view unit) {
+  std::vector<std::string> all;
+  for (const std::string& one : usual_units(unit)) {
+    if (one.ends_with(" abs")) all.push_back(one.substr(0, one.size() - 3) + "gauge");
+    all.push_back(one);
+  }
+  const UsualUnits* kind = kind_of_unit(unit);
+  if (!kind) return all;
+  std::vector<std::string> out;
+  for (const std::string& one : all) {
+    const double least = one.ends_with(" abs") ? 0.5 * units::atmosphere : kind->least;
+    const double si = std::abs(split_unit(one).reading.unit.to_si(number));
+    if (si >= least && si <= kind->most) out.push_back(one);
+  }
+  return out.empty() ? all : out;
+}
+
+}  // namespace
 
 Mistake missing_unit(std::string_view number, std::string_view unit, std::string_view before) {
   Mistake out{fmt::format("{} without a unit", number), describe_unit(unit), ""};
@@ -252,7 +317,7 @@ Mistake missing_unit(std::string_view number, std::string_view unit, std::string
     out.try_this =
         fmt::format("\"{} {}\", the unit of what stood there", number, split_number(before).rest);
   else
-    out.try_this = quoted_units(number, unit);
+    out.try_this = quoted_units(number, plausible_units(split_number(number).number, unit));
   return out;
 }
 

@@ -167,7 +167,7 @@ TEST(Reader, AMissingKeySaysItsWordsAndItsKind) {
 TEST(Reader, AWrongTypeIsReported) {
   EXPECT_TRUE(contains(Reading("length = 3.15").message,
                        "a.toml:1:1: length: found 3.15 without a unit; expected m (length); try "
-                       "\"3.15 in\" or \"3.15 m\""));
+                       "\"3.15 mm\" or \"3.15 in\""));
   const auto also = [](std::string line) { return Reading("length = \"1 m\"\n" + line).message; };
   EXPECT_EQ(also("count = \"2\""), "a.toml:2:1: count: found \"2\"; expected a whole number");
   EXPECT_EQ(also("count = 9"), "a.toml:2:1: count: found 9; expected 1 to 4");
