@@ -15,6 +15,18 @@ namespace {
 
 constexpr std::int64_t one_day = 86400LL * 1'000'000'000;  // [ns]
 
+// "Time" of "Time (2)", "Time.1" and "Time_3", as programs call a second one.
+std::string_view without_count(std::string_view name) {
+  std::string_view stem = name;
+  if (stem.ends_with(')')) stem.remove_suffix(1);
+  const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
+  if (digits == 0 || digits == stem.size()) return name;
+  stem = stem.substr(0, digits);
+  while (stem.size() > 1 && std::string_view(" ._(").find(stem.back()) != std::string_view::npos)
+    stem.remove_suffix(1);
+  return stem;
+}
+
 }  // namespace
 
 bool tells_time(ColumnKind kind) {
@@ -149,6 +161,26 @@ std::optional<SplitSeconds> split_seconds(const Grid& grid, std::optional<std::s
   return std::nullopt;
 }
 
+std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock) {
+  std::vector<ClockColumns> out;
+  const std::vector<Heading>& all = grid.headings();
+  if (!clock) return out;
+  const ColumnKind kind = grid.dialect.kinds[*clock];
+  for (std::size_t i = *clock; i < all.size(); ++i) {
+    if (without_count(all[i].name) != without_count(all[*clock].name)) continue;
+    if (grid.dialect.kinds[i] != kind) continue;
+    if (!out.empty()) out.back().to = i;
+    out.push_back({i, out.empty() ? 0 : i, all.size()});
+  }
+  const auto has_numbers = [&](const ClockColumns& c) {
+    for (std::size_t i = c.from; i < c.to; ++i)
+      if (i != c.clock && grid.dialect.kinds[i] == ColumnKind::numbers) return true;
+    return false;
+  };
+  if (out.size() < 2 || !std::ranges::all_of(out, has_numbers)) out.clear();
+  return out;
+}
+
 double period_of_rate(const std::string& rate) {
   const std::size_t number = rate.find_first_not_of("0123456789.+-eE");
   std::string text = rate;
@@ -228,6 +260,11 @@ std::size_t spread_times(std::vector<double>& time) {
     for (std::size_t i = g.from + 1; i < g.to; ++i)
       time[i] = time[g.from] + g.step * static_cast<double>(i - g.from);
   return shared;
+}
+
+std::string merged_text(std::size_t count) {
+  return fmt::format(
+      "{} rows have the time of the row above and values of other columns: merged with it", count);
 }
 
 void check_order(const std::vector<double>& time, const std::vector<int>& lines,

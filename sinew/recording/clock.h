@@ -60,6 +60,15 @@ struct SplitSeconds {
 std::optional<SplitSeconds> split_seconds(const Grid& grid,
                                           std::optional<std::size_t> column = std::nullopt);
 
+// The columns of one clock, where a table has several: from the first up to, and without, the last.
+struct ClockColumns {
+  std::size_t clock = 0, from = 0, to = 0;
+};
+
+// Returns the columns of each clock, that one the first of them; nothing where there is one clock.
+// A clock without a column of numbers of its own is a column as any other.
+std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock);
+
 // Returns the time between rows  [s] that "100 Hz" or "10 ms" says. Throws config::Error.
 double period_of_rate(const std::string& rate);
 
@@ -70,6 +79,9 @@ std::vector<double> since_first(const std::vector<std::int64_t>& instants);
 // reach: the smallest step between two of its times. The first and the last time may have fewer
 // rows than the others and have their step. Returns how many shared one.
 std::size_t spread_times(std::vector<double>& time);
+
+// Returns a note on rows of one time that became one.
+std::string merged_text(std::size_t count);
 
 // Adds a problem if a time is before the one above it.
 void check_order(const std::vector<double>& time, const std::vector<int>& lines,

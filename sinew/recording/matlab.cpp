@@ -43,7 +43,9 @@ void take_text(void* to, const char* name, const char* text) {
 }
 
 void take_other(void* to, const char* name, const char* what) {
-  static_cast<Variables*>(to)->other.push_back(fmt::format("{}: {}", name, what));
+  // MATLAB keeps the names of some objects where the library does not find them.
+  const std::string of = *name ? fmt::format("{}: ", name) : "";
+  static_cast<Variables*>(to)->other.push_back(of + what);
 }
 
 bool is_level_7_3(const std::string& path) {

@@ -156,6 +156,22 @@ TEST_F(MatlabTest, StructuresAsSimulinkLogsThem) {
   EXPECT_EQ(r.clocks[r.find("ts")->clock].time_ns.size(), 3u);
 }
 
+// A table as MATLAB saves it: an object whose numbers stand elsewhere in the file.
+TEST_F(MatlabTest, OfATableTheWayOutIsNamed) {
+  const auto word = [](const char* letters) { return element(int8, letters); };
+  const std::string table =
+      element(matrix_type, element(uint32, words({std::uint32_t{17}, std::uint32_t{0}})) +
+                               word("T") + word("MCOS") + word("table") + numbers("", 1, 1, {1}));
+  const Recorded r = take(vector("t", {0, 1}) + vector("angle", {1, 2}) + table);
+  EXPECT_EQ(values(r, "angle"), (std::vector<double>{1, 2}));
+  ASSERT_EQ(r.notes.size(), 1u);
+  EXPECT_NE(r.notes[0].find("an object of a class; of a table, table2struct(T, 'ToScalar', true)"),
+            std::string::npos)
+      << r.notes[0];
+  EXPECT_NE(error_of(file_of(table)).find("table2struct"), std::string::npos)
+      << error_of(file_of(table));
+}
+
 TEST_F(MatlabTest, TheClockMayBeNamedOrMade) {
   const std::string variables = vector("clk", {0, 5}) + vector("a", {1, 2});
   EXPECT_EQ(take(variables, {.column = "clk", .unit = "ms"}).clocks[0].time_ns[1], 5'000'000);

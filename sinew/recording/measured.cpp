@@ -16,12 +16,26 @@
 #include "sinew/recording/clock.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
+#include "sinew/recording/number.h"
 #include "sinew/recording/parts.h"
 #include "sinew/recording/wrap.h"
 
 namespace sinew::recording {
 
 namespace {
+
+// The column of the wanted times, where the file has one.
+std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
+  const auto said = source.names.find("time");
+  const std::string name = said != source.names.end() ? said->second : "time";
+  for (std::size_t i = 0; i < grid.headings().size(); ++i)
+    if (grid.headings()[i].is_called(name)) return i;
+  return std::nullopt;
+}
+
+bool wants_time(std::span<const Wanted> wanted) {
+  return std::ranges::find(wanted, "time", &Wanted::name) != wanted.end();
+}
 
 // Reads the wanted columns of one grid.
 class Table {
@@ -30,6 +44,7 @@ class Table {
       : grid_(grid), source_(source), problems_(grid.file) {}
 
   Measured read(std::span<const Wanted> wanted) {
+    refuse_clocks(wanted);
     ColumnFinder finder(grid_, source_, problems_);
     found_ = finder.find(wanted);
     where_ = finder.conditions();
@@ -48,8 +63,7 @@ class Table {
     }
     out.lines.reserve(rows);
     Body body(grid_);
-    for (Row row; body.next(row);)
-      if (wanted_row(row)) add_rows(row, body.count() - 1, out);
+    read_body(body, out);
     body.finish(out.notes);
     report_dropped(body.count(), out);
     problems_.finish();
@@ -69,12 +83,88 @@ class Table {
       if (f.index == none)
         period_ = source_.rate.empty() ? grid_.dialect.period : period_of_rate(source_.rate);
       if (f.index == none || f.is_at) return;
-      if (tells_time(grid_.dialect.kinds[f.index]))
+      clock_columns_ = {f.index};
+      if (tells_time(grid_.dialect.kinds[f.index])) {
         clock_ = std::make_unique<StampClock>(grid_, source_, f.index);
-      else
-        split_ = split_seconds(grid_, f.index);
+        clock_columns_ = clock_->columns();
+      } else if ((split_ = split_seconds(grid_, f.index))) {
+        clock_columns_ = {split_->seconds, split_->rest};
+      }
       excel_days_ = source_.dates == "excel" && !clock_;
     }
+  }
+
+  // A column of another clock would get the times of the first one.
+  void refuse_clocks(std::span<const Wanted> wanted) {
+    const std::optional<std::size_t> clock = clock_of(grid_, source_);
+    const std::vector<ClockColumns> clocks = clocks_with(clock);
+    if (clocks.empty() || !wants_time(wanted)) return;
+    const auto is_own = [&](std::size_t column) {
+      return std::ranges::any_of(clocks, [&](const ClockColumns& c) {
+        return c.clock == *clock && column >= c.from && column < c.to;
+      });
+    };
+    for (const Wanted& w : wanted) {
+      const auto said = source_.names.find(std::string(w.name));
+      const std::string name = said == source_.names.end() ? std::string(w.name) : said->second;
+      const auto at = std::ranges::find_if(grid_.headings(),
+                                           [&](const Heading& h) { return h.is_called(name); });
+      const auto column = static_cast<std::size_t>(at - grid_.headings().begin());
+      if (at == grid_.headings().end() || w.name == "time" || is_own(column)) continue;
+      problems_.add(grid_.header_line(), at->column, std::string(w.name),
+                    fmt::format("the column {} of another clock than {}", config::in_quotes(name),
+                                config::in_quotes(grid_.headings()[*clock].name)),
+                    "columns of one clock",
+                    "the table resampled at the times of one clock; sinew import reads several, "
+                    "for channels of a robot");
+    }
+    problems_.finish();
+  }
+
+  // The clocks of which this is one; nothing where it is the only one.
+  std::vector<ClockColumns> clocks_with(std::optional<std::size_t> clock) const {
+    for (std::size_t i = 0; clock && i <= *clock; ++i) {
+      std::vector<ClockColumns> out = clock_columns(grid_, i);
+      if (std::ranges::find(out, *clock, &ClockColumns::clock) != out.end()) return out;
+    }
+    return {};
+  }
+
+  // Rows of one time that fill each other's empty cells are one row: a logger wrote a line for each
+  // of its channels.
+  void read_body(Body& body, Measured& out) {
+    Row above, row;
+    std::size_t index = 0, merged = 0;
+    while (body.next(row)) {
+      if (!wanted_row(row)) continue;
+      if (fills(above, row)) {
+        take_cells(row, above);
+        ++merged;
+        continue;
+      }
+      if (!above.cells.empty()) add_rows(above, index, out);
+      std::swap(above, row);
+      index = body.count() - 1;
+    }
+    if (!above.cells.empty()) add_rows(above, index, out);
+    if (merged > 0) out.notes.push_back(merged_text(merged));
+  }
+
+  bool fills(const Row& above, const Row& row) const {
+    if (clock_columns_.empty() || above.cells.empty()) return false;
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const std::string_view a = above.cells[i].text, b = row.cells[i].text;
+      const bool is_clock = std::ranges::find(clock_columns_, i) != clock_columns_.end();
+      if (is_clock ? a != b || is_missing(a) : !is_missing(a) && !is_missing(b)) return false;
+    }
+    return true;
+  }
+
+  static void take_cells(Row& from, Row& to) {
+    for (std::size_t i = 0; i < to.cells.size(); ++i)
+      if (is_missing(to.cells[i].text)) to.cells[i] = from.cells[i];
+    for (auto& text : from.mended) to.mended.push_back(std::move(text));
+    from.mended.clear();
   }
 
   static std::string_view first_of(std::string_view& list) {
@@ -220,10 +310,12 @@ class Table {
       if (size >= w.least && size <= w.most) continue;
       const bool in_file = !f.unit.empty() && !f.is_at;
       const auto shown = [&](double si) {
-        return fmt::format("{:.4g} {}", in_file ? f.conversion.back(si) : si,
-                           in_file ? std::string_view(f.unit) : w.unit);
+        const std::string_view unit = in_file ? std::string_view(f.unit) : w.unit;
+        return fmt::format("{:.4g}{}{}", in_file ? f.conversion.back(si) : si,
+                           unit == "1" ? "" : " ", unit == "1" ? "" : unit);
       };
-      const std::string others = in_file ? possible_units(w, f.conversion.back(size)) : "";
+      const bool bare = f.unit.empty() && w.unit == "1" && !f.constant;
+      const std::string others = in_file || bare ? possible_units(w, f.conversion.back(size)) : "";
       const bool there = f.index < grid_.headings().size();
       const Heading heading = there ? grid_.headings()[f.index] : Heading{};
       problems_.add(grid_.header_line(), heading.column, std::string(w.name),
@@ -289,6 +381,7 @@ class Table {
   std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
   std::unique_ptr<StampClock> clock_;                       // where times are stamps
   std::optional<SplitSeconds> split_;                       // where they are in two columns
+  std::vector<std::size_t> clock_columns_;                  // that hold the times
   Unwrapper unwrap_;
   std::optional<std::int64_t> first_instant_;  // [ns]
   std::optional<double> first_day_;
@@ -299,19 +392,6 @@ class Table {
   std::map<std::string_view, std::size_t> missing_;
   std::size_t dropped_ = 0;
 };
-
-// The column of the wanted times, where the file has one.
-std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
-  const auto said = source.names.find("time");
-  const std::string name = said != source.names.end() ? said->second : "time";
-  for (std::size_t i = 0; i < grid.headings().size(); ++i)
-    if (grid.headings()[i].is_called(name)) return i;
-  return std::nullopt;
-}
-
-bool wants_time(std::span<const Wanted> wanted) {
-  return std::ranges::find(wanted, "time", &Wanted::name) != wanted.end();
-}
 
 Measured read_rows(std::string bytes, const Source& source, std::span<const Wanted> wanted) {
   Grid grid = read_grid(std::move(bytes), source);

@@ -55,45 +55,6 @@ constexpr ClockName clock_names[] = {{"time", ""},           {"t", ""},
                                      {"t_us", "us"},         {"micros", "us"},
                                      {"timestamp_us", "us"}};
 
-// The columns of one clock, where a table has several: from the first up to, and without, the last.
-struct ClockColumns {
-  std::size_t clock = 0, from = 0, to = 0;
-};
-
-// "Time" of "Time (2)", "Time.1" and "Time_3", as programs call a second one.
-std::string_view without_count(std::string_view name) {
-  std::string_view stem = name;
-  if (stem.ends_with(')')) stem.remove_suffix(1);
-  const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
-  if (digits == 0 || digits == stem.size()) return name;
-  stem = stem.substr(0, digits);
-  while (stem.size() > 1 && std::string_view(" ._(").find(stem.back()) != std::string_view::npos)
-    stem.remove_suffix(1);
-  return stem;
-}
-
-// Returns the columns of each clock; nothing where there is one clock. A clock without a column of
-// numbers of its own is a column as any other.
-std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock) {
-  std::vector<ClockColumns> out;
-  const std::vector<Heading>& all = grid.headings();
-  if (!clock) return out;
-  const ColumnKind kind = grid.dialect.kinds[*clock];
-  for (std::size_t i = *clock; i < all.size(); ++i) {
-    if (without_count(all[i].name) != without_count(all[*clock].name)) continue;
-    if (grid.dialect.kinds[i] != kind) continue;
-    if (!out.empty()) out.back().to = i;
-    out.push_back({i, out.empty() ? 0 : i, all.size()});
-  }
-  const auto has_numbers = [&](const ClockColumns& c) {
-    for (std::size_t i = c.from; i < c.to; ++i)
-      if (i != c.clock && grid.dialect.kinds[i] == ColumnKind::numbers) return true;
-    return false;
-  };
-  if (out.size() < 2 || !std::ranges::all_of(out, has_numbers)) out.clear();
-  return out;
-}
-
 // Reads all columns of one grid, or those of one of its clocks.
 class RawReader {
  public:
@@ -432,9 +393,7 @@ class RawReader {
       c.missing = static_cast<std::size_t>(
           std::ranges::count_if(c.values, [](double v) { return std::isnan(v); }));
     }
-    out.notes.push_back(fmt::format(
-        "{} rows have the time of the row above and values of other columns: merged with it",
-        merged));
+    out.notes.push_back(merged_text(merged));
   }
 
   void report_wraps(RawTable& out) const {

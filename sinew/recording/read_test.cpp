@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "sinew/log/csv.h"
@@ -15,6 +17,7 @@
 #include "sinew/log/writer.h"
 #include "sinew/recording/assemble.h"
 #include "sinew/recording/measured.h"
+#include "tests/places.h"
 
 namespace sinew::recording::read_test {
 namespace {
@@ -128,6 +131,29 @@ TEST_F(ReadTest, LabViewsHeaderHasTheClockAndTheUnits) {
   EXPECT_EQ(r.columns[0].values.in_memory(), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
   EXPECT_EQ(r.clocks[0].time_ns.in_memory(),
             (std::vector<std::int64_t>{500'000'000, 510'000'000, 520'000'000, 530'000'000}));
+}
+
+// A whole file of LabVIEW in Latin-1 with remarks in some rows: angle = 270 + 15 sin(pi t) deg,
+// pressure = 2 + sin(pi t + 0.4) bar gauge, written as absolute MPa.
+TEST_F(ReadTest, LabViewsRemarksAreLeftOutAndItsNumbersAreTheTruth) {
+  const std::string path =
+      sinew::test::source_dir() + "/tests/fuzz/corpus/csv/labview-remarks-latin1.lvm";
+  EXPECT_NE(error_of(path).find("encoding=latin1"), std::string::npos);
+  Mapping mapping;
+  mapping.table.encoding = "latin1";
+  const Recorded r = read_recording(path, mapping);
+  ASSERT_EQ(r.columns.size(), 3u);
+  EXPECT_EQ(r.columns[0].unit, "MPa abs");
+  const std::vector<std::int64_t> time = r.clocks[0].time_ns.in_memory();
+  const std::vector<double> pressure = r.columns[0].values.in_memory(),
+                            angle = r.columns[2].values.in_memory();
+  ASSERT_EQ(time.size(), 200u);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double phase = std::numbers::pi * 1e-9 * static_cast<double>(time[i]);
+    EXPECT_NEAR(angle[i], 270 + 15 * std::sin(phase), 1e-4) << i;
+    EXPECT_NEAR(10 * pressure[i] - 1.01325, 2 + std::sin(phase + 0.4), 1e-5) << i;
+  }
+  EXPECT_NE(std::ranges::find(r.notes, "columns without numbers left out: Comment"), r.notes.end());
 }
 
 TEST_F(ReadTest, MarkersDatesAndShortRowsAreLeftOutAndCounted) {

@@ -213,6 +213,45 @@ TEST(Wrong, RowsOfOneLineMayShareATime) {
   EXPECT_EQ(m["time"], (std::vector<double>{0, 0, 1, 1}));
 }
 
+// A logger writes a line for each of its channels.
+TEST(Wrong, RowsOfOneTimeThatFillEachOthersCellsAreOneRow) {
+  const std::string header = "time [s],pressure [bar gauge],force [N]\n";
+  const Measured m =
+      parse_measured(header + "0,1,\n0,,10\n1,2,\n1,,11\n2,3,12\n", {.path = "lab.csv"}, wanted);
+  EXPECT_EQ(m["time"], (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(m["pressure"], (std::vector<double>{1e5, 2e5, 3e5}));
+  EXPECT_EQ(m["force"], (std::vector<double>{10, 11, 12}));
+  ASSERT_EQ(m.notes.size(), 1u);
+  EXPECT_EQ(m.notes[0],
+            "2 rows have the time of the row above and values of other columns: merged with it");
+  const Measured stamps = parse_measured(
+      "date,time,pressure [bar gauge],force [N]\n2026-11-27,10:00:00,1,\n2026-11-27,10:00:00,,10\n"
+      "2026-11-27,10:00:01,2,11\n",
+      {.path = "lab.csv"}, wanted);
+  EXPECT_EQ(stamps["time"], (std::vector<double>{0, 1}));
+  EXPECT_EQ(stamps["force"], (std::vector<double>{10, 11}));
+  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  expect_refused({{header + "0,1,\n1,,10\n2,2,11\n", "force: found an empty cell"},
+                  {header + "0,1,\n0,2,10\n2,2,11\n", "force: found an empty cell"}},
+                 measured);
+}
+
+TEST(Wrong, AColumnOfASecondClockIsRefused) {
+  const std::string rows = "\n0,20,0,2\n.01,21,.04,2\n.02,22,.08,2\n";
+  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  const std::string said =
+      "pressure: found the column \"pressure\" of another clock than \"time\"; "
+      "expected columns of one clock; try the table resampled at the times of "
+      "one clock; sinew import reads several";
+  const std::string columns = ",force [N],time [s],pressure [bar gauge]";
+  expect_refused({{"time [s]" + columns + rows, said},
+                  {"time [s],force [N],time (2) [s],pressure [bar gauge]" + rows, said},
+                  {"time (1) [s],force [N],time (2) [s],pressure [bar gauge]" + rows,
+                   "force: found the column \"force\" of another clock than \"time (2)\"",
+                   {.names = {{"time", "time (2)"}}}}},
+                 measured);
+}
+
 TEST(Wrong, SeveralRecordingsInATableAreCountedAndOneCanBeRead) {
   const std::string header = "time [s],pressure [barg],force [N]\n";
   const std::string first = "0,2,20\n1,2,21\n2,2,22\n", second = "0,2,30\n1,2,31\n";
