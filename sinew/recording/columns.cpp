@@ -36,7 +36,11 @@ std::string unit_in(const Heading& h) {
 
 std::vector<Found> ColumnFinder::find(std::span<const Wanted> wanted) {
   std::vector<Found> out;
-  for (const Wanted& w : wanted) find_one(w, out);
+  const auto is_found = [&](std::string_view name) {
+    return std::ranges::any_of(out, [&](const Found& f) { return f.wanted->name == name; });
+  };
+  for (const Wanted& w : wanted)
+    if (w.replaces.empty() || !is_found(w.replaces)) find_one(w, out);
   check_names(wanted);
   return out;
 }

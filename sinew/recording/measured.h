@@ -31,6 +31,8 @@ struct Wanted {
   bool optional = false;
   std::string_view doc;
   std::span<const std::pair<std::string_view, double>> words = {};  // that stand for numbers
+  // A column above this one that it replaces: where that one is read, this one is left alone.
+  std::string_view replaces = {};
 };
 
 // Values of one quantity, in the unit that was wanted.

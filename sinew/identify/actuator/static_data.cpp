@@ -56,6 +56,12 @@ const Wanted static_wanted[] = {
      .most = 5,
      .optional = true,
      .doc = "of the muscle without pressure and load, where the file has several muscles"},
+    {.name = "contraction",
+     .unit = "1",
+     .most = 0.6,
+     .optional = true,
+     .doc = "share of the rest length by which the muscle is shorter, instead of length",
+     .replaces = "length"},
     {.name = "branch", .unit = "1", .optional = true, .doc = "fill or vent", .words = branch_words},
     {.name = "time", .unit = "s", .optional = true, .doc = "of a recording"},
 };
@@ -70,10 +76,21 @@ std::vector<double> force_of(const Measured& m) {
   return out;
 }
 
-// Length of every row.
-std::vector<double> length_of(const Measured& m) {
+// Length of every row: a column, or what a contraction leaves of the rest length.
+std::vector<double> length_of(const Measured& m, const StaticInput& input) {
   if (m.has("length")) return m["length"];
-  throw Refusal(m.file, "no length", "a column of lengths, or the one length of this file",
+  if (m.has("contraction")) {
+    if (!m.has("rest_length") && !(input.rest_length > 0))
+      throw Refusal(m.file, "a contraction, and no rest length to count it from",
+                    "the length of the muscle without pressure and load", "rest_length=\"250 mm\"");
+    std::vector<double> out;
+    for (std::size_t i = 0; i < m.rows(); ++i)
+      out.push_back((m.has("rest_length") ? m["rest_length"][i] : input.rest_length) *
+                    (1 - m["contraction"][i]));
+    return out;
+  }
+  throw Refusal(m.file, "no length",
+                "a column of lengths or contractions, or the one length of this file",
                 "names.length=NAME, or values.length=\"205 mm\"");
 }
 
@@ -257,7 +274,7 @@ void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
 
 Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
   std::vector<double> p = m["pressure"], f = force_of(m);
-  const std::vector<double> lengths = length_of(m);
+  const std::vector<double> lengths = length_of(m, input);
   const double length = median(lengths);
   if (largest(lengths) - smallest(lengths) > 0.01 * length)
     throw Refusal(m.file, "a recording whose length changes", "one at one length",
@@ -310,7 +327,7 @@ double slack_force(const std::vector<double>& length, const std::vector<double>&
 }
 
 Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
-  const std::vector<double> length = length_of(m);
+  const std::vector<double> length = length_of(m, input);
   std::vector<double> force = force_of(m);
   Zero zero{.force = slack_force(length, m["pressure"], force)};
   if (std::abs(zero.force) > largest_zero_force * (largest(force) - smallest(force))) {
@@ -347,7 +364,7 @@ std::span<const Wanted> static_columns() { return static_wanted; }
 
 Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
   if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");
-  check(m, force_of(m), length_of(m));
+  check(m, force_of(m), length_of(m, input));
   for (const std::string& note : m.notes) data.notes.push_back(m.file + ": " + note);
   return m.has("time") ? add_recording(m, input, data) : add_table(m, input, data);
 }

@@ -57,7 +57,8 @@ struct StaticInput {
   bool fitted = true;
 };
 
-// force or load, pressure; length, rest_length, branch, time where there are such columns.
+// force or load, pressure; length or contraction, rest_length, branch, time where there are such
+// columns.
 std::span<const Wanted> static_columns();
 
 // Adds a file's points. Throws Refusal for files that no static model can be had from: a clipped

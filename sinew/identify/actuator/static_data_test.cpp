@@ -227,6 +227,41 @@ TEST(StaticRefusal, TooFewPoints) {
                  {"3 points", "at least", "more measurements"});
 }
 
+// Rigs write the contraction as often as the length.
+TEST(StaticData, AContractionCountsFromTheRestLength) {
+  const auto lengths = [](const std::string& text, const StaticInput& input) {
+    StaticData data;
+    add_points(read(text), input, data);
+    std::vector<double> out;
+    for (const StaticPoint& p : data.points) out.push_back(p.length);
+    return out;
+  };
+  const std::string rows = "0,100,100\n10,100,50\n20,200,60\n";
+  const std::vector<double> right{0.25, 0.225, 0.2};
+  const std::string columns = "contraction [%],pressure [kPa gauge],force [N]";
+  const auto percent = lengths(columns + "\n" + rows, {.rest_length = rest});
+  const auto share =
+      lengths("contraction,pressure [kPa gauge],force [N]\n0,100,100\n0.1,100,50\n0.2,200,60\n",
+              {.rest_length = rest});
+  const auto own = lengths(columns +
+                               ",rest_length [mm]\n0,100,100,250\n10,100,50,250\n"
+                               "20,200,60,250\n",
+                           {});
+  // Beside a length a contraction is left alone, whatever its unit.
+  const auto both = lengths(
+      "length [mm]," + std::string("contraction [mm],pressure [kPa gauge],"
+                                   "force [N]\n250,0,100,100\n225,25,100,50\n200,50,200,60\n"),
+      {});
+  for (const auto& found : {percent, share, own, both}) {
+    ASSERT_EQ(found.size(), right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(found[i], right[i], 1e-12);
+  }
+  expect_refused(refusal_of(columns + "\n" + rows),
+                 {"a contraction, and no rest length", "rest_length=\"250 mm\""});
+  expect_refused(refusal_of("contraction,pressure [kPa gauge],force [N]\n" + rows),
+                 {"values up to 20; expected between 0 and 0.6", "units.contraction=%"});
+}
+
 TEST(StaticRefusal, NoLength) {
   expect_refused(refusal_of("force [N],pressure [kPa gauge]\n1,100\n2,200\n"),
                  {"no length", "values.length=\"205 mm\""});
