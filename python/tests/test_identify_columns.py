@@ -11,7 +11,7 @@ import numpy
 import sinew
 from common import ACTUATOR, program_json
 from sinew import identify
-from test_identify_tables import mesh, swings, written
+from test_identify_tables import hold, mesh, swings, written
 
 
 def settling() -> "Dict[str, Any]":
@@ -48,6 +48,23 @@ class Columns(unittest.TestCase):
             self.assertEqual(identify.geometry(data).report["parameters"], plain)
         value = identify.geometry(inches).report["parameters"][0]["value"]
         self.assertAlmostEqual(value, plain[0]["value"], 9)
+
+    def test_values_and_offsets_stand_for_what_a_table_lacks(self) -> None:
+        """A machine writes extensions, one file per pressure: what it leaves out is stated."""
+        length, diameter = mesh().values()
+        extension = {"length": length - 0.06, "diameter": diameter}
+        found = identify.geometry(identify.Table(extension, offsets={"length": "60 mm"})).report["parameters"]
+        for one, other in zip(found, identify.geometry(mesh()).report["parameters"]):
+            self.assertAlmostEqual(one["value"] / other["value"], 1, 9)
+        with self.assertRaisesRegex(sinew.InputError, "values: found \"lenght\".*length"):
+            identify.geometry(identify.Table(mesh(), values={"lenght": "205 mm"}))
+        with self.assertRaisesRegex(sinew.InputError, "and the value \"205 mm\" for the whole file"):
+            identify.geometry(identify.Table(mesh(), values={"length": "205 mm"}))
+        with self.assertRaisesRegex(sinew.InputError, "length: found 205 mm throughout"):
+            identify.geometry(identify.Table({"diameter": diameter}, values={"length": "205 mm"}))
+        gauge = {name: hold()[name] for name in ("time", "force")}
+        by_value = identify.creep(identify.Table(gauge, values={"pressure": "4 bar gauge"}))
+        same_creep(by_value.report["creep"], identify.creep(hold()).report["creep"], 1e-9)
 
     def test_what_is_held_out_has_the_same_columns(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
