@@ -59,8 +59,8 @@ def names_of(data: Any) -> "Optional[List[str]]":
 def cells(name: str, values: Any) -> "List[str]":
     """Return the texts of a column. Raises TypeError for what a table cannot have."""
     column = numpy.asarray(values)
-    masked = numpy.ma.getmaskarray(values) if isinstance(values, numpy.ma.MaskedArray) else None
-    if masked is not None and masked.any():
+    masked: Any = getattr(values, "mask", None) if isinstance(values, numpy.ma.MaskedArray) else None
+    if masked is not None and numpy.any(masked):
         if column.dtype.kind not in "fiub":
             raise TypeError(f"{name}: found masked words; expected words alone")
         column = numpy.where(masked, numpy.nan, column.astype(float))  # cells without a number
