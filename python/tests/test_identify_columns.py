@@ -60,7 +60,7 @@ class Columns(unittest.TestCase):
             identify.geometry(identify.Table(mesh(), values={"lenght": "205 mm"}))
         with self.assertRaisesRegex(sinew.InputError, "and the value \"205 mm\" for the whole file"):
             identify.geometry(identify.Table(mesh(), values={"length": "205 mm"}))
-        with self.assertRaisesRegex(sinew.RefusalError, "length: found 0.205 m throughout"):
+        with self.assertRaisesRegex(identify.RefusalError, "length: found 0.205 m throughout"):
             identify.geometry(identify.Table({"diameter": diameter}, values={"length": "205 mm"}))
         gauge = {name: hold()[name] for name in ("time", "force")}
         by_value = identify.creep(identify.Table(gauge, values={"pressure": "4 bar gauge"}))

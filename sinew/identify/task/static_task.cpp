@@ -179,9 +179,9 @@ CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings&
   if (!settings.diameter.empty())
     out.diameter = config::quantity_setting("diameter", settings.diameter, "m",
                                             sources[0].atmosphere, across_a_muscle);
+  const std::optional<Source> other = held_out_of(sources, settings);
   for (const Source& source : sources) read_table(settings, source, true, unreadable, out);
-  if (const std::optional<Source> other = held_out_of(sources, settings))
-    read_table(settings, *other, false, unreadable, out);
+  if (other) read_table(settings, *other, false, unreadable, out);
   keep_branch(settings.branch, out.data);
   return out;
 }
