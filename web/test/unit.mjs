@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
 import { ticks, upright_ticks } from '../src/axis.js';
+import { point_path } from '../src/chart_shapes.js';
 import { append_stretches, GrowingColumns } from '../src/growing.js';
 import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
@@ -14,6 +15,20 @@ function random_from(seed) {
   let state = seed;
   return () => (state = (1103515245 * state + 12345) % 2147483648) / 2147483648;
 }
+
+// --- shapes ---
+
+test('points with a mark are triangles and others discs, larger where they are held out', () => {
+  const corners = (path) => [...path.matchAll(/[ML]([-\d.]+) ([-\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])]);
+  const width = (path) => { const x = corners(path).map(([at]) => at); return Math.max(...x) - Math.min(...x); };
+  const filling = point_path({ style: 'points' }, 10, 20, 4), venting = point_path({ style: 'points', mark: 1 }, 10, 20, 4);
+  assert.match(filling, /^M6 20a4 4 .*Z$/);
+  assert.equal(corners(venting).length, 3);
+  assert.ok(venting.endsWith('Z') && !venting.includes('a'));
+  const middle = corners(venting).reduce(([x, y], [u, v]) => [x + u / 3, y + v / 3], [0, 0]);
+  assert.ok(Math.hypot(middle[0] - 10, middle[1] - 20) < 1);
+  assert.ok(width(point_path({ style: 'held out', mark: 1 }, 10, 20, 4)) > width(venting));
+});
 
 // --- samples ---
 
