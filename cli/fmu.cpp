@@ -1,4 +1,4 @@
-// cli/fmu.cpp - `sinew fmu export`: a file of ours as an FMU for somebody else's co-simulation.
+// cli/fmu.cpp - `sinew fmu export`: a file as an FMU, for co-simulation in other programs.
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -78,7 +78,7 @@ ExitCode export_fmu(const FmuOptions& options) {
 void add_fmu(Command app, Action& action) {
   auto options = std::make_shared<FmuOptions>();
   fmu::Asked& asked = options->asked;
-  Command fmu = app.subcommand("fmu", "FMUs for somebody else's co-simulation",
+  Command fmu = app.subcommand("fmu", "FMUs for co-simulation in other programs",
                                "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");
   fmu.require_subcommand();
   Command sub =

@@ -28,7 +28,7 @@ constexpr Task tasks[] = {
     {"Look at runs", "report compare figures film analyze export",
      "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html"},
     {"Learn from measurements", "import identify",
-     "sinew identify static forces.csv --length \"80 mm\" --out muscle.toml"},
+     "sinew identify static forces.csv --value \"length=80 mm\" --out muscle.toml"},
     {"Vary and tune", "sweep tune sensitivity merge", "sinew tune studies/faster-walk.toml"},
     {"Work with files and their keys", "new list keys show check migrate",
      "sinew new robot my-arm --metric"},

@@ -51,7 +51,7 @@ void print_mounts(const std::vector<identify::RecognisedMount>& mounts) {
                               : std::to_string(m.points),
                std::to_string(m.pressures), fmt::format("{:.4g}", m.lowest / 1e3),
                fmt::format("{:.4g}", m.highest / 1e3), fmt::format("{:.4g}", m.strongest),
-               m.branches.empty() ? "not told" : m.branches});
+               m.branches.empty() ? "unknown" : m.branches});
   if (!table.empty()) fmt::print("{}\n", table.text());
 }
 
@@ -72,10 +72,10 @@ void print_checks(const std::vector<identify::Check>& checks) {
 
 void print_determined(const identify::DeterminedLaw& law) {
   if (!law.refused.empty()) {
-    fmt::print("\nwhat a fit could tell: not asked, {}\n", as_options(law.refused));
+    fmt::print("\nwhat a fit could determine: not evaluated, {}\n", as_options(law.refused));
     return;
   }
-  TextTable table({"a fit could tell", "known", "to know more, measure"});
+  TextTable table({"a fit could determine", "known", "to know more, measure"});
   for (const identify::Determined& d : law.parameters) table.add({d.name, d.words, d.advice});
   fmt::print("\n{}by the richest law, {}: {}\n", table.text(), law.model, law.law);
 }

@@ -40,7 +40,7 @@ ExitCode run_scale(const IdentifyScaleOptions& options) {
   if (!(found.actuator.prediction.inside_95 > 0))
     Messages(options.result.quiet)
         .warning(
-            "how far off it is cannot be told: no muscle was left out when the file was made; fit "
+            "how far off it is is unknown: no muscle was left out when the file was made; fit "
             "muscles of two rest lengths at least");
   return ok;
 }

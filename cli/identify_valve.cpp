@@ -41,9 +41,9 @@ ExitCode run_identify_valve(const IdentifyValveOptions& options) {
   const identify::ValveResult& valve = found.result;
   const ResultOptions& result = options.result;
   if (valve.refused.empty()) {
+    write_timing(options, found);
     tell(valve.report, result.out.empty() ? "" : found.file(result.out), options.data, result,
          to_json(found));
-    write_timing(options, found);
     return ok;
   }
   tell(valve.report, "", options.data,

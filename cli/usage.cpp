@@ -203,7 +203,7 @@ void tell_of_number(const CLI::App& command, std::string_view said, Problems& ou
 std::string problems_of_line(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = asked(program);
   const std::string more =
-      fmt::format("\n{} tells what {} takes", help_command(words_to(command)), words_to(command));
+      fmt::format("\n{} describes {}", help_command(words_to(command)), words_to(command));
   // The words of our own checks and actions about a value stay as they are.
   if (dynamic_cast<const CLI::ValidationError*>(&error)) return error.what() + more;
   Problems out;

@@ -82,7 +82,8 @@ void bind_fmu(py::module_& m) {
       py::arg("without_valves") = false, py::arg("inputs") = Names(), py::arg("outputs") = Names(),
       py::arg("parameters") = Names(), py::arg("sets") = py::none(), py::arg("fmi") = 2,
       py::arg("name") = "", py::arg("force") = false,
-      "Writes an FMU for somebody else's co-simulation, and returns what is in it: its kind and\n"
+      "Writes an FMU for co-simulation in another program, and returns what is in it: its kind "
+      "and\n"
       "a dict for each variable, with name, value_reference, type, causality, unit (SI), start "
       "and\n"
       "meaning.\n\n"

@@ -1,7 +1,7 @@
 // config/compose.h - several files become the one resolved namespace.
 //
 //   experiment ── base = "other.toml"      merged under the file, one level deep,
-//                                                without what is reported of it
+//                                                without its `reported` figures
 //              ── robot = "robot.toml"     its tables appear beside the experiment's own
 //                   ── files.actuator      actuator.<name>
 //                   ── files.valves        valve.<name>

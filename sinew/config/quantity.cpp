@@ -165,6 +165,7 @@ std::string dimension_hint(Dimension found, Dimension expected, std::string_view
   if (force_for_mass) return pounds ? "lb: lbf is force, lb is mass" : "kg: N is force, kg is mass";
   if (combine(found, angle, -1) == expected || combine(found, angle) == expected)
     return quoted_units("", usual_units(unit)) + ": rad counts as a dimension here";
+  if (unit == "1") return "a number without a unit, or in %";
   return fmt::format("a quantity such as \"1 {}\"", unit);
 }
 

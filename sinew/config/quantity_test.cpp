@@ -125,7 +125,7 @@ TEST(Quantity, UnitsAreProposedInWhichTheNumberIsPlausible) {
   EXPECT_EQ(hint("110", "m3"), "\"110 mL\" or \"110 in3\"");
   EXPECT_EQ(hint("90", "rad"), "\"90 deg\"");
   EXPECT_EQ(hint("300", "s"), "\"300 s\" or \"300 ms\"");
-  // None is plausible: whoever wrote it may know better.
+  // No unit is plausible: all are proposed.
   EXPECT_EQ(hint("1e5", "m"), "\"1e5 m\" or \"1e5 mm\" or \"1e5 in\"");
 }
 

@@ -81,7 +81,7 @@ struct Reported {
   std::string of;                      // what a negligible, a substantial, … figure is a share of
   std::string reading_error;           // of the source's figure; empty: none
   std::string band_reason;             // why `accept` is as it is
-  bool changed = false;                // the run was changed with --set: the source has another
+  bool changed = false;                // with --set: the source describes the unchanged run
 };
 
 // Is there a band by which the figure agrees or differs?

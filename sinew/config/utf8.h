@@ -73,7 +73,10 @@ inline std::string printable(std::string_view text, std::string_view kept = "\n\
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t letter = letter_at(text, at), turn = turn_at(text, at);
     const auto byte = static_cast<unsigned char>(text[at]);
-    const bool control = (byte < 0x20 && kept.find(text[at]) == kept.npos) || byte == 0x7F;
+    const bool second_set = byte == 0xC2 && letter == 2 &&
+                            static_cast<unsigned char>(text[at + 1]) < 0xA0;  // U+0080 to U+009F
+    const bool control =
+        (byte < 0x20 && kept.find(text[at]) == kept.npos) || byte == 0x7F || second_set;
     const bool hidden = letter == 0 || turn || control;
     const std::size_t length = letter == 0 ? 1 : letter;
     for (const char c : text.substr(at, length)) {

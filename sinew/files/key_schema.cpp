@@ -198,10 +198,10 @@ std::string schema_of(std::string_view kind) {
       if (const std::string path = path_in_file(key, kind); !path.empty()) put(root, key, path);
   Json file = table(root);
   file["properties"]["format"] = {{"const", format}, {"description", "kind and version"}};
-  file["properties"]["base"] = {
-      {"type", "string"},
-      {"description",
-       "a file of the same kind, which this one changes; what is reported of it is left out"}};
+  file["properties"]["base"] = {{"type", "string"},
+                                {"description",
+                                 "a file of the same kind, which this one changes; its `reported` "
+                                 "figures are not inherited"}};
   Json out{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", format}};
   out.update(file);
   out["required"] = {"format"};

@@ -247,16 +247,15 @@ std::vector<Key> any_keys() {
   guess.doc = "of a value, or of all in a table: nobody published it";
   range.type = KeyType::texts;
   range.doc = "of a value, or of all in a table: lowest and highest that it could be";
-  return {
-      text_key("any", "format", "\"sinew.<kind>/1\"", true),
-      text_key(
-          "any", "base",
-          "a file of the same kind, which this one changes; what is reported of it is left out"),
-      text_key("any", "source", "of a value, or of all in a table: where it comes from"),
-      fit,
-      guess,
-      range,
-      text_key("any", "uncertainty", "of a value: { value = \"3 N\", uncertainty = \"5 %\" }")};
+  return {text_key("any", "format", "\"sinew.<kind>/1\"", true),
+          text_key("any", "base",
+                   "a file of the same kind, which this one changes; its `reported` figures are "
+                   "not inherited"),
+          text_key("any", "source", "of a value, or of all in a table: where it comes from"),
+          fit,
+          guess,
+          range,
+          text_key("any", "uncertainty", "of a value: { value = \"3 N\", uncertainty = \"5 %\" }")};
 }
 
 std::vector<Key> list_keys(std::string_view kind) {

@@ -65,8 +65,8 @@ struct ClockColumns {
   std::size_t clock = 0, from = 0, to = 0;
 };
 
-// Returns the columns of each clock, that one the first of them; nothing where there is one clock.
-// A clock without a column of numbers of its own is a column as any other.
+// Returns the columns of each clock, `clock` as the first of them; nothing where there is one
+// clock. A clock without a column of numbers of its own is a column as any other.
 std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock);
 
 // Returns the time between rows  [s] that "100 Hz" or "10 ms" says. Throws config::Error.

@@ -39,8 +39,12 @@ std::vector<Found> ColumnFinder::find(std::span<const Wanted> wanted) {
   const auto is_found = [&](std::string_view name) {
     return std::ranges::any_of(out, [&](const Found& f) { return f.wanted->name == name; });
   };
-  for (const Wanted& w : wanted)
-    if (w.replaces.empty() || !is_found(w.replaces)) find_one(w, out);
+  for (const Wanted& w : wanted) {
+    if (w.replaces.empty() || !is_found(w.replaces))
+      find_one(w, out);
+    else
+      refuse_beside_stated(w, out);
+  }
   check_names(wanted);
   return out;
 }
@@ -52,6 +56,18 @@ std::vector<std::string_view> ColumnFinder::names() const {
     if (!h.at_name.empty()) out.push_back(h.at_name);
   }
   return out;
+}
+
+// A column would be left out unnoticed where a value is stated for what it replaces.
+void ColumnFinder::refuse_beside_stated(const Wanted& w, const std::vector<Found>& found) {
+  const auto at =
+      std::ranges::find_if(found, [&](const Found& f) { return f.wanted->name == w.replaces; });
+  const bool has_column =
+      std::ranges::any_of(grid_.headings(), [&](const Heading& h) { return h.is_called(w.name); });
+  if (at->index < grid_.headings().size() || !has_column) return;
+  problems_.add(grid_.header_line(), 1, std::string(w.name),
+                fmt::format("a column, and a value of {} for the whole file", w.replaces),
+                "one of the two");
 }
 
 void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
@@ -86,10 +102,19 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
 
 // A value that is stated for the whole file.
 bool ColumnFinder::find_stated(const Wanted& w, std::vector<Found>& out) {
+  // The longest part of the file's name decides.
   std::optional<std::string> text;
+  std::size_t longest = 0;
   for (const std::string& setting : source_.values) {
     const Stated stated = stated_in(setting);
-    if (stated.name == w.name && stated.is_for(source_.path)) text = stated.value;
+    if (stated.name != w.name || !stated.is_for(source_.path)) continue;
+    const std::size_t length = stated.part.size();
+    if (text && length == longest && *text != stated.value)
+      problems_.add(0, 0, fmt::format("values.{}", w.name),
+                    fmt::format("{} and {} for one file", config::in_quotes(*text),
+                                config::in_quotes(stated.value)),
+                    "one value", "a longer part of the file's name before the colon");
+    if (!text || length > longest) text = stated.value, longest = length;
   }
   if (!text) return false;
   if (source_.names.contains(std::string(w.name)) ||

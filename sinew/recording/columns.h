@@ -50,6 +50,7 @@ class ColumnFinder {
  private:
   bool find_stated(const Wanted& w, std::vector<Found>& out);
   void add_offset(const Wanted& w, Found& f);
+  void refuse_beside_stated(const Wanted& w, const std::vector<Found>& found);
   void find_one(const Wanted& w, std::vector<Found>& out);
   std::vector<std::string_view> names() const;
   std::string all_names() const;

@@ -104,7 +104,12 @@ class Table {
         return c.clock == *clock && column >= c.from && column < c.to;
       });
     };
+    const auto is_there = [&](std::string_view name) {
+      return std::ranges::any_of(grid_.headings(),
+                                 [&](const Heading& h) { return h.is_called(name); });
+    };
     for (const Wanted& w : wanted) {
+      if (!w.replaces.empty() && is_there(w.replaces)) continue;
       const auto said = source_.names.find(std::string(w.name));
       const std::string name = said == source_.names.end() ? std::string(w.name) : said->second;
       const auto at = std::ranges::find_if(grid_.headings(),
@@ -136,17 +141,16 @@ class Table {
     Row above, row;
     std::size_t index = 0, merged = 0;
     while (body.next(row)) {
-      if (!wanted_row(row)) continue;
       if (fills(above, row)) {
         take_cells(row, above);
         ++merged;
         continue;
       }
-      if (!above.cells.empty()) add_rows(above, index, out);
+      if (!above.cells.empty() && wanted_row(above)) add_rows(above, index, out);
       std::swap(above, row);
       index = body.count() - 1;
     }
-    if (!above.cells.empty()) add_rows(above, index, out);
+    if (!above.cells.empty() && wanted_row(above)) add_rows(above, index, out);
     if (merged > 0) out.notes.push_back(merged_text(merged));
   }
 

@@ -25,7 +25,7 @@ namespace sinew::analysis {
 // How shifts are found; `known`: it is given.
 enum class AlignBy { known, event, correlation };
 
-// A wish how recordings are aligned with each other.
+// Constraint on the alignment of recordings.
 struct AlignRequest {
   std::string name = {};  // of the other recording, for errors
   AlignBy by = AlignBy::correlation;

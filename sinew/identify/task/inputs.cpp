@@ -96,8 +96,8 @@ constexpr std::array valve_tables{
               "5,0,25\n10,1.2,25\n20,11.1,25\n50,41,25\n90,81.2,25\n98,100,25\n"}};
 
 constexpr std::string_view advice_of_length =
-    "length may be missing where one holds for the whole file: values.length=\"250 mm\", and where "
-    "contraction is there beside a rest length.";
+    "length may be missing where one holds for the whole file: values.length=\"250 mm\", or where "
+    "the table has contraction and a rest length is given.";
 constexpr std::string_view advice_of_rest =
     "rest_length is needed where a file holds several muscles; else rest_length=\"250 mm\" says "
     "it, "

@@ -70,6 +70,7 @@ class StandSenses {
             .load = mechanism.driven() ? 0.0 : load.mass,
             .pressure = air.pressure(p.look.air),
             .air = account.mass,
+            .all_air = air.total_mass(p.state.air, p.look.ends.travel),
             .air_in = account.in,
             .air_out = account.out,
             .air_leaked = account.leak,

@@ -87,6 +87,7 @@ struct StandTruth {
   double load = 0;                 // hanging: M [kg]
   double pressure = 0;             // of the air in the element, absolute [Pa]
   double air = 0;                  // its mass [kg]
+  double all_air = 0;              // in element, hose and tank [kg]
   double air_in = 0, air_out = 0;  // through the valves since the start [kg]
   double air_leaked = 0;           // since the start [kg]
   double inlet = 0, exhaust = 0;   // open shares of the valves' areas [-]

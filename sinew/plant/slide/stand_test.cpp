@@ -233,15 +233,22 @@ TEST(Stand, LooksAndStrayEdgesChangeNoBit) {
 }
 
 TEST(Stand, AirIsNeitherMadeNorLost) {
-  StandSetup s = pulsed(5);
-  s.muscle.leak.area = 1e-9;
-  Stand stand(s);
-  const double at_start = stand.truth(0).air;
-  for (signals::Tick t = 0; t < 10000; t += 200) stand.drive({.at = t, .open = (t / 200) % 2 == 0});
-  const StandTruth x = stand.truth(1.2);
-  EXPECT_GT(x.air_in, 10 * at_start);
-  EXPECT_GT(x.air_leaked, 0);
-  EXPECT_NEAR(x.air, at_start + x.air_in - x.air_out - x.air_leaked, 1e-12 * x.air_in);
+  for (const bool hose : {false, true}) {
+    StandSetup s = pulsed(5);
+    s.muscle.leak.area = 1e-9;
+    if (hose)
+      s.muscle.hose = {
+          .law = gas::Hose::Law::pipe, .length = 0.5, .inner_diameter = 4e-3, .volume = 6e-6};
+    Stand stand(s);
+    const double at_start = stand.truth(0).all_air;
+    for (signals::Tick t = 0; t < 10000; t += 200)
+      stand.drive({.at = t, .open = (t / 200) % 2 == 0});
+    const StandTruth x = stand.truth(1.2);
+    EXPECT_GT(x.air_in, 5 * at_start);
+    EXPECT_GT(x.air_leaked, 0);
+    EXPECT_NEAR(x.all_air, at_start + x.air_in - x.air_out - x.air_leaked, 1e-12 * x.air_in);
+    EXPECT_EQ(x.all_air > x.air, hose);
+  }
 }
 
 // --- driven and regulated -----------------------------------------------------------------------

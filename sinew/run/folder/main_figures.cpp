@@ -44,7 +44,12 @@ std::string main_figures(const analysis::Summary& summary, const analysis::Machi
            analysis::show(*value, key,
                           shown ? analysis::shown_unit(key, *shown, *value) : std::string(unit),
                           machine.atmosphere)});
-  return table.empty() ? "" : table.text();
+  std::string text = table.empty() ? "" : table.text();
+  if (text.find("passiveness") != text.npos)
+    text +=
+        "passiveness: share of the time with both valves of a muscle shut, of the least passive "
+        "muscle\n";
+  return text;
 }
 
 }  // namespace sinew::run

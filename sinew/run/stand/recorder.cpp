@@ -75,6 +75,8 @@ void true_columns(const Experiment& e, Columns& out) {
   out.truth(at + "/air_in", "kg", "since the start", &T::air_in);
   out.truth(at + "/air_out", "kg", "since the start", &T::air_out);
   out.truth(at + "/air_leaked", "kg", "since the start", &T::air_leaked);
+  if (e.element.hose.law != gas::Hose::Law::none && e.element.hose.volume > 0)
+    out.truth("air/mass", "kg", "in element, hose and tank", &T::all_air);
   if (by_valves(e)) {
     out.truth("valve/" + e.element.name + "/inlet", "1", "open share of its area", &T::inlet);
     out.truth("valve/" + e.element.name + "/exhaust", "1", "open share of its area", &T::exhaust);
