@@ -1,4 +1,4 @@
-// cli/alignment.h - the options that say how runs are aligned with the first one: of `compare` and
+// cli/alignment.h - options for the alignment of runs with the first one: of `compare` and
 // `film`.
 #pragma once
 

@@ -24,7 +24,7 @@ struct RunFiguresRequest {
   bool overlay = false, labels_template = false;
   bool force = false, json = false, quiet = false;
 
-  // Are the runs aligned with each other?
+  // Returns whether the runs are aligned with each other.
   bool overlaid() const { return overlay || !labels.empty() || align != "start"; }
 };
 

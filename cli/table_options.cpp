@@ -4,7 +4,7 @@ namespace sinew::cli {
 
 namespace {
 
-// What its columns are.
+// Adds the options that describe its columns.
 void add_column_options(Command sub, TableOptions& options) {
   sub.add_option("--map", options.maps,
                  "NAME=COLUMN: the file's name for a column of the method, force=F_N, or for a "
@@ -36,7 +36,7 @@ void add_column_options(Command sub, TableOptions& options) {
       .under(table_heading);
 }
 
-// A file may leave these open; most files show them all.
+// Adds those that most files make unnecessary.
 void add_dialect_options(Command sub, recording::TableSettings& settings) {
   sub.add_option("--encoding", settings.encoding, "of a file whose letters do not show it")
       .is_one_of({"utf-8", "utf-16le", "utf-16be", "latin1"})

@@ -53,7 +53,8 @@ void add_sensors(Figures& f) {
 }
 
 // How long, how many complete steps and how far the line holds its first pressure, to a hundredth.
-// Where it holds it to the end of the sequence these are lower bounds, and their keys say so.
+// Where it holds it to the end of the sequence these are lower bounds, and their keys end in
+// `at_least`.
 void add_endurance(Figures& f) {
   const Column line = f.record.column("/true/supply/pressure");
   if (line.empty() || !f.record.has_sequence()) return;

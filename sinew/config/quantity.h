@@ -43,8 +43,8 @@ double quantity(std::string_view text, std::string_view unit, std::string_view k
 // `before`, or else those usual ones in which such a robot may have the number: "164 mm" for 164.
 Mistake missing_unit(std::string_view number, std::string_view unit, std::string_view before = {});
 
-// In which people write a quantity of the field's unit, that one among them: {"m", "mm", "in"} for
-// "m", {"%/count", "1/count"} for "1/count".
+// Units in which people write a quantity of the field's unit, that one included: {"m", "mm", "in"}
+// for "m", {"%/count", "1/count"} for "1/count".
 std::vector<std::string> usual_units(std::string_view unit);
 
 // Shortest text that reads back to the same double: "0.08001 m", "0.55" for unit "1".

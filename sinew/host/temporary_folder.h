@@ -1,4 +1,4 @@
-// host/temporary_folder.h - a folder of a command's own for files that are gone with it.
+// host/temporary_folder.h - a folder of a command's own for temporary files, removed with it.
 #pragma once
 
 #include <string>

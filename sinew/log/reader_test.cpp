@@ -60,7 +60,7 @@ void cut_everywhere(bool finished) {
   EXPECT_EQ(most + !finished, messages_in(table));
 }
 
-// Of a log that is cut, one message may be missing, the one that the cut goes through: also where
+// A log that is cut lacks at most one message, the one that the cut goes through: also where
 // it goes through the last chunk, which is a megabyte. Both kinds of log, cut at seeded places.
 TEST(Reader, ACutLosesOneMessageAtMost) {
   const Folder folder;

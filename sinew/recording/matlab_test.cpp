@@ -156,7 +156,7 @@ TEST_F(MatlabTest, StructuresAsSimulinkLogsThem) {
   EXPECT_EQ(r.clocks[r.find("ts")->clock].time_ns.size(), 3u);
 }
 
-// A table as MATLAB saves it: an object whose numbers stand elsewhere in the file.
+// A table as MATLAB saves it: an object whose numbers are elsewhere in the file.
 TEST_F(MatlabTest, OfATableTheWayOutIsNamed) {
   const auto word = [](const char* letters) { return element(int8, letters); };
   const std::string table =

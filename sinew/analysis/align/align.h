@@ -37,7 +37,7 @@ struct AlignRequest {
   double atmosphere = units::atmosphere;                        // [Pa]
 };
 
-// How the other recording was aligned with the first one.
+// Alignment of the other recording with the first one.
 struct Alignment {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 

@@ -411,7 +411,7 @@ std::vector<int> mount_groups(std::span<const double> lengths, double gap, doubl
     first = std::min(first, lengths[i]);
     last = std::max(last, lengths[i]);
   }
-  // A sweep ends in a whole step, so that no group of it is a sliver.
+  // A sweep ends in a whole step, so that no group is narrower than the others.
   std::vector<std::pair<int, int>> step;  // of each length its chain, and the step there
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const auto [first, last] = ends.at(chain[i]);

@@ -247,7 +247,7 @@ TEST(StaticData, AContractionCountsFromTheRestLength) {
                                ",rest_length [mm]\n0,100,100,250\n10,100,50,250\n"
                                "20,200,60,250\n",
                            {});
-  // Beside a length a contraction is left alone, whatever its unit.
+  // A contraction is ignored where there is a length, whatever its unit.
   const auto both = lengths(
       "length [mm]," + std::string("contraction [mm],pressure [kPa gauge],"
                                    "force [N]\n250,0,100,100\n225,25,100,50\n200,50,200,60\n"),

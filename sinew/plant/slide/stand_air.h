@@ -63,8 +63,8 @@ class StandAir : public ElementAir {
     passed += std::fabs(gained);
   }
 
-  // A smooth part begins with a look by the whole laws of the valves' flows, and continues by those
-  // of one side, chosen by the pressures of that look.
+  // A smooth part begins with an evaluation of the valves' whole laws, and continues with those
+  // of one side, chosen by the pressures of that evaluation.
   void use_whole_laws() noexcept {
     for (int v = 0; v < valves(); ++v)
       if (jumps(v)) set_flow(v, whole_[static_cast<std::size_t>(v)]);

@@ -31,13 +31,13 @@
 
 namespace sinew::report {
 
-// Where times are counted from: the start of each run, or its sequence's start, aligned with the
+// Zero of the times: the start of each run, or its sequence's start, aligned with the
 // first one's; or both aligned by an event or by the greatest correlation (analysis/align/align.h).
 enum class Align { start, sequence, event, correlation };
 // Returns it in words.
 std::string_view to_text(Align align);
 
-// How runs are aligned with the first one.
+// Alignment of runs with the first one.
 struct AlignWish {
   // Aligns runs in this way; clocks are taken as they are.
   AlignWish(Align how = Align::start) : by(how) {}

@@ -19,7 +19,7 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-// How a run was aligned with the first one.
+// Alignment of a run with the first one.
 Json alignment_of(const analysis::Alignment& a) {
   Json out{{"shift_s", a.clock.shift},
            {"shift_uncertainty_s", finite(a.shift_uncertainty)},

@@ -113,7 +113,7 @@ std::string pace(double rate, double uncertainty) {
   return words.substr(1) + (rate < 0 ? " slower" : " faster");  // without its sign
 }
 
-// How a run was aligned with the first one, and what that says of its clock.
+// Alignment of a run with the first one, and the error of its clock that follows from it.
 std::string alignment_text(const Comparison& c, std::size_t i, const std::string& fit_clock) {
   if (!c.runs[i].alignment) return "";
   const analysis::Alignment& a = *c.runs[i].alignment;

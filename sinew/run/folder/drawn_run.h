@@ -34,7 +34,7 @@ struct DrawingRequest {
 struct OverlaidRuns {
   std::vector<std::filesystem::path> runs;  // folders, or logs
   std::vector<std::string> labels = {};     // of the first ones; else a run is called as its folder
-  // How the times of the others are aligned with those of the first one; absent: they begin
+  // alignment of the others' times with those of the first one; absent: they begin
   // together.
   std::optional<analysis::AlignRequest> align = {};
 };

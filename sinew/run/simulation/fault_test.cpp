@@ -281,7 +281,7 @@ TEST(AirFault, IsInTheLogWithTheAirsBalance) {
   EXPECT_NEAR((gained("/true/air/mass") - in + out + leaked) / in, 0, 1e-12);
 }
 
-// What hoses hold is in the balance too, in a run in which nothing breaks; without it 0.1 % of the
+// The air of hoses is in the balance too, in a run in which nothing breaks; without it 0.1 % of the
 // air and more are missing.
 TEST(AirFault, NeedNotBeForTheAirOfHosesToBeInTheBalance) {
   experiment::Experiment e = bench();
