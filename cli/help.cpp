@@ -19,7 +19,7 @@ namespace {
 
 using Shape = CommandTree::Shape;
 
-// Commands by what one wants to do. One that no task names stands under "more".
+// Commands grouped by purpose. A command that no task names is listed under "more".
 struct Task {
   std::string_view title, commands, example;
 };
@@ -77,7 +77,7 @@ std::string title_of(const Shape& option) {
   return option.takes_value() ? out + " " + value_of(option) : out;
 }
 
-// The description with what else is to be known of it.
+// Returns the description, the words that it may have, its default, and how often it may come.
 std::string words_of(const Shape& option) {
   std::string out = option.description;
   if (!option.choices.empty() && choices_in_short(option).empty())
@@ -89,7 +89,8 @@ std::string words_of(const Shape& option) {
   return out;
 }
 
-// Its words, or its options under a heading; empty: those that have no heading of their own.
+// Returns the rows of the command's words, or of its options (`named`) under a heading. Options
+// without a heading have the empty one.
 std::vector<Row> rows_of(const CommandTree& command, bool named, std::string_view heading = "") {
   std::vector<Row> out;
   for (const Shape& option : command.options)
@@ -117,7 +118,7 @@ std::string about_tables(const CommandTree& program) {
          "\n" + (import ? table(rows_of(*import, true, table_heading)) : "");
 }
 
-// "--foot VALUE | --angles VALUE" of a group, of which just one is given.
+// Returns the options of a group of which one is given: "--foot VALUE | --angles VALUE".
 std::string alternatives(const CommandTree& command, const std::string& group) {
   std::string out;
   for (const Shape& option : command.options)

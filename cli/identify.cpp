@@ -181,7 +181,8 @@ std::vector<identify::Source> sources_of(const DataOptions& options,
   for (const std::string& offset : table.offsets) add_pair("--offset", offset, how.offsets);
   how.values = table.values;
   std::vector<std::string> files = options.files;
-  files.insert(files.end(), held_out.begin(), held_out.end());
+  for (const std::string& text : held_out)  // or the words of a rule, "level"
+    if (std::filesystem::exists(text)) files.push_back(text);
   recording::check_stated(how.values, files);
   how.columns = config::at_commas(table.columns);
   how.rate = table.rate;

@@ -121,7 +121,7 @@ identify::Source source_of(const py::handle& parts) {
   const Settings settings(given);
   identify::Source out;
   settings.text("path", out.path);
-  if (const py::object text = given["text"]; !text.is_none()) out.text = text.cast<std::string>();
+  if (const py::object text = given["text"]; !text.is_none()) out.text = bytes_of(text);
   settings.texts("columns", out.columns);
   std::map<std::string, std::string> values;
   for (const auto& [name, to] : {std::pair{"names", &out.names},
@@ -134,7 +134,10 @@ identify::Source source_of(const py::handle& parts) {
     if (!py::isinstance<py::dict>(pairs)) refuse(name, pairs, "a dict of texts");
     for (const auto& [key, value] : pairs.cast<py::dict>()) {
       if (!is_text(key) || !is_text(value)) refuse(name, pairs, "a dict of texts");
-      (*to)[key.cast<std::string>()] = value.cast<std::string>();
+      const std::string column = bytes_of(key);
+      if (to == &values && column.find(':') != column.npos)
+        refuse(name, key, "the name of a column, without a colon");
+      (*to)[column] = bytes_of(value);
     }
   }
   for (const auto& [column, value] : values) out.values.push_back(column + "=" + value);

@@ -60,10 +60,10 @@ def static_from(
 ) -> Static:
     """Return the static law of an actuator from tables, or recordings with a column of time.
 
-    Columns force [N] or load [kg], pressure [Pa gauge], length [m] or contraction; rest_length, branch, time where
-    there are such. data: a table, or several; of a file without a column sinew.identify.Table states its value,
-    Table("rig.csv", values={"length": "205 mm"}). actuator: a file whose braid is known. branch: "fill", "vent" or
-    "both". fit_where: only rows with "NAME=VALUE,..." are fitted, the others held out. hold_out: "pressure"
+    Columns force [N] or load [kg], pressure [Pa gauge], length [m], or contraction [1] with rest_length; branch,
+    time where there are such. data: a table, or several; of a file without a column sinew.identify.Table states its
+    value, Table("rig.csv", values={"length": "205 mm"}). actuator: a file whose braid is known. branch: "fill",
+    "vent" or "both". fit_where: only rows with "NAME=VALUE,..." are fitted, the others held out. hold_out: "pressure"
     (every second), "length" or "muscle" (each once), or another table. diameter [m] without pressure, and
     anyway: as static() has them. predict: rest lengths [m] that nobody measured; their files follow those
     of the muscles that were.

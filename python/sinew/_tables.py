@@ -56,6 +56,11 @@ def names_of(data: Any) -> "Optional[List[str]]":
     return [str(key) for key in keys()] if callable(keys) else None
 
 
+def number_text(number: "Union[float, int]") -> str:
+    """Return a number as text; of a stamp of 19 digits, which a float would round, every digit."""
+    return str(number) if isinstance(number, int) and abs(number) > 2**53 else repr(float(number))
+
+
 def cells(name: str, values: Any) -> "List[str]":
     """Return the texts of a column. Raises TypeError for what a table cannot have."""
     column = numpy.asarray(values)
@@ -63,11 +68,12 @@ def cells(name: str, values: Any) -> "List[str]":
     if masked is not None and numpy.any(masked):
         if column.dtype.kind not in "fiub":
             raise TypeError(f"{name}: found masked words; expected words alone")
-        column = numpy.where(masked, numpy.nan, column.astype(float))  # cells without a number
     if column.ndim > 1:
         raise ValueError(f"{name}: found an array of shape {column.shape}; expected one number a row")
     if column.dtype.kind in "fiub":
-        return [repr(one) for one in column.astype(float).ravel().tolist()]
+        empty = numpy.zeros(column.shape, bool) if masked is None else numpy.broadcast_to(masked, column.shape)
+        cells_of = zip(column.ravel().tolist(), empty.ravel().tolist())
+        return ["nan" if is_empty else number_text(one) for one, is_empty in cells_of]
     texts = [str(one) for one in column.ravel().tolist()]
     for text in texts:
         if column.dtype.kind not in "UO" or any(mark in text for mark in ",;\t\n\r"):

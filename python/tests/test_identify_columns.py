@@ -62,6 +62,8 @@ class Columns(unittest.TestCase):
             identify.geometry(identify.Table(mesh(), values={"length": "205 mm"}))
         with self.assertRaisesRegex(identify.RefusalError, "length: found 0.205 m throughout"):
             identify.geometry(identify.Table({"diameter": diameter}, values={"length": "205 mm"}))
+        with self.assertRaisesRegex(TypeError, "values: found 'a:length'; expected the name of a column"):
+            identify.geometry(identify.Table(mesh(), values={"a:length": "205 mm"}))
         gauge = {name: hold()[name] for name in ("time", "force")}
         by_value = identify.creep(identify.Table(gauge, values={"pressure": "4 bar gauge"}))
         same_creep(by_value.report["creep"], identify.creep(hold()).report["creep"], 1e-9)

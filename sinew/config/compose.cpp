@@ -67,7 +67,7 @@ Node load(const std::string& path) {
          "naming that file as the base in " + path);
   }
   base.where = own.where;
-  base.erase("reported");  // a source describes the base alone
+  for (const char* of_base_alone : {"reported", "reproduces"}) base.erase(of_base_alone);
   merge(base, own);
   base.erase("base");
   base.find("format")->used = true;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sinew/config/utf8.h"
+
 namespace sinew::config::node_test {
 namespace {
 
@@ -100,6 +102,13 @@ TEST(Diagnostics, BytesThatAreNoTextAreShownAsNumbers) {
   EXPECT_EQ(to_text(problem), "a.toml:1:1: x: found \"1\\x0A2\\x1B[31m\\x7F\"; expected a number");
   const Problem file{{"caf\xE9\xE2\x80\xAE.toml", 1, 1}, "\xC3\xA4", "1", "2"};
   EXPECT_EQ(to_text(file), "caf\\xE9\\xE2\\x80\\xAE.toml:1:1: \xC3\xA4: found 1; expected 2");
+  EXPECT_EQ(printable("a\xC2\x9B"
+                      "1m\x7F\x1B\t\xC2\xA0"),
+            "a\\xC2\\x9B"
+            "1m\\x7F\\x1B\t\xC2\xA0");
+  EXPECT_EQ(without_controls("a\xC2\x9B"
+                             "1m\x7F\x1B\t\xC2\xA0\xE2\x80\xAE"),
+            "a1m\t\xC2\xA0");
 }
 
 TEST(Diagnostics, SuggestsOnlyWhatIsNear) {

@@ -1,6 +1,7 @@
 // config/utf8.h - is a text UTF-8? Names of files and foreign tables may be any bytes.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -39,16 +40,24 @@ inline std::size_t turn_at(std::string_view text, std::size_t at) {
   return turns ? 3 : 0;
 }
 
+// Bytes of the control that begins there, U+0000 to U+001F or U+007F to U+009F; 0 where none does,
+// or it is one of `kept`.
+inline std::size_t control_at(std::string_view text, std::size_t at, std::string_view kept) {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  if (byte < 0x20) return kept.find(text[at]) == kept.npos ? 1 : 0;
+  if (byte == 0xC2 && letter_at(text, at) == 2)
+    return static_cast<unsigned char>(text[at + 1]) < 0xA0 ? 2 : 0;
+  return byte == 0x7F ? 1 : 0;
+}
+
 // Returns the text without signs that turn the direction of writing, and without controls: names of
 // foreign files are printed on terminals.
 inline std::string without_controls(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t turn = turn_at(text, at);
-    const auto byte = static_cast<unsigned char>(text[at]);
-    const bool controls = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
-    if (!turn && !controls) out += text[at];
-    at += turn ? turn : 1;
+    const std::size_t left_out = std::max(turn_at(text, at), control_at(text, at, "\n\t"));
+    if (left_out == 0) out += text[at];
+    at += std::max<std::size_t>(left_out, 1);
   }
   return out;
 }
@@ -71,13 +80,8 @@ inline std::string printable(std::string_view text, std::string_view kept = "\n\
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t letter = letter_at(text, at), turn = turn_at(text, at);
-    const auto byte = static_cast<unsigned char>(text[at]);
-    const bool second_set = byte == 0xC2 && letter == 2 &&
-                            static_cast<unsigned char>(text[at + 1]) < 0xA0;  // U+0080 to U+009F
-    const bool control =
-        (byte < 0x20 && kept.find(text[at]) == kept.npos) || byte == 0x7F || second_set;
-    const bool hidden = letter == 0 || turn || control;
+    const std::size_t letter = letter_at(text, at);
+    const bool hidden = letter == 0 || turn_at(text, at) > 0 || control_at(text, at, kept) > 0;
     const std::size_t length = letter == 0 ? 1 : letter;
     for (const char c : text.substr(at, length)) {
       const auto b = static_cast<unsigned char>(c);

@@ -20,7 +20,7 @@ fs::path private_file(const std::string& text) {
   const char* own = std::getenv("XDG_RUNTIME_DIR");
   std::error_code none;
   const fs::path folder = own && *own ? fs::path(own) : fs::temp_directory_path(none);
-  if (folder.empty()) return {};  // TMPDIR names none
+  if (folder.empty()) return {};  // TMPDIR names no folder: the address is printed all the same
   std::string name = (folder / "sinew-view-XXXXXX.html").string();
   const int file = mkstemps(name.data(), 5);  // the letters behind the X
   if (file < 0) return {};

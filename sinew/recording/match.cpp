@@ -226,9 +226,14 @@ class Matcher {
     const config::Parsed zero = parse(0, unit);
     const std::string expected =
         fmt::format("{}, for {}", config::describe_unit(wanted), name_of(target));
-    if (unit.empty())
+    const std::string usual = config::usual_units(wanted).front();
+    if (unit.empty() && column.stated)
+      problem(file.file, column.name, "a stated number without a unit", expected,
+              fmt::format("a value such as \"{}={} {}\"", column.name,
+                          config::format_number(column.values.front()), usual));
+    else if (unit.empty())
       problem(file.file, column.name, "a column without a unit", expected,
-              fmt::format("units.{}={}", column.name, config::usual_units(wanted).front()));
+              fmt::format("units.{}={}", column.name, usual));
     else
       problem(file.file, column.name, fmt::format("the unit {}", config::in_quotes(unit)), expected,
               without_number(zero.mistake->try_this));

@@ -32,6 +32,7 @@ struct RecordedColumn {
   std::string unit;        // as the file says it; empty: it does not
   std::size_t clock = 0;   // which of the clocks
   signals::Column values;  // one per time; not a number where the file has none
+  bool stated = false;     // stated for the whole file, which has no such column
 };
 
 // One file.

@@ -36,7 +36,8 @@ void add_stated(const std::vector<std::string>& values, Recorded& file) {
     file.columns.push_back(
         {.name = stated.name,
          .unit = blank < stated.value.size() ? stated.value.substr(blank + 1) : std::string(),
-         .values = signals::Column(std::vector<double>(rows, *number))});
+         .values = signals::Column(std::vector<double>(rows, *number)),
+         .stated = true});
   }
 }
 

@@ -156,12 +156,18 @@ std::string_view after_last_number(std::string_view text) {
   return unit == text.npos ? std::string_view{} : text.substr(unit);
 }
 
-// Returns whether a key was set with --set that changes the experiment.
-bool is_changed(const config::Node& node) {
-  for (const std::string_view same : {"seed", "log", "page", "title"})
-    if (node.key == same) return false;
+// Returns whether a value in it was set with --set.
+bool has_set(const config::Node& node) {
   if (node.where.file == "--set" || (node.key == "source" && node.text == "--set")) return true;
-  return std::ranges::any_of(node.children, is_changed);
+  return std::ranges::any_of(node.children, has_set);
+}
+
+// Returns whether a key was set with --set that changes what the run measures.
+bool is_changed(const config::Node& root) {
+  return std::ranges::any_of(root.children, [](const config::Node& child) {
+    constexpr std::string_view same[] = {"seed", "log", "page", "title"};
+    return std::ranges::find(same, child.key) == std::end(same) && has_set(child);
+  });
 }
 
 // "53 in to 60 in", "at most 6 in".

@@ -174,6 +174,15 @@ TEST(Reported, IsNotJudgedWhereTheRunWasChanged) {
     std::vector<Reported> reported = {{"d_m", "1 m", {lowest, "3 m"}, "6.3"}};
     mark_changed(reported, config::parse_text(experiment, "a.toml"));
     EXPECT_NE(compare(summary, reported).at(0).is, Verdict::Is::not_applicable);
+    for (const char* same : {"title = 'mine'\n", "seed = 7\n", "[log]\nperiod = 1\n"}) {
+      mark_changed(reported, config::parse_text(same, "--set"));
+      EXPECT_NE(compare(summary, reported).at(0).is, Verdict::Is::not_applicable) << same;
+    }
+    for (const std::string& changed : {experiment, "[page]\ntitle = 'mine'\n" + experiment,
+                                       "[phase.up]\ntitle = 'mine'\n" + experiment}) {
+      mark_changed(reported, config::parse_text(changed, "--set"));
+      EXPECT_EQ(compare(summary, reported).at(0).is, Verdict::Is::not_applicable) << changed;
+    }
     mark_changed(reported, config::parse_text(experiment + kept, "resolved.toml"));
     EXPECT_EQ(compare(summary, reported).at(0).is, Verdict::Is::not_applicable);
   }

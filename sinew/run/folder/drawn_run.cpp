@@ -176,8 +176,8 @@ std::vector<std::string> names_of(const OverlaidRuns& asked) {
   return out;
 }
 
-void lay_on_first(std::vector<Drawn>& runs, const OverlaidRuns& asked,
-                  const std::vector<std::string>& names, const Notices& notices) {
+void align_with_first(std::vector<Drawn>& runs, const OverlaidRuns& asked,
+                      const std::vector<std::string>& names, const Notices& notices) {
   if (!asked.align) return;
   for (std::size_t i = 1; i < runs.size(); ++i) {
     analysis::AlignRequest request = *asked.align;
@@ -220,7 +220,7 @@ std::string draw_runs(const OverlaidRuns& asked, const fs::path& folder,
   const std::vector<std::string> names = names_of(asked);
   std::vector<Drawn> runs;
   for (const fs::path& named : asked.runs) runs.push_back(read(named, request, notices));
-  lay_on_first(runs, asked, names, notices);
+  align_with_first(runs, asked, names, notices);
   std::vector<Figures> each = figures_of(runs, request);
   std::vector<report::LabelledRun> labelled;
   for (std::size_t i = 0; i < each.size(); ++i) labelled.push_back({names[i], std::move(each[i])});
