@@ -7,11 +7,11 @@
 
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/world/machine.h"
 
 namespace {
 

@@ -41,7 +41,7 @@ endfunction()
 # taken apart; its builds have the two lanes of every processor.
 find_program(SINEW_LD_BFD ld.bfd)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_OBJCOPY AND SINEW_LD_BFD AND NOT SINEW_SANITIZE)
-  sinew_lanes(plant/packs plant/packs/wide/batch_wide.cpp 4 -mavx2)
-  sinew_lanes(plant/packs plant/packs/wide/batch_wide.cpp 8 -mavx2 -mavx512f -mavx512dq -mavx512vl
+  sinew_lanes(world/packs world/packs/wide/batch_wide.cpp 4 -mavx2)
+  sinew_lanes(world/packs world/packs/wide/batch_wide.cpp 8 -mavx2 -mavx512f -mavx512dq -mavx512vl
               -mavx512bw -mprefer-vector-width=512)
 endif()

@@ -4,7 +4,7 @@
 # Prints "file:line: what is wrong" for each finding; exit 1 if there is one.
 
 # A folder of sinew/ may include itself, what its row names, and everything that those may. A name
-# stands for the rows below it too: `plant` for plant/planar. Every folder with sources needs a row.
+# stands for the rows below it too: `mechanism` for mechanism/planar. Every folder with sources needs a row.
 # thesis/ may include all of them, cli/, python/ and fmu/ those and thesis/; cli/ and python/ fmu/ too.
 layers='
     units
@@ -29,18 +29,17 @@ layers='
     config/write    config
     log             json signals
     recording       signals log config host
-    plant/world     air signals
-    plant/friction  units
-    plant/planar    plant/world plant/friction air robot signals
-    plant/machine   plant/planar
-    plant/packs     plant/machine air/packs
-    plant/slide     plant/world air robot signals
-    plant/recorded  air robot signals log
-    plant/mujoco    air robot signals
-    plant/hardware  control/link control/board host signals
-    plant/comedi    control/supervise host signals
+    mechanism/friction  units
+    mechanism/planar    mechanism/friction air robot signals
+    mechanism/slide     air robot signals
+    mechanism/spatial   air robot signals
+    world           mechanism air signals
+    world/packs     world air/packs
+    port/recorded   air robot signals log
+    port/hardware   control/link control/board host signals
+    port/comedi     control/supervise host signals
     experiment      robot config control/gait
-    experiment/rig  experiment plant/slide
+    experiment/rig  experiment world
     identify/fit    actuator config
     identify/data   identify/fit recording
     identify/actuator  identify/data
@@ -63,7 +62,7 @@ layers='
     report/figures  report/page
     report/text
     report/compare  report/page report/text
-    run/setup       experiment control plant report/text
+    run/setup       experiment control world port report/text
     run/controllers run/setup
     run/simulation  run/controllers log host
     run/stand       run/simulation experiment/rig
@@ -84,8 +83,8 @@ layers='
 # Tests of any folder may include config, to read a file of robots/ or experiments/.
 test_layers='
     *               config
-    identify/motion plant/slide
-    plant/planar    plant/machine
+    identify/motion world
+    mechanism/planar  world
 '
 
 # Each outside library sits behind one folder. Only tests may read JSON by the library itself.
@@ -93,8 +92,8 @@ libraries='
     toml[+][+]/     sinew/config
     zlib[.]h        sinew/log
     mcap/           sinew/log
-    mujoco/         sinew/plant/mujoco
-    cvode/          sinew/plant/slide
+    mujoco/         sinew/mechanism/spatial
+    cvode/          sinew/world
     CLI/            cli
     pybind11/       python/binding
     minizip/        fmu/export
@@ -103,7 +102,7 @@ libraries='
     sqlite3[.]h     sinew/tune/results
     mpi[.]h         sinew/tune/mpi/module
     pagmo/          sinew/tune/optimizer/module
-    comedi          sinew/plant/comedi/module
+    comedi          sinew/port/comedi/module
     matio[.]h       sinew/recording/module
     nlohmann/       sinew/json
     ceres/          sinew/identify/fit
@@ -285,18 +284,18 @@ self_test() {
   expect sinew/control/joint/a.h  '#include "sinew/control/supervise/a.h"'     'may not include control/supervise'
   expect sinew/control/link/a.h   '#include "sinew/control/supervise/a.h"'     ''
   expect sinew/control/supervise/a.h '#include "sinew/control/link/a.h"'       'may not include control/link'
-  expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
-  expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
-  expect sinew/run/setup/a.h      '#include "sinew/plant/world/world.h"'       ''  # plant stands for it
-  expect sinew/experiment/a.h     '#include "sinew/plant/world/world.h"'       'experiment may not include plant/world'
+  expect sinew/mechanism/planar/a.cpp '#include "sinew/log/writer.h"'          'mechanism/planar may not include log'
+  expect sinew/port/recorded/a.h  '#include "sinew/log/reader.h"'              ''
+  expect sinew/run/setup/a.h      '#include "sinew/mechanism/planar/a.h"'      ''  # mechanism stands for it
+  expect sinew/experiment/a.h     '#include "sinew/world/world.h"'             'experiment may not include world'
   expect sinew/experiment/a.h     '#include "sinew/control/setup/a.h"'         'experiment may not include control/setup'
   expect sinew/control/setup/a.h  '#include "sinew/control/supervise/a.h"'     ''
   expect sinew/control/setup/a.h  '#include "sinew/experiment/a.h"'            'control/setup may not include experiment'
   expect sinew/analysis/a.cpp     '#include "sinew/control/gait/a.h"'          'analysis may not include control/gait'
   expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
   expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'
-  expect sinew/identify/motion/a_test.cpp '#include "sinew/plant/slide/rig.h"'          ''
-  expect sinew/identify/motion/a.cpp '#include "sinew/plant/slide/rig.h"'           'identify/motion may not include plant/slide'
+  expect sinew/identify/motion/a_test.cpp '#include "sinew/world/stand.h"'      ''
+  expect sinew/identify/motion/a.cpp '#include "sinew/world/stand.h"'           'identify/motion may not include world'
   expect sinew/novelty/a.h        'int a;'                                     'no row'
   expect sinew/gas/a.h            '#include "sinew/novelty/a.h"'               'no row'
   expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'behind sinew/config'

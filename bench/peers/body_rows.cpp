@@ -7,9 +7,9 @@
 #include "bench/peers/experiments.h"
 #include "bench/peers/mujoco_leg.h"
 #include "bench/peers/row.h"
-#include "sinew/plant/machine/machine.h"
-#include "sinew/plant/packs/batch.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "sinew/world/machine.h"
+#include "sinew/world/packs/batch.h"
 
 namespace sinew::bench {
 

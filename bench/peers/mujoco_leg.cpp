@@ -13,7 +13,7 @@
 #include "bench/peers/mjcf.h"
 #include "bench/peers/pow_muscle.h"
 #include "sinew/gas/delay.h"
-#include "sinew/plant/planar/layout.h"
+#include "sinew/mechanism/planar/layout.h"
 #include "sinew/robot/sensing.h"
 
 namespace sinew::bench {

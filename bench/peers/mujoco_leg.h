@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-#include "sinew/plant/planar/setup.h"
+#include "sinew/mechanism/planar/setup.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::bench {

@@ -10,8 +10,8 @@
 #include "bench/peers/mujoco_leg.h"
 #include "bench/peers/record.h"
 #include "bench/peers/stand_peers.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::bench {
 namespace {

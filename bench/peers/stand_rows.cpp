@@ -11,8 +11,8 @@
 #include "bench/peers/row.h"
 #include "bench/peers/stand_peers.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::bench {
 

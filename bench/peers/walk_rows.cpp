@@ -9,10 +9,10 @@
 #include "bench/peers/experiments.h"
 #include "bench/peers/mujoco_leg.h"
 #include "bench/peers/row.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/lanes.h"
 #include "sinew/units/constants.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::bench {
 

@@ -3,10 +3,10 @@
 //
 //   L_m = mount - sum_k s_k S_k(theta_k)        T_k = sum_m s_k r_k(theta_k) F_m
 //
-// with the cams of plant/planar/muscle_routing.h. Over a step the angles run straight from where
-// they are to angle + rate x step; each muscle's length runs straight between its lengths at the
-// two ends. Torque > 0 raises the angle. Gravity, stops, damping and dry friction of the joint are
-// the body's; `friction` is the bound of what the muscles' meshes add to it.
+// with the cams of mechanism/planar/muscle_routing.h. Over a step the angles run straight from
+// where they are to angle + rate x step; each muscle's length runs straight between its lengths at
+// the two ends. Torque > 0 raises the angle. Gravity, stops, damping and dry friction of the joint
+// are the body's; `friction` is the bound of what the muscles' meshes add to it.
 //
 // Each muscle is fed at the supply's pressure: a tank that several muscles empty is refused.
 #pragma once
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "fmu/muscle/muscle.h"
-#include "sinew/plant/planar/muscle_routing.h"
+#include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::fmu {

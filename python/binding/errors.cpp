@@ -7,8 +7,8 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/utf8.h"
 #include "sinew/log/error.h"
-#include "sinew/plant/comedi/comedi_port.h"
-#include "sinew/plant/hardware/remote_board.h"
+#include "sinew/port/comedi/comedi_port.h"
+#include "sinew/port/hardware/remote_board.h"
 
 namespace sinew::python {
 

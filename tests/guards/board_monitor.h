@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/hardware/emulator.h"
+#include "sinew/port/hardware/emulator.h"
 
 namespace sinew::run {
 

@@ -12,7 +12,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "sinew/plant/hardware/emulated_board.h"
+#include "sinew/port/hardware/emulated_board.h"
 #include "sinew/run/simulation/wired_body.h"
 #include "tests/firmware/images.h"
 #include "tests/guards/board_cases.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sinew/actuator/thesis_actuator.h"
-#include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::reference {
 

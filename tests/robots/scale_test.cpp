@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "runs.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/world/machine.h"
 #include "tests/places.h"
 
 namespace sinew::scale_test {
@@ -162,7 +162,7 @@ TEST(Scale, AFifthOfTheLegMovesAlikeToRounding) {
   }
 }
 
-// The hair of damping in plant/friction/friction.h is 1e-9 of the largest response, be it of an
+// The hair of damping in mechanism/friction/friction.h is 1e-9 of the largest response, be it of an
 // angle or of a way: with both kinds of friction it has a size of its own, and shows that much.
 TEST(Scale, BothKindsOfFrictionAgreeButForAHair) {
   constexpr int n = 8;

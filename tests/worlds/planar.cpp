@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/world/machine.h"
 #include "tests/places.h"
 #include "tests/six_legs.h"
 #include "tests/worlds/body.h"

@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/faulty_setup.h"
 #include "sinew/run/stand/run.h"
+#include "sinew/world/stand.h"
 #include "tests/places.h"
 #include "tests/worlds/body.h"
 

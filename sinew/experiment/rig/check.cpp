@@ -10,7 +10,7 @@
 #include "sinew/config/short_quantity.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/rig/fault_parts.h"
-#include "sinew/plant/slide/stand.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::rig {
 namespace {
@@ -119,7 +119,7 @@ void check_load(const Experiment& e, Findings& out) {
   out.unused(regulated && e.start_pressure > 0, "start.pressure", "a charge that is not regulated");
 }
 
-// No clamp reaches further than the stand itself takes (plant/slide), and a length at which the
+// No clamp reaches further than the stand itself takes (mechanism/slide), and a length at which the
 // chamber holds no air has no pressure.
 void check_volumes(const Experiment& e, Findings& out) {
   const auto check = [&](const std::string& key, double length) {

@@ -17,7 +17,7 @@
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
 #include "sinew/gas/valve.h"
-#include "sinew/plant/slide/setup.h"
+#include "sinew/mechanism/slide/setup.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::rig {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/valve_commands.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::identify {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/planar/setup.h"
+#include "sinew/mechanism/planar/setup.h"
 #include "sinew/signals/table.h"
 #include "sinew/signals/tick.h"
 

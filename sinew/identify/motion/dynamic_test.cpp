@@ -12,8 +12,8 @@
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::identify::dynamic_test {
 namespace {

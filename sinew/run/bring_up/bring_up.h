@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/hardware/remote_board.h"
+#include "sinew/port/hardware/remote_board.h"
 
 namespace sinew::run {
 

@@ -8,7 +8,7 @@
 
 #include "sinew/control/joint/command.h"
 #include "sinew/control/link/configuration.h"
-#include "sinew/plant/hardware/remote_board.h"
+#include "sinew/port/hardware/remote_board.h"
 
 namespace sinew::run {
 

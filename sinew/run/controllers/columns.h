@@ -11,7 +11,7 @@
 #include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/planar/setup.h"
+#include "sinew/mechanism/planar/setup.h"
 #include "sinew/run/controllers/boards.h"
 #include "sinew/signals/table.h"
 

@@ -10,9 +10,9 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/short_quantity.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/plant/machine/machine.h"
-#include "sinew/plant/planar/muscle_routing.h"
+#include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::run {
 

@@ -5,7 +5,7 @@
 
 #include "sinew/air/muscle.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/planar/setup.h"
+#include "sinew/mechanism/planar/setup.h"
 
 namespace sinew::run {
 

@@ -6,7 +6,7 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/air/lanes.h"
-#include "sinew/plant/planar/muscle_routing.h"
+#include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::run {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/world/machine.h"
 #include "tests/places.h"
 
 namespace sinew::run::air_test {

@@ -8,7 +8,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/host/beat.h"
 #include "sinew/host/latency.h"
-#include "sinew/plant/comedi/comedi_port.h"
+#include "sinew/port/comedi/comedi_port.h"
 
 namespace sinew::run {
 

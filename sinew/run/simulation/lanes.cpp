@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "sinew/plant/packs/batch.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/recorded_run.h"
 #include "sinew/run/simulation/simulation.h"
+#include "sinew/world/packs/batch.h"
 
 namespace sinew::run {
 

@@ -8,9 +8,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "sinew/plant/packs/batch.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/test_same.h"
+#include "sinew/world/packs/batch.h"
 #include "tests/places.h"
 
 namespace sinew::run::lanes_test {

@@ -8,7 +8,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/link/baud.h"
-#include "sinew/plant/hardware/serial_line.h"
+#include "sinew/port/hardware/serial_line.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/wired_body.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/hardware/emulated_board.h"
+#include "sinew/port/hardware/emulated_board.h"
 #include "sinew/run/simulation/card_place.h"
 #include "sinew/run/simulation/run.h"
 

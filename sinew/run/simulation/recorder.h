@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/planar/setup.h"
+#include "sinew/mechanism/planar/setup.h"
 #include "sinew/run/controllers/boards.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/controllers/high_level.h"

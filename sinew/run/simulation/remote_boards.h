@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/plant/hardware/remote_board.h"
+#include "sinew/port/hardware/remote_board.h"
 #include "sinew/run/controllers/boards.h"
 
 namespace sinew::run {

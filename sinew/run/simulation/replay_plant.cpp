@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "sinew/plant/machine/machine.h"
-#include "sinew/plant/recorded/driven.h"
+#include "sinew/port/recorded/driven.h"
 #include "sinew/run/controllers/high_level.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/recorded_run.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::run {
 namespace {

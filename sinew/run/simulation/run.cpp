@@ -1,7 +1,7 @@
 #include "sinew/run/simulation/run.h"
 
 #include "sinew/host/realtime.h"
-#include "sinew/plant/recorded/recorded.h"
+#include "sinew/port/recorded/recorded.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/recorded_run.h"
 #include "sinew/run/simulation/simulation.h"

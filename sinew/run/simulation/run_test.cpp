@@ -14,12 +14,12 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
+#include "sinew/world/machine.h"
 #include "tests/counted_heap.h"
 #include "tests/places.h"
 

@@ -26,13 +26,13 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/machine/machine.h"
 #include "sinew/run/controllers/boards.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/controllers/high_level.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/remote_boards.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::run {
 

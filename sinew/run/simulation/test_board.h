@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "sinew/control/board/program.h"
-#include "sinew/plant/hardware/emulator.h"
-#include "sinew/plant/hardware/line.h"
+#include "sinew/port/hardware/emulator.h"
+#include "sinew/port/hardware/line.h"
 
 namespace sinew::run {
 

@@ -8,10 +8,10 @@
 
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/hardware/emulator.h"
-#include "sinew/plant/machine/machine.h"
+#include "sinew/port/hardware/emulator.h"
 #include "sinew/run/controllers/boards.h"
 #include "sinew/run/simulation/faulty_port.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::run {
 

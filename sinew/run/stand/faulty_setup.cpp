@@ -1,8 +1,8 @@
 #include "sinew/run/stand/faulty_setup.h"
 
 #include "sinew/experiment/rig/fault_parts.h"
-#include "sinew/plant/slide/stand.h"
 #include "sinew/run/setup/air_faults.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::rig {
 namespace {

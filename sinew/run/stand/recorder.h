@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/drive.h"
 #include "sinew/signals/table.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::rig {
 

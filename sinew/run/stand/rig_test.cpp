@@ -12,10 +12,10 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/drive_laws.h"
 #include "sinew/run/stand/run.h"
 #include "sinew/signals/pulse.h"
+#include "sinew/world/stand.h"
 #include "tests/places.h"
 
 namespace sinew::rig::rig_test {

@@ -6,7 +6,7 @@
 
 #include "sinew/air/failure.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/plant/slide/setup.h"
+#include "sinew/mechanism/slide/setup.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/table.h"

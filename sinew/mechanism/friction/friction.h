@@ -1,0 +1,134 @@
+// mechanism/friction/friction.h - dry friction with true stick, one force per contact and step.
+//
+// The slip velocities at the end of a step of length h are, to first order in the forces,
+//
+//   v_s = v_s0 + W f,   v_s0 = J_s (v + h a),   W = h J_s M^-1 J_s^T,   |f_i| <= f_b,i
+//
+// and each contact either sticks (v_s,i = 0) or slides (f_i = -sign(v_s,i) f_b,i). What stuck in
+// the last step is tried first and nearly always right; contacts then change sides until all agree.
+//
+// More contacts can stick than the machine has freedoms (foot, trolley and both joints of a
+// standing leg); their shares of the load are then not determined by rigid bodies. The forces
+// change as little as they must from the last step's, so that the shares are a matter of history
+// and not of the step.
+//
+// friction_lanes.h solves the problems of machines side by side.
+#pragma once
+
+#include <array>
+
+namespace sinew::plant {
+
+template <int C, class S = double>
+struct FrictionProblem {
+  std::array<S, C> slip;                     // v_s0, without friction
+  std::array<std::array<S, C>, C> response;  // W, symmetric, slip per force
+  std::array<S, C> bound;                    // >= 0; a contact with bound 0 carries nothing
+};
+
+namespace detail {
+
+enum class Side : unsigned char { idle, sticks, slides };
+
+template <int C>
+[[gnu::always_inline]] inline double slip_under(const FrictionProblem<C>& p, int count,
+                                                const std::array<double, C>& force, int i) {
+  double s = p.slip[i];
+  for (int j = 0; j < count; ++j) s += p.response[i][j] * force[j];
+  return s;
+}
+
+// Brings the sticking contacts' slips to zero by the smallest change of their forces: LDL^T with a
+// hair of damping, 1e-9 of the largest response, for those that cannot move independently.
+template <int C>
+[[gnu::always_inline]] inline void solve_sticking(const FrictionProblem<C>& p, int count,
+                                                  const std::array<Side, C>& side,
+                                                  std::array<double, C>& force) {
+  std::array<int, C> index;
+  int n = 0;
+  double largest = 0;
+  for (int i = 0; i < count; ++i)
+    if (side[i] == Side::sticks) {
+      index[n++] = i;
+      largest = p.response[i][i] > largest ? p.response[i][i] : largest;
+    }
+
+  std::array<std::array<double, C>, C> lower;
+  std::array<double, C> pivot, inverse, x;
+  const double damping = 1e-9 * largest;
+  for (int a = 0; a < n; ++a) {
+    const int i = index[a];
+    x[a] = -slip_under<C>(p, count, force, i);
+    for (int b = 0; b <= a; ++b) {
+      double m = p.response[i][index[b]];
+      for (int k = 0; k < b; ++k) m -= lower[a][k] * lower[b][k] * pivot[k];
+      if (a == b) {
+        pivot[a] = (m > 0 ? m : 0.0) + damping;
+        inverse[a] = 1.0 / pivot[a];
+      } else {
+        lower[a][b] = m * inverse[b];
+      }
+    }
+    for (int k = 0; k < a; ++k) x[a] -= lower[a][k] * x[k];
+  }
+  for (int a = n - 1; a >= 0; --a) {
+    x[a] *= inverse[a];
+    for (int k = a + 1; k < n; ++k) x[a] -= lower[k][a] * x[k];
+    force[index[a]] += x[a];
+  }
+}
+
+// Lets go what asks for more than its bound, holds what slides the way it is pushed: all of them,
+// or only the first. True if all contacts agree with their sides.
+template <int C>
+[[gnu::always_inline]] inline bool settle(const FrictionProblem<C>& p, int count, bool only_first,
+                                          std::array<Side, C>& side, std::array<double, C>& force) {
+  bool agreed = true;
+  for (int i = 0; i < count && (agreed || !only_first); ++i) {
+    if (side[i] == Side::sticks && (force[i] > p.bound[i] || force[i] < -p.bound[i])) {
+      force[i] = force[i] > 0 ? p.bound[i] : -p.bound[i];
+      side[i] = Side::slides;
+      agreed = false;
+    } else if (side[i] == Side::slides && slip_under<C>(p, count, force, i) * force[i] > 0) {
+      side[i] = Side::sticks;
+      agreed = false;
+    }
+  }
+  return agreed;
+}
+
+template <int C>
+[[gnu::always_inline]] inline std::array<Side, C> sides_of(const FrictionProblem<C>& p, int count,
+                                                           std::array<double, C>& force) {
+  std::array<Side, C> side{};  // idle beyond the last
+  for (int i = 0; i < count; ++i) {
+    const double b = p.bound[i];
+    const bool free = force[i] < b && force[i] > -b;
+    side[i] = b <= 0 ? Side::idle : free ? Side::sticks : Side::slides;
+    force[i] = b <= 0 ? 0.0 : free ? force[i] : force[i] > 0 ? b : -b;
+  }
+  return side;
+}
+
+}  // namespace detail
+
+// Forces that stop or slow each of the first `count` contacts. `last` are the last step's. Inlined,
+// so that a constant count costs nothing.
+template <int C>
+[[gnu::always_inline]] inline std::array<double, C> solve_friction(
+    const FrictionProblem<C>& p, const std::array<double, C>& last, int count = C) {
+  std::array<double, C> force = last;
+  std::array<detail::Side, C> side = detail::sides_of<C>(p, count, force);
+  // Changing all at once is nearly always enough; one at a time, the first one first, comes to rest
+  // for every positive definite W.
+  const int all_at_once = 2 * count, one_at_a_time = 24 * count;
+  for (int change = 0; change < all_at_once + one_at_a_time; ++change) {
+    detail::solve_sticking<C>(p, count, side, force);
+    if (detail::settle<C>(p, count, change >= all_at_once, side, force)) return force;
+  }
+  for (int i = 0; i < count; ++i)
+    force[i] = force[i] < -p.bound[i] ? -p.bound[i] : force[i] > p.bound[i] ? p.bound[i] : force[i];
+  return force;
+}
+
+}  // namespace sinew::plant

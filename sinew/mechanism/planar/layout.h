@@ -1,0 +1,56 @@
+// mechanism/planar/layout.h - a robot's description turned into the constants of a planar world.
+#pragma once
+
+#include <array>
+
+#include "sinew/air/lanes.h"
+#include "sinew/mechanism/planar/chain.h"
+#include "sinew/mechanism/planar/setup.h"
+
+namespace sinew::plant {
+
+inline constexpr int chain_muscles = 4;  // a pair at each of at most two joints
+
+// Muscle i pulls joint `joint[i]` with a constant moment arm; moment_arm[i] = arm, positive where
+// tension raises the angle:  L = mount - moment_arm (theta - rest),  torque = moment_arm * tension.
+// S is a double; or a pack of them, of machines whose muscles pull the same joints.
+template <class S>
+struct ChainRoutingOf {
+  int count = 0, padded = 0;  // padded to whole lanes by repeating the last
+
+  std::array<int, chain_muscles> joint{};
+  air::Lanes<chain_muscles, S> mount{}, moment_arm{};  // [m]
+};
+using ChainRouting = ChainRoutingOf<double>;
+
+// Returns how the muscles of a chain run.
+ChainRouting chain_routing_of(const robot::Robot& robot);
+
+// Returns lengths, masses and inertias of a chain.
+template <int N>
+ChainConstants<N> chain_of(const robot::Robot& robot) {
+  ChainConstants<N> k;
+  k.gravity = robot.gravity;
+
+  // From the tip inwards: what hangs beyond link i.
+  double beyond = robot.foot.present ? robot.foot.mass : 0.0;
+  for (int i = N - 1; i >= 0; --i) {
+    const robot::Link& link = robot.links[static_cast<std::size_t>(i)];
+    const double l = link.length, r = link.center_of_mass;
+    k.length[i] = l;
+    k.first_moment[i] = link.mass * r + l * beyond;
+    k.inertia[i][i] = link.inertia + link.mass * r * r + l * l * beyond;
+    beyond += link.mass;
+  }
+  for (int i = 0; i < N; ++i)
+    for (int j = i + 1; j < N; ++j)
+      k.inertia[i][j] = k.inertia[j][i] = k.length[i] * k.first_moment[j];
+
+  if (robot.trolley.present) {
+    k.total_mass = robot.trolley.moving_mass();
+    k.inverse_total_mass = 1.0 / k.total_mass;
+  }
+  return k;
+}
+
+}  // namespace sinew::plant

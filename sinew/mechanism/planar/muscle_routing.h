@@ -1,0 +1,145 @@
+// mechanism/planar/muscle_routing.h - muscles over cams of any shape, across one joint or two.
+//
+//   L = L_m - sum_j s_j S_j(theta_j),     S_j = integral of r_j from the rest angle to theta_j
+//   tau_j = s_j r_j(theta_j) F            the same r: virtual work
+//
+//   r_j  radius of the cam at joint j [m]: constant, or straight between the points of a table and
+//        constant beyond them, so that S is exact: parabolas and straight lines
+//   s_j  +1 where tension raises the angle
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <vector>
+
+#include "sinew/air/lanes.h"
+#include "sinew/mechanism/planar/setup.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::plant {
+
+// Radius of a cam and what has run over it.
+class CamLaw {
+ public:
+  CamLaw() = default;
+  // Takes the cam; a round one without a radius has the joint's.
+  CamLaw(const robot::Cam& cam, const robot::Joint& joint);
+
+  // Returns the radius at that angle of the joint  [m].
+  double radius(double angle) const noexcept {  // [m]
+    return round_ ? first_radius_ : radius_of_table(angle);
+  }
+  // S [m]; a round cam's is exactly r (theta - rest), as a chain has it.
+  double travel(double angle) const noexcept {
+    return round_ ? first_radius_ * (angle - rest_) : area(angle) - area_at_rest_;
+  }
+
+  // Is the radius the same at every angle?
+  bool round() const noexcept { return round_; }
+  double rest() const noexcept { return rest_; }  // angle at which nothing has run over it [rad]
+
+ private:
+  double radius_of_table(double angle) const noexcept;
+  double area(double angle) const noexcept;  // integral of r from the first point [m]
+
+  bool round_ = true;                          // its table has one point
+  std::vector<double> angle_, radius_, area_;  // ascending
+  double first_radius_ = 0, rest_ = 0, area_at_rest_ = 0;
+};
+
+class MuscleRouting {
+ public:
+  static constexpr int most = 2;  // joints of a muscle
+
+  // s_k r_k of every muscle at the present pose, of M at most.
+  template <int M>
+  using MomentArms = std::array<std::array<double, most>, M>;
+
+  // Takes the cams of all muscles.
+  explicit MuscleRouting(const robot::Robot& robot);
+
+  // How many muscles there are.
+  int count() const { return static_cast<int>(cords_.size()); }
+
+  // Of muscle i: its joints; the second is -1 where there is none.
+  int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
+
+  // Visits every muscle i at each joint j that it crosses, with its moment arm there.
+  template <class Arms, class Visit>
+  void each(const Arms& pull, const Visit& visit) const noexcept;
+
+  // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
+  template <int M>
+  void at(const double* angle, const double* rate, air::Lanes<M>& length,
+          air::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& pull) const noexcept;
+
+ private:
+  struct Route {
+    double mount = 0;
+    std::array<int, most> joint{-1, -1};
+    std::array<double, most> sign{};
+    std::array<CamLaw, most> cam;
+  };
+  // Muscles over one round cam each, side by side: L = mount - arm (theta - rest).
+  struct RoundRoutes {
+    air::Four mount, arm, rest;
+    std::array<std::size_t, air::lanes> joint;
+  };
+  void lay_round_ones_side_by_side();
+
+  std::vector<Route> cords_;
+  std::vector<RoundRoutes> round_;  // all of them, where all are such; else empty
+};
+
+template <class Arms, class Visit>
+void MuscleRouting::each(const Arms& pull, const Visit& visit) const noexcept {
+  for (std::size_t i = 0; i < cords_.size() && !round_.empty(); ++i)
+    visit(static_cast<int>(i), round_[i / air::lanes].joint[i % air::lanes], pull[i][0]);
+  if (!round_.empty()) return;
+  for (std::size_t i = 0; i < cords_.size(); ++i)
+    for (std::size_t k = 0; k < most; ++k)
+      if (const int j = cords_[i].joint[k]; j >= 0)
+        visit(static_cast<int>(i), static_cast<std::size_t>(j), pull[i][k]);
+}
+
+template <int M>
+void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& length,
+                       air::Lanes<M>& length_rate,
+                       std::type_identity_t<MomentArms<M>>& pull) const noexcept {
+  // In whole lanes from the start: a wide load would have to wait for narrow stores.
+  for (std::size_t k = 0; k < round_.size(); ++k) {
+    const RoundRoutes& r = round_[k];
+    const auto& j = r.joint;
+    const air::Four theta = {angle[j[0]], angle[j[1]], angle[j[2]], angle[j[3]]};
+    const air::Four turn = {rate[j[0]], rate[j[1]], rate[j[2]], rate[j[3]]};
+    const int first = static_cast<int>(k) * air::lanes;
+    length.four(first) = r.mount - r.arm * (theta - r.rest);
+    length_rate.four(first) = -(r.arm * turn);
+  }
+  if (!round_.empty()) {
+    for (std::size_t i = 0; i < cords_.size(); ++i)
+      pull[i] = {round_[i / air::lanes].arm[i % air::lanes], 0.0};
+    return;
+  }
+  for (int i = 0; i < count(); ++i) {
+    const Route& cord = cords_[static_cast<std::size_t>(i)];
+    double l = cord.mount, v = 0;
+    for (std::size_t k = 0; k < most; ++k) {
+      double& p = pull[static_cast<std::size_t>(i)][k];
+      p = 0;
+      const int j = cord.joint[k];
+      if (j < 0) continue;
+      p = cord.sign[k] * cord.cam[k].radius(angle[j]);
+      l -= cord.sign[k] * cord.cam[k].travel(angle[j]);
+      v -= p * rate[j];
+    }
+    length[i] = l;
+    length_rate[i] = v;
+  }
+  for (int i = count(); i % air::lanes != 0; ++i) {
+    length[i] = length[count() - 1];
+    length_rate[i] = length_rate[count() - 1];
+  }
+}
+
+}  // namespace sinew::plant

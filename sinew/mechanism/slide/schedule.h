@@ -1,0 +1,73 @@
+// mechanism/slide/schedule.h - a quantity over time: straight lines between points, held after the
+// last.
+//
+//   x(t) = x_i + (t - t_i) (x_i+1 - x_i)/(t_i+1 - t_i)
+//
+// Two points at one instant are a jump; the later one holds from there on. Before the first point
+// its value holds. Times ascend.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace sinew::plant {
+
+struct Point {
+  double at = 0;     // [s]
+  double value = 0;  // in the SI unit of the quantity
+};
+
+// One of the pieces.
+struct Line {
+  double from = 0, value = 0, slope = 0;
+
+  // Returns its value at t.
+  double at(double t) const { return value + (t - from) * slope; }
+};
+
+struct Schedule {
+  std::vector<Point> points;
+
+  Schedule() = default;
+  // It stays there; or goes through these points, in ascending time.
+  Schedule(double constant) : points{{0.0, constant}} {}
+  Schedule(std::vector<Point> p) : points(std::move(p)) {}
+
+  bool empty() const { return points.empty(); }
+
+  // The piece that begins at t or holds there; 0 where there is no point.
+  Line piece(double t) const noexcept {
+    const std::size_t next = after(t);
+    if (points.empty()) return {};
+    if (next == 0) return {t, points[0].value, 0.0};
+    const Point& p = points[next - 1];
+    if (next == points.size()) return {p.at, p.value, 0.0};
+    return {p.at, p.value, (points[next].value - p.value) / (points[next].at - p.at)};
+  }
+
+  // Returns its value at t.
+  double at(double t) const noexcept { return piece(t).at(t); }
+
+  // The next point after t, or infinity  [s].
+  double corner(double t) const noexcept {
+    const std::size_t next = after(t);
+    return next < points.size() ? points[next].at : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  // The first point later than t.
+  std::size_t after(double t) const noexcept {
+    std::size_t low = 0, high = points.size();
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (points[middle].at <= t)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+};
+
+}  // namespace sinew::plant

@@ -1,0 +1,188 @@
+// What a host says of a board that is not as it should be.
+#include "sinew/port/hardware/remote_board.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "sinew/control/link/test_wire.h"
+#include "sinew/control/link/words.h"
+#include "sinew/signals/crc.h"
+
+namespace sinew::plant::remote_board_test {
+namespace {
+
+// A board that sends one message whatever it receives. Each read of its line takes 10 ms.
+struct Parrot {
+  BoardLine line() {
+    return {[this](std::span<const std::uint8_t>) {
+              waiting = says;
+              return true;
+            },
+            [this](std::span<std::uint8_t> out, double) -> std::ptrdiff_t {
+              time += 0.01;
+              const std::size_t n = std::min(out.size(), waiting.size());
+              std::copy_n(waiting.begin(), n, out.begin());
+              waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(n));
+              return static_cast<std::ptrdiff_t>(n);
+            },
+            [this] { return time; }};
+  }
+  link::Bytes says, waiting;
+  double time = 0;
+};
+
+constexpr const char* goes_on = "board 1 does not answer: is it on this line, at this rate?";
+
+std::string refusal_of(
+    const link::Bytes& says, const std::function<void(RemoteBoard&)>& with = [](RemoteBoard&) {}) {
+  Parrot parrot;
+  parrot.says = says;
+  RemoteBoard board(parrot.line(), 1, 100);
+  with(board);
+  try {
+    board.prepare({});
+  } catch (const BoardError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string refusal(
+    const link::Identity& who, std::uint8_t number = 1,
+    const std::function<void(RemoteBoard&)>& with = [](RemoteBoard&) {}) {
+  return refusal_of(link::frame_of(who, {number, 0}), with);
+}
+
+TEST(RemoteBoard, AnotherVersionOfTheProtocolIsRefused) {
+  EXPECT_EQ(refusal({.protocol = 3}), "the board speaks version 3 of the protocol, this program 2");
+  // The first version's identity as it came over the wire: 51 bytes.
+  link::Bytes old = {0xaa, 0x55, 0x81, 0, 6 + 51, 1, 1};
+  old.resize(old.size() + 51);
+  old[7] = 1;
+  const auto put = [&](std::uint32_t sum, int bytes) {
+    for (int i = 0; i < bytes; ++i) old.push_back(static_cast<std::uint8_t>(sum >> 8 * i));
+  };
+  put(signals::crc32(std::span(old).subspan(2)), 4);
+  put(signals::crc16(std::span(old).subspan(2)), 2);
+  EXPECT_EQ(refusal_of(old), "the board speaks version 1 of the protocol, this program 2");
+}
+
+// Coils would have current while the board rests, and none while it drives.
+TEST(RemoteBoard, OutputsOfTheOtherLevelAreRefusedBeforeAnythingIsConfigured) {
+  for (const bool board : {false, true})
+    for (const bool robot : {false, true}) {
+      const std::string said =
+          refusal({.active_low = board}, 1, [&](RemoteBoard& b) { b.expect_levels(robot); });
+      if (board == robot) {
+        EXPECT_EQ(said, goes_on);
+      } else {
+        EXPECT_NE(said.find(board ? "found \"high opens\"; expected \"low opens\""
+                                  : "found \"low opens\"; expected \"high opens\""),
+                  std::string::npos)
+            << said;
+      }
+    }
+  EXPECT_EQ(refusal({.active_low = true}), goes_on) << "no wires";
+}
+
+TEST(RemoteBoard, AGraveFaultIsClearedOnlyWhereThatIsAllowed) {
+  using enum control::BoardFault;
+  using control::BoardState;
+  const auto allow = [](RemoteBoard& b) { b.allow_clearing(); };
+  for (const auto fault : {watchdog, parameters, control::BoardFault::state, not_empty}) {
+    const link::Identity who{.state = BoardState::dump, .fault = fault};
+    EXPECT_EQ(refusal(who), std::string("the board is in dump: ") + link::in_words(fault) +
+                                "; look for the cause, then say clear_fault, or switch the board "
+                                "off and on");
+    EXPECT_EQ(refusal(who, 1, allow), goes_on);
+    EXPECT_EQ(fault_found(who), std::string("the board was in dump: ") + link::in_words(fault));
+  }
+  for (const auto fault : {supervisor, controller, held_too_long}) {
+    const link::Identity who{.state = BoardState::fault, .fault = fault};
+    EXPECT_EQ(refusal(who), goes_on);
+    EXPECT_EQ(fault_found(who), std::string("the board was in fault: ") + link::in_words(fault));
+  }
+  for (const auto fault : {none, power_up, host_silent, asked}) {
+    const link::Identity who{.state = BoardState::fault, .fault = fault};
+    EXPECT_EQ(refusal(who), goes_on);
+    EXPECT_EQ(fault_found(who), "");
+  }
+}
+
+TEST(RemoteBoard, ABoardThatRunsAlreadyIsLeftAlone) {
+  for (const auto state :
+       {control::BoardState::armed, control::BoardState::running, control::BoardState::hold})
+    EXPECT_EQ(refusal({.protocol = link::protocol_version, .state = state}),
+              "the board is in a run already: is another program at this line?");
+}
+
+TEST(RemoteBoard, AnotherNumberOnTheLineIsSaidToBeSo) {
+  EXPECT_EQ(refusal({.protocol = link::protocol_version}, 2),
+            "there are boards on the line, board 1 is none of them");
+}
+
+TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
+  EXPECT_EQ(refusal({.protocol = link::protocol_version}),
+            "board 1 does not answer: is it on this line, at this rate?");
+}
+
+// A line that is never silent and carries only noise.
+struct Noise {
+  BoardLine line() {
+    return {[](std::span<const std::uint8_t>) { return true; },
+            [this](std::span<std::uint8_t> out, double) -> std::ptrdiff_t {
+              time += 0.01;
+              link::Bytes bytes = std::exchange(said, {});
+              for (int i = 0; i < 10; ++i) bytes.push_back(static_cast<std::uint8_t>(random()));
+              std::ranges::copy(bytes, out.begin());
+              return std::ssize(bytes);
+            },
+            [this] { return time; }};
+  }
+  link::Bytes said;  // what the board sent before the noise began
+  std::mt19937 random{39};
+  double time = 0;
+};
+
+TEST(RemoteBoard, AtALineThatIsNeverSilentEachWaitEndsByTheClock) {
+  Noise noise;
+  RemoteBoard board(noise.line(), 1, 100);
+  const auto took = [&](const auto& what) {
+    const double begun = noise.time;
+    what();
+    return noise.time - begun;
+  };
+  constexpr double read = 0.011;
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.identify(), BoardError); }), 1.5, 3 * read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.configure({}), BoardError); }), 1.5, 3 * read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.clear_fault(), BoardError); }), 1.5, 3 * read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.arm(), BoardError); }), 1.5, 3 * read);
+  noise.said = link::frame_of(link::Event{.state = control::BoardState::running}, {1, 0});
+  EXPECT_NEAR(took([&] { EXPECT_EQ(board.look(0.7), nullptr); }), 0.7, read);
+  EXPECT_NEAR(took([&] { EXPECT_EQ(board.next(0.7), nullptr); }), 0.7, read);
+  EXPECT_EQ(board.why(), RemoteBoard::Why::silent);
+  EXPECT_NEAR(took([&] { EXPECT_FALSE(board.shut_down()); }), 1.5, read);
+  EXPECT_NEAR(took([&] { EXPECT_THROW(board.fault_log(), BoardError); }), 20 * 0.3, 20 * read);
+}
+
+TEST(RemoteBoard, WhatWaitsOutsideARunCanBeGivenUp) {
+  Noise noise;
+  RemoteBoard board(noise.line(), 1, 100);
+  double until = 0;
+  board.stop_when([&] { return noise.time > until; });
+  const auto is_given_up = [&](const auto& what) {
+    until = noise.time + 0.1;
+    EXPECT_THROW(what(), BoardStopped);
+    EXPECT_LT(noise.time, until + 0.03);
+  };
+  is_given_up([&] { board.prepare({}); });
+  is_given_up([&] { board.configure({}); });
+  is_given_up([&] { board.clear_fault(); });
+  is_given_up([&] { board.arm(); });
+  is_given_up([&] { (void)board.look(5); });
+}
+
+}  // namespace
+}  // namespace sinew::plant::remote_board_test

@@ -1,0 +1,83 @@
+#include "sinew/world/machine.h"
+
+#include <cstring>
+#include <type_traits>
+
+namespace sinew::plant {
+
+namespace {
+
+// The first of these worlds that has room for the robot, or the last.
+template <class First, class... Larger>
+AnyWorld body_world_for(const Setup& s) {
+  if constexpr (sizeof...(Larger) > 0)
+    if (!First::Body::holds(s.robot)) return body_world_for<Larger...>(s);
+  return AnyWorld(std::in_place_type<First>, s);
+}
+
+AnyWorld world_for(const Setup& s) {
+  const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
+  using std::in_place_type;
+  if (chain && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
+  if (chain) return AnyWorld(in_place_type<ChainWorld<2>>, s);
+  return body_world_for<SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>, SizedBodyWorld<4, 4, 8>,
+                        BodyWorld, LargeBodyWorld>(s);
+}
+
+}  // namespace
+
+Machine::Machine(const Setup& setup) : world_(world_for(setup)) {}
+
+Machine::Machine(const LegLane& lane) : world_(lane) {}
+
+signals::Port& Machine::port() noexcept {
+  return *std::visit([](auto& world) -> signals::Port* { return &world; }, world_);
+}
+
+Truth Machine::truth(double t) noexcept {
+  return std::visit([&](auto& world) { return world.truth(t); }, world_);
+}
+
+void Machine::advance(double t) noexcept {
+  std::visit([&](auto& world) { world.advance(t); }, world_);
+}
+
+double Machine::time() const noexcept {
+  return std::visit([](const auto& world) { return world.time(); }, world_);
+}
+
+double Machine::air_mass() const noexcept {
+  return std::visit([](const auto& world) { return world.air_mass(); }, world_);
+}
+
+std::int64_t Machine::nodes() const noexcept {
+  return std::visit([](const auto& world) { return world.nodes(); }, world_);
+}
+
+double Machine::shortest_step() const noexcept {
+  return std::visit([](const auto& world) { return world.shortest_step(); }, world_);
+}
+
+std::size_t Machine::state_size() const noexcept {
+  return std::visit([](const auto& world) { return sizeof(world.state()); }, world_);
+}
+
+void Machine::save(std::span<std::byte> out) const noexcept {
+  std::visit([&](const auto& world) { std::memcpy(out.data(), &world.state(), out.size()); },
+             world_);
+}
+
+void Machine::restore(std::span<const std::byte> saved) noexcept {
+  const auto from_bytes = [&](auto& world) {
+    typename std::remove_reference_t<decltype(world)>::State state;
+    std::memcpy(&state, saved.data(), sizeof state);
+    world.restore(state);
+  };
+  std::visit(from_bytes, world_);
+}
+
+const air::Failure& Machine::failure() const noexcept {
+  return *std::visit([](const auto& world) { return &world.failure(); }, world_);
+}
+
+}  // namespace sinew::plant

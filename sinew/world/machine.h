@@ -1,0 +1,71 @@
+// world/machine.h - a planar machine in simulation: the mechanism and the air that suit its
+// description, behind one face. Robots that a chain holds go by chain_mechanism.h, all others by
+// the first size of body_mechanism.h that has room for them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <variant>
+
+#include "sinew/air/network.h"
+#include "sinew/mechanism/planar/body_mechanism.h"
+#include "sinew/mechanism/planar/chain_mechanism.h"
+#include "sinew/world/lane.h"
+#include "sinew/world/world.h"
+
+namespace sinew::plant {
+
+template <int N>
+using ChainWorld = World<ChainMechanism<N>, air::AirNetwork<chain_muscles>>;
+// By links, discs and muscles; up to four links are just so many (body.h).
+template <int N, int D, int M>
+using SizedBodyWorld = World<BodyMechanism<N, D, M>, air::AirNetwork<M>>;
+using BodyWorld = SizedBodyWorld<8, 8, 8>;
+using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // holds all
+
+extern template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
+extern template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
+extern template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<3, 2, 4>, air::AirNetwork<4>>;
+extern template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
+                            air::AirNetwork<most_muscles>>;
+
+// One leg of several that go side by side (packs/batch.h).
+using LegLane = Lane<ChainWorld<2>>;
+
+using AnyWorld =
+    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
+                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane>;
+
+class Machine {
+ public:
+  // The setup must be free of contradictions (robot::contradictions).
+  explicit Machine(const Setup& setup);
+  // One that goes side by side with others; whoever holds them outlives this.
+  explicit Machine(const LegLane& lane);
+
+  // Returns it as a controller sees it.
+  signals::Port& port() noexcept;
+
+  // As World's.
+  Truth truth(double t) noexcept;
+  void advance(double t) noexcept;
+  double time() const noexcept;
+  std::int64_t nodes() const noexcept;
+  double air_mass() const noexcept;
+  double shortest_step() const noexcept;
+  const air::Failure& failure() const noexcept;
+
+  // The machine's state at the last node, with the commands since, as bytes of one build of the
+  // library; state_size() of them. A machine of an equal setup goes on from there: the same bits.
+  std::size_t state_size() const noexcept;
+  void save(std::span<std::byte> out) const noexcept;
+  void restore(std::span<const std::byte> saved) noexcept;
+
+ private:
+  AnyWorld world_;
+};
+
+}  // namespace sinew::plant
