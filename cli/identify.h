@@ -12,9 +12,9 @@
 #include "cli/command.h"
 #include "cli/table_options.h"
 #include "cli/terminal.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/fit/wish.h"
 #include "sinew/json/json.h"
 
@@ -85,7 +85,7 @@ void write_parameter_file(const std::string& text, const ResultOptions& options)
 // Calls `find` with a counter of models that have been tried, and shows it on a terminal.
 template <class Find>
 auto watched(std::size_t models, bool quiet, const Find& find) {
-  identify::Tally tried = 0;
+  host::Tally tried = 0;
   const ProgressBar bar(tried, static_cast<std::int64_t>(models), {.unit = "laws"}, quiet);
   return find(tried);
 }

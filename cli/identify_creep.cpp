@@ -24,7 +24,7 @@ void add_identify_creep(Command identify, Action& action) {
   sub.callback([options, &action] {
     action = [options] {
       check_result_options(options->result);
-      const auto find = [&](identify::Tally& tried) {
+      const auto find = [&](host::Tally& tried) {
         return identify::find_creep(sources_of(options->data), &tried);
       };
       const auto found = watched(identify::creep_models().size(), options->result.quiet, find);

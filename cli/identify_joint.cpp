@@ -45,7 +45,7 @@ ExitCode run_joint(const IdentifyJointOptions& options) {
   const std::vector<identify::Source> sources = sources_of(options.data, {options.hold_out});
   if (!options.hold_out.empty())
     settings.held_out = identify::beside(sources, "hold_out", options.hold_out);
-  const auto find = [&](identify::Tally& tried) {
+  const auto find = [&](host::Tally& tried) {
     settings.tried = &tried;
     return identify::find_joint(sources, settings);
   };

@@ -36,7 +36,7 @@ void write_muscle(const identify::StaticMuscle& muscle, const std::string& text,
 }
 
 ExitCode run_static(const IdentifyStaticOptions& options) {
-  const auto find = [&](identify::Tally& tried) {
+  const auto find = [&](host::Tally& tried) {
     identify::StaticSettings settings = options.settings;
     settings.tried = &tried;
     return identify::find_static(sources_of(options.data, {settings.hold_out}), settings);

@@ -1,19 +1,16 @@
 #include "cli/sweep_runs.h"
 
 #include <atomic>
-#include <thread>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/units.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/tune/results/kept.h"
 
 namespace sinew::cli {
 
-int threads_of(const RunsOptions& options) {
-  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return options.threads > 0 ? options.threads : all;
-}
+int threads_of(const RunsOptions& options) { return host::threads_of(options.threads); }
 
 // A signal is for the first process, which then lets this one go.
 bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,

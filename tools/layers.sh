@@ -40,7 +40,7 @@ layers='
     port/comedi     control/supervise host signals
     experiment      robot config control/gait
     experiment/rig  experiment world
-    identify/fit    actuator config
+    identify/fit    actuator config host
     identify/data   identify/fit recording
     identify/actuator  identify/data
     identify/check  identify/actuator

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <optional>
-#include <thread>
 
 #include "python/binding/numbers.h"
 #include "sinew/config/quantity.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/tune/optimizer/kept.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 #include "sinew/tune/study.h"
@@ -64,11 +64,6 @@ std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e
   return out;
 }
 
-// As many as the computer has, where none were asked for.
-int threads_of(int asked) {
-  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
 // A function of Python that is told how far it is.
 void tell(const py::object& progress, std::int64_t done, std::size_t points) {
   if (!progress.is_none()) progress(done, points);
@@ -103,8 +98,8 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
       stop,
       [&] {
         tune::check(asked);
-        rows =
-            tune::sweep(asked, {.threads = threads_of(threads), .stop = &stop, .progress = &done});
+        rows = tune::sweep(
+            asked, {.threads = host::threads_of(threads), .stop = &stop, .progress = &done});
       },
       [&] { tell(progress, done.load(), all); });
   tell(progress, static_cast<std::int64_t>(all), all);
@@ -132,7 +127,7 @@ py::object tune_file(const py::object& path, const py::object& results, const py
   std::atomic<std::int64_t> done = 0;
   tune::Tuned tuned;
   tune::KeptOptions options{.ask_to_stop = [&] { stop.store(true); }};
-  options.tune.runs = {.threads = threads_of(threads), .stop = &stop, .progress = &done};
+  options.tune.runs = {.threads = host::threads_of(threads), .stop = &stop, .progress = &done};
   const std::size_t all = tune::points(tuning.runs);
   do_interruptibly(
       stop, [&] { tuned = tune::optimize_kept(tuning, kept, options); },

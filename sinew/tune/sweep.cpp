@@ -6,9 +6,9 @@
 #include <charconv>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/tune/largest.h"
 #include "sinew/tune/run_many.h"
 
@@ -169,15 +169,6 @@ void run_points(const Sweep& s, const Points& points, int lanes, const Next& nex
   run_many({.next = wanted, .done = ran, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
 }
 
-// Calls `work` in that many threads, of which this is one.
-template <class Work>
-void in_threads(std::size_t threads, Work work) {
-  std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-}
-
 // --- all of them ---
 
 // Hands out points to the threads, and rows in their order.
@@ -308,8 +299,9 @@ std::vector<Row> sweep(const Sweep& s, const Options& options) {
   if (work.elsewhere())
     work.go_on_elsewhere();
   else
-    in_threads(std::min(static_cast<std::size_t>(options.threads), work.to_do()),
-               [&work] { work.go_on(); });
+    host::side_by_side(
+        std::min(static_cast<std::size_t>(options.threads), work.to_do()),
+        [&work](std::size_t) { work.go_on(); }, nullptr, options.threads);
   return work.finish();
 }
 
@@ -336,8 +328,11 @@ void Runner::run(std::span<const std::size_t> points, int threads,
     const std::lock_guard lock(mutex);
     done(std::move(row));
   };
-  in_threads(std::min(static_cast<std::size_t>(threads), points.size()),
-             [&] { run_points(drawn_->sweep, drawn_->points, Options{}.lanes, next, hand_back); });
+  const auto work = [&](std::size_t) {
+    run_points(drawn_->sweep, drawn_->points, Options{}.lanes, next, hand_back);
+  };
+  host::side_by_side(std::min(static_cast<std::size_t>(threads), points.size()), work, nullptr,
+                     threads);
 }
 
 }  // namespace sinew::tune

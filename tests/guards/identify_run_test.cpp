@@ -11,13 +11,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <random>
-#include <thread>
 
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_fit.h"
@@ -168,19 +167,12 @@ void count(const Trial& t, int seed, std::vector<Number>& numbers) {
 std::vector<Trial> try_side_by_side(const Experiment& shipped, const std::vector<Number>& numbers,
                                     int trials) {
   std::vector<Trial> out(static_cast<std::size_t>(trials));
-  std::atomic<int> next = 0;
-  const auto some = [&] {
-    for (int i = next++; i < trials; i = next++) {
-      Trial& t = out[static_cast<std::size_t>(i)];
-      t = tried(shipped, first() + i, numbers);
-      std::cerr << "  trial " + std::to_string(first() + i) + " holds " +
-                       std::to_string(held_by(t)) + " of " + std::to_string(numbers.size()) + "\n";
-    }
-  };
-  std::vector<std::jthread> others;
-  for (unsigned t = 1; t < std::thread::hardware_concurrency(); ++t) others.emplace_back(some);
-  some();
-  others.clear();
+  host::side_by_side(out.size(), [&](std::size_t i) {
+    const int trial = first() + static_cast<int>(i);
+    out[i] = tried(shipped, trial, numbers);
+    std::cerr << "  trial " + std::to_string(trial) + " holds " + std::to_string(held_by(out[i])) +
+                     " of " + std::to_string(numbers.size()) + "\n";
+  });
   return out;
 }
 

@@ -226,7 +226,7 @@ std::vector<std::string> creep_models() {
   return out;
 }
 
-CreepResult identify_creep(const Measured& data, Tally* done) {
+CreepResult identify_creep(const Measured& data, host::Tally* done) {
   if (data.rows() < least_rows)
     throw Refusal(data.file, fmt::format("{} rows", data.rows()),
                   fmt::format("at least {}", least_rows), "a longer hold");
@@ -244,7 +244,7 @@ CreepResult identify_creep(const Measured& data, Tally* done) {
   for (const Form& form : forms)
     if (both || !form.friction) tried.push_back(&form);
   report.fits.resize(tried.size());
-  side_by_side(
+  host::side_by_side(
       tried.size(), [&](std::size_t k) { report.fits[k] = try_form(held, *tried[k]); }, done);
   report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
   choose(report);

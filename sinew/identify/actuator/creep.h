@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -40,7 +40,7 @@ struct CreepResult {
 // and with friction. To choose, ten stretches of time are left out by turns. Samples at which the
 // pressure moves (static_settled.h) are followed and not fitted. `done` counts the models that have
 // been tried. Throws Refusal for fewer than 12 rows.
-CreepResult identify_creep(const Measured& data, Tally* done = nullptr);
+CreepResult identify_creep(const Measured& data, host::Tally* done = nullptr);
 
 // Returns the names of the models, the simplest first.
 std::vector<std::string> creep_models();

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_outliers.h"
@@ -14,7 +15,6 @@
 #include "sinew/identify/actuator/static_tried.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -177,7 +177,7 @@ std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
   const auto attempt = [&](std::size_t k) {
     fits[k] = try_model(*models[k], s, scales, options.hold_out, full_scale, found[k]);
   };
-  side_by_side(models.size(), attempt, options.tried);
+  host::side_by_side(models.size(), attempt, options.tried);
   return fits;
 }
 

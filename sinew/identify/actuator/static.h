@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -35,7 +35,7 @@ struct StaticOptions {
   HoldOut hold_out = HoldOut::none;       // beside what the points say
 
   // Counts the laws that have been tried, for whoever watches; null: nobody does.
-  Tally* tried = nullptr;
+  host::Tally* tried = nullptr;
 };
 
 // One muscle's actuator, as a file would have it.

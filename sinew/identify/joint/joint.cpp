@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "sinew/actuator/braid.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/joint/combinations.h"
 #include "sinew/identify/joint/joint_slots.h"
 #include "sinew/identify/joint/rows.h"
@@ -304,7 +304,7 @@ std::vector<std::string> joint_models() {
 
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& other,
                            const JointSetup& setup, std::string_view model, const Wishes& wishes,
-                           Tally* done) {
+                           host::Tally* done) {
   const JointTorque joint(data, setup);
   const std::optional<Measured> held_out = as_another(other, joint.recordings());
   refuse_without_torque(data, setup);
@@ -342,7 +342,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
     report.fits[k] = tried_fit(*tried[k], joint, some, others, !held_out, setup, wishes,
                                report.full_scale, solved[k]);
   };
-  side_by_side(tried.size(), attempt, done);
+  host::side_by_side(tried.size(), attempt, done);
   refuse_if_all_are(report, data.file);
   report.rows = rows_of(data, joint, held_out, others);
   choose(report);

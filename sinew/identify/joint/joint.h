@@ -28,9 +28,9 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/side_by_side.h"
 #include "sinew/identify/fit/wish.h"
 
 namespace sinew::identify {
@@ -86,7 +86,7 @@ struct JointResult {
 // that there is not, and std::invalid_argument for an unknown model.
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& held_out,
                            const JointSetup& setup, std::string_view model = "",
-                           const Wishes& wishes = {}, Tally* done = nullptr);
+                           const Wishes& wishes = {}, host::Tally* done = nullptr);
 std::vector<std::string> joint_models();
 
 }  // namespace sinew::identify

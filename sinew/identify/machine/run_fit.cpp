@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/fit/refusal.h"
@@ -202,9 +201,7 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
   check_options(options, keys);
   const double until = options.from + (1 - options.hold_out) * (run.duration() - options.from);
   const double beginning = std::min(until, std::max(options.from + 4, until / 3));
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = options.threads;
   RunFitResult out;
   std::vector<Parameter> parameters = parameters_of(copy, keys);
   parameters = felt(RunResiduals(e, run, parameters, options, until), parameters, out.undetermined);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include "sinew/host/side_by_side.h"
 
 namespace sinew::identify {
 
@@ -44,7 +45,8 @@ void scan_numbers(const RunResiduals& residuals, std::span<const Parameter> para
       tried.back()[i] = x;
     }
     std::vector<double> cost(tried.size());
-    in_threads(tried.size(), threads, [&](std::size_t k) { cost[k] = residuals.cost(tried[k]); });
+    host::side_by_side(
+        tried.size(), [&](std::size_t k) { cost[k] = residuals.cost(tried[k]); }, nullptr, threads);
     for (std::size_t k = 0; k < tried.size(); ++k)
       if (cost[k] < best) best = cost[k], p = tried[k];
   }
@@ -106,9 +108,12 @@ bool try_cells(const RunResiduals& residuals, std::span<const Parameter> paramet
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return cost[k]; });
   order.resize(std::min(order.size(), worth_it));
   std::vector<RunSearched> found(order.size());
-  in_threads(order.size(), threads, [&](std::size_t k) {
-    found[k] = search_in_cells(residuals, parameters, tried[order[k]], a_few_steps, 1);
-  });
+  host::side_by_side(
+      order.size(),
+      [&](std::size_t k) {
+        found[k] = search_in_cells(residuals, parameters, tried[order[k]], a_few_steps, 1);
+      },
+      nullptr, threads);
   const auto nearest = std::ranges::min_element(found, {}, &RunSearched::rms);
   if (nearest->rms >= best.rms) return false;
   best = *nearest;

@@ -87,9 +87,6 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
                        std::span<const Parameter> parameters, const RunFitOptions& options,
                        int threads);
 
-// Calls work(0) ... work(count - 1), so many at a time.
-void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
-
 // Levenberg's and Marquardt's steps from `p` on, within its cells; `steps` at most.
 RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Parameter> parameters,
                             const std::vector<double>& p, int steps, int threads);

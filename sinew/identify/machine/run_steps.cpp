@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <thread>
 
+#include "sinew/host/side_by_side.h"
 #include "sinew/identify/machine/run_search.h"
 #include "sinew/identify/machine/run_tangent.h"
 
@@ -64,16 +64,19 @@ bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> param
   std::vector<std::vector<double>> moved(n + 1, std::vector<double>(residuals.count()));
   std::vector<char> answered(n + 1);
   std::vector<double> step(n);
-  in_threads(n + 1, threads, [&](std::size_t i) {
-    std::vector<double> q = p;
-    if (i < n) {
-      const double high = std::min(parameters[i].high, cells[i].high);
-      step[i] = by * parameters[i].scale;
-      if (p[i] + step[i] > high) step[i] = -step[i];
-      q[i] += step[i];
-    }
-    answered[i] = residuals(q, moved[i]) ? 1 : 0;
-  });
+  host::side_by_side(
+      n + 1,
+      [&](std::size_t i) {
+        std::vector<double> q = p;
+        if (i < n) {
+          const double high = std::min(parameters[i].high, cells[i].high);
+          step[i] = by * parameters[i].scale;
+          if (p[i] + step[i] > high) step[i] = -step[i];
+          q[i] += step[i];
+        }
+        answered[i] = residuals(q, moved[i]) ? 1 : 0;
+      },
+      nullptr, threads);
   if (!answered[n]) return false;
   out.r = moved[n];
   out.j = Matrix(residuals.count(), n);
@@ -85,17 +88,6 @@ bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> param
       column[k] = (moved[i][k] - out.r[k]) * per_scale;
   }
   return true;
-}
-
-void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto some = [&] {
-    for (std::size_t k = next++; k < count; k = next++) work(k);
-  };
-  std::vector<std::jthread> others;
-  const auto wanted = std::min(static_cast<std::size_t>(std::max(threads, 1)), count);
-  for (std::size_t t = 1; t < wanted; ++t) others.emplace_back(some);
-  some();
 }
 
 RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Parameter> parameters,
@@ -116,7 +108,8 @@ RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Param
     std::vector<double> there(dampings.size());
     for (const double times : dampings)
       to.push_back(stepped(t, parameters, out.cells, out.p, mu * times));
-    in_threads(to.size(), threads, [&](std::size_t k) { there[k] = residuals.cost(to[k]); });
+    host::side_by_side(
+        to.size(), [&](std::size_t k) { there[k] = residuals.cost(to[k]); }, nullptr, threads);
     const auto best = static_cast<std::size_t>(std::ranges::min_element(there) - there.begin());
     const double gained = cost - there[best];
     if (gained > 0) out.p = to[best], cost = there[best];
@@ -134,11 +127,14 @@ std::vector<double> made_up_costs(const RunResiduals& residuals,
   RunTangent t;
   if (!run_tangent(residuals, parameters, at.cells, at.p, threads, t)) return out;
   const Matrix basis = triangular(t.j).basis;
-  in_threads(places.size(), threads, [&](std::size_t k) {
-    std::vector<double> r(t.r.size());
-    if (!residuals(places[k], r)) return;
-    out[k] = 0.5 * std::max(0.0, square(r) - square(transposed_product(basis, r)));
-  });
+  host::side_by_side(
+      places.size(),
+      [&](std::size_t k) {
+        std::vector<double> r(t.r.size());
+        if (!residuals(places[k], r)) return;
+        out[k] = 0.5 * std::max(0.0, square(r) - square(transposed_product(basis, r)));
+      },
+      nullptr, threads);
   return out;
 }
 

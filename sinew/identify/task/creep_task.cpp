@@ -8,7 +8,7 @@
 
 namespace sinew::identify {
 
-CreepResult find_creep(const std::vector<Source>& sources, Tally* tried) {
+CreepResult find_creep(const std::vector<Source>& sources, host::Tally* tried) {
   return identify_creep(read_measured(only_of(sources), creep_columns()), tried);
 }
 

@@ -10,7 +10,7 @@
 namespace sinew::identify {
 
 // `tried` counts models that have been tried. Throws config::Error and Refusal.
-CreepResult find_creep(const std::vector<Source>& sources, Tally* tried = nullptr);
+CreepResult find_creep(const std::vector<Source>& sources, host::Tally* tried = nullptr);
 
 // Returns the report with the shares, times [s] and half-width [Pa], as `--json` prints it.
 Json to_json(const CreepResult& found);

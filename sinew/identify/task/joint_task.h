@@ -31,7 +31,7 @@ struct JointSettings {
   std::string model;               // this one alone; empty: all
   WishTexts wishes;                // frozen, tied, prior
   std::string base;                // the robot's file whose joint it is; empty: none
-  Tally* tried = nullptr;          // counts models that have been tried; null: nothing
+  host::Tally* tried = nullptr;    // counts models that have been tried; null: nothing
 };
 
 // Holds what was found, with the files of robot and actuator.

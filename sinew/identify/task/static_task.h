@@ -24,7 +24,7 @@ struct StaticSettings {
                                      // not known
   bool anyway = false;               // fit where a check is red, too
   std::vector<std::string> predict;  // rest lengths nobody measured: "rest_length=120 mm"
-  Tally* tried = nullptr;            // counts laws that have been tried; null: nothing
+  host::Tally* tried = nullptr;      // counts laws that have been tried; null: nothing
 };
 
 // Holds what was found, with the actuators' files.

@@ -1,5 +1,5 @@
 // Attempts beside each other: each once, its own result, the first error, the count.
-#include "sinew/identify/fit/side_by_side.h"
+#include "sinew/host/side_by_side.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sinew::identify::side_by_side_test {
+namespace sinew::host::side_by_side_test {
 namespace {
 
 TEST(SideBySide, EachAttemptIsMadeOnce) {
@@ -39,4 +39,4 @@ TEST(SideBySide, ThrowsTheFirstFailureWhenAllAreDone) {
 }
 
 }  // namespace
-}  // namespace sinew::identify::side_by_side_test
+}  // namespace sinew::host::side_by_side_test

@@ -1,0 +1,39 @@
+#include "sinew/host/side_by_side.h"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace sinew::host {
+
+int threads_of(int asked) {
+  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work, Tally* done,
+                  int threads) {
+  std::vector<std::exception_ptr> failed(count);
+  std::atomic<std::size_t> begun = 0;
+  const auto some = [&] {
+    for (std::size_t i = begun++; i < count; i = begun++) {
+      const std::size_t k = count - 1 - i;
+      try {
+        work(k);
+      } catch (...) {
+        failed[k] = std::current_exception();
+      }
+      if (done) ++*done;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const auto wanted = std::min(static_cast<std::size_t>(threads_of(threads)), count);
+    for (std::size_t t = 1; t < wanted; ++t) others.emplace_back(some);
+    some();
+  }
+  for (const std::exception_ptr& error : failed)
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace sinew::host
