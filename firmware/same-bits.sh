@@ -39,7 +39,7 @@ fi
 for level in -O0 -O3; do
   ${CXX:-g++} -std=c++20 $level -ffp-contract=off -fno-math-errno -I"$root" -o "$build/same-bits-host" \
     "$here/same_bits.cpp" "$here/same_bits_link.cpp" "$root"/sinew/control/joint/config.cpp \
-    "$root"/sinew/control/joint/joint_controller.cpp "$root"/sinew/control/joint/joint_controller_laws.cpp \
+    "$root"/sinew/control/joint/joint_controller.cpp \
     "$root"/sinew/control/supervise/supervisor.cpp "$root"/sinew/control/supervise/safety.cpp \
     "$root"/sinew/control/supervise/output_stage.cpp "$root"/sinew/control/link/baud.cpp \
     "$root"/sinew/control/link/configuration.cpp "$root"/sinew/control/link/frame.cpp \

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <sys/random.h>
+#include <array>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -29,9 +31,34 @@
 #include <string_view>
 #include <utility>
 
-#include "sinew/live/token.h"
-
 namespace sinew::live {
+
+namespace {
+
+// --- a word that nobody guesses, as part of an address ---
+
+// 128 random bits of the operating system as 32 hexadecimal digits. Throws std::runtime_error where
+// it has none.
+std::string random_token() {
+  std::array<unsigned char, 16> bits{};
+  // So few bytes come whole, or not at all.
+  if (getrandom(bits.data(), bits.size(), 0) != static_cast<ssize_t>(bits.size()))
+    throw std::runtime_error("the operating system has no random numbers for a token");
+  std::string token;
+  for (const unsigned char b : bits) token += fmt::format("{:02x}", b);
+  return token;
+}
+
+// Whether the two are the same; how long that takes tells their lengths and nothing else.
+bool same_token(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    different |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+  return different == 0;
+}
+
+}  // namespace
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;

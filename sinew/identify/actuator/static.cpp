@@ -4,13 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <set>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
-#include "sinew/identify/actuator/static_outliers.h"
+#include "sinew/identify/actuator/static_model.h"
 #include "sinew/identify/actuator/static_shown.h"
 #include "sinew/identify/actuator/static_tried.h"
 #include "sinew/identify/data/quality.h"
@@ -19,6 +26,192 @@
 namespace sinew::identify {
 
 namespace {
+
+// --- points of which no law can be true: a slipped decimal, a ---
+
+// A point that no law explains, and what the law of the others has in its place.
+struct Outlier {
+  std::size_t point = 0;  // its index
+  double law = 0;         // force of that law there [N]
+  std::string why;        // what would explain it (static_explain.h)
+};
+
+// Points that are wrong, and how far from the law a point may lie  [N].
+struct Outliers {
+  std::vector<Outlier> points;
+  double limit = 0, scatter = 0;
+};
+
+// --- what would explain a point that no law does: a slipped ---
+
+constexpr double near_scatters = 3, near_share = 0.01;  // of the largest force
+constexpr double other_mount = 0.004;  // of the longest length: less is the same one
+
+// One thing that may have happened to a number.
+struct Slip {
+  double factor;
+  std::string_view words;
+};
+
+// The force that was written down is the true one times this.
+constexpr Slip of_force[] = {{-1, "its sign is the other one"},
+                             {10, "ten times what the law has: a slipped decimal"},
+                             {0.1, "a tenth of what the law has: a slipped decimal"},
+                             {100, "a hundred times what the law has: a slipped decimal"},
+                             {0.01, "a hundredth of what the law has: a slipped decimal"},
+                             {2, "twice what the law has: counted double"},
+                             {0.5, "half of what the law has: counted for one of two"},
+                             {4.4482216, "4.45 times what the law has: N in place of lbf"},
+                             {1 / 4.4482216, "what the law has over 4.45: lbf in place of N"},
+                             {1 / 9.80665, "what the law has over 9.81: kg in place of N"}};
+
+// The pressure that was written down is the true one times this.
+constexpr Slip of_pressure[] = {
+    {10, "as at a tenth of its pressure: a slipped decimal"},
+    {0.1, "as at ten times its pressure: a slipped decimal"},
+    {2, "as at half its pressure"},
+    {0.5, "as at twice its pressure"},
+    {6.894757, "as at its pressure over 6.89: kPa in place of psi"},
+    {1 / 6.894757, "as at 6.89 times its pressure: psi in place of kPa"}};
+
+// Looks for the explanation that comes nearest.
+class SlipSearch {
+ public:
+  // `within`: how near is near enough  [N].
+  SlipSearch(const StaticFit& fit, const StaticScales& scales, double within)
+      : fit_(fit), scales_(scales), within_(within), least_(within) {}
+
+  // Would the law have the measured force there, were the point this one and the force so?
+  void ask(const StaticPoint& as, double force, std::string words) {
+    const double law = predicted(fit_.setting, scales_, as);
+    if (law < 2 * within_) return;  // no force says nothing of where it was read
+    const double off = std::abs(law - force);
+    if (off > least_) return;
+    least_ = off;
+    words_ = std::move(words);
+  }
+
+  const std::string& words() const { return words_; }
+
+ private:
+  const StaticFit& fit_;
+  const StaticScales& scales_;
+  double within_, least_;
+  std::string words_;
+};
+
+// Returns it in words; `fit` is the law of the other points, `points` are all of them, `scatter` is
+// how far they lie from it  [N].
+std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
+                           const StaticScales& scales, std::span<const StaticPoint> points,
+                           double scatter) {
+  const double within = std::max(near_scatters * scatter, near_share * scales.full_scale);
+  if (std::abs(point.force) < within)
+    return "no force where the law pulls: slack, not connected, or not measured";
+  SlipSearch search(fit, scales, within);
+  for (const Slip& slip : of_force)
+    search.ask(point, point.force / slip.factor, std::string(slip.words));
+  for (const Slip& slip : of_pressure) {
+    StaticPoint as = point;
+    as.pressure /= slip.factor;
+    if (as.pressure < 1.5 * scales.top_pressure)
+      search.ask(as, point.force, std::string(slip.words));
+  }
+  double longest = 0;
+  for (const StaticPoint& p : points) longest = std::max(longest, p.length);
+  for (const StaticPoint& p : points) {
+    if (p.rest_length != point.rest_length) continue;
+    if (std::abs(p.length - point.length) < other_mount * longest) continue;
+    StaticPoint as = point;
+    as.length = p.length;
+    search.ask(as, point.force,
+               fmt::format("as at {:.4g} mm, another mount of these data", 1e3 * p.length));
+  }
+  return search.words().empty() ? "nothing in these data explains it" : search.words();
+}
+
+constexpr double scatters = 8, share_of_scale = 0.05, most_left_out = 0.1;
+
+std::vector<double> distances(const StaticFit& fit, const StaticScales& scales,
+                              const std::vector<StaticPoint>& points) {
+  std::vector<double> out = misses(fit.setting, scales, points);
+  for (double& r : out) r = std::abs(r);
+  return out;
+}
+
+// Every other law is one of these with a term left out, or the kin of one (series).
+constexpr std::string_view freest[] = {"wall",
+                                       "taper",
+                                       "elastic-linear",
+                                       "elastic-cubic",
+                                       "saturating-effectiveness",
+                                       "saturating-end-caps"};
+
+// A law, and how far each point lies from it.
+struct Closest {
+  StaticFit fit;
+  std::vector<double> distances;  // empty: there is none
+};
+
+// The law that most points are closest to, among the freest or among all others.
+Closest closest_of(bool free, const std::vector<StaticPoint>& points, const StaticScales& scales) {
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  Closest closest;
+  for (const StaticModel& model : static_models()) {
+    if (model.name == "effectiveness-by-ratio") continue;
+    if ((std::ranges::find(freest, model.name) != std::end(freest)) != free) continue;
+    std::vector<Knob> knobs = knobs_of(model, scales);
+    if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;
+    if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
+    try {
+      const StaticFit fit = fit_static(knobs, points, scales, nullptr, 1e-7);
+      const std::vector<double> d = distances(fit, scales, points);
+      if (closest.distances.empty() || median(d) < median(closest.distances)) closest = {fit, d};
+    } catch (const Refusal&) {
+      continue;  // too few points for this one
+    }
+  }
+  return closest;
+}
+
+// The same; the simpler laws only where the data are too few for the freest.
+Closest the_closest(const std::vector<StaticPoint>& points, const StaticScales& scales) {
+  const Closest free = closest_of(true, points, scales);
+  return free.distances.empty() ? closest_of(false, points, scales) : free;
+}
+
+// The largest force that is not alone: what one wild point says does not count.
+double common_force(const std::vector<StaticPoint>& points) {
+  std::vector<double> forces;
+  for (const StaticPoint& p : points) forces.push_back(p.force);
+  const auto at = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() * 9 / 10);
+  std::nth_element(forces.begin(), at, forces.end());
+  return *at;
+}
+
+// Returns points further from a law than 8 scatters and 5 % of the largest force. The law is the
+// one that most points lie closest to: of all models, fitted with outliers counting little, the one
+// with the smallest median distance. None where they would be more than one in ten: then it is not
+// the points that are wrong.
+Outliers gross_outliers(const std::vector<StaticPoint>& points, const StaticScales& scales) {
+  if (points.empty()) return {};
+  StaticScales common = scales;
+  common.full_scale = common_force(points);
+  if (!(common.full_scale > 0)) return {};
+  const auto [fit, d] = the_closest(points, common);
+  Outliers out{.points = {}, .scatter = d.empty() ? 0 : 1.4826 * median(d)};
+  out.limit = std::max(scatters * out.scatter, share_of_scale * common.full_scale);
+  for (std::size_t i = 0; i < d.size(); ++i)
+    if (d[i] > out.limit) out.points.push_back({.point = i, .law = 0, .why = ""});
+  if (static_cast<double>(out.points.size()) > most_left_out * static_cast<double>(points.size()))
+    return {};
+  for (Outlier& o : out.points) {
+    o.law = predicted(fit.setting, common, points[o.point]);
+    o.why = explanation_of(points[o.point], fit, common, points, out.scatter);
+  }
+  return out;
+}
 
 using Points = std::vector<StaticPoint>;
 

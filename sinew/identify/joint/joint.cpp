@@ -5,21 +5,208 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/data/measured.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/joint/combinations.h"
-#include "sinew/identify/joint/joint_slots.h"
-#include "sinew/identify/joint/rows.h"
 #include "sinew/identify/joint/torque.h"
 
 namespace sinew::identify {
 
 namespace {
+
+// --- the poses of a joint, for a picture of what the models say of them ---
+
+// What the muscles hold less the load's torque, from the sum of both as they turn the joint.
+std::vector<double> told_from(std::vector<double> sums) {
+  for (double& sum : sums) sum = -sum;
+  return sums;
+}
+
+// The load's torque at every pose; what `others` has was not fitted, if it is a file of its own.
+Rows rows_of(const Measured& data, const JointTorque& joint,
+             const std::optional<Measured>& held_out, const JointTorque& others) {
+  Rows out;
+  out.x = "angle";
+  out.x_unit = "rad";
+  out.at = data["angle"];
+  out.measured = joint.torque();
+  out.scattered = true;  // so are pressures
+  if (!held_out) return out;
+  const std::vector<double>& angle = (*held_out)["angle"];
+  out.held_out.assign(out.size(), false);
+  out.at.insert(out.at.end(), angle.begin(), angle.end());
+  out.measured.insert(out.measured.end(), others.torque().begin(), others.torque().end());
+  out.held_out.resize(out.size(), true);
+  return out;
+}
+
+// --- which values of a joint are parameters under a model, and from ---
+
+// Returns the value that a parameter is.
+using JointPlace = std::function<double&(JointValues&)>;
+
+// A parameter that is searched, and where its value belongs.
+struct JointSlot {
+  Parameter parameter;
+  JointPlace place;
+};
+
+// What moves and what the torque's sensors add: of the first recording no gain, unless the force is
+// known.
+void add_sensors(const JointTorque& joint, const JointSetup& setup, std::vector<JointSlot>& out) {
+  const double most = joint.largest_torque();
+  const auto add = [&](std::string name, const char* unit, double low, double high, double scale,
+                       JointPlace place) {
+    out.push_back(
+        {{.name = std::move(name), .unit = unit, .low = low, .high = high, .scale = scale},
+         std::move(place)});
+  };
+  if (setup.moving) {
+    add("friction", "N m", 0, 10 * most, 0.1 * most, &JointValues::friction);
+    add("damping", "N m s/rad", 0, 1e3 * most / joint.fastest(), 0.1 * most / joint.fastest(),
+        &JointValues::damping);
+    add("delay", "s", -0.2, 0.2, 0.05, &JointValues::delay);
+  }
+  for (std::size_t k = 0; k < joint.recordings(); ++k) {
+    const std::string of =
+        k < setup.recordings.size() && joint.recordings() > 1 ? " of " + setup.recordings[k] : "";
+    if (setup.torque_bias)
+      add("torque_bias" + of, "N m", -most, most, 0.1 * most,
+          [k](JointValues& v) -> double& { return v.bias[k]; });
+    if (setup.torque_gain && (k > 0 || setup.keep_force))
+      add("torque_gain" + of, "1", 0.1, 10, 0.1,
+          [k](JointValues& v) -> double& { return v.gain[k]; });
+  }
+}
+
+// Returns the parameters of the model; what the setup knows is none.
+std::vector<JointSlot> joint_slots(const JointLaw& law, const JointTorque& joint,
+                                   const JointSetup& setup) {
+  const double longest = setup.actuator.braid.thread_length;
+  const double shortest = actuator::shortest_length(setup.actuator.braid);
+  std::vector<JointSlot> out;
+  const auto add = [&](bool wanted, const char* name, const char* unit, double low, double high,
+                       double scale, JointPlace place) {
+    if (wanted)
+      out.push_back(
+          {{.name = name, .unit = unit, .low = low, .high = high, .scale = scale}, place});
+  };
+  const auto unknown = [](double known) { return !std::isfinite(known); };
+  add(unknown(setup.moment_arm), "moment_arm", "m", 1e-4, 2 * longest, 0.1 * longest,
+      &JointValues::moment_arm);
+  add(law.hinge, "origin_ratio", "1", 1.02, 100, 1, &JointValues::origin_ratio);
+  add(law.hinge, "origin_angle", "rad", 0.05, 3.1, 1, &JointValues::origin_angle);
+  add(joint.has_flexor() && unknown(setup.flexor_length), "flexor_length", "m", 0.5 * shortest,
+      1.5 * longest, 0.1 * longest, &JointValues::flexor_length);
+  add(joint.has_extensor() && unknown(setup.extensor_length), "extensor_length", "m",
+      0.5 * shortest, 1.5 * longest, 0.1 * longest, &JointValues::extensor_length);
+  add(!setup.keep_force, "c0", "1", 0.01, 10, 0.5, &JointValues::c0);
+  add(!setup.keep_force && law.pressure, "c1", "1/Pa", -1e-5, 1e-5,
+      0.5 / std::max(joint.highest_gauge(), 1e4), &JointValues::c1);
+  add_sensors(joint, setup, out);
+  return out;
+}
+
+// Returns what the setup knows, and the values with these parameters.
+JointValues joint_known(const JointTorque& joint, const JointSetup& setup) {
+  JointValues v;
+  v.bias.assign(joint.recordings(), 0.0);
+  v.gain.assign(joint.recordings(), 1.0);
+  if (std::isfinite(setup.moment_arm)) v.moment_arm = setup.moment_arm;
+  if (std::isfinite(setup.flexor_length)) v.flexor_length = setup.flexor_length;
+  if (std::isfinite(setup.extensor_length)) v.extensor_length = setup.extensor_length;
+  return v;
+}
+
+JointValues joint_with(JointValues v, const std::vector<JointSlot>& slots,
+                       std::span<const double> p) {
+  for (std::size_t i = 0; i < slots.size(); ++i) slots[i].place(v) = p[i];
+  return v;
+}
+
+// Short and long arms, short and long muscles.
+// Returns starts of the parameters: short and long arms, short and long muscles.
+std::vector<std::vector<double>> joint_starts(const std::vector<JointSlot>& slots,
+                                              const JointTorque& joint, const JointSetup& setup) {
+  const double longest = setup.actuator.long_end.length > 0 ? setup.actuator.long_end.length
+                                                            : setup.actuator.braid.thread_length;
+  std::vector<std::vector<double>> out;
+  for (const double arm : {0.1, 0.25, 0.6})
+    for (const double mount : {0.8, 0.95}) {
+      JointValues v{.moment_arm = arm * longest,
+                    .origin_ratio = 4,
+                    .origin_angle = 1.5,
+                    .flexor_length = mount * longest,
+                    .extensor_length = mount * longest,
+                    .c0 = 0.9};
+      v.friction = 0.05 * joint.largest_torque();
+      v.bias.assign(joint.recordings(), 0.0);
+      v.gain.assign(joint.recordings(), 1.0);
+      std::vector<double> p;
+      for (const JointSlot& s : slots) p.push_back(s.place(v));
+      out.push_back(std::move(p));
+    }
+  return out;
+}
+
+// --- which products of a joint's parameters the data determine, and ---
+
+// Not of its sensors, and not of its friction.
+bool of_the_joint(std::string_view name) {
+  for (const std::string_view other : {"torque_", "friction", "damping", "delay"})
+    if (name.starts_with(other)) return false;
+  return true;
+}
+
+// Returns the principal axes of the parameters' relative errors, best determined first, of those
+// parameters that are positive and within their bounds.
+std::vector<Combination> combinations_of(const Solution& s) {
+  std::vector<std::size_t> which;
+  const std::size_t n = s.estimates.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (s.estimates[i].value > 0 && s.estimates[i].free && of_the_joint(s.estimates[i].name) &&
+        !s.estimates[i].at_bound && s.estimates[i].name != "c1")
+      which.push_back(i);
+  const std::size_t m = which.size();
+  Matrix relative(m, m);
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t k = 0; k < m; ++k)
+      relative(i, k) =
+          s.covariance[which[i] * n + which[k]] / (s.values[which[i]] * s.values[which[k]]);
+  std::vector<Combination> out;
+  if (!relative.is_finite()) {
+    for (const std::string& text : s.unseen) out.push_back({text, unbounded});
+    return out;
+  }
+  const Axes axes = axes_of_positive(relative);
+  for (std::size_t k = 0; k < m; ++k) {
+    Combination c;
+    const std::span<const double> power = axes.axes.column(k);
+    const double largest =
+        *std::ranges::max_element(power, {}, [](double x) { return std::abs(x); });
+    const double sign = largest < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < m; ++i)
+      if (std::abs(power[i]) > 0.05)
+        c.text += fmt::format("{}{}^{:.2f}", c.text.empty() ? "" : " ", s.estimates[which[i]].name,
+                              sign * power[i]);
+    c.relative_error = t_quantile(std::max(1, s.freedom)) * std::sqrt(axes.values[k]);
+    out.push_back(std::move(c));
+  }
+  return out;
+}
 
 constexpr std::array columns{
     Wanted{.name = "angle", .unit = "rad", .least = 0.01, .most = 7, .doc = "of the joint"},

@@ -1,10 +1,14 @@
 #include "sinew/identify/task/geometry_task.h"
 
 #include <fmt/format.h>
+#include <string>
 
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
-#include "sinew/identify/actuator/geometry_file.h"
+#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -12,6 +16,55 @@
 namespace sinew::identify {
 
 namespace {
+
+// --- a braid as an actuator's parameter file, and for programs ---
+
+// Fills in what a braid leaves open, so that the file can be read: the mesh ends where its threads
+// lie straight, and nothing is lost yet.
+actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& name,
+                               const std::string& source, const Report* report,
+                               Provenance& provenance) {
+  actuator::Actuator a;
+  a.name = name;
+  a.braid = braid;
+  a.long_end = {.length = 0.93 * braid.thread_length, .stiffness = 87563.4, .damping = 122.6};
+  a.short_end.stiffness = a.long_end.stiffness;
+  a.short_end.damping = a.long_end.damping;
+
+  const std::string path = "actuator." + name + ".";
+  for (const char* key : {"thread_length", "turns"}) {
+    const Estimate* found = nullptr;
+    if (report)
+      for (const Estimate& e : report->best().parameters)
+        if (e.name == key) found = &e;
+    if (found)
+      provenance.fitted(path + "braid." + key, *found, source);
+    else
+      provenance.given(path + "braid." + key, source);
+  }
+  provenance.guessed(path + "long_end.length", "as the thesis's share of the thread's length");
+  for (const char* end : {"long_end", "short_end"})
+    for (const char* key : {"stiffness", "damping"})
+      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
+  return a;
+}
+
+// Returns the text of an actuator's file with that braid, its ends guessed as the thesis's: the
+// mesh ends where its threads lie straight, and nothing is lost yet. `report` gives the intervals
+// of what was fitted; nullptr: it was counted.
+std::string braid_file(const actuator::Braid& braid, const std::string& name,
+                       const std::string& source, const Report* report = nullptr) {
+  Provenance provenance;
+  const actuator::Actuator a = actuator_of(braid, name, source, report, provenance);
+  return actuator_file(a, provenance);
+}
+
+// Returns thread length, turns and shortest length; SI, with the unit in the key.
+Json describe(const actuator::Braid& braid) {
+  return {{"thread_length_m", braid.thread_length},
+          {"turns", braid.turns},
+          {"shortest_length_m", actuator::shortest_length(braid)}};
+}
 
 double thickness_of(const GeometrySettings& settings) {
   return config::quantity_setting("thread_thickness", settings.thread_thickness, "m",

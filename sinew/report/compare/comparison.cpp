@@ -3,16 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
-#include "sinew/report/compare/perfect_sensors.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/stand.h"
+#include "sinew/signals/table.h"
 
 namespace sinew::report {
+
 namespace {
+
+// --- what a sensor without error would have read, for runs that ---
+
+// A simulation knows pressures and lengths that its robot has no sensor for, under /true; a
+// recording that measured them has them without it. Every table that lacks a topic which another
+// one has, and has it under /true, gets a copy under the plain name. A table that has neither stays
+// as it is.
+void add_perfect_sensors(const std::vector<signals::Table*>& tables) {
+  constexpr std::string_view truth = "/true";
+  std::set<std::string> measured;
+  for (const signals::Table* table : tables)
+    for (const signals::Series& s : table->series)
+      if (!s.topic.name.starts_with("/true/")) measured.insert(s.topic.name);
+  for (signals::Table* table : tables)
+    for (const std::string& topic : measured) {
+      const signals::Series* known = table->find(std::string(truth) + topic);
+      if (!known || table->find(topic)) continue;
+      signals::Series copy = *known;
+      copy.topic.name = topic;
+      copy.topic.description += "; as a sensor without error would read it";
+      table->series.push_back(std::move(copy));
+    }
+}
 
 std::string value_of(const std::vector<Parameter>& parameters, std::string_view key) {
   const auto at = std::ranges::find(parameters, key, &Parameter::key);

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/control/supervise/limits.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/run/bring_up/at_rest.h"
-#include "sinew/run/bring_up/clicks.h"
+#include "sinew/robot/robot.h"
+#include "sinew/run/bring_up/muscles.h"
 #include "sinew/run/bring_up/progress.h"
 #include "sinew/run/bring_up/strokes.h"
+#include "sinew/run/bring_up/trial.h"
 #include "sinew/run/bring_up/wires.h"
 #include "sinew/run/bring_up/wiring_drawing.h"
 #include "sinew/run/folder/files.h"
@@ -20,6 +24,134 @@
 #include "sinew/units/hash.h"
 
 namespace sinew::run {
+
+namespace {
+
+// --- each valve of a board alone: five clicks, that a person hears ---
+
+// A valve that is to be heard clicking.
+struct BenchValve {
+  std::string what;  // "the inlet of hip_flexor (output 0: bit 0, pins 31 and 32)"
+  std::size_t board_joint = 0;
+  std::int32_t control::Duties::*duty = nullptr;  // that opens it
+};
+
+using control::Duties;
+using control::JointKind;
+
+std::string in_words(const Wire& wire) {
+  const std::size_t space = wire.name.rfind(' ');
+  return fmt::format("the {} of {} ({})", wire.name.substr(space + 1), wire.name.substr(0, space),
+                     wire.in_words());
+}
+
+// All valves that the board's outputs drive: those of the muscles, then a cylinder's four; `pins`
+// as of wires.h.
+std::vector<BenchValve> bench_valves(const experiment::Experiment& e, const control::Board& board,
+                                     const std::vector<BenchMuscle>& muscles, const Pins* pins) {
+  const std::vector<Wire> wires = valve_wires(e, board, pins);
+  std::vector<BenchValve> out;
+  const auto add = [&](std::size_t joint, signals::Valve valve, std::int32_t Duties::*duty) {
+    if (wires[valve.index].driven) out.push_back({in_words(wires[valve.index]), joint, duty});
+  };
+  for (const BenchMuscle& m : muscles) {
+    const control::JointConfig& c = board.spine.joint[m.board_joint];
+    const control::MuscleConfig& muscle = m.flexor ? c.flexor : c.extensor;
+    add(m.board_joint, muscle.inlet, m.flexor ? &Duties::flexor_inlet : &Duties::extensor_inlet);
+    if (m.has_exhaust)
+      add(m.board_joint, muscle.exhaust,
+          m.flexor ? &Duties::flexor_exhaust : &Duties::extensor_exhaust);
+  }
+  for (std::size_t j = 0; j < board.spine.joints; ++j) {
+    const control::JointConfig& c = board.spine.joint[j];
+    if (c.kind != JointKind::cylinder) continue;
+    add(j, c.flexor.inlet, &Duties::flexor_inlet);
+    add(j, c.flexor.exhaust, &Duties::flexor_exhaust);
+    add(j, c.extensor.inlet, &Duties::extensor_inlet);
+    add(j, c.extensor.exhaust, &Duties::extensor_exhaust);
+  }
+  return out;
+}
+
+// The stages that click it.
+std::vector<Stage> clicks_of(const BenchValve& valve, std::size_t joints) {
+  std::vector<Duties> open(joints);
+  open[valve.board_joint].*valve.duty = 100;
+  std::vector<Stage> out;
+  for (int i = 0; i < 5; ++i) {
+    out.push_back({0.15, open});
+    out.push_back({0.25, {}});
+  }
+  return out;
+}
+
+// Returns what moves the machine and what no step of a bring-up tries with air: cylinders and
+// regulators, by name.
+std::vector<std::string> not_tried(const experiment::Experiment& e, const control::Board& board) {
+  std::vector<std::string> out;
+  for (std::size_t j = 0; j < board.spine.joints; ++j) {
+    const JointKind kind = board.spine.joint[j].kind;
+    if (kind == JointKind::cylinder) out.emplace_back("the cylinder with air");
+    if (kind == JointKind::regulated)
+      out.push_back(fmt::format("the regulators of {}",
+                                e.robot.joints[static_cast<std::size_t>(board.joint[j])].name));
+  }
+  return out;
+}
+
+// --- a sensor of a machine that hangs empty and still: what it reads, and ---
+
+struct Rest {
+  double mean = 0, deviation = 0;  // [count]
+  int readings = 0, bad = 0;       // bad: did not come in time, or are none
+};
+// Returns what a channel read while nothing moved.
+Rest rest_of(const Recording& recording, std::size_t channel);
+
+Rest rest_of(const Recording& r, std::size_t channel) {
+  Rest out;
+  for (const Sample& s : r.samples) {
+    out.mean += s.counts[channel];
+    out.bad += s.status[channel] != signals::Status::ok;
+    ++out.readings;
+  }
+  out.mean /= std::max(out.readings, 1);
+  for (const Sample& s : r.samples) out.deviation += std::pow(s.counts[channel] - out.mean, 2);
+  out.deviation = std::sqrt(out.deviation / std::max(out.readings - 1, 1));
+  return out;
+}
+
+// Returns what is wrong with it and what to look at, in a sentence; empty: nothing. `top` is the
+// converter's highest count, `wire` says where the sensor is wired.
+std::string wrong_with(const robot::Sensor& s, const Rest& rest,
+                       const control::SensorLimits& limits, double top, const std::string& wire) {
+  const double share = 0.05 * top;
+  if (rest.bad > 0)
+    return fmt::format("{}: {} of {} readings did not come in time or are none ({})", s.name,
+                       rest.bad, rest.readings, wire);
+  // A transducer may rest at the scale's end; whether it is alive a muscle will show.
+  const bool rests_there = s.assumed_at_rest < 4 || s.assumed_at_rest > top - 4;
+  if ((rest.mean < 4 || rest.mean > top - 4) && !rests_there)
+    return fmt::format(
+        "{} reads {:.0f}, an end of the converter's scale: look at its cable and its "
+        "supply ({})",
+        s.name, rest.mean, wire);
+  if (rest.mean < limits.low || rest.mean > limits.high)
+    return fmt::format("{} reads {:.0f}; expected {} to {}: is its cable another's? ({})", s.name,
+                       rest.mean, limits.low, limits.high, wire);
+  const bool has_zero = s.kind == robot::Sensor::Kind::tension ||
+                        s.kind == robot::Sensor::Kind::pressure ||
+                        s.kind == robot::Sensor::Kind::angle;
+  if (has_zero && std::abs(rest.mean - s.assumed_at_rest) > share)
+    return fmt::format(
+        "{} reads {:.0f} at rest; expected {:.0f}, within {:.0f}: is it loaded, or "
+        "its cable another's? ({}); a robot whose sensor is so says it with "
+        "sensor.{}.assumed.at_rest",
+        s.name, rest.mean, s.assumed_at_rest, share, wire, s.name);
+  return "";
+}
+
+}  // namespace
 
 namespace fs = std::filesystem;
 

@@ -1,16 +1,46 @@
 #include "sinew/tune/page/study_view.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/tune/page/asked_facts.h"
+#include "sinew/tune/results/asked.h"
 #include "sinew/tune/results/results.h"
 
 namespace sinew::tune {
+
 namespace {
+
+// --- what the text of a study's question (results/asked.h) says of its ---
+
+// "vary = KEY [unit]: values" without its name; nothing for another line.
+std::optional<std::string> value_after(const std::string& line, const std::string& name) {
+  const std::string begin = name + " = ";
+  if (!line.starts_with(begin)) return std::nullopt;
+  return line.substr(begin.size());
+}
+
+// Returns the value of a fact, "0.1.0" of `sinew`; empty where there is none.
+std::string fact(const Asked& asked, const std::string& name) {
+  std::istringstream lines(asked.text);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto value = value_after(line, name)) return *value;
+  return "";
+}
+
+// Returns how many facts have that name.
+std::size_t count(const Asked& asked, const std::string& name) {
+  std::size_t out = 0;
+  std::istringstream lines(asked.text);
+  for (std::string line; std::getline(lines, line);) out += value_after(line, name) ? 1 : 0;
+  return out;
+}
 
 namespace fs = std::filesystem;
 
