@@ -46,7 +46,7 @@ set(headers_only FILES_MATCHING PATTERN "*.h"
 if(SINEW_ONLY)
   foreach(folder units signals gas actuator air)
     install(DIRECTORY sinew/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew
-            COMPONENT development ${headers_only} PATTERN "packs" EXCLUDE)
+            COMPONENT development ${headers_only})
   endforeach()
   install(FILES sinew/muscle.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew COMPONENT development)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)

@@ -15,7 +15,6 @@ layers='
     actuator        units
     air/stiff       gas
     air             air/stiff gas actuator signals
-    air/packs       air
     muscle.h        air
     robot           gas actuator signals
     robot/wiring    robot
@@ -34,7 +33,6 @@ layers='
     mechanism/slide     air robot signals
     mechanism/spatial   air robot signals
     world           mechanism air signals
-    world/packs     world air/packs
     port/recorded   air robot signals log
     port/hardware   control/link control/board host signals
     port/comedi     control/supervise host signals

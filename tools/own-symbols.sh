@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# own-symbols.sh OBJECT ENTRY   does an object that is compiled for some processors alone keep all
-# that it defines to itself, but ENTRY (cmake/lanes.cmake says why), and run nothing at start-up?
+# own-symbols.sh ARCHIVE WIDTH   checks that every symbol which lanes_WIDTH.cpp shares with other
+# objects names its width (cmake/lanes.cmake has the reason), and that nothing of it runs at start-up.
 #
 # Prints what is wrong; exit 1 if anything is.
 
@@ -8,24 +8,25 @@ set -euo pipefail
 export LC_ALL=C.UTF-8
 
 if (($# != 2)); then
-  echo "usage: $0 OBJECT ENTRY" >&2
+  echo "usage: $0 ARCHIVE WIDTH" >&2
   exit 2
 fi
-object=$1 entry=$2 wrong=0
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+object=lanes_$2.cpp.o
+(cd "$folder" && ar x "$1" "$object")
 
-seen=$(nm --defined-only --extern-only --format=posix "$object" | cut -d ' ' -f 1)
-shared=$(grep -Fvx "$entry" <<<"$seen" || true)
-if [[ -n $shared ]]; then
-  echo "$object: other objects see $(wc -l <<<"$shared") of its symbols, such as $(head -1 <<<"$shared" | c++filt)"
-  wrong=1
+shared=$(nm --defined-only --extern-only --format=posix "$folder/$object" | cut -d ' ' -f 1)
+strangers=$(grep -Fv "Li$2E" <<<"$shared" | grep -vx DW.ref.__gxx_personality_v0 || true)
+if [[ -z $shared ]]; then
+  echo "$object: defines nothing"
+  exit 1
 fi
-if ! grep -Fqx "$entry" <<<"$seen"; then
-  echo "$object: does not define $entry"
-  wrong=1
+if [[ -n $strangers ]]; then
+  echo "$object: $(wc -l <<<"$strangers") symbols without the width, such as $(head -1 <<<"$strangers" | c++filt)"
+  exit 1
 fi
-sections=$(objdump --section-headers "$object")
-if grep -qE ' \.(init_array|ctors)' <<<"$sections"; then
+if objdump --section-headers "$folder/$object" | grep -qE ' \.(init_array|ctors)'; then
   echo "$object: has code that runs before main, on any processor"
-  wrong=1
+  exit 1
 fi
-exit $wrong

@@ -8,8 +8,8 @@
 #include "bench/peers/mujoco_leg.h"
 #include "bench/peers/row.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "sinew/world/batch.h"
 #include "sinew/world/machine.h"
-#include "sinew/world/packs/batch.h"
 
 namespace sinew::bench {
 

@@ -56,7 +56,7 @@ struct Counts {
 Counts by_pow(const Drill& drill, Pressures* pressures);      // scalar, pow_muscle.h
 Counts by_network(const Drill& drill, Pressures* pressures);  // air/network.h, one after the other
 
-// A width of air/packs/plain_air.h, in a library that is compiled for it.
+// A width of air/plain_air.h, in a library that is compiled for it.
 struct Wide {
   int width = 0;
   Counts (*run)(const Drill& drill, Pressures* pressures) = nullptr;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "sinew/air/packs/plain_air.h"
+#include "sinew/air/plain_air.h"
 
 namespace sinew::bench {
 
@@ -67,17 +67,17 @@ class Machines {
         .set(lane, s.open ? 1.0 : 0.0);
   }
 
-  // RK4, as world/packs/chain_batch.h has it.
+  // RK4, as world/nodes.h has it.
   void step(const Places& p, const Pack& h) {
     constexpr int at[] = {0, 1, 1, 2};
     look(p, 0, state_, look_[0]);
     air_->remember(Pack(0.0) < Pack(1.0), look_[0], memory_);
     for (int s = 0; s < 3; ++s) {
-      air_->move(stage_, state_, s == 2 ? h : Pack(0.5 * h), look_[s]);
+      air_->move(stage_, state_, s == 2 ? h : Pack(0.5 * h), look_[s], shares_, {});
       look(p, at[s + 1], stage_, look_[s + 1]);
     }
     const Air::Answer* looks[4] = {&look_[0], &look_[1], &look_[2], &look_[3]};
-    air_->finish(state_, h, looks);
+    air_->finish(state_, h, looks, shares_, {});
   }
 
   // Pressures of one machine where the step at hand began.
@@ -104,7 +104,7 @@ class Machines {
       ends_.length[i] = p.length[n];
       ends_.rate[i] = p.rate[n];
     }
-    air_->evaluate(ends_, state, shares_, memory_, out);
+    air_->evaluate(0, ends_, state, shares_, memory_, out);
   }
 
   int first_;

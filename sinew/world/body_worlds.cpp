@@ -1,8 +1,6 @@
 // world/body_worlds.cpp - the worlds of machines that are no chain, of few links, compiled
 // once.
-#include "sinew/mechanism/planar/body_mechanism_members.h"
 #include "sinew/world/machine.h"
-#include "sinew/world/members.h"
 
 namespace sinew::plant {
 

@@ -1,6 +1,5 @@
 // world/chain_worlds.cpp - the worlds of chains, compiled once.
 #include "sinew/world/machine.h"
-#include "sinew/world/members.h"
 
 namespace sinew::plant {
 

@@ -2,6 +2,7 @@
 //
 // A mechanism (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
 //
+//   Scalar         a double, or a pack of them: mechanisms side by side
 //   Motion         the generalized state: coordinates, rates      Acceleration   d(rates)/dt
 //   Ends, Arms     what the air feels of a motion: lengths and rates of the muscles, travel of a
 //                  piston; moment arms
@@ -71,6 +72,7 @@ concept IsMechanism = std::is_trivially_copyable_v<typename M::Motion> &&
              const typename M::Acceleration& a, const typename M::Motion* const (&stages)[4],
              const typename M::Acceleration (&as)[4]) {
   { M::cuts_steps } -> std::convertible_to<bool>;
+  typename M::Scalar;
   typename M::Senses;
   { m.start() } -> std::convertible_to<typename M::Motion>;
   { m.node_step(setup) } -> std::same_as<double>;

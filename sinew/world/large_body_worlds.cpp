@@ -1,7 +1,5 @@
 // world/large_body_worlds.cpp - the worlds of machines of many links, compiled once.
-#include "sinew/mechanism/planar/body_mechanism_members.h"
 #include "sinew/world/machine.h"
-#include "sinew/world/members.h"
 
 namespace sinew::plant {
 

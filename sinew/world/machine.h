@@ -9,31 +9,23 @@
 
 #include "sinew/air/network.h"
 #include "sinew/mechanism/planar/body_mechanism.h"
-#include "sinew/mechanism/planar/chain_mechanism.h"
-#include "sinew/world/lane.h"
-#include "sinew/world/world.h"
+#include "sinew/world/batch.h"
+#include "sinew/world/chain_world.h"
 
 namespace sinew::plant {
 
-template <int N>
-using ChainWorld = World<ChainMechanism<N>, air::AirNetwork<chain_muscles>>;
 // By links, discs and muscles; up to four links are just so many (body.h).
 template <int N, int D, int M>
 using SizedBodyWorld = World<BodyMechanism<N, D, M>, air::AirNetwork<M>>;
 using BodyWorld = SizedBodyWorld<8, 8, 8>;
 using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // holds all
 
-extern template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
-extern template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
 extern template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<3, 2, 4>, air::AirNetwork<4>>;
 extern template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
                             air::AirNetwork<most_muscles>>;
-
-// One leg of several that go side by side (packs/batch.h).
-using LegLane = Lane<ChainWorld<2>>;
 
 using AnyWorld =
     std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,

@@ -1,8 +1,6 @@
 // world/stand.cpp - the stand's world, compiled once.
 #include "sinew/world/stand.h"
 
-#include "sinew/world/members.h"
-
 namespace sinew::plant {
 
 template class World<SlideMechanism, StandAir>;

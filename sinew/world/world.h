@@ -31,35 +31,29 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "sinew/air/failure.h"
 #include "sinew/signals/port.h"
 #include "sinew/world/contract.h"
+#include "sinew/world/cut.h"
+#include "sinew/world/nodes.h"
 
 namespace sinew::plant {
 
 template <IsMechanism Mechanism, IsAirOf<Mechanism> Air>
-class World final : public signals::Port {
+class World final : public signals::Port, private Nodes<Mechanism, Air> {
+  using Integrated = Nodes<Mechanism, Air>;
+  using typename Integrated::Look;
+  using typename Integrated::Moving;
   using Acceleration = typename Mechanism::Acceleration;
   using Forces = typename Mechanism::Forces;
   using Memory = typename Air::Memory;
-
-  // The part of the state that is integrated.
-  struct Moving {
-    typename Mechanism::Motion motion;
-    typename Air::State air;
-  };
-
-  // Everything that one look at a state yields.
-  struct Look {
-    typename Mechanism::Ends ends;
-    typename Mechanism::Arms arms;
-    typename Air::Answer air;
-    typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
-    Acceleration acceleration;      // with the friction of the step
-  };
 
  public:
   using Body = Mechanism;
@@ -119,12 +113,10 @@ class World final : public signals::Port {
   const State& state() const noexcept { return state_; }
   // Goes on from there as the world did whose state it was: the same bits.
   void restore(const State& state) noexcept;
-  // For whoever integrates in this world's place (packs/chain_batch.h): the state, to be brought
+  // For whoever integrates in this world's place (chain_lanes.h): the state, to be brought
   // to another node; and then the world goes on from there.
   State& borrow() noexcept { return state_; }
-  void resume() noexcept {
-    (void)prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
-  }
+  void resume() noexcept { prepare_friction(mechanism_.pose(state_.time, state_.now.motion)); }
   double body_step() const noexcept { return step_; }  // between nodes [s]
 
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
@@ -178,13 +170,18 @@ class World final : public signals::Port {
  private:
   void evaluate_air(double t, const Moving& state, const Memory& memory, Look& look,
                     std::uint64_t ahead = 0) const noexcept {
-    mechanism_.route(t, state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air, ahead);
+    Integrated::evaluate_air(t, state, state_.valves, memory, look, ahead);
   }
   void look_at(double t, const Moving& state, const Memory& memory, const Forces& held, Look& look,
-               std::uint64_t ahead = 0) const noexcept;
+               std::uint64_t ahead = 0) const noexcept {
+    Integrated::look_at(t, state, state_.valves, memory, held, look, ahead);
+  }
+  void piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
+             const Acceleration& first, const Forces& held) const noexcept {
+    Integrated::piece(from, h, now, state_.valves, memory, look, first, held);
+  }
   void prepare() noexcept;
-  Acceleration prepare_friction(const typename Mechanism::Pose& pose) noexcept;
+  void prepare_friction(const typename Mechanism::Pose& pose) noexcept;
   void look_for_failure() noexcept;
   // Does a step go from one multiple of the body step that is due to the next one?
   bool is_whole(double to) const noexcept {
@@ -197,8 +194,6 @@ class World final : public signals::Port {
   }
   void commit() noexcept;
   void step(double to) noexcept;
-  void piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
-             const Acceleration& first, const Forces& held) const noexcept;
   double longest_piece_of(const Look& look) const noexcept;  // infinite where nothing is quick [s]
   double pieces_of(double h, const Look& look) const noexcept;
 
@@ -221,8 +216,8 @@ class World final : public signals::Port {
   // vanished.
   static constexpr double most_pieces = 1e5;
 
-  Mechanism mechanism_;
-  Air air_;
+  using Integrated::air_;
+  using Integrated::mechanism_;
   double step_ = 1e-3;
   std::int64_t skipped_ = 0;  // multiples of it before the next node
 
@@ -233,5 +228,329 @@ class World final : public signals::Port {
   Senses senses_;
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
 };
+
+// Returns the reading of a conversion that began at the tick `sampled`. The machine says failure()
+// and ended(), and answers what its senses ask.
+template <class Machine, class Senses>
+signals::Reading reading(Machine& machine, const Senses& senses, signals::Channel channel,
+                         signals::Tick sampled) noexcept {
+  if (channel.index >= senses.channels()) return {0, signals::Status::invalid};
+  const double t = static_cast<double>(sampled) * signals::tick_seconds;
+  const double value = senses.quantity(machine, channel.index, t);
+  // A state that ran away never comes back: every later reading says so too.
+  if (machine.failure() || !std::isfinite(value)) return {0, signals::Status::fault};
+  return {senses.counts(channel.index, value, sampled),
+          machine.ended() ? signals::Status::ended : signals::Status::ok};
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+World<M, A>::World(const Setup& setup)
+    : Integrated(setup), step_(mechanism_.node_step(setup)), senses_(setup) {
+  static_assert(std::is_trivially_copyable_v<State>);
+  Look& first = state_.first;
+  state_.now.motion = mechanism_.start();
+  mechanism_.route(0, state_.now.motion, first.ends, first.arms);
+  state_.now.air = mechanism_.start_air(air_, setup, first.ends);
+  state_.valves = air_.valves_at_rest();
+  state_.memory = mechanism_.start_memory(air_, setup, first.ends);
+  prepare();
+}
+
+// A new node: valves and references, the first stage, and what friction can do about it.
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::prepare() noexcept {
+  Look& first = state_.first;
+  air_.move_valves(state_.time, state_.first.air, state_.valves);
+  if constexpr (CutsSteps<M>) {
+    begin_part(state_.time, state_.now, state_.memory, state_.held, first);
+    look_for_failure();
+  } else {
+    evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead(state_.valves));
+    look_for_failure();
+    state_.trolley_bound = mechanism_.trolley_bound(state_.held, state_.trolley_bound);
+    prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
+  }
+}
+
+// The friction problem of the node, and the accelerations without friction.
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept {
+  glanced_ = false;
+  if constexpr (SkipsNodes<M>)
+    skipped_ = mechanism_.next_multiple(state_.multiple, step_, pose, state_.now.motion) -
+               (state_.multiple + 1);
+  if constexpr (!CutsSteps<M>)  // of these each part has its own
+    this->meet(pose, state_.now.motion, state_.trolley_bound, state_.first);
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::restore(const State& state) noexcept {
+  state_ = state;
+  resume();
+}
+
+// Is anything of the look at a node no number? The air also takes from the look what it remembers.
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::look_for_failure() noexcept {
+  const air::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
+  if (state_.failure) return;
+  if (of_air) {
+    state_.failure = of_air;
+    state_.failure.time = state_.time;
+    if (of_air.of == air::Failure::Of::air)
+      state_.failure.length = state_.first.ends.length[of_air.muscle];
+  } else if (!air::is_place(mechanism_.sum(state_.now.motion))) {
+    state_.failure = {.of = air::Failure::Of::motion, .time = state_.time};
+  }
+}
+
+// While nothing flows, only the air that a piston shuts in can be quick.
+template <IsMechanism M, IsAirOf<M> A>
+double World<M, A>::longest_piece_of(const Look& look) const noexcept {
+  double longest = std::numeric_limits<double>::infinity();
+  if (air_.flowing(state_.valves)) longest = air_.longest_step_of_rest(look.ends, state_.valves);
+  if constexpr (LiftsBody<M>)
+    longest = std::min(
+        longest, air_.longest_step_of_piston(look.ends, look.air, mechanism_.lift_per_force()));
+  return longest;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
+  const double longest = longest_piece_of(look);
+  return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
+}
+
+// Hoses, walls and lags can be quicker than the body: a step is then made of several pieces, under
+// the friction of the whole.
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::step(double to) noexcept {
+  if constexpr (CutsSteps<M>) {
+    go(state_.time, to, state_.now, state_.memory, state_.held, state_.first);
+  } else {
+    const double h = to - state_.time;
+    Acceleration first;
+    if (SkipsNodes<M> && is_whole(to)) {  // a peek goes by the same friction
+      first = glance().acceleration;
+      state_.held = glance_.held;
+    } else {
+      state_.held = mechanism_.hold(h, state_.held);
+      first = mechanism_.accelerate(state_.first.acceleration, state_.held);
+    }
+    const double pieces = pieces_of(h, state_.first);
+    for (double k = 0; k < pieces; ++k) {
+      const double from = state_.time + k * (h / pieces);
+      if (k > 0) {
+        look_at(from, state_.now, state_.memory, state_.held, state_.first,
+                air_.always_ahead(state_.valves));
+        air_.remember(state_.first.air, state_.now.air, state_.memory);
+        first = state_.first.acceleration;
+      }
+      piece(from, h / pieces, state_.now, state_.memory, state_.first, first, state_.held);
+    }
+  }
+}
+
+// The next multiple of the body step that is due, or the next change of a valve.
+template <IsMechanism M, IsAirOf<M> A>
+double World<M, A>::next_node() const noexcept {
+  const double multiple = static_cast<double>(state_.multiple + 1 + skipped_) * step_;
+  const double change = state_.valves.next_change;
+  return change < multiple ? change : multiple;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::advance(double t) noexcept {
+  while (!state_.failure && next_node() <= t) commit();
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+void World<M, A>::commit() noexcept {
+  const double next = next_node();
+  if (next > state_.time) step(next);
+  state_.time = next > state_.time ? next : state_.time;
+  while (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
+  ++state_.nodes;
+  prepare();
+}
+
+// The friction that a whole body step from the last node would have: what a peek goes by, however
+// far it looks, so that it depends on the node alone.
+template <IsMechanism M, IsAirOf<M> A>
+auto World<M, A>::glance() noexcept -> const Glance& {
+  if (glanced_) return glance_;
+  glanced_ = true;
+  if constexpr (!CutsSteps<M>) {
+    glance_.held = mechanism_.hold(whole_step(), state_.held);
+    glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
+  }
+  if constexpr (RelaxesStages<M>) {
+    glance_.mean = glance_.acceleration;
+    mechanism_.relax(whole_step(), 0.5, state_.first.load, {}, glance_.mean);
+  }
+  return glance_;
+}
+
+// From the last node to t in a copy: the body by its acceleration, the air by Heun's rule in as
+// many pieces as a step would take. What cuts its steps is integrated, and an instant before the
+// last node sees what was prescribed then.
+template <IsMechanism M, IsAirOf<M> A>
+auto World<M, A>::peek(double t) noexcept -> Peek {
+  Peek p{.state = state_.now, .look = state_.first};
+  if constexpr (CutsSteps<M>) {
+    Memory memory = state_.memory;
+    glance_.held = state_.held;
+    if (!state_.failure) go(state_.time, t, p.state, memory, glance_.held, p.look);
+    begin_part(t, p.state, memory, glance_.held, p.look);
+    glance_.acceleration = p.look.acceleration;
+  } else {
+    (void)glance();
+    if (t > state_.time && !state_.failure) extrapolate(t, p);
+  }
+  return p;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+template <WholeSteps>
+void World<M, A>::extrapolate(double t, Peek& p) noexcept {
+  const double dt = t - state_.time;
+  const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
+  for (double k = 1; k <= pieces; ++k) {
+    const double to = k < pieces ? state_.time + k * h : t;
+    p.state.motion = peek_motion(to);
+    if (air_.flowing(state_.valves)) {
+      const typename A::State from = p.state.air;
+      const typename A::Answer before = p.look.air;
+      typename A::Course course;
+      air_.plan(to - h, h, p.look.ends, from, state_.valves, state_.memory, course);
+      air_.move(p.state.air, from, h, before, state_.valves, course);
+      evaluate_air(to, p.state, state_.memory, p.look, course.muscles);
+      air_.correct(p.state.air, from, h, before, p.look.air, state_.valves, course);
+    }
+    evaluate_air(to, p.state, state_.memory, p.look, air_.always_ahead(state_.valves));
+  }
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+signals::Status World<M, A>::start(const signals::Scan& scan) noexcept {
+  for (const signals::Conversion& c : scan.conversions) {
+    if (c.channel.index >= senses_.channels()) return signals::Status::invalid;
+    lag_[c.channel.index] = c.read - c.start;
+  }
+  return signals::Status::ok;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
+  if (state_.ended) return signals::Status::ended;
+  if (state_.failure) return signals::Status::fault;
+  const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (edge.valve.index >= air_.valves() || t < state_.time) return signals::Status::invalid;
+  while (!state_.failure && next_node() < t)
+    commit();  // later edges act at t or after: these nodes are final
+  air_.command(edge, t, state_.first.air, state_.valves);
+  return signals::Status::ok;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) noexcept {
+  return reading(*this, senses_, channel, now - lag_[channel.index]);
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+signals::Status World<M, A>::stop(signals::Tick) noexcept {
+  state_.ended = true;  // nothing moves a simulated body after its last tick
+  return state_.failure ? signals::Status::fault : signals::Status::ok;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+auto World<M, A>::truth(double t) noexcept -> Truth {
+  advance(t);
+  return senses_.truth(*this, std::max(t, state_.time));
+}
+
+// A smooth part begins at t: what is prescribed goes into the state, and friction is decided by a
+// look at it.
+template <IsMechanism M, IsAirOf<M> A>
+template <CutsSteps>
+void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& held,
+                             Look& look) noexcept {
+  mechanism_.begin(t, s.motion);
+  mechanism_.route(t, s.motion, look.ends, look.arms);
+  air_.place(look.ends, s.air);
+  air_.use_whole_laws();
+  air_.evaluate(t, look.ends, s.air, state_.valves, memory, look.air);
+  air_.choose_sides(look.air, state_.valves);
+  const typename M::Pose pose = mechanism_.pose(t, s.motion);
+  mechanism_.load(pose, s.motion, look.arms, look.air, look.load);
+  held = mechanism_.hold(s.motion, look.load, held);
+  look.acceleration = mechanism_.accelerate(pose, s.motion, look.load, held);
+}
+
+// Integrates from one instant to another. `first` is the look at the state there, and in the end
+// that at the beginning of the last piece.
+template <IsMechanism M, IsAirOf<M> A>
+template <CutsSteps>
+void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held,
+                     Look& first) noexcept {
+  constexpr double shortest = 1e-7;  // of a piece, unless it is cut [s]
+  Moving others[2];
+  Moving *now = &s, *after = &others[0], *spare = &others[1];
+  for (double t = from; t < to;) {
+    if (t > from) {
+      begin_part(t, *now, memory, held, first);
+      air_.remember(first.air, now->air, memory);
+    } else {
+      mechanism_.begin(t, now->motion);
+      air_.choose_sides(first.air, state_.valves);
+    }
+    const double target = std::min(to, mechanism_.corner()), whole = target - t;
+    const double pieces = std::ceil(whole / std::max(longest_piece(*now, first), shortest) - 1e-9);
+    double h = pieces > 1 ? whole / pieces : whole;
+    double reached = pieces > 1 ? t + h : target;
+    const auto integrate = [&](Moving& out, double within) {
+      out = *now;
+      piece(t, within, out, memory, first, first.acceleration, held);
+    };
+    integrate(*after, h);
+    const double broken = gap(reached, *now, *after, memory, held);
+    if (broken > 0) {
+      // The end of the piece is put where it breaks, on the far side of it.
+      const double unbroken = std::max(mechanism_.gap(now->motion, now->motion, held, first.load),
+                                       air_.gap(first.air, state_.valves));
+      h = cut(h, unbroken, broken, mechanism_.cut_within(), [&](double within) {
+        integrate(*spare, within);
+        const double g = gap(t + within, *now, *spare, memory, held);
+        if (g > 0) std::swap(after, spare);
+        return g;
+      });
+      reached = t + h;
+      mechanism_.stop(after->motion, held);
+    }
+    std::swap(now, after);
+    t = reached;
+  }
+  if (now == &s) return;
+  s = *now;
+}
+
+// Returns how far `after` is beyond what a smooth piece from `before` can hold.
+template <IsMechanism M, IsAirOf<M> A>
+template <CutsSteps>
+double World<M, A>::gap(double t, const Moving& before, const Moving& after, const Memory& memory,
+                        const Forces& held) const noexcept {
+  Look look;
+  const bool watches = air_.watches(state_.valves);
+  if (watches || mechanism_.watches(held)) look_at(t, after, memory, held, look);
+  const double of_body = mechanism_.gap(before.motion, after.motion, held, look.load);
+  return watches ? std::max(of_body, air_.gap(look.air, state_.valves)) : of_body;
+}
+
+template <IsMechanism M, IsAirOf<M> A>
+template <CutsSteps>
+double World<M, A>::longest_piece(const Moving& s, const Look& look) const noexcept {
+  return std::min(mechanism_.longest_piece(s.motion, look.load, look.air),
+                  air_.longest_piece(look.ends, look.air, s.air, state_.valves));
+}
 
 }  // namespace sinew::plant

@@ -10,15 +10,19 @@
 // friction_contacts.h), M muscles.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <numbers>
 
 #include "sinew/air/lanes.h"
 #include "sinew/mechanism/planar/body.h"
 #include "sinew/mechanism/planar/friction_contacts.h"
 #include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/mechanism/planar/planar_mechanism.h"
+#include "sinew/mechanism/planar/rollers.h"
 #include "sinew/mechanism/planar/setup.h"
 #include "sinew/mechanism/planar/stops.h"
 
@@ -27,6 +31,7 @@ namespace sinew::plant {
 template <int N, int D, int M>
 class BodyMechanism : public PlanarMechanism<M> {
  public:
+  using Scalar = double;
   using Motion = plant::BodyState<N>;
   using Acceleration = Coordinates<N>;
   using Forces = typename FrictionContacts<N, D>::Forces;
@@ -179,5 +184,283 @@ class BodyMechanism : public PlanarMechanism<M> {
   std::array<double, N> damping_{}, spring_{}, spring_angle_{}, dry_{};
   std::array<JointStop, N> stop_{};
 };
+
+template <int N, int D, int M>
+BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
+    : constants_(body_of<N>(setup.robot)),
+      robot_(setup.robot),
+      cords_(setup.robot),
+      rubs_(constants_, setup.robot) {
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
+    const robot::Joint& joint = robot_.joints[j];
+    damping_[j] = joint.damping + joint.damper;
+    spring_[j] = joint.spring;
+    spring_angle_[j] = joint.spring_angle;
+    stop_[j] = JointStop(joint.stop);
+    dry_[j] = setup.start.blocked[j] ? blocked_bound : joint.dry_friction;
+    const double on = constants_.hangs_on_link(j) ? start_.at[first_link + constants_.on(j)] : 0.0;
+    start_.at[first_link + j] = on + setup.start.joint_angle[j];
+  }
+  start_.at[along_track] = setup.start.trolley;
+  start_.at[up] = setup.start.lift;
+  choose_steps(setup.steps.body);
+}
+
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
+  double places = 0;
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) places += m.at[c];
+  return places;
+}
+
+// Chooses the step that suits all, and the longer ones without the ground or with its damper
+// relaxed.
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::choose_steps(double body_step) {
+  const auto rates = [&](const Motion& m) {
+    return rubs_.fastest_rates(Body<N>(constants_, m), m, robot_);
+  };
+  // A light foot is quick where the ground pushes past its centre. Poses all over: each link turns
+  // by another irrational number of turns from one to the next (5 + 7 j is no square).
+  const FastestRates at_start = rates(start_);
+  FastestRates elsewhere;
+  Motion m = start_;
+  for (int k = 0; k < 100; ++k) {
+    for (std::size_t j = 0; j < constants_.links(); ++j)
+      m.at[first_link + j] += 2.0 * std::numbers::pi * std::sqrt(static_cast<double>(5 + 7 * j));
+    elsewhere.include(rates(m));
+  }
+  lift_per_force_ = std::max(at_start.lift, elsewhere.lift);
+  using Contacts = FrictionContacts<N, D>;
+  const auto suited = [&](double ground, double damper) {  // by their shares in the rates
+    const auto rate = [&](const FastestRates& r) {
+      return std::max({r.joints, ground * r.ground_spring, damper * r.ground_damper});
+    };
+    return stable_step(body_step, rate(at_start), rate(elsewhere));
+  };
+  node_step_ = suited(1, 1);
+  const auto steps = [&](double longer) {
+    return static_cast<std::int64_t>(longer / node_step_ + 1e-9);
+  };
+  steps_in_air_ = steps(suited(0, 0));
+  steps_on_ground_ = steps(suited(1, Contacts::stable_explicit / Contacts::stable_relaxed));
+  rubs_.relax_beyond(node_step_ * (1 + 1e-9));
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::set_rates(Motion& m, std::initializer_list<double> joint_rates,
+                                       double x_rate, double y_rate) const {
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
+    const double on = constants_.hangs_on_link(j) ? m.rate[first_link + constants_.on(j)] : 0.0;
+    m.rate[first_link + j] = on + (j < joint_rates.size() ? joint_rates.begin()[j] : 0.0);
+  }
+  m.rate[along_track] = x_rate;
+  m.rate[up] = y_rate;
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::route(double, const Motion& m, air::Ends<M>& ends,
+                                   Arms& arms) const noexcept {
+  std::array<double, N> angle, rate;
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
+    angle[j] = joint_angle(m, j);
+    rate[j] = joint_rate(m, j);
+  }
+  cords_.at(angle.data(), rate.data(), ends.length, ends.rate, arms);
+  ends.travel = m.at[up];
+  ends.travel_rate = m.rate[up];
+}
+
+// One-sided at both ends of the stroke.
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::cylinder_stop(const Motion& m) const noexcept {
+  const robot::Cylinder& c = robot_.cylinder;
+  const double below = -m.at[up], above = m.at[up] - c.stroke;
+  if (below > 0) {
+    const double push = c.stop_stiffness * below - c.stop_damping * m.rate[up];
+    return push > 0 ? push : 0.0;
+  }
+  if (above > 0) {
+    const double push = c.stop_stiffness * above + c.stop_damping * m.rate[up];
+    return push > 0 ? -push : 0.0;
+  }
+  return 0;
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms& arms,
+                                  const air::Lanes<M>& tension, double piston_force,
+                                  Load& out) const noexcept {
+  std::array<double, N> torque{};
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
+    const double angle = joint_angle(m, j), rate = joint_rate(m, j);
+    out.passive_torque[j] = -damping_[j] * rate - spring_[j] * (angle - spring_angle_[j]);
+    out.passive_torque[j] += stop_[j].torque(angle, rate);
+    torque[j] = out.passive_torque[j];
+  }
+  cords_.each(arms, [&](int i, std::size_t j, double arm) { torque[j] += arm * tension[i]; });
+
+  out.force = {};
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
+    out.force[first_link + j] = torque[j];
+    if (constants_.hangs_on_link(j)) out.force[first_link + constants_.on(j)] -= torque[j];
+  }
+
+  const double beyond = m.at[along_track] - robot_.trolley.track_length;
+  if (robot_.trolley.present && beyond > 0) {
+    const double push =
+        robot_.trolley.stop_stiffness * beyond + robot_.trolley.stop_damping * m.rate[along_track];
+    out.force[along_track] -= push > 0 ? push : 0.0;
+  }
+  if (!constants_.held[up])
+    out.force[up] += piston_force - robot_.cylinder.damping * m.rate[up] + cylinder_stop(m);
+
+  out.normal = {};
+  for (int i = 0; i < rubs_.discs(); ++i) {
+    const double depth = body.depth[static_cast<std::size_t>(i)];
+    if (depth <= 0) continue;
+    const DiscAt<N>& disc = body.contact[static_cast<std::size_t>(i)];
+    const double push = rubs_.push(depth, disc, m);
+    out.normal[static_cast<std::size_t>(i)] = push;
+    if (push <= 0) continue;
+    for (std::size_t c = 0; c < constants_.coordinates(); ++c) out.force[c] += push * disc.rise[c];
+  }
+}
+
+template <int N, int D, int M>
+auto BodyMechanism<N, D, M>::accelerate(const Pose& body, const Motion& m, const Load& load,
+                                        const Forces& held) const noexcept -> Acceleration {
+  Coordinates<N> force = load.force;
+  const Coordinates<N> rub = rubs_.generalised(body, m, held);
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) force[c] += rub[c];
+  return body.accelerations(force);
+}
+
+template <int N, int D, int M>
+auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Arms& arms,
+                                     const air::Lanes<M>& friction_bound, double trolley_bound,
+                                     const Load& load) noexcept -> Acceleration {
+  const Acceleration free = body.accelerations(load.force);
+  Forces bound{};
+  for (std::size_t j = 0; j < constants_.links(); ++j) bound[j] = dry_[j];
+  cords_.each(arms, [&](int i, std::size_t j, double arm) {
+    bound[j] += std::abs(arm) * friction_bound[i];
+  });
+  bound[FrictionContacts<N, D>::trolley] = trolley_bound;
+  bound[FrictionContacts<N, D>::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)
+    bound[FrictionContacts<N, D>::first_disc + i] = rubs_.friction(i) * load.normal[i];
+  rubs_.prepare(body, m, free, bound, load.normal);
+  return free;
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::move(Motion& out, const Motion& from, double h, const Motion& rates,
+                                  const Acceleration& a) const noexcept {
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
+    out.at[c] = from.at[c] + h * rates.rate[c];
+    out.rate[c] = from.rate[c] + h * a[c];
+  }
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::glide(Motion& m, double h, const Acceleration& a) const noexcept {
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
+    m.at[c] += h * (m.rate[c] + 0.5 * h * a[c]);
+    m.rate[c] += h * a[c];
+  }
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::finish(Motion& now, double h, const Motion* const (&stage)[4],
+                                    const Acceleration (&a)[4]) const noexcept {
+  const double sixth = h / 6.0;
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
+    now.at[c] += sixth * (stage[0]->rate[c] + 2.0 * stage[1]->rate[c] + 2.0 * stage[2]->rate[c] +
+                          stage[3]->rate[c]);
+    now.rate[c] += sixth * (a[0][c] + 2.0 * a[1][c] + 2.0 * a[2][c] + a[3][c]);
+  }
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::add_torque(const Arms& arms, int muscle, double tension,
+                                        std::array<double, most_joints>& torque) const noexcept {
+  for (std::size_t s = 0; s < MuscleRouting::most; ++s)
+    if (const int j = cords_.joint(muscle, static_cast<int>(s)); j >= 0)
+      torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
+}
+
+// A foot is at its leg's last link's end; the ground's force on it is that on all its discs.
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const Forces& held,
+                                  const Load& load, Truth& out) const noexcept {
+  out.x = m.at[along_track];
+  out.x_rate = m.rate[along_track];
+  out.lift = m.at[up];
+  out.lift_rate = m.rate[up];
+  const Body<N> body(constants_, m);
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
+    out.angle[j] = joint_angle(m, j);
+    out.rate[j] = joint_rate(m, j);
+  }
+  for (std::size_t f = 0; f < rubs_.feet(); ++f) {
+    const typename FrictionContacts<N, D>::Path& path = rubs_.leg(f);
+    for (std::size_t k = path.first; k < path.count; ++k) {
+      out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
+      out.foot[f].y += path.reach[k] * body.sin(path.link[k]);
+    }
+  }
+  for (int i = 0; i < rubs_.discs(); ++i) {
+    FootTruth& foot = out.foot[rubs_.foot_of(i)];
+    const double push = rubs_.push(rubs_.depth(body, m, i), rubs_.disc(body, m, i), m);
+    out.disc_force[static_cast<std::size_t>(i)] = push;
+    foot.force_y += push;
+    if (push > 0)
+      foot.force_x += held[static_cast<std::size_t>(FrictionContacts<N, D>::first_disc + i)];
+  }
+  if (robot_.rollers.present) tell_rollers(body, m, a, held, load, out);
+}
+
+// The body's upward force on what hangs on it at one of its first links  [N].
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::carried(const Body<N>& body, const Motion& m, const Acceleration& a,
+                                       std::size_t first, const Truth& truth) const noexcept {
+  double force = constants_.hanging[first] * (a[up] + constants_.gravity);
+  for (std::size_t i = 0; i < constants_.links(); ++i) {
+    const double rate = m.rate[first_link + i];
+    if (constants_.first_on(i) == first)
+      force += constants_.first_moment[i] *
+               (body.cos(i) * a[first_link + i] - body.sin(i) * rate * rate);
+  }
+  for (std::size_t f = 0; f < rubs_.feet(); ++f)
+    if (rubs_.leg(f).link[0] == first) force -= truth.foot[f].force_y;
+  return force;
+}
+
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::tell_rollers(const Body<N>& body, const Motion& m,
+                                          const Acceleration& a, const Forces& held,
+                                          const Load& load, Truth& out) const noexcept {
+  const double hung = constants_.lifted_mass;
+  FootTruth ground;
+  for (const FootTruth& foot : out.foot) {
+    ground.force_x += foot.force_x;
+    ground.force_y += foot.force_y;
+  }
+  Hanging h{.acceleration = a[along_track], .lift = m.at[up]};
+  h.force_x = hung * a[along_track] - ground.force_x;
+  h.force_y = hung * (a[up] + constants_.gravity) - ground.force_y;
+  for (std::size_t i = 0; i < constants_.links(); ++i) {
+    h.add(constants_.first_moment[i], body.sin(i), body.cos(i), m.rate[first_link + i],
+          a[first_link + i]);
+    if (constants_.hangs_on_link(i)) continue;
+    h.torque += out.torque[i] + load.passive_torque[i] + held[i];
+    if (constants_.attachment[i] != 0)
+      h.torque += constants_.attachment[i] * carried(body, m, a, i, out);
+  }
+  const RollerLoads loads = roller_loads(robot_, h);
+  out.roller_front = loads.front;
+  out.roller_rear = loads.rear;
+}
 
 }  // namespace sinew::plant

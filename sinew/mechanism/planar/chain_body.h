@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <type_traits>
 
@@ -18,6 +19,7 @@
 #include "sinew/mechanism/planar/contacts.h"
 #include "sinew/mechanism/planar/layout.h"
 #include "sinew/mechanism/planar/stops.h"
+#include "sinew/units/pack.h"
 
 namespace sinew::plant {
 
@@ -60,6 +62,7 @@ ChainModel<N> chain_model_of(const Setup& setup) {
 template <int N, class S = double>
 class ChainBody {
  public:
+  using Scalar = S;
   using Motion = plant::GeneralizedState<N, S>;
   using Acceleration = GeneralizedVector<N, S>;
   using Forces = typename Contacts<N, S>::Forces;
@@ -83,7 +86,7 @@ class ChainBody {
   const ChainModel<N, S>& model() const noexcept { return model_; }
   const ChainRoutingOf<S>& routes() const noexcept { return routes_; }
   int muscles() const noexcept { return routes_.count; }
-  Pose pose(double, const Motion& motion) const noexcept { return Pose(model_.chain, motion); }
+  Pose pose(const S&, const Motion& motion) const noexcept { return Pose(model_.chain, motion); }
 
   // Returns the angle of a joint [rad], and its rate [rad/s].
   S joint_angle(const Motion& m, std::size_t j) const noexcept {
@@ -101,7 +104,7 @@ class ChainBody {
   }
 
   // Lengths of the muscles and their rates, from the joints' angles.
-  void route(double, const Motion& motion, Ends& ends, Arms&) const noexcept {
+  void route(const S&, const Motion& motion, Ends& ends, Arms&) const noexcept {
     std::array<S, N> travel, rate;
     for (int j = 0; j < N; ++j) {
       travel[j] = motion.angle[j] - (j > 0 ? motion.angle[j - 1] : S(0.0)) - model_.rest[j];
@@ -255,5 +258,37 @@ class ChainBody {
     }
   }
 };
+
+// Do the muscles of both pull the same joints? Only then can they stand side by side.
+inline bool alike(const ChainRouting& a, const ChainRouting& b) {
+  return a.count == b.count && a.joint == b.joint;
+}
+
+// All routes must be alike.
+template <std::size_t W>
+ChainRoutingOf<units::Pack<W>> side_by_side(const std::array<const ChainRouting*, W>& each) {
+  ChainRoutingOf<units::Pack<W>> out;
+  out.count = each[0]->count;
+  out.padded = each[0]->padded;
+  out.joint = each[0]->joint;
+  for (int i = 0; i < out.padded; ++i)
+    for (std::size_t k = 0; k < W; ++k) {
+      out.mount[i].set(static_cast<int>(k), each[k]->mount[i]);
+      out.moment_arm[i].set(static_cast<int>(k), each[k]->moment_arm[i]);
+    }
+  return out;
+}
+
+// Returns W bodies as one, each in its lane.
+template <int N, std::size_t W>
+ChainBody<N, units::Pack<W>> side_by_side(const std::array<const ChainBody<N>*, W>& each) {
+  std::array<ChainModel<N>, W> models;
+  std::array<const ChainRouting*, W> routes;
+  for (std::size_t k = 0; k < W; ++k) {
+    models[k] = each[k]->model();
+    routes[k] = &each[k]->routes();
+  }
+  return {units::side_by_side<ChainModel<N, units::Pack<W>>>(models), side_by_side(routes)};
+}
 
 }  // namespace sinew::plant

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "sinew/mechanism/planar/friction_contacts_members.h"
+#include "sinew/mechanism/planar/friction_contacts.h"
 #include "sinew/mechanism/planar/test_setups.h"
 #include "sinew/world/machine.h"
 

@@ -39,6 +39,7 @@ class SlideMechanism {
  public:
   static constexpr bool cuts_steps = true;
 
+  using Scalar = double;
   using Setup = StandSetup;
   using Senses = StandSenses;
   using Ends = StandEnds;

@@ -11,7 +11,7 @@
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/recorded_run.h"
 #include "sinew/run/simulation/simulation.h"
-#include "sinew/world/packs/batch.h"
+#include "sinew/world/batch.h"
 
 namespace sinew::run {
 
@@ -117,7 +117,7 @@ class Group {
     try {
       batch_.replace(k, setup);
       running_[static_cast<std::size_t>(k)] =
-          std::make_unique<Lane>(e, batch_.lane(k), lanes_.recorded);
+          std::make_unique<Lane>(e, plant::LegLane(batch_, k), lanes_.recorded);
       return;
     } catch (...) {
       thrown = std::current_exception();

@@ -4,7 +4,7 @@
 //                 .done = […](const Experiment& e, Outcome outcome) { … }});
 //
 // Each has its own controllers, recorder, ticks and end, and goes by the one loop (loop.h); only
-// the nodes of the machines are integrated side by side (world/packs). Where a run ends, the next
+// the nodes of the machines are integrated side by side (world/batch.h). Where a run ends, the next
 // experiment takes its lane. An outcome has the bits that run() answers, whoever goes beside it
 // and in whatever order. What cannot go in lanes is run by itself.
 #pragma once

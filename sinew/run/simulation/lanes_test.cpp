@@ -10,7 +10,7 @@
 
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/test_same.h"
-#include "sinew/world/packs/batch.h"
+#include "sinew/world/batch.h"
 #include "tests/places.h"
 
 namespace sinew::run::lanes_test {

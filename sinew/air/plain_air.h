@@ -1,4 +1,4 @@
-// air/packs/plain_air.h - the air of W machines side by side that have nothing but muscles between
+// air/plain_air.h - the air of W machines side by side that have nothing but muscles between
 // valves on a constant supply: network.h's law with a pack in the place of each number, and the
 // muscles one after the other. Each machine has the bits that it has alone.
 //
@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "sinew/air/braid_law.h"
 #include "sinew/air/lanes.h"
@@ -34,7 +35,11 @@ class PlainAir {
   struct Shares {
     Lanes inlet, exhaust;  // of the valves' areas that are open [-]
   };
+  using Valves = Shares;
   using Memory = Reference<Most, S>;
+  struct Course {  // nothing goes ahead of a step
+    static constexpr std::uint64_t muscles = 0;
+  };
   struct Answer : Pull<Most, S> {
     Lanes inflow, outflow;  // from the supply, to the atmosphere [kg/s]
   };
@@ -59,8 +64,8 @@ class PlainAir {
   void set_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
 
   // The law itself, of all machines at once.
-  void evaluate(const Ends& ends, const State& state, const Shares& shares, const Memory& memory,
-                Answer& out) const noexcept;
+  void evaluate(const S& t, const Ends& ends, const State& state, const Shares& shares,
+                const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
 
   // At a node of the machines in `where`, with the look at it: their references follow. Answers
   // each one's first muscle whose density is none, or -1.
@@ -68,8 +73,12 @@ class PlainAir {
 
   // The stages of RK4, as AirNetwork's: the masses h along one look's rates; the state, by the
   // weighted mean of four. `h` is nothing in lanes that wait.
-  void move(State& out, const State& from, const S& h, const Answer& look) const noexcept;
-  void finish(State& state, const S& h, const Answer* const (&look)[4]) const noexcept;
+  void plan(const S&, const S&, const Ends&, const State&, const Shares&, const Memory&,
+            Course&) const noexcept {}
+  void move(State& out, const State& from, const S& h, const Answer& look, const Shares& shares,
+            const Course& course) const noexcept;
+  void finish(State& state, const S& h, const Answer* const (&look)[4], const Shares& shares,
+              const Course& course) const noexcept;
 
  private:
   // A muscle and its two valves.
@@ -194,8 +203,9 @@ void PlainAir<Most, W>::set_shares(int lane, const AirValves<Most>& valves,
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::evaluate(const Ends& ends, const State& state, const Shares& shares,
-                                 const Memory& memory, Answer& out) const noexcept {
+void PlainAir<Most, W>::evaluate(const S&, const Ends& ends, const State& state,
+                                 const Shares& shares, const Memory& memory, Answer& out,
+                                 std::uint64_t) const noexcept {
   for (int i = 0; i < size_; ++i) {
     const auto m = static_cast<std::size_t>(i);
     const Asked<S> at{ends.length[i],    ends.rate[i], state.mass[i],          shares.inlet[i],
@@ -310,15 +320,15 @@ std::array<int, W> PlainAir<Most, W>::remember(const Mask& where, const Answer& 
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::move(State& out, const State& from, const S& h,
-                             const Answer& look) const noexcept {
+void PlainAir<Most, W>::move(State& out, const State& from, const S& h, const Answer& look,
+                             const Shares&, const Course&) const noexcept {
   for (int i = 0; i < size_; ++i)
     out.mass[i] = from.mass[i] + h * (look.inflow[i] - look.outflow[i]);
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::finish(State& state, const S& h,
-                               const Answer* const (&look)[4]) const noexcept {
+void PlainAir<Most, W>::finish(State& state, const S& h, const Answer* const (&look)[4],
+                               const Shares&, const Course&) const noexcept {
   const S sixth = h / 6.0;
   const auto mean = [&](const S& a, const S& b, const S& c, const S& d) {
     return S(sixth * (a + 2.0 * b + 2.0 * c + d));

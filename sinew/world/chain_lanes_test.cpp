@@ -1,16 +1,18 @@
 // Machines in a batch have the bits of each alone: in any lane, beside any others, however far each
 // is asked to go at a time.
-#include "sinew/world/packs/chain_batch_lane.h"
+#include "sinew/world/chain_lanes.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "sinew/mechanism/planar/test_setups.h"
+#include "sinew/world/batch.h"
 
-namespace sinew::plant::chain_batch_test {
+namespace sinew::plant::machines_in_lanes_test {
 namespace {
 
 double between(std::mt19937& random, double low, double high) {
@@ -45,13 +47,13 @@ template <int W>
 void expect_batch_alone(std::mt19937& random, double& stood, std::int64_t& nodes) {
   std::vector<Setup> setups;
   for (int k = 0; k < W; ++k) setups.push_back(random_leg(random));
-  ChainBatch<2, W> batch{std::span<const Setup, static_cast<std::size_t>(W)>(setups)};
+  ChainLanes<2, W> batch{std::span<const Setup, static_cast<std::size_t>(W)>(setups)};
   std::vector<std::unique_ptr<ChainWorld<2>>> alone;
   for (const Setup& s : setups) alone.push_back(std::make_unique<ChainWorld<2>>(s));
 
   std::array<signals::Tick, W> now{};
   for (int turn = 0; turn < 60; ++turn) {
-    typename ChainBatch<2, W>::Instants until{};
+    typename ChainLanes<2, W>::Instants until{};
     for (std::size_t k = 0; k < W; ++k) {
       now[k] += static_cast<signals::Tick>(random() % 120);
       until[k] = static_cast<double>(now[k]) * signals::tick_seconds;
@@ -104,18 +106,19 @@ void expect_batches_alone() {
   EXPECT_GT(nodes, 5000 * W);
 }
 
-TEST(ChainBatch, MachinesOfABatchAreThoseAlone) {
+TEST(ChainLanes, MachinesOfABatchAreThoseAlone) {
   expect_batches_alone<2>();
-  expect_batches_alone<4>();
+  if (Batch::widest() >= 4) expect_batches_alone<4>();
+  if (Batch::widest() >= 8) expect_batches_alone<8>();
 }
 
 // One whose air runs away is told as it is alone, and the others go on.
-TEST(ChainBatch, AFailureIsOneMachinesOwn) {
+TEST(ChainLanes, AFailureIsOneMachinesOwn) {
   std::vector<plant::Setup> setups(2, leg_with_muscles(4.95, 5.40));
   setups[1].robot.links[1].inertia = 1e-12, setups[1].robot.links[1].mass = 1e-9;
   setups[1].robot.foot.mass = 0;
   setups[1].start.pressure = 5e5;
-  ChainBatch<2, 2> batch{std::span<const plant::Setup, 2>(setups)};
+  ChainLanes<2, 2> batch{std::span<const plant::Setup, 2>(setups)};
   ChainWorld<2> well(setups[0]), ill(setups[1]);
   batch.advance({0.5, 0.5});
   well.advance(0.5), ill.advance(0.5);
@@ -127,17 +130,17 @@ TEST(ChainBatch, AFailureIsOneMachinesOwn) {
   expect_same(batch.world(0).truth(0.5), well.truth(0.5));
 }
 
-TEST(ChainBatch, OnlyPlainMachinesWithLikeRoutesStandSideBySide) {
+TEST(ChainLanes, OnlyPlainMachinesWithLikeRoutesStandSideBySide) {
   std::vector<plant::Setup> setups(2, leg_with_muscles(4.95, 5.40));
   const std::span<const plant::Setup, 2> both(setups);
-  EXPECT_NO_THROW((ChainBatch<2, 2>(both)));
+  EXPECT_NO_THROW((ChainLanes<2, 2>(both)));
   std::swap(setups[1].robot.muscles[1], setups[1].robot.muscles[2]);
-  EXPECT_THROW((ChainBatch<2, 2>(both)), std::invalid_argument);
+  EXPECT_THROW((ChainLanes<2, 2>(both)), std::invalid_argument);
   setups[1] = setups[0];
   setups[1].muscles[0].leak.area = 1e-8;
-  EXPECT_FALSE((ChainBatch<2, 2>::holds(setups[1])));
-  EXPECT_THROW((ChainBatch<2, 2>(both)), std::invalid_argument);
+  EXPECT_FALSE((ChainLanes<2, 2>::holds(setups[1])));
+  EXPECT_THROW((ChainLanes<2, 2>(both)), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace sinew::plant::chain_batch_test
+}  // namespace sinew::plant::machines_in_lanes_test

@@ -1,5 +1,5 @@
 // Machines side by side: the air of each has the bits that it has alone.
-#include "sinew/air/packs/plain_air.h"
+#include "sinew/air/plain_air.h"
 
 #include <gtest/gtest.h>
 
@@ -86,10 +86,10 @@ void step_together(const PlainAir<most, W>& air, const units::Pack<W>& h, Togeth
   typename PlainAir<most, W>::State stage;
   const typename PlainAir<most, W>::Answer* looks[4] = {&t.look, &later[0], &later[1], &later[2]};
   for (int s = 0; s < 3; ++s) {
-    air.move(stage, t.state, s == 2 ? h : 0.5 * h, *looks[s]);
-    air.evaluate(further(t.ends, 1e-4 * (s + 1)), stage, t.shares, t.memory, later[s]);
+    air.move(stage, t.state, s == 2 ? h : 0.5 * h, *looks[s], t.shares, {});
+    air.evaluate(0, further(t.ends, 1e-4 * (s + 1)), stage, t.shares, t.memory, later[s]);
   }
-  air.finish(t.state, h, looks);
+  air.finish(t.state, h, looks, t.shares, {});
 }
 
 template <class One, class Packed>
@@ -174,7 +174,7 @@ void expect_machines_alone(std::mt19937& random, int& open, int& far) {
         far += std::abs(a.look.drift[i]) > gas::PowerSeries::reach;
       }
     }
-    air.evaluate(t.ends, t.state, t.shares, t.memory, t.look);
+    air.evaluate(0, t.ends, t.state, t.shares, t.memory, t.look);
     for (int k = 0; k < W; ++k)
       ASSERT_NO_FATAL_FAILURE(expect_alone(t, k, alone[static_cast<std::size_t>(k)], muscles));
 

@@ -1,5 +1,4 @@
 // Machines side by side: the body of each has the bits that it has alone.
-#include "sinew/world/packs/chain_lanes.h"
 
 #include <gtest/gtest.h>
 

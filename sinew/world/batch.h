@@ -1,0 +1,95 @@
+// world/batch.h - plain legs side by side (chain_lanes.h), in as many lanes as the processor has: 2
+// on every x86-64, 4 with AVX2, 8 with AVX-512; and one of them as a Port.
+//
+//   Batch batch(Batch::widest(), setup);       // all of it parked
+//   batch.replace(k, setup);                   // machine k, at its start
+//   LegLane lane(batch, k);                    // to be driven, read and looked at
+//   int ended = batch.go(turn);                // chain_lanes.h
+#pragma once
+
+#include <limits>
+#include <variant>
+
+#include "sinew/world/chain_lanes.h"
+
+namespace sinew::plant {
+
+class Batch {
+  template <int W>
+  using Legs = ChainLanes<2, W>;
+
+ public:
+  // Returns how many lanes this processor has.
+  static int widest();
+  // Returns whether this machine can go side by side with others; and these two.
+  static bool holds(const Setup& setup) { return Legs<2>::holds(setup); }
+  static bool alike(const Setup& a, const Setup& b) { return Legs<2>::alike(a, b); }
+
+  // At most so many lanes, at least 2. All are parked; `like` is one that shall be held.
+  Batch(int most, const Setup& like);
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  // Calls `use` with the lanes.
+  template <class Use>
+  decltype(auto) visit(const Use& use) {
+    return std::visit(use, legs_);
+  }
+  template <class Use>
+  decltype(auto) visit(const Use& use) const {
+    return std::visit(use, legs_);
+  }
+
+  // Returns how many lanes there are.
+  int width() const noexcept {
+    return visit([](const auto& legs) { return legs.width; });
+  }
+
+  // Throws std::invalid_argument for a machine that is not held, or not like the others.
+  void replace(int k, const Setup& setup) {
+    visit([&](auto& legs) { legs.replace(k, setup); });
+  }
+
+  static constexpr double over = Legs<2>::over;
+  // Runs all of them as ChainLanes does. Returns what it returns.
+  template <class Turn>
+  int go(const Turn& turn) noexcept {
+    return visit([&](auto& legs) { return legs.go(turn); });
+  }
+
+ private:
+  std::variant<Legs<2>, Legs<4>, Legs<8>> legs_;
+};
+
+// One leg of a batch, which outlives it, as a Port and as a World.
+class LegLane final : public signals::Port {
+ public:
+  using World = ChainWorld<2>;
+  using State = World::State;
+
+  LegLane(Batch& batch, int k) : batch_(&batch), k_(k) {}
+
+  signals::Status start(const signals::Scan& scan) noexcept override;
+  signals::Status drive(signals::Edge edge) noexcept override;
+  signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
+  signals::Status stop(signals::Tick now) noexcept override;
+
+  // As World's.
+  Truth truth(double t) noexcept;
+  void advance(double t) noexcept;
+  const air::Failure& failure() const noexcept;
+  std::int64_t nodes() const noexcept;
+  double time() const noexcept { return world().time(); }
+  double air_mass() const noexcept { return world().air_mass(); }
+  double shortest_step() const noexcept { return world().shortest_step(); }
+  const State& state() const noexcept { return world().state(); }
+  void restore(const State& state) noexcept;
+
+ private:
+  World& world() const noexcept;
+
+  Batch* batch_;
+  int k_;
+};
+
+}  // namespace sinew::plant

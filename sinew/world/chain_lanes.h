@@ -1,0 +1,484 @@
+// world/chain_lanes.h - W plain machines side by side: chains whose muscles are filled through
+// valves from a constant supply. Each is a World, and has the bits that it has alone.
+//
+// The nodes are integrated in lanes (lane_nodes.h); readings look ahead from what the lanes have;
+// all that is rare a World does by itself, to which its lane is taken out. Each machine has its own
+// steps, edges and failures. They go in lockstep by node, not by time: a machine that is not to go
+// on waits, and its lane is calculated and thrown away.
+//
+//   go(turn)         runs all of them, each by its own loop: turn(k) is called whenever machine k
+//                    has reached the instant that it returned last
+//   advance(until)   commits every node up to each machine's own instant, many at once
+//   drive, read, …   of machine k, as a World's; a node that only this one needs is committed alone
+//   world(k)         machine k as it is, for all that a World does: truths, saving. It follows
+//                    its lane when it is called for; where it goes on by itself, the lane follows
+//                    it
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+
+#include "sinew/world/chain_world.h"
+#include "sinew/world/lane_nodes.h"
+
+namespace sinew::plant {
+
+template <int N, int W>
+class ChainLanes {
+  static constexpr auto lanes = static_cast<std::size_t>(W);
+
+ public:
+  using World = ChainWorld<N>;
+  using Instants = std::array<double, lanes>;
+  static constexpr int width = W;
+  static constexpr double over = std::numeric_limits<double>::infinity();
+
+  // Returns whether this machine can go side by side with others; alike() has with which.
+  static bool holds(const Setup& setup);
+  static bool alike(const Setup& a, const Setup& b) {
+    return plant::alike(chain_routing_of(a.robot), chain_routing_of(b.robot));
+  }
+
+  // Throws std::invalid_argument where one of the machines is not held or not like the first.
+  explicit ChainLanes(std::span<const Setup, lanes> setups);
+
+  // Commits every node of machine k up to until[k]  [s].
+  void advance(const Instants& until) noexcept;
+
+  // Runs the machines that are not parked. turn(k) runs machine k's loop as far as its nodes reach
+  // and returns the instant up to which every node of it can be committed [s], or `over`: then
+  // machine k is parked. Returns its k; -1 when all are parked.
+  template <class Turn>
+  int go(const Turn& turn) noexcept;
+  void park(int k) noexcept { parked_[static_cast<std::size_t>(k)] = true; }
+
+  // Puts another machine, at its start, in the place of machine k. Throws as the constructor does.
+  void replace(int k, const Setup& setup);
+
+  // Machine k's part of a Port, and of a World.
+  signals::Status start(int k, const signals::Scan& scan) noexcept;
+  signals::Status drive(int k, const signals::Edge& edge) noexcept;
+  signals::Reading read(int k, signals::Channel channel, signals::Tick now) noexcept;
+  signals::Status stop(int k) noexcept;
+  Truth truth(int k, double t) noexcept;
+  void advance(int k, double t) noexcept;
+  const air::Failure& failure(int k) const noexcept {
+    return failure_[static_cast<std::size_t>(k)];
+  }
+  std::int64_t nodes(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
+
+  // Returns machine k as it is.
+  World& world(int k) noexcept;
+
+  // Machine k continues from there: its own state, or one of a world with an equal setup.
+  void restore(int k, const typename World::State& state) noexcept;
+
+ private:
+  using Integrated = LaneNodes<N, W>;
+  using S = units::Pack<W>;
+  using Mask = units::PackMask<W>;
+  using Worlds = std::array<std::unique_ptr<World>, lanes>;
+
+  // Machine k as its senses evaluate it (planar/senses.h): as a World, from its lane.
+  class Sensed;
+
+  [[noreturn]] static void refuse() {
+    throw std::invalid_argument("machines that cannot go side by side");
+  }
+  static Worlds worlds_of(std::span<const Setup, lanes> setups);
+  static ChainBody<N, S> bodies(const Worlds& worlds);
+  static typename Integrated::Air airs(const Worlds& worlds);
+
+  double next_node(int k) const noexcept;
+  Mask only(int k) const noexcept;
+  void follow(int k) noexcept;
+  void glance(int k) noexcept;
+  void commit(const Mask& goes) noexcept;
+  void move_valves(const Mask& goes) noexcept;
+  void look_for_failures(const Mask& goes, const std::array<int, W>& failed) noexcept;
+  template <class Packed, class One, class Put>
+  void each_number(Packed& packed, One& one, const Put& put) const noexcept;
+  void take(int k) noexcept;
+  void bring(int k) noexcept;
+
+  Worlds worlds_;
+  Integrated nodes_of_all_;
+  typename Integrated::State state_;
+
+  // As World::State's, of each machine.
+  Instants time_{}, step_{}, change_{};  // of the node; between nodes; when a valve moves next [s]
+  std::array<std::int64_t, lanes> multiple_{}, nodes_{};
+  std::array<air::Failure, lanes> failure_{};
+  std::array<bool, lanes> behind_{};  // the machine's World is
+
+  typename Integrated::Glance glance_;  // of whole steps: what an evaluation between nodes uses
+  std::array<bool, lanes> glanced_{};   // it holds for the machine's node
+  Instants until_{};
+  std::array<bool, lanes> parked_{};
+};
+
+template <int N, int W>
+class ChainLanes<N, W>::Sensed {
+ public:
+  Sensed(ChainLanes& all, int k) : b_(all), k_(k), l_(static_cast<std::size_t>(k)) {}
+
+  void advance(double t) noexcept { b_.advance(k_, t); }
+  const air::Failure& failure() const noexcept { return b_.failure_[l_]; }
+  bool ended() const noexcept { return b_.worlds_[l_]->ended(); }
+
+  const ChainMechanism<N>& mechanism() const noexcept { return b_.worlds_[l_]->mechanism(); }
+  typename ChainBody<N>::Arms arms() const noexcept { return {}; }
+  double friction_bound(int muscle) const noexcept {
+    return b_.state_.first.air.friction_bound[muscle][k_];
+  }
+  double bound(int contact) const noexcept { return b_.nodes_of_all_.body().bound(contact)[k_]; }
+
+  GeneralizedState<N> peek_motion(double t) noexcept {
+    b_.glance(k_);
+    const auto a = units::lane_of<GeneralizedVector<N>>(b_.glance_.acceleration, k_);
+    GeneralizedState<N> motion = units::lane_of<GeneralizedState<N>>(b_.state_.now.motion, k_);
+    mechanism().glide(motion, t - b_.time_[l_], a);
+    return motion;
+  }
+  struct Glanced {
+    std::array<double, N + 2> held;
+  };
+  Glanced glanced() const noexcept {
+    return {units::lane_of<std::array<double, N + 2>>(b_.glance_.held, k_)};
+  }
+
+  // A muscle's own tension and pressure; those of the others are not set.
+  struct Peek {
+    struct {
+      struct {
+        std::array<double, chain_muscles> tension, pressure;
+      } air;
+    } look;
+  };
+  Peek peek_muscle(double t, int i) noexcept {
+    const auto m = static_cast<std::size_t>(i);
+    const auto& s = b_.state_;
+    Peek p;
+    b_.glance(k_);
+    if (!(t > b_.time_[l_]) || failure()) {
+      p.look.air.tension[m] = s.first.air.tension[i][k_];
+      p.look.air.pressure[m] = s.first.air.pressure[i][k_];
+      return p;
+    }
+    typename ChainBody<N>::Ends ends;
+    typename ChainBody<N>::Arms no_arms;
+    mechanism().route(t, peek_motion(t), ends, no_arms);
+    const auto seen =
+        b_.nodes_of_all_.air().ahead(k_, i, ends.length[i], ends.rate[i], t - b_.time_[l_],
+                                     s.now.air, s.valves, s.memory, s.first.air);
+    p.look.air.tension[m] = seen.tension;
+    p.look.air.pressure[m] = seen.pressure;
+    return p;
+  }
+
+ private:
+  ChainLanes& b_;
+  int k_;
+  std::size_t l_;
+};
+
+template <int N, int W>
+bool ChainLanes<N, W>::holds(const Setup& setup) {
+  if (!robot::is_chain(setup.robot) || setup.robot.joints.size() != N) return false;
+  const air::AirNetwork<chain_muscles> air(setup.muscles, setup.air, setup.supply, setup.cylinder,
+                                           setup.faults);
+  return air.plain_for_good();
+}
+
+template <int N, int W>
+ChainLanes<N, W>::ChainLanes(std::span<const Setup, lanes> setups)
+    : worlds_(worlds_of(setups)), nodes_of_all_(bodies(worlds_), airs(worlds_)) {
+  for (int k = 0; k < W; ++k) take(k);
+  until_.fill(-over);
+}
+
+template <int N, int W>
+auto ChainLanes<N, W>::worlds_of(std::span<const Setup, lanes> setups) -> Worlds {
+  for (const Setup& s : setups)
+    if (!holds(s) || !alike(s, setups[0])) refuse();
+  Worlds worlds;
+  for (std::size_t k = 0; k < W; ++k) worlds[k] = std::make_unique<World>(setups[k]);
+  return worlds;
+}
+
+template <int N, int W>
+void ChainLanes<N, W>::replace(int k, const Setup& setup) {
+  const auto l = static_cast<std::size_t>(k);
+  const auto other = worlds_[l == 0 && W > 1 ? 1 : 0]->mechanism().routes();
+  if (!holds(setup) || !plant::alike(chain_routing_of(setup.robot), other)) refuse();
+  worlds_[l] = std::make_unique<World>(setup);
+  nodes_of_all_.body() = bodies(worlds_);
+  nodes_of_all_.air() = airs(worlds_);
+  take(k);
+  until_[l] = -over;
+  parked_[l] = false;
+}
+
+template <int N, int W>
+auto ChainLanes<N, W>::bodies(const Worlds& worlds) -> ChainBody<N, S> {
+  std::array<const ChainBody<N>*, lanes> each;
+  for (std::size_t k = 0; k < W; ++k) each[k] = &worlds[k]->mechanism();
+  return side_by_side(each);
+}
+
+template <int N, int W>
+auto ChainLanes<N, W>::airs(const Worlds& worlds) -> typename Integrated::Air {
+  std::array<const air::AirNetwork<chain_muscles>*, lanes> each;
+  for (std::size_t k = 0; k < W; ++k) each[k] = &worlds[k]->air();
+  return typename Integrated::Air(each);
+}
+
+template <int N, int W>
+double ChainLanes<N, W>::next_node(int k) const noexcept {
+  const auto l = static_cast<std::size_t>(k);
+  const double multiple = static_cast<double>(multiple_[l] + 1) * step_[l];
+  return change_[l] < multiple ? change_[l] : multiple;
+}
+
+template <int N, int W>
+auto ChainLanes<N, W>::only(int k) const noexcept -> Mask {
+  Mask mask = S(0.0) > 0.0;
+  mask.set(k, true);
+  return mask;
+}
+
+// Where the World itself has been driven, or has gone on, its lane follows.
+template <int N, int W>
+void ChainLanes<N, W>::follow(int k) noexcept {
+  const auto l = static_cast<std::size_t>(k);
+  if (behind_[l]) return;
+  change_[l] = worlds_[l]->state().valves.next_change;
+  if (worlds_[l]->nodes() != nodes_[l]) take(k);
+}
+
+template <int N, int W>
+template <class Turn>
+int ChainLanes<N, W>::go(const Turn& turn) noexcept {
+  for (int k = 0; k < W; ++k) follow(k);
+  for (;;) {
+    Mask goes = S(0.0) > 0.0;
+    bool any = false;
+    for (int k = 0; k < W; ++k) {
+      const auto l = static_cast<std::size_t>(k);
+      if (parked_[l]) continue;
+      while (failure_[l] || !(next_node(k) <= until_[l])) {
+        until_[l] = turn(k);
+        if (until_[l] < over) continue;
+        park(k);
+        return k;
+      }
+      goes.set(k, true);
+      any = true;
+    }
+    if (!any) return -1;
+    commit(goes);
+  }
+}
+
+template <int N, int W>
+void ChainLanes<N, W>::advance(const Instants& until) noexcept {
+  for (int k = 0; k < W; ++k) follow(k);
+  for (;;) {
+    Mask goes = S(0.0) > 0.0;
+    bool any = false;
+    for (int k = 0; k < W; ++k) {
+      const auto l = static_cast<std::size_t>(k);
+      const bool one = !failure_[l] && next_node(k) <= until[l];
+      goes.set(k, one);
+      any = any || one;
+    }
+    if (!any) return;
+    commit(goes);
+  }
+}
+
+template <int N, int W>
+void ChainLanes<N, W>::advance(int k, double t) noexcept {
+  follow(k);
+  while (!failure_[static_cast<std::size_t>(k)] && next_node(k) <= t) commit(only(k));
+}
+
+// The next node of the machines that go.
+template <int N, int W>
+void ChainLanes<N, W>::commit(const Mask& goes) noexcept {
+  S h = 0;
+  Mask steps = goes;
+  bool any = false;
+  for (int k = 0; k < W; ++k) {
+    if (!goes[k]) continue;
+    const auto l = static_cast<std::size_t>(k);
+    const double next = next_node(k);
+    const bool later = next > time_[l];
+    h.set(k, later ? next - time_[l] : 0.0);
+    steps.set(k, later);
+    any = any || later;
+    if (next >= static_cast<double>(multiple_[l] + 1) * step_[l]) ++multiple_[l];
+    if (later) time_[l] = next;
+    ++nodes_[l];
+    behind_[l] = true;
+    glanced_[l] = false;
+  }
+  if (any) nodes_of_all_.step(steps, h, state_);
+  move_valves(goes);
+  look_for_failures(goes, nodes_of_all_.prepare(goes, state_));
+}
+
+template <int N, int W>
+void ChainLanes<N, W>::move_valves(const Mask& goes) noexcept {
+  for (int k = 0; k < W; ++k) {
+    const auto l = static_cast<std::size_t>(k);
+    if (!goes[k] || change_[l] > time_[l]) continue;
+    typename World::State& s = worlds_[l]->borrow();
+    worlds_[l]->air().move_valves(time_[l], s.first.air, s.valves);
+    change_[l] = s.valves.next_change;
+    nodes_of_all_.air().set_shares(k, s.valves, state_.valves);
+  }
+}
+
+template <int N, int W>
+void ChainLanes<N, W>::look_for_failures(const Mask& goes,
+                                         const std::array<int, W>& failed) noexcept {
+  for (std::size_t k = 0; k < W; ++k) {
+    const int lane = static_cast<int>(k);
+    if (!goes[lane]) continue;
+    double places = state_.now.motion.x[lane];
+    for (int j = 0; j < N; ++j) places += state_.now.motion.angle[j][lane];
+    if (failed[k] >= 0)
+      failure_[k] = {.of = air::Failure::Of::air,
+                     .muscle = failed[k],
+                     .length = state_.first.ends.length[failed[k]][lane],
+                     .time = time_[k]};
+    else if (!air::is_place(places))
+      failure_[k] = {.of = air::Failure::Of::motion, .time = time_[k]};
+  }
+}
+
+// The friction of a whole step from each machine's node: of all at once, where one is asked for.
+template <int N, int W>
+void ChainLanes<N, W>::glance(int k) noexcept {
+  if (glanced_[static_cast<std::size_t>(k)]) return;
+  S h;
+  for (int i = 0; i < W; ++i) h.set(i, step_[static_cast<std::size_t>(i)]);
+  nodes_of_all_.glance(h, state_, glance_);
+  glanced_.fill(true);
+}
+
+template <int N, int W>
+signals::Status ChainLanes<N, W>::start(int k, const signals::Scan& scan) noexcept {
+  return worlds_[static_cast<std::size_t>(k)]->start(scan);
+}
+
+template <int N, int W>
+signals::Status ChainLanes<N, W>::drive(int k, const signals::Edge& edge) noexcept {
+  const auto l = static_cast<std::size_t>(k);
+  World& world = *worlds_[l];
+  follow(k);
+  if (world.ended()) return signals::Status::ended;
+  if (failure_[l]) return signals::Status::fault;
+  const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (edge.valve.index >= world.air().valves() || t < time_[l]) return signals::Status::invalid;
+  while (!failure_[l] && next_node(k) < t) commit(only(k));
+  typename World::State& s = world.borrow();
+  for (int i = 0; i < nodes_of_all_.air().muscles(); ++i)
+    s.first.air.pressure[i] = state_.first.air.pressure[i][k];
+  world.air().command(edge, t, s.first.air, s.valves);
+  change_[l] = s.valves.next_change;
+  return signals::Status::ok;
+}
+
+template <int N, int W>
+signals::Reading ChainLanes<N, W>::read(int k, signals::Channel channel,
+                                        signals::Tick now) noexcept {
+  const World& world = *worlds_[static_cast<std::size_t>(k)];
+  Sensed sensed(*this, k);
+  return reading(sensed, world.senses(), channel, now - world.lag(channel));
+}
+
+template <int N, int W>
+signals::Status ChainLanes<N, W>::stop(int k) noexcept {
+  const auto l = static_cast<std::size_t>(k);
+  worlds_[l]->borrow().ended = true;
+  return failure_[l] ? signals::Status::fault : signals::Status::ok;
+}
+
+template <int N, int W>
+Truth ChainLanes<N, W>::truth(int k, double t) noexcept {
+  advance(k, t);
+  return world(k).truth(t);
+}
+
+template <int N, int W>
+auto ChainLanes<N, W>::world(int k) noexcept -> World& {
+  const auto l = static_cast<std::size_t>(k);
+  if (behind_[l]) bring(k);
+  behind_[l] = false;
+  return *worlds_[l];
+}
+
+template <int N, int W>
+void ChainLanes<N, W>::restore(int k, const typename World::State& state) noexcept {
+  worlds_[static_cast<std::size_t>(k)]->restore(state);
+  take(k);
+}
+
+// put(lanes of all, numbers of one) for what a lane and a World have of each muscle.
+template <int N, int W>
+template <class Packed, class One, class Put>
+void ChainLanes<N, W>::each_number(Packed& packed, One& one, const Put& put) const noexcept {
+  each_of_air(packed.now.air, one.now.air, put);
+  each_of_look(packed.first, one.first, put);
+  put(packed.memory.y, one.memory.reference.y);
+  put(packed.memory.inverse_sigma, one.memory.reference.inverse_sigma);
+}
+
+// The lane follows its World.
+template <int N, int W>
+void ChainLanes<N, W>::take(int k) noexcept {
+  const auto l = static_cast<std::size_t>(k);
+  const typename World::State& s = worlds_[l]->state();
+  units::put_lane(s.now.motion, k, state_.now.motion);
+  units::put_lane(s.held, k, state_.held);
+  state_.trolley_bound.set(k, s.trolley_bound);
+  each_number(state_, s, [&](auto& packed, const auto& one) {
+    for (int i = 0; i < nodes_of_all_.air().muscles(); ++i) packed[i].set(k, one[i]);
+  });
+  nodes_of_all_.air().set_shares(k, s.valves, state_.valves);
+  time_[l] = s.time;
+  change_[l] = s.valves.next_change;
+  step_[l] = worlds_[l]->body_step();
+  multiple_[l] = s.multiple;
+  nodes_[l] = s.nodes;
+  failure_[l] = s.failure;
+  behind_[l] = false;
+  glanced_[l] = false;
+  nodes_of_all_.prepare_friction(state_);
+}
+
+// The World follows its lane.
+template <int N, int W>
+void ChainLanes<N, W>::bring(int k) noexcept {
+  const auto l = static_cast<std::size_t>(k);
+  typename World::State& s = worlds_[l]->borrow();
+  s.now.motion = units::lane_of<GeneralizedState<N>>(state_.now.motion, k);
+  s.held = units::lane_of<typename ChainBody<N>::Forces>(state_.held, k);
+  s.trolley_bound = state_.trolley_bound[k];
+  each_number(state_, s, [&](const auto& packed, auto& one) {
+    for (int i = 0; i < nodes_of_all_.air().muscles(); ++i) one[i] = packed[i][k];
+  });
+  s.time = time_[l];
+  s.multiple = multiple_[l];
+  s.nodes = nodes_[l];
+  s.failure = failure_[l];
+  worlds_[l]->resume();
+}
+
+}  // namespace sinew::plant

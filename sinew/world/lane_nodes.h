@@ -1,0 +1,154 @@
+// world/lane_nodes.h - W plain chains with their air, integrated side by side: nodes.h with a pack
+// in the place of each number. All that is compiled for processors with wide registers, each width
+// in a file of its own (lanes_4.cpp, lanes_8.cpp); chain_lanes.h uses it.
+//
+// Each definition here has its W in its name, and calls nothing of one machine that is not compiled
+// elsewhere: so the linker has nothing to confuse with what runs on every processor.
+#pragma once
+
+#include <array>
+
+#include "sinew/air/plain_air.h"
+#include "sinew/mechanism/planar/chain_body.h"
+#include "sinew/world/nodes.h"
+
+namespace sinew::plant {
+
+template <int N, int W>
+class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain_muscles, W>> {
+ public:
+  using Body = ChainBody<N, units::Pack<W>>;
+  using Air = air::PlainAir<chain_muscles, W>;
+  using Integrated = Nodes<Body, Air>;
+  using typename Integrated::Look;
+  using typename Integrated::Moving;
+  using typename Integrated::S;
+  using Mask = units::PackMask<W>;
+
+  // The state of all machines, as World::State's of one.
+  struct State {
+    Moving now{};
+    typename Air::Shares valves{};
+    typename Air::Memory memory{};
+    typename Body::Forces held{};
+    S trolley_bound = 0;
+    Look first{};
+  };
+  // Friction and accelerations of a step from the node.
+  struct Glance {
+    typename Body::Forces held{};
+    typename Body::Acceleration acceleration{};
+  };
+
+  LaneNodes(const Body& body, const Air& air) : Integrated(body, air) {}
+
+  // Returns what is integrated, and replaces its model.
+  Body& body() noexcept { return this->mechanism_; }
+  const Body& body() const noexcept { return this->mechanism_; }
+  Air& air() noexcept { return this->air_; }
+  const Air& air() const noexcept { return this->air_; }
+
+  // RK4 by h under the friction of the step. Lanes that do not step keep what they have.
+  void step(const Mask& steps, const S& h, State& s) const noexcept;
+
+  // A new node of the machines that go: references, the first stage, friction. What the others'
+  // first stage says, said before their references followed, stays. Returns each machine's first
+  // muscle whose density is not finite, or -1.
+  std::array<int, W> prepare(const Mask& goes, State& s) noexcept;
+
+  // The friction problem: from the same numbers the same, so that of those that wait nothing
+  // changes.
+  void prepare_friction(State& s) noexcept;
+
+  // Returns what a step of length h from the node has.
+  void glance(const S& h, const State& s, Glance& out) const noexcept;
+
+ private:
+  static void blend(const Mask& mask, const typename Body::Motion& from,
+                    typename Body::Motion& to) noexcept;
+};
+
+// visit(a's, b's) for each number of the muscles in an evaluation, and in a state of the air.
+template <class LookA, class LookB, class Visit>
+void each_of_look(LookA& a, LookB& b, const Visit& visit) {
+  visit(a.ends.length, b.ends.length);
+  visit(a.ends.rate, b.ends.rate);
+  visit(a.air.tension, b.air.tension);
+  visit(a.air.clamped, b.air.clamped);
+  visit(a.air.pressure, b.air.pressure);
+  visit(a.air.friction_bound, b.air.friction_bound);
+  visit(a.air.drift, b.air.drift);
+  visit(a.air.inflow, b.air.inflow);
+  visit(a.air.outflow, b.air.outflow);
+}
+template <class AirA, class AirB, class Visit>
+void each_of_air(AirA& a, AirB& b, const Visit& visit) {
+  visit(a.mass, b.mass);
+  visit(a.in, b.in);
+  visit(a.out, b.out);
+}
+
+// Puts the new numbers in the lanes of the mask.
+template <int N, int W>
+void LaneNodes<N, W>::blend(const Mask& mask, const typename Body::Motion& from,
+                            typename Body::Motion& to) noexcept {
+  to.x = units::select(mask, from.x, to.x);
+  to.x_rate = units::select(mask, from.x_rate, to.x_rate);
+  for (int i = 0; i < N; ++i) {
+    to.angle[i] = units::select(mask, from.angle[i], to.angle[i]);
+    to.rate[i] = units::select(mask, from.rate[i], to.rate[i]);
+  }
+}
+
+template <int N, int W>
+void LaneNodes<N, W>::step(const Mask& steps, const S& h, State& s) const noexcept {
+  const typename Body::Forces held = body().hold(h, s.held);
+  for (std::size_t c = 0; c < held.size(); ++c)
+    s.held[c] = units::select(steps, held[c], s.held[c]);
+  const typename Body::Acceleration first = body().accelerate(s.first.acceleration, s.held);
+  if (units::all(steps)) {
+    this->piece(0, h, s.now, s.valves, s.memory, s.first, first, s.held);
+    return;
+  }
+  Moving after = s.now;
+  this->piece(0, h, after, s.valves, s.memory, s.first, first, s.held);
+  blend(steps, after.motion, s.now.motion);
+  each_of_air(after.air, s.now.air, [&](const auto& from, auto& to) {
+    for (int i = 0; i < air().muscles(); ++i) to[i] = units::select(steps, from[i], to[i]);
+  });
+}
+
+template <int N, int W>
+std::array<int, W> LaneNodes<N, W>::prepare(const Mask& goes, State& s) noexcept {
+  if (units::all(goes)) {
+    this->evaluate_air(0, s.now, s.valves, s.memory, s.first);
+  } else {
+    Look look;
+    this->evaluate_air(0, s.now, s.valves, s.memory, look);
+    each_of_look(look, s.first, [&](const auto& from, auto& to) {
+      for (int i = 0; i < air().muscles(); ++i) to[i] = units::select(goes, from[i], to[i]);
+    });
+  }
+  const std::array<int, W> failed = air().remember(goes, s.first.air, s.memory);
+  s.trolley_bound =
+      units::select(goes, body().trolley_bound(s.held, s.trolley_bound), s.trolley_bound);
+  prepare_friction(s);
+  return failed;
+}
+
+template <int N, int W>
+void LaneNodes<N, W>::prepare_friction(State& s) noexcept {
+  this->meet(body().pose(0, s.now.motion), s.now.motion, s.trolley_bound, s.first);
+}
+
+template <int N, int W>
+void LaneNodes<N, W>::glance(const S& h, const State& s, Glance& out) const noexcept {
+  out.held = body().hold(h, s.held);
+  out.acceleration = body().accelerate(s.first.acceleration, out.held);
+}
+
+extern template class LaneNodes<2, 2>;
+extern template class LaneNodes<2, 4>;
+extern template class LaneNodes<2, 8>;
+
+}  // namespace sinew::plant

@@ -1,0 +1,104 @@
+// world/nodes.h - a mechanism with its air, from node to node: evaluations, the friction problem of
+// a node and RK4 over both, written once for one machine and for several side by side.
+//
+// S, the scalar of mechanism and air, is a double, or a pack of them (units/pack.h): a lane has the
+// bits of the machine alone. World (world.h) is one machine as a Port, LaneNodes (lane_nodes.h)
+// several.
+//
+// The model alone is here; who integrates owns the state.
+#pragma once
+
+#include <cstdint>
+
+#include "sinew/world/contract.h"
+
+namespace sinew::plant {
+
+template <class M, class A>
+class Nodes {
+ public:
+  using S = typename M::Scalar;
+
+  // The part of the state that is integrated.
+  struct Moving {
+    typename M::Motion motion;
+    typename A::State air;
+  };
+
+  // Everything that one evaluation of a state yields.
+  struct Look {
+    typename M::Ends ends;
+    typename M::Arms arms;
+    typename A::Answer air;
+    typename M::Load load;                  // all that pushes the coordinates but dry friction
+    typename M::Acceleration acceleration;  // with the friction of the step
+  };
+
+ protected:
+  Nodes(const M& mechanism, const A& air) : mechanism_(mechanism), air_(air) {}
+  // Takes what a set-up describes.
+  template <class Setup>
+  explicit Nodes(const Setup& setup)
+      : mechanism_(setup), air_(mechanism_.template make_air<A>(setup)) {}
+
+  // Evaluates the air at a state.
+  void evaluate_air(const S& t, const Moving& state, const typename A::Valves& valves,
+                    const typename A::Memory& memory, Look& look,
+                    std::uint64_t ahead = 0) const noexcept {
+    mechanism_.route(t, state.motion, look.ends, look.arms);
+    air_.evaluate(t, look.ends, state.air, valves, memory, look.air, ahead);
+  }
+
+  // One evaluation of the right-hand side, with the frictions held.
+  void look_at(const S& t, const Moving& state, const typename A::Valves& valves,
+               const typename A::Memory& memory, const typename M::Forces& held, Look& look,
+               std::uint64_t ahead = 0) const noexcept {
+    evaluate_air(t, state, valves, memory, look, ahead);
+    const typename M::Pose pose = mechanism_.pose(t, state.motion);
+    mechanism_.load(pose, state.motion, look.arms, look.air, look.load);
+    look.acceleration = mechanism_.accelerate(pose, state.motion, look.load, held);
+  }
+
+  // At a node whose air has been evaluated: the forces, the friction problem, and the accelerations
+  // without friction.
+  void meet(const typename M::Pose& pose, const typename M::Motion& motion, const S& trolley_bound,
+            Look& first) noexcept {
+    mechanism_.load(pose, motion, first.arms, first.air, first.load);
+    first.acceleration = mechanism_.prepare(pose, motion, first.arms, first.air.friction_bound,
+                                            trolley_bound, first.load);
+  }
+
+  // RK4 in place. The first stage is the evaluation at hand, with these accelerations; two to four
+  // are at 1/2, 1/2 and 1. Air that is quicker goes ahead.
+  void piece(const S& from, const S& h, Moving& now, const typename A::Valves& valves,
+             const typename A::Memory& memory, const Look& look,
+             const typename M::Acceleration& first, const typename M::Forces& held) const noexcept {
+    Look later[3];
+    Moving stage[3];
+    typename A::Course course;
+    if constexpr (!CutsSteps<M>) air_.plan(from, h, look.ends, now.air, valves, memory, course);
+    const typename M::Motion* motion[4] = {&now.motion, &stage[0].motion, &stage[1].motion,
+                                           &stage[2].motion};
+    const typename A::Answer* air[4] = {&look.air, &later[0].air, &later[1].air, &later[2].air};
+    typename M::Acceleration acceleration[4] = {first};
+    for (int s = 0; s < 3; ++s) {
+      const S part = s == 2 ? h : 0.5 * h;
+      mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
+      air_.move(stage[s].air, now.air, part, *air[s], valves, course);
+      look_at(from + part, stage[s], valves, memory, held, later[s], course.muscles);
+      if constexpr (RelaxesStages<M>)
+        mechanism_.relax(h, 0.2, later[s].load, acceleration[s], later[s].acceleration);
+      acceleration[s + 1] = later[s].acceleration;
+    }
+
+    const typename M::Motion rates = now.motion;  // of the first stage: the state moves
+    motion[0] = &rates;
+    mechanism_.finish(now.motion, h, motion, acceleration);
+    air_.finish(now.air, h, air, valves, course);
+  }
+
+  M mechanism_;
+  A air_;
+};
+
+}  // namespace sinew::plant
