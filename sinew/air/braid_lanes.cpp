@@ -79,25 +79,19 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
   using S = units::Pack<lanes>;
   for (int i = 0; i < padded_; i += lanes) {
     const Constants& k = constants_[static_cast<std::size_t>(i / lanes)];
-    // Density against the reference, and y by the series.
-    const S length(four(in.length + i));
-    const Four volume = braid_volume(k.law, length).lanes;
-    const Four x = (four(in.mass + i) * four(in.inverse_sigma + i)) / volume - 1.0;
-    Four root;
-    series_.raise(x, root);
-    root = four(in.y_ref + i) * root;
-    four(out.drift + i) = x;
-    const auto outside = (x > k.reach) | (x < -k.reach);
-    if ((outside[0] | outside[1] | outside[2] | outside[3]) != 0) {
+    const BraidState<S> at{S(four(in.length + i)), S(four(in.rate + i)), S(four(in.mass + i)),
+                           S(four(in.y_ref + i)), S(four(in.inverse_sigma + i))};
+    const auto far = [&](const auto&, const S& x, S& y) __attribute__((always_inline)) {
       // One by one out and in: a wide load would have to wait for narrow stores.
-      double one[lanes] = {root[0], root[1], root[2], root[3]};
-      far_roots(x, k.reach, in.inverse_sigma + i, one);
-      root = Four{one[0], one[1], one[2], one[3]};
-    }
-    four(out.y + i) = root;
-
+      double one[lanes] = {y[0], y[1], y[2], y[3]};
+      far_roots(x.lanes, k.reach, in.inverse_sigma + i, one);
+      y = S(Four{one[0], one[1], one[2], one[3]});
+    };
+    S x, y;
     const BraidPull<S> pull =
-        braid_pull(k.law, S(air_.atmosphere), length, S(four(in.rate + i)), S(root));
+        braid_at(k.law, at, S(air_.atmosphere), series_, S(k.reach), far, x, y);
+    four(out.drift + i) = x.lanes;
+    four(out.y + i) = y.lanes;
     four(out.tension + i) = pull.tension.lanes;
     four(out.clamped + i) = pull.clamped.lanes;
     four(out.friction_bound + i) = pull.friction_bound.lanes;

@@ -11,6 +11,7 @@
 
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
+#include "sinew/gas/power_series.h"
 #include "sinew/units/pack.h"
 
 namespace sinew::air {
@@ -38,6 +39,13 @@ BraidConstants<double> braid_constants(const Muscle& muscle, const gas::Air& air
 template <class S>
 struct BraidPull {
   S pressure, tension, clamped, friction_bound;
+};
+
+// What a bundle's pull depends on: its length [m], the rate of it [m/s], the mass of its air [kg],
+// and the reference of its density.
+template <class S>
+struct BraidState {
+  S length, rate, mass, y_ref, inverse_sigma;
 };
 
 // Returns the volume of the bundle's air  [m^3].
@@ -78,6 +86,21 @@ template <class S>
           .tension = units::select(all > 0.0, all, 0.0),
           .clamped = all,
           .friction_bound = units::select(rub > 0.0, rub, 0.0)};
+}
+
+// Density against the reference, and y by the series: beyond its `reach` far(x, y) puts y. Returns
+// what the bundle pulls.
+template <class S, class Series, class Far>
+[[gnu::always_inline]] inline BraidPull<S> braid_at(const BraidConstants<S>& k,
+                                                    const BraidState<S>& at, const S& atmosphere,
+                                                    const Series& series, const S& reach,
+                                                    const Far& far, S& x, S& y) {
+  x = (at.mass * at.inverse_sigma) / braid_volume(k, at.length) - 1.0;
+  S power;
+  series.raise(x, power);
+  y = at.y_ref * power;
+  if (const auto outside = (x > reach) | (x < -reach); units::any(outside)) far(outside, x, y);
+  return braid_pull(k, atmosphere, at.length, at.rate, y);
 }
 
 }  // namespace sinew::air

@@ -10,7 +10,7 @@
 //
 // Within a step the length runs straight to where it will be. Valves move at their own instants,
 // delays included, whatever the steps; hoses and what else is quicker go ahead of a step
-// (network_quick.h), so that a loop may be as slow as 1 ms.
+// (quick_bodies.h), so that a loop may be as slow as 1 ms.
 //
 // State is one block, copied like bytes: two muscles of equal description go on alike from it.
 // After it is made a muscle allocates nothing, and throws only for a command that its valves do not

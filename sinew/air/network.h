@@ -19,146 +19,65 @@
 // side by side by braid_lanes.h where it holds them and no wall is warm, else one after the other
 // by actuator/tension.h. What a machine does not have costs nothing: a muscle between two valves is
 // lanes and a flow per open valve; only lines with more (a hose, a leak, a regulator, a warm wall),
-// and all of them while something is broken, are asked one by one. The laws: gas/orifice.h,
-// series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h, actuator/hysteresis.h,
-// creep.h.
+// and all of them while something is broken, are asked one by one.
+//
+//   valve_bank.h    valves and regulators with their faults    bodies.h  the bodies of air
+//   quick_bodies.h  those that are quicker than a step         here      what flows between them
+//
+// The laws: gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h,
+// actuator/hysteresis.h, creep.h.
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "sinew/air/braid_lanes.h"
-#include "sinew/air/cylinder.h"
-#include "sinew/air/failure.h"
-#include "sinew/air/fault.h"
-#include "sinew/air/muscle.h"
-#include "sinew/air/network_state.h"
-#include "sinew/air/regulator_lanes.h"
-#include "sinew/gas/air.h"
-#include "sinew/gas/orifice.h"
-#include "sinew/gas/slopes.h"
-#include "sinew/gas/supply.h"
-#include "sinew/signals/port.h"
+#include "sinew/actuator/loss.h"
+#include "sinew/actuator/stiffness.h"
+#include "sinew/actuator/tension.h"
+#include "sinew/air/quick_bodies.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::air {
 
 // For at most `Most` muscles: compiled for 4, 8 and 48.
 template <int Most>
-class AirNetwork {
- public:
-  using Lanes = air::Lanes<Most>;
-  using Ends = air::Ends<Most>;
+class AirNetwork : public QuickBodies<Most> {
+  using Quick = QuickBodies<Most>;
 
-  using State = AirState<Most>;
-  using Valves = AirValves<Most>;
-  using Memory = AirMemory<Most>;
-  using Answer = AirAnswer<Most>;
-  using Course = AirCourse<Most>;
+ public:
+  using Quick::flowing, Quick::open_share, Quick::volume;
+  using typename Quick::Answer, typename Quick::Course, typename Quick::Ends, typename Quick::Lanes,
+      typename Quick::Memory, typename Quick::State, typename Quick::Valves;
 
   // Throws std::invalid_argument for more than `Most` muscles, and for a cylinder with valves whose
   // chambers vanish at a stop.
   AirNetwork(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-             const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {});
-
-  // How many muscles there are, and how many bodies of air beside theirs.
-  int muscles() const noexcept { return size_; }
-  int others() const noexcept { return others_; }
-  double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
-
-  // For steps in which densities leave the reach of their series as a rule.
-  void take_long_steps() { braids_.go_by_table(); }
-
-  // Is there nothing but muscles between valves on a constant supply?
-  bool plain() const noexcept { return plain_; }
-  // And nothing of it will ever break, nor do valves open by and by: plain_air.h then has its law,
-  // which goes by these.
-  bool plain_for_good() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
-  const BraidLanes& braids() const noexcept { return braids_; }
-  const gas::FlowConstants& flow(int valve) const noexcept {
-    return taps_[static_cast<std::size_t>(valve)].flow;
-  }
-  const gas::Valve& valve(int index) const noexcept {
-    return taps_[static_cast<std::size_t>(index)].valve;
-  }
-  bool ramping() const noexcept { return ramping_; }  // some shutter opens or closes gradually
-  // Replaces the law of a valve's flow, for steps that are cut where it jumps.
-  void set_flow(int valve, const gas::FlowConstants& flow) noexcept {
-    taps_[static_cast<std::size_t>(valve)].flow = flow;
-  }
-  double supply_y() const noexcept { return supply_y_; }  // (P/P_atm)^(1/7) of the supply [-]
-
-  // 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up exhaust, down inlet, down
-  // exhaust.
-  int valves() const noexcept { return static_cast<int>(taps_.size()); }
-
-  // Volume of the air in muscle i  [m^3], and its mass at this pressure and length [kg].
-  double volume(int i, double length) const noexcept;
-  double mass_at(int i, double pressure, double length) const noexcept {
-    return density(pressure) * volume(i, length);
-  }
-
-  // All muscles at one absolute pressure and at rest, air at the wall's temperature.
-  State initial(double pressure, const Lanes& length, double travel) const;
-
-  // All valves without current since ever, all set points at the atmosphere's pressure.
-  Valves valves_at_rest() const;
-
-  // Meshes that have stood at this pressure and length for long; the series stand on no base yet.
-  Memory memory_at_rest(double pressure, const Lanes& length) const;
-
-  // Chambers and hoses of the muscles, and of a single-acting cylinder, filled to one absolute
-  // pressure, air at the wall's temperature: what an ideal regulator does.
-  void hold(double pressure, const Lanes& length, double travel, State& state) const noexcept;
-
-  // Sets the rates of what hold() sets to 0: it does not move by itself.
-  void hold_still(Answer& look) const noexcept;
-
-  // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
-  // or a leak.
-  double total_mass(const State& state, double travel) const noexcept;
+             const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {})
+      : Quick(muscles, air, supply, cylinder, faults) {}
 
   // An electrical edge of a valve at t, or a regulator's set point from t on, not before the last
   // node. `at_node`: the look at that node, for delays and failures that depend on the pressure
   // difference.
   void command(const signals::Edge& edge, double t, const Answer& at_node,
-               Valves& valves) const noexcept;
+               Valves& valves) const noexcept {
+    Quick::command(edge, t, difference(edge.valve.index, at_node, valves), valves);
+  }
 
   // At a node: valves, set points and faults move to t. `before`: the look at the last node, for
   // the delay of a shutter that a fault lets go.
   void move_valves(double t, const Answer& before, Valves& valves) const noexcept {
-    if (valves.next_change <= t) move(t, before, valves);
-  }
-
-  // Share of the valve's area that is open at t  [-].
-  double open_share(int valve, double t, const Valves& valves) const noexcept;
-
-  // Does anything flow, warm or creep, or can it without a valve that moves?
-  bool flowing(const Valves& valves) const noexcept {
-    return restless_ || ramping_ || valves.open_count > 0 || valves.leaking;
+    if (valves.next_change > t) return;
+    Quick::move(
+        t, [&](int valve) { return difference(valve, before, valves); }, valves);
   }
 
   // The law itself; t matters only to valves that ramp. `ahead`: muscles that go by a course, a bit
   // each: their flows are nobody's affair.
   void evaluate(double t, const Ends& ends, const State& state, const Valves& valves,
                 const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
-
-  // At a node, with the look at it: the references of the series follow, the plays of the
-  // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
-  // does not turn between them. Answers what of the air is no number.
-  Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
-
-  // Muscles that always have a course while air flows: behind hoses that hold air and, while
-  // nothing is broken, behind regulators that are quick at any length.
-  std::uint64_t always_ahead(const Valves& valves) const noexcept {
-    return valves.broken ? behind_hoses_ : behind_hoses_ | behind_regulators_;
-  }
-
-  // At the beginning of a step of length h, or of a look so far ahead.
-  void plan(double t, double h, const Ends& ends, const State& state, const Valves& valves,
-            const Memory& memory, Course& course) const noexcept;
 
   // The stages of RK4: the state, h along the rates of one look, what has passed since the start
   // apart (`out` is another one than `from`); and the state, by the weighted mean of four looks.
@@ -172,141 +91,21 @@ class AirNetwork {
   void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
                const Valves& valves, const Course& course) const noexcept;
 
-  // Returns the air of muscle i, and what has passed its valves and leaks since the start  [kg].
-  Account account(const State& s, int i) const noexcept {
-    return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
-  }
-  // Pressure behind the valves of muscle i: its own, or that before a hose  [Pa].
-  double manifold(const Answer& a, int i, const Valves& valves) const noexcept {
-    return line(i).more || valves.broken ? a.manifold[i] : a.pressure[i];
-  }
-  double leak(const Answer& a, int i, const Valves& valves) const noexcept {  // [kg/s]
-    return line(i).more || valves.broken ? a.leak[i] : 0.0;
-  }
-  Account cylinder_account(const State& s, int side) const noexcept {
-    const auto c = static_cast<std::size_t>(side);
-    const int mass = sides_[c].mass;
-    return {
-        .mass = mass != none ? other(s, mass) : 0.0, .in = s.piston_in[c], .out = s.piston_out[c]};
-  }
-  double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
-    return a.cylinder_pressure[static_cast<std::size_t>(side)];
-  }
-  // `past_tank`: what the supply has given while a fault had cut it from its tank; below 0 it has
-  // taken more.
-  SupplyState supply_state(const State& s, const Answer& a) const noexcept {
-    return {a.supply_pressure, a.tank_pressure, cut_ == none ? 0.0 : other(s, cut_)};
-  }
-
-  // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
-  // infinity [s]. Without a place, wherever the piston stands. With one, muscles that never seal
-  // are in it too: behind a regulator or a hose's chamber, or with a leak. Muscles behind shutters
-  // are not.
-  double longest_step() const noexcept;
-  double longest_step(const Ends& ends, const Valves& valves) const noexcept;
-
-  // Returns the same for what goes through no step ahead of the body: warm walls, lags, creep, and
-  // what leaks behind a hose that holds no air.
-  double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
-
-  // Returns the longest step in which the air of the cylinder's chambers changes little: its
-  // spring, gamma P A^2/V, moves the body by half a radian at most, and the piston takes an eighth
-  // of the room that it leaves. As a chamber vanishes both grow without bound; infinite without
-  // chambers. `lift_per_force`: acceleration of the body per force of the piston [1/kg].
-  double longest_step_of_piston(const Ends& ends, const Answer& look,
-                                double lift_per_force) const noexcept;
-
  private:
-  static constexpr int none = -1;
-  using Cell = typename Course::Cell;
+  using Cell = typename Quick::Cell;
+  using Quick::air_, Quick::blocked, Quick::braids_, Quick::cut_, Quick::cylinder_,
+      Quick::each_line, Quick::in_lanes_, Quick::inlets, Quick::lagging_, Quick::line,
+      Quick::muscle, Quick::none, Quick::other, Quick::others_, Quick::plain_, Quick::ramping_,
+      Quick::rate_of, Quick::shut, Quick::sides_, Quick::size_, Quick::tank_, Quick::taps_,
+      Quick::through, Quick::through_holes;
+  using typename Quick::Flows, typename Quick::Inlets, typename Quick::Line, typename Quick::Now,
+      typename Quick::Slot, typename Quick::Tap;
 
-  // One valve, or regulator, and what it lets through.
-  struct Tap {
-    gas::Valve valve;
-    gas::FlowConstants flow;
-    int outlet = none;    // Kind::regulator: state of its outlet pressure
-    bool listed = false;  // the flow is that of the open share alone
-  };
-  // A line lies between a muscle's valves and its air; its numbers stand among the others there.
-  struct Line {
-    int energy = none, hose = none, hose_energy = none;  // no hose's mass: it holds no air
-    bool resists = false, more = false;                  // a hose; more than valves
-    gas::HoseConstants hose_flow;
-    gas::LeakConstants leak;
-    bool plays = false;                                          // it has hysteresis
-    std::array<int, actuator::Creep::most> late = {none, none};  // of the creep
-    double settling = 0;  // n R T times the slope of what never shuts; 0: all of it does [m^3/s]
-  };
-  struct Slot {
-    int mass = none, energy = none;
-  };
   struct Chamber {
     double pressure = 0, y = 0, temperature = 0;
   };
-  struct Flows {
-    double in = 0, out = 0;  // from the supply, to the room [kg/s]
-  };
-  // The flows of one look go by these, beside the chambers.
-  struct Now {
-    double t;         // [s]
-    double y_supply;  // of the line to the inlets
-    const State& state;
-    const Valves& valves;
-    const Memory& memory;
-    std::uint64_t ahead = 0;  // muscles whose flows are not asked for
-  };
-  // The flows through a pair of valves, their slopes over y and their drift at one y.
-  struct Flowing {
-    double in = 0, out = 0;                  // [kg/s]
-    double in_by = 0, out_by = 0;            // [kg/s]
-    double in_by_time = 0, out_by_time = 0;  // [kg/s^2]
-  };
-  // A volume that changes steadily within a step.
-  struct Room {
-    double volume = 0, rate = 0;  // [m^3], [m^3/s]
-  };
-  // The line to the inlets.
-  struct Inlets {
-    double y = 1;
-    bool cut = false;  // a fault has cut it from its tank
-  };
-  struct Broken {
-    gas::LeakConstants leak;
-    double y = 1;  // of the supply's line
-  };
 
-  static double other(const State& s, int i) noexcept {
-    return s.other[static_cast<std::size_t>(i)];
-  }
-  static double& other(State& s, int i) noexcept { return s.other[static_cast<std::size_t>(i)]; }
-  static double& rate(Answer& a, int i) noexcept { return a.rate[static_cast<std::size_t>(i)]; }
-  const Muscle& muscle(int i) const noexcept { return muscles_[static_cast<std::size_t>(i)]; }
-  const Line& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
-
-  // network_setup.h
-  void add_muscle(const Muscle& muscle);
-  void add_memory(int i);
-  void add_cylinder();
-  void add_tap(const gas::Valve& valve);
-  void classify();
-  void limit_step();
-  double fastest_slope(int inlet) const;
-  double hose_slope(const Line& line) const;
-  bool always_quick(int i) const;
-  double density(double pressure) const noexcept;
-  void fill(const Slot& slot, double mass, State& state) const noexcept;
-
-  // network_valves.h
   double difference(int valve, const Answer& at_node, const Valves& valves) const noexcept;
-  double fraction(std::size_t valve, double t, const Valves& valves) const noexcept;
-  void look_ahead(Valves& valves) const noexcept;
-  void move(double t, const Answer& before, Valves& valves) const noexcept;
-  void refresh(double t, Valves& valves) const noexcept;
-
-  // network_flows.h
-  Inlets inlets(const State& state, const Valves& valves, const Memory& memory,
-                Answer& out) const noexcept;
-  double line_of_tank(const State& state, const Memory& memory, Answer& out) const noexcept;
   void one_by_one(const Ends& ends, const State& state, const Memory& memory, Answer& out,
                   Lanes& y) const noexcept;
   double smooth_tension(int i, double length, double rate, double gauge, const State& state,
@@ -315,8 +114,6 @@ class AirNetwork {
             const Memory& memory, Answer& out) const noexcept;
   void open_taps(double t, double y_supply, const Lanes& y, const Valves& valves,
                  Answer& out) const noexcept;
-  Flows through(int inlet, const Now& now, double y) const noexcept;
-  bool shut(int inlet, const Now& now) const noexcept;
   Flows series(int i, const Now& now, const Chamber& c, Answer& out) const noexcept;
   Chamber hose(int i, const Now& now) const noexcept;
   void run_line(int i, const Now& now, const Ends& ends, const Chamber& c,
@@ -333,65 +130,422 @@ class AirNetwork {
            const Course& course) const noexcept;
   template <class Mean>
   void add_course(State& out, Mean mean, const Course& course) const noexcept;
-  template <class Visit>
-  void each_line(const Valves& valves, Visit visit) const noexcept;
-
-  // network_quick.h
-  Flowing sloped_through(int inlet, const Now& now, double since_node, double y,
-                         bool sloped) const noexcept;
-  gas::SlopedFlow sloped_leak(int i, const Now& now, double y) const noexcept;
-  bool goes_ahead(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
-  template <int Openings>
-  void run_ahead(const Now& node, double h, const Room& room, const gas::Base& base, double mass,
-                 Cell& cell) const noexcept;
-  void run_hose_ahead(const Now& node, double h, const Room& room, Cell& cell) const noexcept;
-  void run_muscle_ahead(const Now& node, double h, const Ends& ends, Cell& cell) const noexcept;
-  void go_beside(int first, const Now& node, double h, const Ends& ends,
-                 RegulatorLanes::Ahead& ahead) const noexcept;
-
-  // network_faults.h
-  void add_faults();
-  void change(const AirFault& fault, bool begins, double t, const Answer& before,
-              Valves& valves) const noexcept;
-  bool let_through(const ActingFaults& faults) const noexcept;
-  bool is_broken(const ActingFaults& faults) const noexcept;
-  double past_seat(int valve, const Now& now, double y_from, double y_to) const noexcept;
-  double through_holes(int i, const Now& now, double y) const noexcept;
-  bool blocked(int i, const Valves& valves) const noexcept;
-  double failed_line(const Valves& valves, Answer& out) const noexcept;
-  double slope_of_faults(int pair, const ActingFaults& faults) const noexcept;
-
-  int size_ = 0, others_ = 0;
-  gas::Air air_;
-  gas::Supply supply_;
-  double supply_y_ = 0;                      // of its set pressure
-  gas::PowerSeries of_pressure_{1.0 / 7.0};  // y of a pressure
-  std::vector<Muscle> muscles_;
-  BraidLanes braids_;
-  RegulatorLanes regulators_;
-  bool in_lanes_ = false;  // all muscles go by braids_
-  bool plain_ = false;     // there is nothing but muscles between valves on a constant supply
-  std::optional<Cylinder> cylinder_;
-
-  std::vector<Tap> taps_;
-  std::vector<Line> lines_;
-  std::vector<int> more_;      // the muscles whose line is more than valves
-  std::array<Slot, 2> sides_;  // of the cylinder
-  std::vector<int> lagging_;   // regulators whose outlet is a state: their valves
-  std::vector<int> held_;      // the others that hold() sets
-  int tank_ = none;
-  bool ramping_ = false, restless_ = false;
-  FaultSchedule faults_;
-  std::vector<Broken> broken_;  // by each fault
-  int cut_ = none;              // state: air from a line that is cut from its tank
-  double spring_ = 0;           // n R T: a chamber of volume V follows a slope G at n R T G/V
-  double lag_rate_ = 0;         // of the quickest lag or creep [1/s]
-  double longest_step_ = 0;     // of all that has the same rate wherever the machine stands [s]
-  std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
-  std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // that always go ahead
-  std::uint64_t beside_ = 0;                                // that go ahead by regulators_
-  bool settles_ = false;                                    // a line has `settling`
 };
+
+// Returns how much higher the pressure is on the side that the valve holds back  [Pa].
+template <int Most>
+double AirNetwork<Most>::difference(int valve, const Answer& at_node,
+                                    const Valves& valves) const noexcept {
+  const int pair = valve / 2;
+  const double p = pair >= size_ ? at_node.cylinder_pressure[static_cast<std::size_t>(pair - size_)]
+                   : line(pair).more || valves.broken ? at_node.manifold[pair]
+                                                      : at_node.pressure[pair];
+  return valve % 2 == 0 ? at_node.supply_pressure - p : p - air_.atmosphere;
+}
+
+template <int Most>
+void AirNetwork<Most>::evaluate(double t, const Ends& ends, const State& state,
+                                const Valves& valves, const Memory& memory, Answer& out,
+                                std::uint64_t ahead) const noexcept {
+  const Inlets supply = inlets(state, valves, memory, out);
+  Lanes y;
+  if (in_lanes_)
+    braids_.evaluate(ends.length, ends.rate, state.mass, memory.reference, out, y);
+  else
+    one_by_one(ends, state, memory, out, y);
+  for (int i = 0; i < braids_.padded(); i += lanes)
+    out.inflow.four(i) = out.outflow.four(i) = Four{};
+  if (ramping_ || valves.open_count > 0) open_taps(t, supply.y, y, valves, out);
+  out.cylinder_force = 0;
+  if (!plain_ || valves.broken)
+    run_options({t, supply.y, state, valves, memory, ahead}, supply.cut, ends, y, out);
+}
+
+// All that a machine has beside muscles between valves.
+template <int Most>
+void AirNetwork<Most>::run_options(const Now& now, bool cut, const Ends& ends, const Lanes& y,
+                                   Answer& out) const noexcept {
+  each_line(now.valves, [&](int i) {
+    if ((now.ahead >> i & 1) != 0 && line(i).hose == none) {  // flows are its course's affair
+      out.manifold[i] = out.pressure[i];
+      out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
+      return;
+    }
+    Chamber c{out.pressure[i], y[i], air_.temperature};
+    if (const int energy = line(i).energy; energy != none)
+      c.temperature = gas::temperature(air_, other(now.state, energy), now.state.mass[i]);
+    run_line(i, now, ends, c, out);
+  });
+  out.cylinder_pressure = out.cylinder_inflow = out.cylinder_outflow = {};
+  if (cylinder_) run_cylinder(now, ends, out);
+  run_supply(now, cut, out);
+}
+
+// Flows of the muscles that have nothing but valves, which may be shut.
+template <int Most>
+void AirNetwork<Most>::open_taps(double t, double y_supply, const Lanes& y, const Valves& valves,
+                                 Answer& out) const noexcept {
+  const auto through_one = [&](int valve, double share) {
+    const Tap& tap = taps_[static_cast<std::size_t>(valve)];
+    if (!tap.listed) return;
+    const int i = valve / 2;
+    if (valve % 2 == 0)
+      out.inflow[i] = share * gas::flow_y(tap.flow, y_supply, y[i]);
+    else
+      out.outflow[i] = share * gas::flow_y(tap.flow, y[i], 1.0);
+  };
+  if (ramping_)
+    for (int valve = 0; valve < 2 * size_; ++valve)
+      through_one(valve, open_share(valve, t, valves));
+  else
+    for (int k = 0; k < valves.open_count; ++k) {
+      const typename Valves::Open& open = valves.open[static_cast<std::size_t>(k)];
+      through_one(open.valve, open.share);
+    }
+}
+
+// Pressures and tensions of muscles that lanes do not hold.
+template <int Most>
+void AirNetwork<Most>::one_by_one(const Ends& ends, const State& state, const Memory& memory,
+                                  Answer& out, Lanes& y) const noexcept {
+  for (int i = 0; i < size_; ++i) {
+    const double v = volume(i, ends.length[i]), density = state.mass[i] / v;
+    double p = 0;
+    if (const int energy = line(i).energy; energy != none) {
+      p = gas::pressure_of_energy(other(state, energy), v);
+      y[i] = gas::y_of(air_, p);
+      out.drift[i] = 0;
+    } else {
+      const gas::Base base{memory.reference.y[i], memory.reference.inverse_sigma[i]};
+      y[i] = gas::root(braids_.series(), base, density, gas::density_at_atmosphere(air_));
+      p = gas::pressure_of_y(air_, y[i]);
+      out.drift[i] = density * base.inverse - 1.0;
+    }
+    pull(i, ends.length[i], ends.rate[i], p, state, memory, out);
+  }
+}
+
+// Returns all of [31]-[35] but the dry friction, by the pressure that the mesh feels, and what
+// comes late  [N].
+template <int Most>
+double AirNetwork<Most>::smooth_tension(int i, double length, double rate, double gauge,
+                                        const State& state, const Memory& memory,
+                                        Answer& out) const noexcept {
+  const Muscle& m = muscle(i);
+  const Line& l = line(i);
+  double feels = gauge;
+  if (l.plays) {
+    const actuator::Felt felt = actuator::felt(m.actuator, length, gauge, memory.play[i]);
+    feels = felt.gauge_pressure;
+    out.play[i] = felt.play;  // moved by remember() alone
+  }
+  double one = actuator::clamped_tension(m.actuator, length, rate, feels, air_.atmosphere);
+  for (std::size_t k = 0; k < l.late.size(); ++k) {
+    const int late = l.late[k];
+    if (late == none) continue;
+    const actuator::Creep& creep = m.actuator.creep;
+    one += actuator::creep_tension(m.actuator, creep.share[k], length, other(state, late),
+                                   air_.atmosphere);
+    rate_of(out, late) = actuator::creep_rate(creep.time[k], feels, other(state, late));
+  }
+  return m.count * one;
+}
+
+// [31]-[35] of the bundle.
+template <int Most>
+void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, const State& state,
+                            const Memory& memory, Answer& out) const noexcept {
+  const Muscle& m = muscle(i);
+  const double gauge = pressure - air_.atmosphere;
+  const double smooth = smooth_tension(i, length, rate, gauge, state, memory, out);
+  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
+  const bool by_sealed = m.actuator.loss.coulomb_scale == actuator::Loss::Scale::sealed;
+  const double sealed =
+      by_sealed ? actuator::stiffness_sealed(m.actuator, length, pressure, air_.atmosphere,
+                                             m.external_volume / m.count, exponent)
+                : 0.0;
+  const double bound =
+      m.count * actuator::coulomb_bound(m.actuator, length, gauge, air_.atmosphere, sealed);
+
+  // A cord cannot push; without stick [33] as printed, sign(v).
+  const bool stick = m.actuator.loss.stick;
+  const double cord = std::max(smooth, 0.0);
+  out.tension[i] = stick ? cord : std::max(cord + (rate >= 0 ? bound : -bound), 0.0);
+  out.clamped[i] = stick ? smooth : smooth + (rate >= 0 ? bound : -bound);
+  out.friction_bound[i] = stick ? bound : 0.0;
+  out.pressure[i] = pressure;
+}
+
+// Returns m' c_p T of a flow between two bodies of air; against its arrow it has the other's
+// temperature  [W].
+template <int Most>
+double AirNetwork<Most>::enthalpy(double flow, double from, double to) const noexcept {
+  return flow * (gas::heat_capacity_pressure(air_) * (flow > 0 ? from : to));
+}
+
+// Returns U' of a chamber: enthalpy gained, work done on the outside, heat from the wall  [W].
+template <int Most>
+double AirNetwork<Most>::warming(int energy, double mass, const State& state, double gained,
+                                 double work) const noexcept {
+  return gained - work + gas::heat_flow(air_, other(state, energy), mass);
+}
+
+// Flows of the valves where the hose holds no air: what they let in goes through it.
+template <int Most>
+auto AirNetwork<Most>::series(int i, const Now& now, const Chamber& c, Answer& out) const noexcept
+    -> Flows {
+  const gas::HoseConstants& hose = line(i).hose_flow;
+  if (shut(2 * i, now)) return {};
+  const bool passes = !blocked(i, now.valves);
+  const auto surplus = [&](double y) {
+    const Flows f = through(2 * i, now, y);
+    return f.in - f.out - (passes ? gas::hose_flow_y(hose, y, c.y) : 0.0);
+  };
+  const double low = std::min({1.0, now.y_supply, c.y}), high = std::max({1.0, now.y_supply, c.y});
+  const double y = gas::balance(surplus, low, high);
+  out.manifold[i] = gas::pressure_of_y(air_, y);
+  return through(2 * i, now, y);
+}
+
+// Returns the air of a hose that is a chamber.
+template <int Most>
+auto AirNetwork<Most>::hose(int i, const Now& now) const noexcept -> Chamber {
+  const Line& l = line(i);
+  const double mass = other(now.state, l.hose), in_hose = muscle(i).hose.volume;
+  if (l.hose_energy != none) {
+    const double energy = other(now.state, l.hose_energy);
+    const double p = gas::pressure_of_energy(energy, in_hose);
+    return {p, gas::y_of(air_, p), gas::temperature(air_, energy, mass)};
+  }
+  const double y = gas::root(braids_.series(), now.memory.hose[static_cast<std::size_t>(i)],
+                             mass / in_hose, gas::density_at_atmosphere(air_));
+  return {gas::pressure_of_y(air_, y), y, air_.temperature};
+}
+
+// Air of muscle i: valves, hose, leak.
+template <int Most>
+void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const Chamber& c,
+                                Answer& out) const noexcept {
+  const Line& l = line(i);
+  out.manifold[i] = c.pressure;
+  out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
+  if (!flowing(now.valves)) return;
+  if ((now.ahead >> i & 1) != 0) {
+    out.manifold[i] = hose(i, now).pressure;
+    rate_of(out, l.hose) = 0;
+    return;
+  }
+  const double room = air_.temperature;
+  const bool passes = !blocked(i, now.valves);
+  Flows valves;
+  double arrives = 0, there = room;  // in the muscle [kg/s], from air of this temperature
+  if (l.hose != none) {
+    const Chamber h = hose(i, now);
+    arrives = passes ? gas::hose_flow_y(l.hose_flow, h.y, c.y) : 0.0;
+    there = h.temperature;
+    valves = through(2 * i, now, h.y);
+    out.manifold[i] = h.pressure;
+    rate_of(out, l.hose) = valves.in - valves.out - arrives;
+    if (l.hose_energy != none)
+      rate_of(out, l.hose_energy) =
+          warming(l.hose_energy, other(now.state, l.hose), now.state,
+                  enthalpy(valves.in, room, there) - enthalpy(valves.out, there, room) -
+                      enthalpy(arrives, there, c.temperature),
+                  0.0);
+  } else {
+    valves = l.resists || !passes ? series(i, now, c, out) : through(2 * i, now, c.y);
+    arrives = passes ? valves.in - valves.out : 0.0;
+  }
+  double leak = l.leak.tight() ? 0.0 : gas::leak_flow_y(l.leak, c.y);
+  if (now.valves.leaking) leak += through_holes(i, now, c.y);
+  out.inflow[i] = valves.in;
+  out.outflow[i] = valves.out;
+  out.leak[i] = leak;
+  out.gain[i] = arrives - leak;
+  if (l.energy == none) return;
+  const Muscle& m = muscle(i);
+  const double volume_rate =
+      m.count * actuator::volume_slope(m.actuator, ends.length[i]) * ends.rate[i];
+  rate_of(out, l.energy) =
+      warming(l.energy, now.state.mass[i], now.state,
+              enthalpy(arrives, there, c.temperature) - enthalpy(leak, c.temperature, room),
+              c.pressure * volume_rate);
+}
+
+template <int Most>
+void AirNetwork<Most>::run_cylinder(const Now& now, const Ends& ends, Answer& out) const noexcept {
+  const Cylinder& c = *cylinder_;
+  if (c.mode == Cylinder::Mode::regulator) {
+    // Held pressure: the regulator lets in or relieves what the volume asks for.
+    const double held = std::min(c.pressure, out.supply_pressure);
+    const double flow = gas::density(air_, held) * volume_slope(c, down) * ends.travel_rate;
+    out.cylinder_pressure = {air_.atmosphere, held};
+    out.cylinder_inflow[down] = std::max(flow, 0.0);
+    out.cylinder_outflow[down] = std::max(-flow, 0.0);
+  } else {
+    const double room = air_.temperature;
+    for (const Side side : {up, down}) {
+      const Slot& slot = sides_[side];
+      if (slot.mass == none) {  // single-acting: open to the room
+        out.cylinder_pressure[side] = air_.atmosphere;
+        continue;
+      }
+      const double room_of_air = air::volume(c, side, ends.travel);
+      const double mass = other(now.state, slot.mass), density = mass / room_of_air;
+      Chamber air{0, 0, room};
+      if (slot.energy != none) {
+        const double energy = other(now.state, slot.energy);
+        const double p = gas::pressure_of_energy(energy, room_of_air);
+        air = {p, gas::y_of(air_, p), gas::temperature(air_, energy, mass)};
+      } else {
+        air.y = gas::root(braids_.series(), now.memory.side[side], density,
+                          gas::density_at_atmosphere(air_));
+        air.pressure = gas::pressure_of_y(air_, air.y);
+      }
+      const Flows f = through(2 * (size_ + side), now, air.y);
+      out.cylinder_pressure[side] = air.pressure;
+      out.cylinder_density[side] = density;
+      out.cylinder_inflow[side] = f.in;
+      out.cylinder_outflow[side] = f.out;
+      rate_of(out, slot.mass) = f.in - f.out;
+      if (slot.energy != none)
+        rate_of(out, slot.energy) =
+            warming(slot.energy, mass, now.state,
+                    enthalpy(f.in, room, air.temperature) - enthalpy(f.out, air.temperature, room),
+                    air.pressure * volume_slope(c, side) * ends.travel_rate);
+    }
+  }
+  out.cylinder_force =
+      force(c, out.cylinder_pressure[up], out.cylinder_pressure[down], air_.atmosphere);
+}
+
+// Regulators follow their set points; the tank loses what the inlets take.
+template <int Most>
+void AirNetwork<Most>::run_supply(const Now& now, bool cut, Answer& out) const noexcept {
+  for (const int valve : lagging_) {
+    const auto v = static_cast<std::size_t>(valve);
+    const int outlet = taps_[v].outlet;
+    rate_of(out, outlet) =
+        gas::outlet_rate(taps_[v].valve.regulator, other(now.state, outlet), now.valves[v].set);
+  }
+  if (tank_ == none) return;
+  double taken = out.cylinder_inflow[up] + out.cylinder_inflow[down];  // [kg/s]
+  for (int i = 0; i < size_; ++i) taken += out.inflow[i];
+  rate_of(out, tank_) = cut ? 0.0 : -taken;
+  if (cut_ != none) rate_of(out, cut_) = cut ? taken : 0.0;
+}
+
+// Only the masses: what has passed is summed where the step ends.
+template <int Most>
+void AirNetwork<Most>::move(State& out, const State& from, double h, const Answer& look,
+                            const Valves& valves, const Course& course) const noexcept {
+  const bool flows = flowing(valves);
+  for (int i = 0; i < braids_.padded(); i += lanes) {
+    Four mass = from.mass.four(i);
+    if (flows) mass += h * (look.inflow.four(i) - look.outflow.four(i));
+    out.mass.four(i) = mass;
+  }
+  if (plain_ && !valves.broken) return;
+  each_line(valves, [&](int i) { out.mass[i] = from.mass[i] + h * look.gain[i]; });
+  for (std::size_t k = 0; k < static_cast<std::size_t>(others_); ++k)
+    out.other[k] = from.other[k] + h * look.rate[k];
+
+  const bool end = !(h < course.step);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(course.count); ++k) {
+    const Cell& cell = course.cells[k];
+    const double mass = end ? cell.full : cell.half;
+    if (cell.of >= size_) {
+      other(out, sides_[static_cast<std::size_t>(cell.of - size_)].mass) = mass;
+      continue;
+    }
+    out.mass[cell.of] = mass;
+    if (const int hose = line(cell.of).hose; hose != none) other(out, hose) = cell.hose;
+  }
+}
+
+template <int Most>
+void AirNetwork<Most>::finish(State& state, double h, const Answer* const (&look)[4],
+                              const Valves& valves, const Course& course) const noexcept {
+  const units::StageMean stages(h);
+  const auto mean = [&](auto&& of) { return stages([&](int s) { return of(*look[s]); }); };
+  add(state, state, mean, valves, course);
+}
+
+template <int Most>
+void AirNetwork<Most>::correct(State& out, const State& from, double h, const Answer& before,
+                               const Answer& after, const Valves& valves,
+                               const Course& course) const noexcept {
+  const double half = 0.5 * h;
+  add(
+      out, from, [&](auto&& of) { return half * (of(before) + of(after)); }, valves, course);
+}
+
+// Adds the mean of every rate: mean(of) is the step's length times the mean of of(look). `out` may
+// be `from`.
+template <int Most>
+template <class Mean>
+void AirNetwork<Most>::add(State& out, const State& from, Mean mean, const Valves& valves,
+                           const Course& course) const noexcept {
+  const bool options = !plain_ || valves.broken;
+  const int moved = flowing(valves) ? size_ : 0;
+  for (int i = 0; i < moved; ++i) {
+    const double in = mean([&](const Answer& a) { return a.inflow[i]; });
+    const double gone = mean([&](const Answer& a) { return a.outflow[i]; });
+    out.in[i] = from.in[i] + in;
+    out.out[i] = from.out[i] + gone;
+    if (options && (line(i).more || valves.broken)) {
+      out.mass[i] = from.mass[i] + mean([&](const Answer& a) { return a.gain[i]; });
+      out.leak[i] = from.leak[i] + mean([&](const Answer& a) { return a.leak[i]; });
+    } else {
+      out.mass[i] = from.mass[i] + (in - gone);
+    }
+  }
+  if (!options) return;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(others_); ++k)
+    out.other[k] = from.other[k] + mean([&](const Answer& a) { return a.rate[k]; });
+  for (std::size_t c = 0; c < 2 && cylinder_; ++c) {
+    out.piston_in[c] =
+        from.piston_in[c] + mean([&](const Answer& a) { return a.cylinder_inflow[c]; });
+    out.piston_out[c] =
+        from.piston_out[c] + mean([&](const Answer& a) { return a.cylinder_outflow[c]; });
+  }
+  if (course.count > 0) add_course(out, mean, course);
+}
+
+// Puts in the place of what the looks said of a body what its course says. The supply has given
+// that, too.
+template <int Most>
+template <class Mean>
+void AirNetwork<Most>::add_course(State& out, Mean mean, const Course& course) const noexcept {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(course.count); ++k) {
+    const Cell& cell = course.cells[k];
+    const bool of_a_muscle = cell.of < size_;
+    const auto c = static_cast<std::size_t>(of_a_muscle ? 0 : cell.of - size_);
+    const auto said = [&](auto&& of_muscle, auto&& of_cylinder) {
+      return mean(
+          [&](const Answer& a) { return of_a_muscle ? of_muscle(a)[cell.of] : of_cylinder(a)[c]; });
+    };
+    const double in =
+        cell.in - said([](const Answer& a) -> const Lanes& { return a.inflow; },
+                       [](const Answer& a) -> const auto& { return a.cylinder_inflow; });
+    const double gone =
+        cell.out - said([](const Answer& a) -> const Lanes& { return a.outflow; },
+                        [](const Answer& a) -> const auto& { return a.cylinder_outflow; });
+    (of_a_muscle ? out.in[cell.of] : out.piston_in[c]) += in;
+    (of_a_muscle ? out.out[cell.of] : out.piston_out[c]) += gone;
+    if (of_a_muscle) {
+      out.leak[cell.of] += cell.leak - mean([&](const Answer& a) { return a.leak[cell.of]; });
+      out.mass[cell.of] = cell.full;
+      if (const int hose = line(cell.of).hose; hose != none) other(out, hose) = cell.hose;
+    } else {
+      other(out, sides_[c].mass) = cell.full;
+    }
+    if (tank_ == none) continue;
+    // The rates of tank and of a cut line are those of all inlets: one of them is nothing.
+    const bool cut = course.cut;
+    other(out, cut ? cut_ : tank_) += cut ? in : -in;
+  }
+}
 
 extern template class AirNetwork<4>;
 extern template class AirNetwork<8>;

@@ -1,13 +1,11 @@
 // AirNetwork for at most 4 muscles.
-#include "sinew/air/network_faults.h"
-#include "sinew/air/network_flows.h"
-#include "sinew/air/network_quick.h"
-#include "sinew/air/network_setup.h"
-#include "sinew/air/network_steps.h"
-#include "sinew/air/network_valves.h"
+#include "sinew/air/network.h"
 
 namespace sinew::air {
 
+template class ValveBank<4>;
+template class BodiesOfAir<4>;
+template class QuickBodies<4>;
 template class AirNetwork<4>;
 
 }  // namespace sinew::air

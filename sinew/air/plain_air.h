@@ -17,6 +17,7 @@
 #include "sinew/gas/orifice.h"
 #include "sinew/gas/power_series.h"
 #include "sinew/units/pack.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::air {
 
@@ -95,8 +96,8 @@ class PlainAir {
   };
   // The numbers of a muscle that a look goes by, and what the look yields.
   template <class T>
-  struct Asked {
-    T length, rate, mass, inlet, exhaust, y, inverse_sigma;
+  struct Asked : BraidState<T> {
+    T inlet, exhaust;
   };
   template <class T>
   struct Told {
@@ -110,16 +111,10 @@ class PlainAir {
   [[gnu::always_inline]] static Told<T> look(const Room<T>& room, const Cell<T>& cell,
                                              const Asked<T>& at, const Far& far,
                                              const Finish& finish) {
-    // Density against the reference, and y by the series.
-    const T volume = braid_volume(cell.braid, at.length);
-    const T x = (at.mass * at.inverse_sigma) / volume - 1.0;
-    T power, y;
-    room.series.raise(x, power);
-    y = at.y * power;
-    const auto outside = (x > gas::PowerSeries::reach) | (x < -gas::PowerSeries::reach);
-    if (units::any(outside)) far(outside, x, y);
-
-    Told<T> out{braid_pull(cell.braid, room.atmosphere, at.length, at.rate, y), x, 0, 0};
+    T x, y;
+    const BraidPull<T> pull = braid_at<T>(cell.braid, at, room.atmosphere, room.series,
+                                          gas::PowerSeries::reach, far, x, y);
+    Told<T> out{pull, x, 0, 0};
     finish(out.pull);
     flow(room, cell, at, y, out);
     return out;
@@ -208,8 +203,10 @@ void PlainAir<Most, W>::evaluate(const S&, const Ends& ends, const State& state,
                                  std::uint64_t) const noexcept {
   for (int i = 0; i < size_; ++i) {
     const auto m = static_cast<std::size_t>(i);
-    const Asked<S> at{ends.length[i],    ends.rate[i], state.mass[i],          shares.inlet[i],
-                      shares.exhaust[i], memory.y[i],  memory.inverse_sigma[i]};
+    const Asked<S> at{
+        {ends.length[i], ends.rate[i], state.mass[i], memory.y[i], memory.inverse_sigma[i]},
+        shares.inlet[i],
+        shares.exhaust[i]};
     const auto far = [&](const Mask& outside, const S& x, S& y) {
       far_roots(i, outside, x, memory, y);
     };
@@ -233,13 +230,9 @@ auto PlainAir<Most, W>::ahead(int lane, int i, double length, double rate, doubl
                               const Answer& at_node) const noexcept -> Glimpse {
   const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
   const double mass = state.mass[i][lane];
-  Asked<double> at{length,
-                   rate,
-                   mass,
+  Asked<double> at{{length, rate, mass, memory.y[i][lane], memory.inverse_sigma[i][lane]},
                    shares.inlet[i][lane],
-                   shares.exhaust[i][lane],
-                   memory.y[i][lane],
-                   memory.inverse_sigma[i][lane]};
+                   shares.exhaust[i][lane]};
   const auto far = [&](bool, double x, double& y) {
     y = each_[k]->braids().exact_y((x + 1.0) / at.inverse_sigma);
   };
@@ -329,15 +322,10 @@ void PlainAir<Most, W>::move(State& out, const State& from, const S& h, const An
 template <int Most, int W>
 void PlainAir<Most, W>::finish(State& state, const S& h, const Answer* const (&look)[4],
                                const Shares&, const Course&) const noexcept {
-  const S sixth = h / 6.0;
-  const auto mean = [&](const S& a, const S& b, const S& c, const S& d) {
-    return S(sixth * (a + 2.0 * b + 2.0 * c + d));
-  };
+  const units::StageMean mean(h);
   for (int i = 0; i < size_; ++i) {
-    const S in =
-        mean(look[0]->inflow[i], look[1]->inflow[i], look[2]->inflow[i], look[3]->inflow[i]);
-    const S gone =
-        mean(look[0]->outflow[i], look[1]->outflow[i], look[2]->outflow[i], look[3]->outflow[i]);
+    const S in = mean([&](int s) { return look[s]->inflow[i]; });
+    const S gone = mean([&](int s) { return look[s]->outflow[i]; });
     state.in[i] += in;
     state.out[i] += gone;
     state.mass[i] += in - gone;

@@ -1,5 +1,5 @@
 // air/regulator_lanes.h - muscles behind pressure regulators go ahead of a calm step side by side,
-// four at a time: network_quick.h's way by rodas3.h, one step of it, with a pack in the place of
+// four at a time: quick_bodies.h's way by rodas3.h, one step of it, with a pack in the place of
 // each number.
 //
 // State per muscle: the mass m of its air.

@@ -1,5 +1,5 @@
 // air/stiff/quick.h - one body of air, or two in a row, through a step of the machine that they are
-// quicker than: in steps of rodas3.h that the error chooses. network_quick.h says of which laws,
+// quicker than: in steps of rodas3.h that the error chooses. quick_bodies.h says of which laws,
 // regulator_lanes.h has the calm step of muscles behind regulators side by side.
 #pragma once
 

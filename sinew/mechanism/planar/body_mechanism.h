@@ -25,6 +25,7 @@
 #include "sinew/mechanism/planar/rollers.h"
 #include "sinew/mechanism/planar/setup.h"
 #include "sinew/mechanism/planar/stops.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::plant {
 
@@ -374,11 +375,10 @@ void BodyMechanism<N, D, M>::glide(Motion& m, double h, const Acceleration& a) c
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::finish(Motion& now, double h, const Motion* const (&stage)[4],
                                     const Acceleration (&a)[4]) const noexcept {
-  const double sixth = h / 6.0;
+  const units::StageMean mean(h);
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
-    now.at[c] += sixth * (stage[0]->rate[c] + 2.0 * stage[1]->rate[c] + 2.0 * stage[2]->rate[c] +
-                          stage[3]->rate[c]);
-    now.rate[c] += sixth * (a[0][c] + 2.0 * a[1][c] + 2.0 * a[2][c] + a[3][c]);
+    now.at[c] += mean([&](int s) { return stage[s]->rate[c]; });
+    now.rate[c] += mean([&](int s) { return a[s][c]; });
   }
 }
 

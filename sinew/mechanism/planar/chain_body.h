@@ -20,6 +20,7 @@
 #include "sinew/mechanism/planar/layout.h"
 #include "sinew/mechanism/planar/stops.h"
 #include "sinew/units/pack.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::plant {
 
@@ -206,10 +207,7 @@ class ChainBody {
   // RK4's weighted mean of four stages.
   void finish(Motion& now, const S& h, const Motion* const (&stage)[4],
               const Acceleration (&a)[4]) const noexcept {
-    const S sixth = h / 6.0;
-    const auto mean = [&](auto&& of) {
-      return sixth * (of(0) + 2.0 * of(1) + 2.0 * of(2) + of(3));
-    };
+    const units::StageMean mean(h);
     now.x += mean([&](int s) { return stage[s]->x_rate; });
     now.x_rate += mean([&](int s) { return a[s].x; });
     for (int i = 0; i < N; ++i) {

@@ -32,6 +32,7 @@
 #include "sinew/mechanism/slide/senses.h"
 #include "sinew/mechanism/slide/setup.h"
 #include "sinew/mechanism/slide/stand_air.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::plant {
 
@@ -194,10 +195,9 @@ class SlideMechanism {
   // RK4's weighted mean of four stages.
   void finish(Motion& now, double h, const Motion* const (&stage)[4],
               const Acceleration (&a)[4]) const noexcept {
-    const double sixth = h / 6.0;
-    now.length += sixth * (stage[0]->velocity + 2.0 * stage[1]->velocity +
-                           2.0 * stage[2]->velocity + stage[3]->velocity);
-    now.velocity += sixth * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
+    const units::StageMean mean(h);
+    now.length += mean([&](int s) { return stage[s]->velocity; });
+    now.velocity += mean([&](int s) { return a[s]; });
   }
 
  private:

@@ -10,7 +10,7 @@
 #include "sinew/air/test_integrator.h"
 #include "sinew/air/test_machines.h"
 
-namespace sinew::air::network_quick_test {
+namespace sinew::air::quick_bodies_test {
 namespace {
 
 // A leg's motion: inches within a second, and 20 m/s^2 at its ends.
@@ -119,4 +119,4 @@ INSTANTIATE_TEST_SUITE_P(AirNetwork, Quick, ::testing::ValuesIn(cases()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace sinew::air::network_quick_test
+}  // namespace sinew::air::quick_bodies_test

@@ -1,4 +1,4 @@
-// air/network_state.h - what an air network keeps and answers; network.h says how it is used.
+// air/state.h - what an air network keeps and returns; network.h has how it is used.
 #pragma once
 
 #include <array>
@@ -92,7 +92,7 @@ struct AirAnswer : Pull<Most> {
   std::array<double, most_others<Most>> rate;  // d(other)/dt
 };
 
-// Air that is quicker than a step goes through it ahead of the body: network_quick.h.
+// Air that is quicker than a step goes through it ahead of the body: quick_bodies.h.
 template <int Most>
 struct AirCourse {
   struct Cell {

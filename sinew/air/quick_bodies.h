@@ -1,4 +1,4 @@
-// air/network_quick.h - members of AirNetwork: air that is quicker than a step of the body.
+// air/quick_bodies.h - bodies of air that are quicker than a step of the body.
 //
 // A hose's small volume settles within 0.1 ms, a muscle behind a wide regulator or with a burst
 // wall within less; RK4 of the whole machine would have to take such steps. Instead such a body of
@@ -14,64 +14,56 @@
 // air by volume, and no law of the hose is asked.
 #pragma once
 
+#include <array>
 #include <cmath>
 
-#include "sinew/air/network.h"
-#include "sinew/air/network_flows.h"
-#include "sinew/air/network_setup.h"
+#include "sinew/air/bodies.h"
 #include "sinew/air/stiff/quick.h"
 #include "sinew/gas/slopes.h"
 
 namespace sinew::air {
 
-// A pair of valves that ends at y, with its slopes. Regulators follow their lag meanwhile.
 template <int Most>
-auto AirNetwork<Most>::sloped_through(int inlet, const Now& now, double since_node, double y,
-                                      bool sloped) const noexcept -> Flowing {
-  const auto v = static_cast<std::size_t>(inlet);
-  const Tap& tap = taps_[v];
-  const Valves& valves = now.valves;
-  Flowing o;
-  if (regulates(tap.valve)) {
-    double outlet = valves[v].set_y, outlet_rate = 0;
-    if (tap.outlet != none) {
-      const double tau = tap.valve.regulator.time_constant, set = valves[v].set;
-      const double off = (other(now.state, tap.outlet) - set) * quick::decay(since_node / tau);
-      outlet = gas::root(of_pressure_, now.memory.outlet[v], set + off, air_.atmosphere);
-      outlet_rate = -off / tau * outlet / (7.0 * (set + off));
-    }
-    if (outlet > now.y_supply) outlet = now.y_supply, outlet_rate = 0;
-    const gas::SlopedFlow f = quick::flow(sloped, tap.flow, outlet, y);
-    const bool gives = f.flow > 0;
-    (gives ? o.in : o.out) = gives ? f.flow : -f.flow;
-    (gives ? o.in_by : o.out_by) = gives ? f.by_b : -f.by_b;
-    (gives ? o.in_by_time : o.out_by_time) = (gives ? f.by_a : -f.by_a) * outlet_rate;
-    return o;
-  }
-  const auto add = [&](const gas::SlopedFlow& in, double in_share, const gas::SlopedFlow& out,
-                       double out_share) {
-    o.in += in_share * in.flow;
-    o.in_by += in_share * in.by_b;
-    o.out += out_share * out.flow;
-    o.out_by += out_share * out.by_a;
-  };
-  const double in = open_share(inlet, now.t, valves), out = open_share(inlet + 1, now.t, valves);
-  if (in > 0) add(quick::flow(sloped, tap.flow, now.y_supply, y), in, {}, 0);
-  if (out > 0) add({}, 0, quick::flow(sloped, taps_[v + 1].flow, y, 1.0), out);
-  if (valves.leaking)
-    faults_.each(valves.faults, [&](std::size_t k, const AirFault& f) {
-      if (f.what != AirFault::What::seat_leak || f.of / 2 != inlet / 2) return;
-      if (f.of == inlet)
-        add(gas::sloped_leak_flow_y(broken_[k].leak, now.y_supply, y), 1, {}, 0);
-      else
-        add({}, 0, gas::sloped_leak_flow_y(broken_[k].leak, y, 1.0), 1);
-    });
-  return o;
-}
+class QuickBodies : public BodiesOfAir<Most> {
+ public:
+  using Course = AirCourse<Most>;
+  using typename BodiesOfAir<Most>::Answer, typename BodiesOfAir<Most>::Ends,
+      typename BodiesOfAir<Most>::Lanes, typename BodiesOfAir<Most>::Memory,
+      typename BodiesOfAir<Most>::State, typename BodiesOfAir<Most>::Valves;
+  using BodiesOfAir<Most>::flowing, BodiesOfAir<Most>::volume, BodiesOfAir<Most>::always_ahead;
+
+  // At the beginning of a step of length h, or of an evaluation so far ahead.
+  void plan(double t, double h, const Ends& ends, const State& state, const Valves& valves,
+            const Memory& memory, Course& course) const noexcept;
+
+ protected:
+  using Bodies = BodiesOfAir<Most>;
+  using Bodies::Bodies;
+  using Cell = typename Course::Cell;
+  using Bodies::air_, Bodies::beside_, Bodies::blocked, Bodies::braids_, Bodies::broken_,
+      Bodies::cylinder_, Bodies::each_line, Bodies::faults_, Bodies::inlets, Bodies::line,
+      Bodies::muscle, Bodies::none, Bodies::other, Bodies::plain_, Bodies::ramping_,
+      Bodies::regulators_, Bodies::shut, Bodies::side_settling_, Bodies::sides_, Bodies::size_,
+      Bodies::slope_of_faults, Bodies::sloped_through, Bodies::spring_, Bodies::taps_,
+      Bodies::through;
+  using typename Bodies::Flowing, typename Bodies::Inlets, typename Bodies::Line,
+      typename Bodies::Now, typename Bodies::Room, typename Bodies::Tap;
+
+ private:
+  gas::SlopedFlow sloped_leak(int i, const Now& now, double y) const noexcept;
+  bool goes_ahead(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
+  template <int Openings>
+  void run_ahead(const Now& node, double h, const Room& room, const gas::Base& base, double mass,
+                 Cell& cell) const noexcept;
+  void run_hose_ahead(const Now& node, double h, const Room& room, Cell& cell) const noexcept;
+  void run_muscle_ahead(const Now& node, double h, const Ends& ends, Cell& cell) const noexcept;
+  void go_beside(int first, const Now& node, double h, const Ends& ends,
+                 RegulatorLanes::Ahead& ahead) const noexcept;
+};
 
 // Returns what leaves muscle i for the room but through its valves  [kg/s].
 template <int Most>
-gas::SlopedFlow AirNetwork<Most>::sloped_leak(int i, const Now& now, double y) const noexcept {
+gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const Now& now, double y) const noexcept {
   gas::SlopedFlow leak;
   const auto add = [&](const gas::LeakConstants& c) {
     const gas::SlopedFlow one = gas::sloped_leak_flow_y(c, y, 1.0);
@@ -88,8 +80,8 @@ gas::SlopedFlow AirNetwork<Most>::sloped_leak(int i, const Now& now, double y) c
 
 // Does the air of muscle i, or of a chamber of the cylinder, go ahead in a step of h?
 template <int Most>
-bool AirNetwork<Most>::goes_ahead(int cell, double h, const Ends& ends,
-                                  const Valves& valves) const noexcept {
+bool QuickBodies<Most>::goes_ahead(int cell, double h, const Ends& ends,
+                                   const Valves& valves) const noexcept {
   if (air_.wall_time > 0) return false;
   if (cell < size_ && (always_ahead(valves) >> cell & 1) != 0) return true;
   double slope = valves.leaking ? spring_ * slope_of_faults(cell, valves.faults) : 0.0, room = 0;
@@ -113,8 +105,8 @@ bool AirNetwork<Most>::goes_ahead(int cell, double h, const Ends& ends,
 // of its openings is what it leaks by.
 template <int Most>
 template <int Openings>
-void AirNetwork<Most>::run_ahead(const Now& node, double h, const Room& room, const gas::Base& base,
-                                 double mass, Cell& cell) const noexcept {
+void QuickBodies<Most>::run_ahead(const Now& node, double h, const Room& room,
+                                  const gas::Base& base, double mass, Cell& cell) const noexcept {
   constexpr bool leaks = Openings == 3;
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
   const auto rates = [&](double t, const std::array<double, 1>& x, bool sloped) {
@@ -148,8 +140,8 @@ void AirNetwork<Most>::run_ahead(const Now& node, double h, const Room& room, co
 
 // Valves, hose, muscle.
 template <int Most>
-void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& room,
-                                      Cell& cell) const noexcept {
+void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& room,
+                                       Cell& cell) const noexcept {
   const int i = cell.of;
   const Line& l = line(i);
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
@@ -205,8 +197,8 @@ void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& roo
 
 // Muscle `cell.of` alone.
 template <int Most>
-void AirNetwork<Most>::run_muscle_ahead(const Now& node, double h, const Ends& ends,
-                                        Cell& cell) const noexcept {
+void QuickBodies<Most>::run_muscle_ahead(const Now& node, double h, const Ends& ends,
+                                         Cell& cell) const noexcept {
   const int i = cell.of;
   const Muscle& m = muscle(i);
   const Room room{volume(i, ends.length[i]),
@@ -223,8 +215,8 @@ void AirNetwork<Most>::run_muscle_ahead(const Now& node, double h, const Ends& e
 // Four muscles from `first` on as if there were nothing but regulators; a lane that has none says
 // something.
 template <int Most>
-void AirNetwork<Most>::go_beside(int first, const Now& node, double h, const Ends& ends,
-                                 RegulatorLanes::Ahead& ahead) const noexcept {
+void QuickBodies<Most>::go_beside(int first, const Now& node, double h, const Ends& ends,
+                                  RegulatorLanes::Ahead& ahead) const noexcept {
   const auto lane = [first](const Lanes& of) { return of.of.data() + first; };
   const Reference<Most>& reference = node.memory.reference;
   RegulatorLanes::Given in{.length = lane(ends.length),
@@ -247,9 +239,9 @@ void AirNetwork<Most>::go_beside(int first, const Now& node, double h, const End
 }
 
 template <int Most>
-void AirNetwork<Most>::plan(double t, double h, const Ends& ends, const State& state,
-                            const Valves& valves, const Memory& memory,
-                            Course& course) const noexcept {
+void QuickBodies<Most>::plan(double t, double h, const Ends& ends, const State& state,
+                             const Valves& valves, const Memory& memory,
+                             Course& course) const noexcept {
   course.count = 0;
   course.step = h;
   course.muscles = 0;
@@ -295,5 +287,9 @@ void AirNetwork<Most>::plan(double t, double h, const Ends& ends, const State& s
                  add(size_ + side));
   }
 }
+
+extern template class QuickBodies<4>;
+extern template class QuickBodies<8>;
+extern template class QuickBodies<48>;
 
 }  // namespace sinew::air

@@ -1,0 +1,612 @@
+// air/bodies.h - the bodies of air of a machine: chambers of muscles and of a cylinder, hoses, a
+// tank; what of each is state, how they start, what they hold, and how fast they settle.
+//
+// The state of a body of air is its mass, [40], and its energy where walls are warm. The muscles'
+// masses are a row of their own; all else is numbered among the others.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "sinew/actuator/body.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/actuator/creep.h"
+#include "sinew/actuator/hysteresis.h"
+#include "sinew/air/braid_lanes.h"
+#include "sinew/air/cylinder.h"
+#include "sinew/air/failure.h"
+#include "sinew/air/muscle.h"
+#include "sinew/air/regulator_lanes.h"
+#include "sinew/air/valve_bank.h"
+#include "sinew/gas/heat.h"
+#include "sinew/gas/hose.h"
+#include "sinew/gas/series.h"
+#include "sinew/gas/supply.h"
+
+namespace sinew::air {
+
+// Step times rate of a decay that RK4 can bear: 2.78 at the limit.
+inline constexpr double stable_decay = 2.5;
+
+namespace quick {
+inline constexpr double from_rate = 2.5;  // rate times step from which a body of air goes ahead
+}
+
+template <int Most>
+class BodiesOfAir : public ValveBank<Most> {
+ public:
+  using Lanes = air::Lanes<Most>;
+  using Ends = air::Ends<Most>;
+  using typename ValveBank<Most>::Answer, typename ValveBank<Most>::Memory,
+      typename ValveBank<Most>::State, typename ValveBank<Most>::Valves;
+
+  // How many muscles there are, and how many bodies of air beside theirs.
+  int muscles() const noexcept { return size_; }
+  int others() const noexcept { return others_; }
+  double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
+
+  // For steps in which densities leave the reach of their series as a rule.
+  void take_long_steps() { braids_.go_by_table(); }
+
+  // Returns whether there is nothing but muscles between valves on a constant supply; and whether
+  // none of it will ever break, nor do valves open gradually: plain_air.h then has its law, which
+  // goes by these.
+  bool plain() const noexcept { return plain_; }
+  bool plain_for_good() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
+  const BraidLanes& braids() const noexcept { return braids_; }
+  double supply_y() const noexcept { return supply_y_; }  // (P/P_atm)^(1/7) of the supply [-]
+
+  // Volume of the air in muscle i  [m^3], and its mass at this pressure and length [kg].
+  double volume(int i, double length) const noexcept;
+  double mass_at(int i, double pressure, double length) const noexcept {
+    return density(pressure) * volume(i, length);
+  }
+
+  // All muscles at one absolute pressure and at rest, air at the wall's temperature.
+  State initial(double pressure, const Lanes& length, double travel) const;
+
+  // Meshes that have stood at this pressure and length for long; the series stand on no base yet.
+  Memory memory_at_rest(double pressure, const Lanes& length) const;
+
+  // Chambers and hoses of the muscles, and of a single-acting cylinder, filled to one absolute
+  // pressure, air at the wall's temperature: what an ideal regulator does.
+  void hold(double pressure, const Lanes& length, double travel, State& state) const noexcept;
+
+  // Sets the rates of what hold() sets to 0: it does not move by itself.
+  void hold_still(Answer& look) const noexcept;
+
+  // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
+  // or a leak.
+  double total_mass(const State& state, double travel) const noexcept;
+
+  // Does anything flow, warm or creep, or can it without a valve that moves?
+  bool flowing(const Valves& valves) const noexcept {
+    return restless_ || ramping_ || valves.open_count > 0 || valves.leaking;
+  }
+
+  // At a node, with the look at it: the references of the series follow, the plays of the
+  // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
+  // does not turn between them. Answers what of the air is no number.
+  Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
+
+  // Muscles that always have a course while air flows: behind hoses that hold air and, while
+  // nothing is broken, behind regulators that are quick at any length.
+  std::uint64_t always_ahead(const Valves& valves) const noexcept {
+    return valves.broken ? behind_hoses_ : behind_hoses_ | behind_regulators_;
+  }
+
+  // Returns the air of muscle i, and what has passed its valves and leaks since the start  [kg].
+  Account account(const State& s, int i) const noexcept {
+    return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
+  }
+  // Pressure behind the valves of muscle i: its own, or that before a hose  [Pa].
+  double manifold(const Answer& a, int i, const Valves& valves) const noexcept {
+    return line(i).more || valves.broken ? a.manifold[i] : a.pressure[i];
+  }
+  double leak(const Answer& a, int i, const Valves& valves) const noexcept {  // [kg/s]
+    return line(i).more || valves.broken ? a.leak[i] : 0.0;
+  }
+  Account cylinder_account(const State& s, int side) const noexcept {
+    const auto c = static_cast<std::size_t>(side);
+    const int mass = sides_[c].mass;
+    return {
+        .mass = mass != none ? other(s, mass) : 0.0, .in = s.piston_in[c], .out = s.piston_out[c]};
+  }
+  double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
+    return a.cylinder_pressure[static_cast<std::size_t>(side)];
+  }
+  // `past_tank`: what the supply has given while a fault had cut it from its tank; below 0 it has
+  // taken more.
+  SupplyState supply_state(const State& s, const Answer& a) const noexcept {
+    return {a.supply_pressure, a.tank_pressure, cut_ == none ? 0.0 : other(s, cut_)};
+  }
+
+  // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
+  // infinity [s]. Without a place, wherever the piston stands. With one, muscles that never seal
+  // are in it too: behind a regulator or a hose's chamber, or with a leak. Muscles behind shutters
+  // are not.
+  double longest_step() const noexcept;
+  double longest_step(const Ends& ends, const Valves& valves) const noexcept;
+
+  // Returns the same for what goes through no step ahead of the body: warm walls, lags, creep, and
+  // what leaks behind a hose that holds no air.
+  double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
+
+  // Returns the longest step in which the air of the cylinder's chambers changes little: its
+  // spring, gamma P A^2/V, moves the body by half a radian at most, and the piston takes an eighth
+  // of the room that it leaves. As a chamber vanishes both grow without bound; infinite without
+  // chambers. `lift_per_force`: acceleration of the body per force of the piston [1/kg].
+  double longest_step_of_piston(const Ends& ends, const Answer& look,
+                                double lift_per_force) const noexcept;
+
+ protected:
+  using Bank = ValveBank<Most>;
+  using Bank::air_, Bank::blocked, Bank::failed_line, Bank::faults_, Bank::none, Bank::of_pressure_,
+      Bank::other, Bank::ramping_, Bank::rate_of, Bank::slope_of_faults, Bank::taps_;
+  using typename Bank::Flows, typename Bank::Now, typename Bank::Tap;
+
+  // A line lies between a muscle's valves and its air; its numbers are among the others.
+  struct Line {
+    int energy = none, hose = none, hose_energy = none;  // no hose's mass: it holds no air
+    bool resists = false, more = false;                  // a hose; more than valves
+    gas::HoseConstants hose_flow;
+    gas::LeakConstants leak;
+    bool plays = false;                                          // it has hysteresis
+    std::array<int, actuator::Creep::most> late = {none, none};  // of the creep
+    double settling = 0;  // n R T times the slope of what never shuts; 0: all of it does [m^3/s]
+  };
+  struct Slot {
+    int mass = none, energy = none;
+  };
+  // A volume that changes steadily within a step.
+  struct Room {
+    double volume = 0, rate = 0;  // [m^3], [m^3/s]
+  };
+  // The line to the inlets.
+  struct Inlets {
+    double y = 1;
+    bool cut = false;  // a fault has cut it from its tank
+  };
+
+  BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+              const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults);
+
+  const Muscle& muscle(int i) const noexcept { return muscles_[static_cast<std::size_t>(i)]; }
+  const Line& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
+
+  // Calls visit(i) for the muscles whose lines are evaluated one by one: those with more than
+  // valves, and all of them while something is broken.
+  template <class Visit>
+  void each_line(const Valves& valves, Visit visit) const noexcept;
+  Inlets inlets(const State& state, const Valves& valves, const Memory& memory,
+                Answer& out) const noexcept;
+
+  int size_ = 0, others_ = 0;
+  gas::Supply supply_;
+  double supply_y_ = 0;  // of its set pressure
+  std::vector<Muscle> muscles_;
+  BraidLanes braids_;
+  RegulatorLanes regulators_;
+  bool in_lanes_ = false;  // all muscles go by braids_
+  bool plain_ = false;     // there is nothing but muscles between valves on a constant supply
+  std::optional<Cylinder> cylinder_;
+
+  std::vector<Line> lines_;
+  std::vector<int> more_;      // the muscles whose line is more than valves
+  std::array<Slot, 2> sides_;  // of the cylinder
+  std::vector<int> lagging_;   // regulators whose outlet is a state: their valves
+  std::vector<int> held_;      // the others that hold() sets
+  int tank_ = none;
+  bool restless_ = false;
+  int cut_ = none;           // state: air from a line that is cut from its tank
+  double spring_ = 0;        // n R T: a chamber of volume V follows a slope G at n R T G/V
+  double lag_rate_ = 0;      // of the quickest lag or creep [1/s]
+  double longest_step_ = 0;  // of all that has the same rate wherever the machine stands [s]
+  std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
+  std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // that always go ahead
+  std::uint64_t beside_ = 0;                                // that go ahead by regulators_
+  bool settles_ = false;                                    // a line has `settling`
+
+ private:
+  void add_muscle(const Muscle& muscle);
+  void add_memory(int i);
+  void add_cylinder();
+  void classify();
+  void limit_step();
+  double fastest_slope(int inlet) const;
+  double hose_slope(const Line& line) const;
+  bool always_quick(int i) const;
+  double density(double pressure) const noexcept;
+  void fill(const Slot& slot, double mass, State& state) const noexcept;
+  double line_of_tank(const State& state, const Memory& memory, Answer& out) const noexcept;
+};
+
+template <int Most>
+BodiesOfAir<Most>::BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& air,
+                               const gas::Supply& supply, const std::optional<Cylinder>& cylinder,
+                               std::span<const AirFault> faults)
+    : ValveBank<Most>(air, faults),
+      size_(static_cast<int>(muscles.size())),
+      supply_(supply),
+      supply_y_(gas::y_of(air, supply.pressure)),
+      muscles_(muscles.begin(), muscles.end()),
+      braids_(muscles, air),
+      in_lanes_(!(air.wall_time > 0) && std::ranges::all_of(muscles, lanes_hold)),
+      cylinder_(cylinder) {
+  if (size_ > Most) throw std::invalid_argument("more muscles than the network is compiled for");
+  for (const Muscle& m : muscles_) add_muscle(m);
+  for (Line& l : lines_) {
+    const auto i = static_cast<std::size_t>(&l - lines_.data());
+    if (air_.wall_time > 0) held_.push_back(l.energy = others_++);
+    if (!l.resists || !(muscles_[i].hose.volume > 0)) continue;
+    held_.push_back(l.hose = others_++);
+    if (air_.wall_time > 0) held_.push_back(l.hose_energy = others_++);
+  }
+  if (cylinder_) add_cylinder();
+  for (Tap& tap : taps_)
+    if (regulates(tap.valve) && tap.valve.regulator.time_constant > 0) {
+      lagging_.push_back(static_cast<int>(&tap - taps_.data()));
+      tap.outlet = others_++;
+    }
+  if (supply_.kind == gas::Supply::Kind::tank) tank_ = others_++;
+  for (int i = 0; i < size_; ++i) add_memory(i);
+  const auto fails = [](const AirFault& f) { return f.what == AirFault::What::supply; };
+  if (tank_ != none && std::ranges::any_of(faults_.all(), fails)) cut_ = others_++;
+  classify();
+  limit_step();
+}
+
+// A 3-way valve and a regulator serve both ways; no other valve stands beside them.
+template <int Most>
+void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
+  this->add_tap(m.inlet);
+  this->add_tap(m.inlet.kind == gas::Valve::Kind::two_way ? m.exhaust : m.inlet);
+  if (regulates(m.inlet)) taps_.back() = {};
+
+  Line line;
+  line.resists = m.hose.law != gas::Hose::Law::none;
+  line.hose_flow = gas::hose_constants(m.hose, air_);
+  line.leak = gas::leak_constants(m.leak, air_);
+  line.more = line.resists || !line.leak.tight() || regulates(m.inlet) || air_.wall_time > 0;
+  lines_.push_back(line);
+}
+
+// Makes room for what the mesh of muscle i remembers.
+template <int Most>
+void BodiesOfAir<Most>::add_memory(int i) {
+  const actuator::Actuator& a = muscle(i).actuator;
+  Line& l = lines_[static_cast<std::size_t>(i)];
+  l.plays = actuator::has_hysteresis(a.hysteresis);
+  for (std::size_t k = 0; k < l.late.size(); ++k)
+    if (a.creep.share[k] != 0) l.late[k] = others_++;
+}
+
+template <int Most>
+void BodiesOfAir<Most>::add_cylinder() {
+  for (const Side side : {up, down}) {
+    this->add_tap(cylinder_->inlet[side]);
+    this->add_tap(cylinder_->exhaust[side]);
+    const bool open = cylinder_->mode == Cylinder::Mode::single_acting && side == down;
+    if (cylinder_->mode == Cylinder::Mode::regulator || open) continue;
+    if (!(cylinder_->dead_volume[side] > 0))
+      throw std::invalid_argument("a cylinder's chambers need a dead volume");
+    Slot& slot = sides_[side];
+    slot.mass = others_++;
+    if (air_.wall_time > 0) slot.energy = others_++;
+    if (cylinder_->mode != Cylinder::Mode::single_acting) continue;
+    held_.push_back(slot.mass);
+    if (slot.energy != none) held_.push_back(slot.energy);
+  }
+}
+
+// Finds what flows, warms or creeps although every valve is shut, and the lines with more than
+// valves.
+template <int Most>
+void BodiesOfAir<Most>::classify() {
+  restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
+  plain_ = !cylinder_ && tank_ == none && in_lanes_;
+  for (int i = 0; i < size_; ++i) {
+    const Line& l = line(i);
+    const auto inlet = static_cast<std::size_t>(2 * i);
+    restless_ = restless_ || !l.leak.tight() || l.hose != none || regulates(taps_[inlet].valve);
+    restless_ = restless_ || actuator::has_creep(muscle(i).actuator.creep);
+    plain_ = plain_ && !l.more;
+    if (l.more) more_.push_back(i);
+    if (l.hose != none && l.energy == none) behind_hoses_ |= std::uint64_t{1} << i;
+    taps_[inlet].listed = taps_[inlet + 1].listed = !l.more;
+    if (in_lanes_ && regulates(taps_[inlet].valve) && !l.resists && l.leak.tight())
+      beside_ |= std::uint64_t{1} << i;
+  }
+  if (beside_ != 0) {
+    std::vector<gas::Valve> inlets;
+    for (const Muscle& m : muscles_) inlets.push_back(m.inlet);
+    regulators_ = RegulatorLanes(braids_, inlets, air_);
+  }
+}
+
+template <int Most>
+double BodiesOfAir<Most>::volume(int i, double length) const noexcept {
+  const Muscle& m = muscle(i);
+  return m.count * actuator::volume(m.actuator, length) + m.external_volume;
+}
+
+// Returns the slope of the flow through a pair of valves, at nearly equal pressures  [kg/(s Pa)].
+template <int Most>
+double BodiesOfAir<Most>::fastest_slope(int inlet) const {
+  const auto v = static_cast<std::size_t>(inlet);
+  return (taps_[v].flow.linear_gain + taps_[v + 1].flow.linear_gain) / air_.atmosphere;
+}
+
+// Returns the slope of the flow through a hose  [kg/(s Pa)].
+template <int Most>
+double BodiesOfAir<Most>::hose_slope(const Line& line) const {
+  const double p = supply_.pressure, y = gas::y_of(air_, p), y_less = gas::y_of(air_, 0.999 * p);
+  return gas::hose_flow_y(line.hose_flow, y, y_less) / (1e-3 * p);
+}
+
+// A chamber of volume V whose flow has the slope G decays at n R T G/V.
+template <int Most>
+void BodiesOfAir<Most>::limit_step() {
+  double rate = air_.wall_time > 0 ? 1.0 / air_.wall_time : 0.0;
+  const auto faster = [&](double one) { rate = one > rate ? one : rate; };
+  for (const int v : lagging_)
+    faster(1.0 / taps_[static_cast<std::size_t>(v)].valve.regulator.time_constant);
+  for (const Muscle& m : muscles_)
+    for (std::size_t k = 0; k < m.actuator.creep.share.size(); ++k)
+      if (m.actuator.creep.share[k] != 0) faster(1.0 / m.actuator.creep.time[k]);
+  lag_rate_ = rate;
+  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
+  spring_ = exponent * air_.gas_constant * air_.temperature;
+  for (int i = 0; i < size_; ++i) {
+    Line& l = lines_[static_cast<std::size_t>(i)];
+    double slope = (l.leak.hole.linear_gain + l.leak.slope) / air_.atmosphere;
+    if (l.hose != none)
+      slope += hose_slope(l);
+    else if (regulates(taps_[static_cast<std::size_t>(2 * i)].valve))
+      slope += fastest_slope(2 * i);
+    l.settling = spring_ * slope;
+    settles_ = settles_ || l.settling > 0;
+    if (always_quick(i)) behind_regulators_ |= std::uint64_t{1} << i;
+    if (l.hose != none)
+      faster(spring_ * (fastest_slope(2 * i) + hose_slope(l)) / muscle(i).hose.volume);
+  }
+  for (const Side side : {up, down})
+    if (sides_[side].mass != none)
+      side_settling_[side] = spring_ * fastest_slope(2 * (size_ + side));
+  longest_step_ = rate > 0 ? stable_decay / rate : never;
+}
+
+// Is muscle i, behind a regulator alone, quick for a step of a millisecond even where it holds most
+// air?
+template <int Most>
+bool BodiesOfAir<Most>::always_quick(int i) const {
+  const bool regulated = regulates(taps_[static_cast<std::size_t>(2 * i)].valve);
+  if (!regulated || line(i).resists || air_.wall_time > 0) return false;
+  const double most = volume(i, actuator::shortest_length(muscle(i).actuator));
+  return line(i).settling * 1e-3 > quick::from_rate * most;
+}
+
+// With the piston at the end of its stroke a chamber is the dead volume alone.
+template <int Most>
+double BodiesOfAir<Most>::longest_step() const noexcept {
+  double fastest = stable_decay / longest_step_;
+  for (const Side side : {up, down})
+    if (sides_[side].mass != none)
+      fastest = std::max(fastest, side_settling_[side] / cylinder_->dead_volume[side]);
+  return fastest > 0 ? stable_decay / fastest : never;
+}
+
+// Rates of a hose's chamber and of the muscle behind it add up, at most. A cylinder's chamber with
+// its valves shut has none. A fault that leaks may leak from either chamber of a muscle.
+template <int Most>
+double BodiesOfAir<Most>::longest_step(const Ends& ends, const Valves& valves) const noexcept {
+  if (plain_ && !valves.leaking) return never;
+  double fastest = 0;
+  for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
+    double one = line(i).settling / volume(i, ends.length[i]);
+    if (valves.leaking) {
+      const double broken = spring_ * slope_of_faults(i, valves.faults);
+      one += broken / volume(i, ends.length[i]);
+      if (line(i).hose != none) one += broken / muscle(i).hose.volume;
+    }
+    fastest = std::max(fastest, one);
+  }
+  fastest += stable_decay / longest_step_;
+  for (const Side side : {up, down}) {
+    if (sides_[side].mass == none) continue;
+    const auto inlet = static_cast<std::size_t>(2 * (size_ + side));
+    const bool open = ramping_ || valves[inlet].share > 0 || valves[inlet + 1].share > 0;
+    const double broken =
+        valves.leaking ? spring_ * slope_of_faults(size_ + side, valves.faults) : 0.0;
+    if (!open && !(broken > 0)) continue;
+    fastest = std::max(
+        fastest, (side_settling_[side] + broken) / air::volume(*cylinder_, side, ends.travel));
+  }
+  return fastest > 0 ? stable_decay / fastest : never;
+}
+
+template <int Most>
+double BodiesOfAir<Most>::longest_step_of_rest(const Ends& ends,
+                                               const Valves& valves) const noexcept {
+  if (air_.wall_time > 0) return longest_step(ends, valves);
+  double fastest = lag_rate_;
+  for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
+    const bool held_back = line(i).hose == none && (line(i).resists || blocked(i, valves));
+    if (!held_back) continue;
+    const double slope = line(i).settling + spring_ * slope_of_faults(i, valves.faults);
+    fastest = std::max(fastest, slope / volume(i, ends.length[i]));
+  }
+  return fastest > 0 ? stable_decay / fastest : never;
+}
+
+template <int Most>
+double BodiesOfAir<Most>::longest_step_of_piston(const Ends& ends, const Answer& look,
+                                                 double lift_per_force) const noexcept {
+  double longest = never;
+  for (const Side side : {up, down}) {
+    if (sides_[side].mass == none) continue;
+    const double room = air::volume(*cylinder_, side, ends.travel), face = area(*cylinder_, side);
+    const double spring =
+        gas::heat_capacity_ratio * look.cylinder_pressure[side] * face * face / room;
+    longest = std::min(longest, 0.5 / std::sqrt(spring * lift_per_force));
+    longest = std::min(longest, 0.125 * room / (face * std::abs(ends.travel_rate)));
+  }
+  return longest;
+}
+
+// Returns the density of air at rest, by the chamber's law  [kg/m^3].
+template <int Most>
+double BodiesOfAir<Most>::density(double pressure) const noexcept {
+  return air_.wall_time > 0 ? pressure / (air_.gas_constant * air_.temperature)
+                            : gas::density(air_, pressure);
+}
+
+template <int Most>
+void BodiesOfAir<Most>::fill(const Slot& slot, double mass, State& state) const noexcept {
+  other(state, slot.mass) = mass;
+  if (slot.energy != none) other(state, slot.energy) = gas::energy_at_rest(air_, mass);
+}
+
+template <int Most>
+void BodiesOfAir<Most>::hold(double pressure, const Lanes& length, double travel,
+                             State& state) const noexcept {
+  const double rho = density(pressure);
+  for (int i = 0; i < size_; ++i) {
+    const Line& l = line(i);
+    state.mass[i] = rho * volume(i, length[i]);
+    if (l.energy != none) other(state, l.energy) = gas::energy_at_rest(air_, state.mass[i]);
+    if (l.hose != none) fill({l.hose, l.hose_energy}, rho * muscle(i).hose.volume, state);
+  }
+  for (int i = size_; i < braids_.padded(); ++i) state.mass[i] = state.mass[size_ - 1];
+  if (cylinder_ && cylinder_->mode == Cylinder::Mode::single_acting)
+    fill(sides_[up], rho * air::volume(*cylinder_, up, travel), state);
+}
+
+template <int Most>
+void BodiesOfAir<Most>::hold_still(Answer& look) const noexcept {
+  for (int i = 0; i < size_; ++i)
+    look.inflow[i] = look.outflow[i] = look.gain[i] = look.leak[i] = 0;
+  for (const int held : held_) rate_of(look, held) = 0;
+  look.cylinder_inflow = look.cylinder_outflow = {};
+}
+
+template <int Most>
+auto BodiesOfAir<Most>::initial(double pressure, const Lanes& length, double travel) const
+    -> State {
+  State state{};
+  hold(pressure, length, travel, state);
+  for (const Line& l : lines_)
+    for (const int late : l.late)
+      if (late != none) other(state, late) = pressure - air_.atmosphere;
+  for (const Side side : {up, down}) {
+    if (sides_[side].mass == none) continue;
+    const double given = cylinder_->initial_pressure[side];
+    fill(sides_[side],
+         density(given > 0 ? given : air_.atmosphere) * air::volume(*cylinder_, side, travel),
+         state);
+  }
+  for (const int v : lagging_)
+    other(state, taps_[static_cast<std::size_t>(v)].outlet) = air_.atmosphere;
+  if (tank_ != none) other(state, tank_) = gas::tank_mass(supply_, air_, supply_.initial_pressure);
+  return state;
+}
+
+template <int Most>
+auto BodiesOfAir<Most>::memory_at_rest(double pressure, const Lanes& length) const -> Memory {
+  Memory memory{};
+  memory.reference = braids_.template reference<Most>();
+  for (int i = 0; i < size_; ++i)
+    if (line(i).plays)
+      memory.play[i] =
+          actuator::play_at_rest(muscle(i).actuator, length[i], pressure - air_.atmosphere);
+  return memory;
+}
+
+template <int Most>
+double BodiesOfAir<Most>::total_mass(const State& state, double travel) const noexcept {
+  double sum = 0;
+  for (int i = 0; i < size_; ++i) {
+    sum += state.mass[i];
+    if (line(i).hose != none) sum += other(state, line(i).hose);
+  }
+  if (tank_ != none) sum += other(state, tank_);
+  for (const Slot& side : sides_)
+    if (side.mass != none) sum += other(state, side.mass);
+  if (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator)
+    sum += gas::density(air_, cylinder_->pressure) * air::volume(*cylinder_, down, travel);
+  return sum;
+}
+
+// The muscles whose lines are asked one by one: those with more than valves, and all of them while
+// something is broken.
+template <int Most>
+template <class Visit>
+void BodiesOfAir<Most>::each_line(const Valves& valves, Visit visit) const noexcept {
+  if (valves.broken)
+    for (int i = 0; i < size_; ++i) visit(i);
+  else
+    for (const int i : more_) visit(i);
+}
+
+// Returns y of the line to the inlets behind a tank  [-].
+template <int Most>
+double BodiesOfAir<Most>::line_of_tank(const State& state, const Memory& memory,
+                                       Answer& out) const noexcept {
+  out.tank_pressure = gas::tank_pressure(supply_, air_, other(state, tank_));
+  out.supply_pressure = gas::line_pressure(supply_, out.tank_pressure);
+  return out.supply_pressure < supply_.pressure
+             ? gas::root(of_pressure_, memory.line, out.supply_pressure, air_.atmosphere)
+             : supply_y_;
+}
+
+// The pressure before the inlets, by tank and faults.
+template <int Most>
+auto BodiesOfAir<Most>::inlets(const State& state, const Valves& valves, const Memory& memory,
+                               Answer& out) const noexcept -> Inlets {
+  out.supply_pressure = out.tank_pressure = supply_.pressure;
+  const double y = tank_ != none ? line_of_tank(state, memory, out) : supply_y_;
+  const double failed = valves.broken ? failed_line(valves, out) : 0.0;
+  return failed > 0 ? Inlets{failed, true} : Inlets{y, false};
+}
+
+template <int Most>
+Failure BodiesOfAir<Most>::remember(const Answer& look, const State& state,
+                                    Memory& memory) const noexcept {
+  const int failed = braids_.follow(look.drift, memory.reference);
+  if (failed >= 0) return {.of = Failure::Of::air, .muscle = failed};
+  if (plain_) return {};
+  const double at_one = gas::density_at_atmosphere(air_);
+  for (int i = 0; i < size_; ++i) {
+    const Line& l = line(i);
+    if (!is_pressure(look.pressure[i])) return {.of = Failure::Of::air, .muscle = i};
+    if (l.plays) memory.play[i] = look.play[i];
+    if (l.hose != none && l.hose_energy == none)
+      gas::follow(braids_.series(), memory.hose[static_cast<std::size_t>(i)],
+                  other(state, l.hose) / muscle(i).hose.volume, at_one);
+  }
+  for (const Side side : {up, down}) {
+    if (!cylinder_) break;
+    const double p = look.cylinder_pressure[side];
+    if (!(p >= 0 && p < most_pressure)) return {.of = Failure::Of::cylinder};
+    if (sides_[side].mass != none && sides_[side].energy == none)
+      gas::follow(braids_.series(), memory.side[side], look.cylinder_density[side], at_one);
+  }
+  for (const int valve : lagging_) {
+    const auto v = static_cast<std::size_t>(valve);
+    gas::follow(of_pressure_, memory.outlet[v], other(state, taps_[v].outlet), air_.atmosphere);
+  }
+  if (tank_ != none) gas::follow(of_pressure_, memory.line, look.supply_pressure, air_.atmosphere);
+  return {};
+}
+
+extern template class BodiesOfAir<4>;
+extern template class BodiesOfAir<8>;
+extern template class BodiesOfAir<48>;
+
+}  // namespace sinew::air
