@@ -44,8 +44,9 @@ sinew_install_libraries(sinew ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 set(headers_only FILES_MATCHING PATTERN "*.h"
     PATTERN "*_test.h" EXCLUDE PATTERN "test_*.h" EXCLUDE PATTERN "testing.h" EXCLUDE)
 if(SINEW_ONLY)
-  foreach(folder units signals gas actuator air)
-    install(DIRECTORY sinew/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew
+  foreach(folder units signals gas actuator air mechanism/driven world/kernel world/driven)
+    cmake_path(GET folder PARENT_PATH above)
+    install(DIRECTORY sinew/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew/${above}
             COMPONENT development ${headers_only})
   endforeach()
   install(FILES sinew/muscle.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew COMPONENT development)

@@ -12,7 +12,7 @@
 // find_package(sinew COMPONENTS muscle) and sinew::muscle need a C++20 compiler and no library;
 // docs/how-to/install.md describes how it is built alone.
 //
-// air/driven_muscle.h      one muscle, which a loop of yours moves: begin here
+// world/driven/driven_muscle.h      one muscle, which a loop of yours moves: begin here
 // air/network.h            many muscles as half of an equation that your integrator solves
 // actuator/…               the braid's laws alone: tension, stiffness, volume, losses
 // gas/…                    air, valves with their delays, supply
@@ -25,7 +25,6 @@
 #include "sinew/actuator/operating_point.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
-#include "sinew/air/driven_muscle.h"
 #include "sinew/air/muscle.h"
 #include "sinew/air/network.h"
 #include "sinew/gas/air.h"
@@ -33,3 +32,4 @@
 #include "sinew/gas/valve.h"
 #include "sinew/units/constants.h"
 #include "sinew/units/literals.h"
+#include "sinew/world/driven/driven_muscle.h"

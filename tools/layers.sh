@@ -15,7 +15,7 @@ layers='
     actuator        units
     air/stiff       gas
     air             air/stiff gas actuator signals
-    muscle.h        air
+    muscle.h        world/driven
     robot           gas actuator signals
     robot/wiring    robot
     control/joint   signals
@@ -30,9 +30,12 @@ layers='
     recording       signals log config host
     mechanism/friction  units
     mechanism/planar    mechanism/friction air robot signals
-    mechanism/slide     air robot signals
+    mechanism/driven    air signals
+    mechanism/slide     mechanism/driven air robot signals
     mechanism/spatial   air robot signals
-    world           mechanism air signals
+    world/kernel    air signals
+    world/driven    world/kernel mechanism/driven air signals
+    world           world/kernel mechanism air signals
     port/recorded   air robot signals log
     port/hardware   control/link control/board host signals
     port/comedi     control/supervise host signals
@@ -64,7 +67,7 @@ layers='
     run/controllers run/setup
     run/simulation  run/controllers log host
     run/stand       run/simulation experiment/rig
-    run/muscle      run/setup experiment/rig
+    run/muscle      run/setup experiment/rig world/driven
     run/folder      run/simulation run/stand log analysis report recording
     run/bring_up    run/folder report
     film            run/folder report
@@ -285,7 +288,7 @@ self_test() {
   expect sinew/mechanism/planar/a.cpp '#include "sinew/log/writer.h"'          'mechanism/planar may not include log'
   expect sinew/port/recorded/a.h  '#include "sinew/log/reader.h"'              ''
   expect sinew/run/setup/a.h      '#include "sinew/mechanism/planar/a.h"'      ''  # mechanism stands for it
-  expect sinew/experiment/a.h     '#include "sinew/world/world.h"'             'experiment may not include world'
+  expect sinew/experiment/a.h     '#include "sinew/world/kernel/world.h"'             'experiment may not include world'
   expect sinew/experiment/a.h     '#include "sinew/control/setup/a.h"'         'experiment may not include control/setup'
   expect sinew/control/setup/a.h  '#include "sinew/control/supervise/a.h"'     ''
   expect sinew/control/setup/a.h  '#include "sinew/experiment/a.h"'            'control/setup may not include experiment'

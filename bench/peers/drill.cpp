@@ -51,7 +51,7 @@ class Muscles {
   }
   void move_valves(double t) { network_.move_valves(t, look_[0], valves_); }
 
-  // RK4, as world/world.h has it.
+  // RK4, as world/kernel/world.h has it.
   void step(const Drill& d, std::size_t half, std::size_t wide, double h) {
     look(d, half, state_, look_[0]);
     network_.remember(look_[0], state_, memory_);

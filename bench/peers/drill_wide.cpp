@@ -67,7 +67,7 @@ class Machines {
         .set(lane, s.open ? 1.0 : 0.0);
   }
 
-  // RK4, as world/nodes.h has it.
+  // RK4, as world/kernel/nodes.h has it.
   void step(const Places& p, const Pack& h) {
     constexpr int at[] = {0, 1, 1, 2};
     look(p, 0, state_, look_[0]);

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "sinew/air/driven_muscle.h"
 #include "sinew/run/muscle/muscle_setup.h"
+#include "sinew/world/driven/driven_muscle.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fmu/slave/sheet.h"
-#include "sinew/air/driven_muscle.h"
+#include "sinew/world/driven/driven_muscle.h"
 
 namespace sinew::fmu {
 

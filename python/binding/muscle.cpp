@@ -9,10 +9,10 @@
 #include "python/binding/numbers.h"
 #include "python/binding/used.h"
 #include "sinew/actuator/actuator.h"
-#include "sinew/air/driven_muscle.h"
 #include "sinew/files/values.h"
 #include "sinew/run/muscle/muscle_setup.h"
 #include "sinew/run/muscle/save.h"
+#include "sinew/world/driven/driven_muscle.h"
 
 namespace sinew::python {
 

@@ -1,6 +1,6 @@
 // air/network.h - the air of a machine: bodies of air (chambers of muscles and of a cylinder,
 // hoses, a tank, the room) joined by restrictions (valves, regulators, hoses, leaks), with the
-// muscles that they fill. The air half of one ODE; world/world.h integrates it with a body:
+// muscles that they fill. The air half of one ODE; world/kernel/world.h integrates it with a body:
 //
 //   lengths, rates, state, valves, memory  ->  tensions, pressures, flows
 //

@@ -3,7 +3,7 @@
 
 #include "sinew/air/network.h"
 #include "sinew/mechanism/planar/chain_mechanism.h"
-#include "sinew/world/world.h"
+#include "sinew/world/kernel/world.h"
 
 namespace sinew::plant {
 

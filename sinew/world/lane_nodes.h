@@ -10,7 +10,7 @@
 
 #include "sinew/air/plain_air.h"
 #include "sinew/mechanism/planar/chain_body.h"
-#include "sinew/world/nodes.h"
+#include "sinew/world/kernel/nodes.h"
 
 namespace sinew::plant {
 

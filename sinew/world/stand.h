@@ -1,12 +1,12 @@
 // world/stand.h - the test stand of figures 2-7 and 3-5 as a Port: one muscle and what pulls
 // it.
 //
-//   world/world.h        nodes, cuts, events, peeks     slide_mechanism.h  what moves
+//   world/kernel/world.h        nodes, cuts, events, peeks     slide_mechanism.h  what moves
 //   stand_air.h          its air                        senses.h           transducers, the truth
 #pragma once
 
 #include "sinew/mechanism/slide/slide_mechanism.h"
-#include "sinew/world/world.h"
+#include "sinew/world/kernel/world.h"
 
 namespace sinew::plant {
 

@@ -143,8 +143,8 @@ if (pictures)
   test('pictures', async () => {
     const views = { light: {}, dark: { colorScheme: 'dark' }, narrow: { viewport: { width: 390, height: 844 } } };
     const pages = {
-      front: 'index.html', theory: 'docs/theory/actuator.html#tension', cpp: 'reference/cpp/air.html#DrivenMuscle',
-      folders: 'reference/cpp/index.html', python: 'reference/python/sinew.html', source: 'source/sinew/air/driven_muscle.h.html#L42',
+      front: 'index.html', theory: 'docs/theory/actuator.html#tension', cpp: 'reference/cpp/world-driven.html#DrivenMuscle',
+      folders: 'reference/cpp/index.html', python: 'reference/python/sinew.html', source: 'source/sinew/world/driven/driven_muscle.h.html#L42',
     };
     for (const [view, options] of Object.entries(views)) {
       for (const [name, path] of Object.entries(pages))

@@ -5,15 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <sstream>
+#include <string>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/world/driven/driven_muscle.h"
 #include "sinew/world/machine.h"
 #include "tests/places.h"
 #include "tests/six_legs.h"
-#include "tests/worlds/body.h"
 #include "tests/worlds/breaks.h"
+#include "tests/worlds/on_world.h"
 
 namespace sinew::worlds {
 namespace {
@@ -166,46 +170,60 @@ double energy_of(const Setup& s, const Truth& x) {
   return sum;
 }
 
-class Planar final : public Body {
+struct OfPlanar {
+  using World = plant::Machine;
+  using Setup = plant::Setup;
+
+  static std::size_t channels(const Setup& s) { return s.robot.sensors.size(); }
+  template <class Take>
+  static void tell(const Setup& s, const Truth& x, Take take) {
+    worlds::tell(s, x, take);
+  }
+  static std::vector<Account> air(const Setup& s, const Truth& x, double held) {
+    std::vector<Account> out = accounts(s, x);
+    out.push_back(machine_account(s, x, held));
+    return out;
+  }
+  static double energy(const Setup& s, const Truth& x) { return energy_of(s, x); }
+};
+using Planar = OnWorld<OfPlanar>;
+
+// A leg in the second lane of as many as the processor has.
+class InLane : public plant::Machine {
  public:
-  explicit Planar(const Setup& s) : setup_(s), machine_(s) {
-    tell(setup_, Truth{}, [&](const char* name, Kind kind, double) {
-      quantities_.push_back({name, kind});
-    });
-  }
-
-  signals::Port& port() override { return machine_.port(); }
-  std::size_t channels() const override { return setup_.robot.sensors.size(); }
-  void advance(double t) override { machine_.advance(t); }
-  double time() const override { return machine_.time(); }
-  std::int64_t nodes() const override { return machine_.nodes(); }
-  air::Failure failure() const override { return machine_.failure(); }
-  std::vector<std::byte> save() const override {
-    std::vector<std::byte> out(machine_.state_size());
-    machine_.save(out);
-    return out;
-  }
-  void restore(std::span<const std::byte> saved) override { machine_.restore(saved); }
-  const std::vector<Quantity>& quantities() const override { return quantities_; }
-
-  void truth(double t, std::span<double> out) override {
-    std::size_t n = 0;
-    tell(setup_, machine_.truth(t), [&](const char*, Kind, double x) { out[n++] = x; });
-  }
-
-  std::vector<Account> air(double t) override {
-    const Truth x = machine_.truth(t);
-    std::vector<Account> out = accounts(setup_, x);
-    out.push_back(machine_account(setup_, x, machine_.air_mass()));
-    return out;
-  }
-
-  double energy(double t) override { return energy_of(setup_, machine_.truth(t)); }
+  explicit InLane(const Setup& s) : InLane(s, std::make_unique<plant::Batch>(8, s)) {}
 
  private:
-  Setup setup_;
-  plant::Machine machine_;
-  std::vector<Quantity> quantities_;
+  InLane(const Setup& s, std::unique_ptr<plant::Batch> batch)
+      : Machine((batch->replace(1, s), plant::LegLane(*batch, 1))), batch_(std::move(batch)) {}
+
+  std::unique_ptr<plant::Batch> batch_;
+};
+struct OfLane : OfPlanar {
+  using World = InLane;
+};
+
+// --- a driven length
+// ------------------------------------------------------------------------------
+
+struct OfDriven {
+  using World = plant::DrivenWorld;
+  using Setup = plant::DrivenSetup;
+
+  static std::size_t channels(const Setup&) { return 0; }
+  template <class Take>
+  static void tell(const Setup&, const plant::DrivenTruth& x, Take take) {
+    take("length", Kind::place, x.length);
+    take("tension", Kind::tension, x.tension);
+    take("pressure", Kind::pressure, x.pressure);
+    take("mass", Kind::mass, x.air.mass);
+    take("air in", Kind::mass, x.air.in);
+    take("air out", Kind::mass, x.air.out);
+  }
+  static std::vector<Account> air(const Setup&, const plant::DrivenTruth& x, double) {
+    return {{"muscle", x.air.mass, x.air.in, x.air.out, x.air.leak}};
+  }
+  static double energy(const Setup&, const plant::DrivenTruth&) { return 0; }
 };
 
 std::vector<Tap> taps_of(const Setup& s) {
@@ -300,6 +318,44 @@ Setup with_memory() {
   return s;
 }
 
+// A walk's knee flexor along the lengths of a table, as a CSV file has them.
+Subject driven_length() {
+  const Setup leg = run::planar_setup(load("walk-test-1", {}));
+  std::istringstream csv(R"(time [s],length [m]
+0,0.085
+0.2113,0.078
+0.4,0.078
+0.7007,0.088
+1.1,0.081
+)");
+  plant::Schedule length;
+  std::string row;
+  std::getline(csv, row);
+  while (std::getline(csv, row)) {
+    const std::size_t comma = row.find(',');
+    length.points.push_back({std::stod(row), std::stod(row.substr(comma + 1))});
+  }
+  const plant::DrivenSetup s{leg.muscles[2], leg.air, leg.supply, length, 2e5};
+  return {.name = "driven_length",
+          .make =
+              [s](const Variant& v) {
+                plant::DrivenSetup with = s;
+                if (v.step > 0) with.step = v.step;
+                if (v.pressure > 0) with.pressure = v.pressure;
+                return std::make_unique<OnWorld<OfDriven>>(with);
+              },
+          .taps = {{0}, {1}},
+          .step = s.step};
+}
+
+// The leg of the walk in a lane.
+Subject leg_in_a_lane() {
+  Subject out = of_experiment("leg_in_a_lane", "walk-test-1");
+  const Setup s = run::planar_setup(load("walk-test-1", {}));
+  out.make = [s](const Variant& v) { return std::make_unique<OnWorld<OfLane>>(varied(s, v)); };
+  return out;
+}
+
 // The largest machine, from files that are made here.
 Subject six_legs() {
   const auto folder =
@@ -332,6 +388,8 @@ std::vector<Subject> planar_subjects() {
   std::vector<Subject> all{
       of_experiment("one_joint", "one-joint"),
       of_experiment("leg", "walk-test-1"),
+      leg_in_a_lane(),
+      driven_length(),
       of_experiment("leg_3_way", "walk-3-way"),
       of_setup("three_joints", three_driven_joints()),
       of_experiment("ankle", "walk-with-ankle"),

@@ -1,14 +1,13 @@
 // tests/worlds/stand.cpp - the test stand as a subject: hanging, driven, regulated, with an air
 // cylinder in the muscle's place, and each option of its air.
 #include <cmath>
-#include <cstring>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/run/stand/faulty_setup.h"
 #include "sinew/run/stand/run.h"
 #include "sinew/world/stand.h"
 #include "tests/places.h"
-#include "tests/worlds/body.h"
+#include "tests/worlds/on_world.h"
 
 namespace sinew::worlds {
 namespace {
@@ -32,83 +31,51 @@ StandSetup varied(StandSetup s, const Variant& v) {
   return s;
 }
 
-template <class Take>
-void tell(const StandTruth& x, Take take) {
-  take("length", Kind::place, x.length);
-  take("velocity", Kind::rate, x.velocity);
-  take("acceleration", Kind::other, x.acceleration);
-  take("force", Kind::tension, x.force);
-  take("friction", Kind::other, x.friction);
-  take("sticks", Kind::other, x.sticks ? 1.0 : 0.0);
-  take("load", Kind::other, x.load);
-  take("pressure", Kind::pressure, x.pressure);
-  take("air", Kind::mass, x.air);
-  take("air in", Kind::mass, x.air_in);
-  take("air out", Kind::mass, x.air_out);
-  take("air leaked", Kind::mass, x.air_leaked);
-  take("inlet", Kind::other, x.inlet);
-  take("exhaust", Kind::other, x.exhaust);
-  take("supply", Kind::pressure, x.supply_pressure);
-  take("tank", Kind::pressure, x.tank_pressure);
-}
+struct OfStand {
+  using World = plant::Stand;
+  using Setup = StandSetup;
 
-class OnStand final : public Body {
- public:
-  explicit OnStand(const StandSetup& s) : setup_(s), stand_(s) {
-    tell(StandTruth{}, [&](const char* name, Kind kind, double) {
-      quantities_.push_back({name, kind});
-    });
+  static std::size_t channels(const Setup& s) { return s.transducers.size(); }
+
+  template <class Take>
+  static void tell(const Setup&, const StandTruth& x, Take take) {
+    take("length", Kind::place, x.length);
+    take("velocity", Kind::rate, x.velocity);
+    take("acceleration", Kind::other, x.acceleration);
+    take("force", Kind::tension, x.force);
+    take("friction", Kind::other, x.friction);
+    take("sticks", Kind::other, x.sticks ? 1.0 : 0.0);
+    take("load", Kind::other, x.load);
+    take("pressure", Kind::pressure, x.pressure);
+    take("air", Kind::mass, x.air);
+    take("air in", Kind::mass, x.air_in);
+    take("air out", Kind::mass, x.air_out);
+    take("air leaked", Kind::mass, x.air_leaked);
+    take("inlet", Kind::other, x.inlet);
+    take("exhaust", Kind::other, x.exhaust);
+    take("supply", Kind::pressure, x.supply_pressure);
+    take("tank", Kind::pressure, x.tank_pressure);
   }
 
-  signals::Port& port() override { return stand_; }
-  std::size_t channels() const override { return setup_.transducers.size(); }
-  void advance(double t) override { stand_.advance(t); }
-  double time() const override { return stand_.time(); }
-  std::int64_t nodes() const override { return stand_.nodes(); }
-  air::Failure failure() const override { return stand_.failure(); }
-  std::vector<std::byte> save() const override {
-    const auto bytes = std::as_bytes(std::span(&stand_.state(), 1));
-    return {bytes.begin(), bytes.end()};
-  }
-  void restore(std::span<const std::byte> saved) override {
-    plant::Stand::State state;
-    std::memcpy(&state, saved.data(), sizeof state);
-    stand_.restore(state);
-  }
-  const std::vector<Quantity>& quantities() const override { return quantities_; }
-
-  void truth(double t, std::span<double> out) override {
-    std::size_t n = 0;
-    tell(stand_.truth(t), [&](const char*, Kind, double x) { out[n++] = x; });
-  }
-
-  // Air that a has_tank gives stays within the stand.
-  std::vector<Account> air(double t) override {
-    const StandTruth x = stand_.truth(t);
-    const bool has_tank = setup_.supply.kind == gas::Supply::Kind::tank;
-    std::vector<Account> out{
-        {"stand", stand_.air_mass(), has_tank ? 0.0 : x.air_in, x.air_out, x.air_leaked}};
-    if (!(setup_.muscle.hose.volume > 0))
+  // Air that a tank gives stays within the stand.
+  static std::vector<Account> air(const Setup& s, const StandTruth& x, double held) {
+    const bool has_tank = s.supply.kind == gas::Supply::Kind::tank;
+    std::vector<Account> out{{"stand", held, has_tank ? 0.0 : x.air_in, x.air_out, x.air_leaked}};
+    if (!(s.muscle.hose.volume > 0))
       out.push_back({"element", x.air, x.air_in, x.air_out, x.air_leaked});
     return out;
   }
 
-  double energy(double t) override {
-    const StandTruth x = stand_.truth(t);
-    double volume = setup_.muscle.external_volume +
-                    setup_.muscle.count * actuator::volume(setup_.muscle.actuator.braid, x.length);
-    if (setup_.cylinder)
-      volume = air::volume(*setup_.cylinder, air::up, setup_.cylinder->stroke - x.length);
-    const double air = x.pressure * volume / (setup_.air.polytropic_exponent - 1.0);
-    return 0.5 * x.load * x.velocity * x.velocity - x.load * setup_.load.gravity * x.length + air +
-           setup_.air.atmosphere * volume;
+  static double energy(const Setup& s, const StandTruth& x) {
+    double volume = s.muscle.external_volume +
+                    s.muscle.count * actuator::volume(s.muscle.actuator.braid, x.length);
+    if (s.cylinder) volume = air::volume(*s.cylinder, air::up, s.cylinder->stroke - x.length);
+    const double air = x.pressure * volume / (s.air.polytropic_exponent - 1.0);
+    return 0.5 * x.load * x.velocity * x.velocity - x.load * s.load.gravity * x.length + air +
+           s.air.atmosphere * volume;
   }
-
- private:
-  StandSetup setup_;
-  plant::Stand stand_;
-  std::vector<Quantity> quantities_;
 };
+using OnStand = OnWorld<OfStand>;
 
 using Sets = std::vector<std::string>;
 

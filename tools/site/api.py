@@ -1,7 +1,7 @@
 """api.py - what the headers declare, from Doxygen's XML, with the words of the headers.
 
     headers = read_api(xml_folder, source_folder)
-    headers["sinew/air/driven_muscle.h"].names[0].members
+    headers["sinew/world/driven/driven_muscle.h"].names[0].members
 
 A name is documented by the comment in front of it, by one behind it, or by that in front of the
 declarations that it stands with: a blank line ends such a group.

@@ -5,8 +5,8 @@
 //   body.h            equations of motion       friction_contacts.h  friction, discs on the ground
 //   muscle_routing.h  routes of the muscles     rollers.h            what the trolley rests on
 //
-// One of the mechanisms of world/world.h; chain_mechanism.h is the same for the leg that walks,
-// faster. It is compiled for several sizes: N joints on feet of D discs (body.h,
+// One of the mechanisms of world/kernel/world.h; chain_mechanism.h is the same for the leg that
+// walks, faster. It is compiled for several sizes: N joints on feet of D discs (body.h,
 // friction_contacts.h), M muscles.
 #pragma once
 

@@ -6,7 +6,7 @@
 //
 // S is a double; or a pack of them: machines side by side, of any numbers, whose muscles pull the
 // same joints. Each has the bits that it has alone. chain_mechanism.h makes a mechanism of
-// world/world.h of it, contract.h says what the members do.
+// world/kernel/world.h of it, contract.h says what the members do.
 #pragma once
 
 #include <array>

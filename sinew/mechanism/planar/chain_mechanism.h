@@ -1,5 +1,5 @@
 // mechanism/planar/chain_mechanism.h - a chain of N links on a trolley or a fixed base: one of the
-// mechanisms of world/world.h.
+// mechanisms of world/kernel/world.h.
 //
 //   chain_body.h  how it moves               rollers.h   what the trolley rests on
 //

@@ -1,4 +1,5 @@
-// mechanism/planar/planar_mechanism.h - what all planar mechanisms are to world/world.h alike.
+// mechanism/planar/planar_mechanism.h - what all planar mechanisms are to world/kernel/world.h
+// alike.
 #pragma once
 
 #include "sinew/air/lanes.h"

@@ -1,5 +1,5 @@
 // mechanism/slide/senses.h - what the stand's transducers read, and what a simulation tells of it,
-// from peeks of world/world.h.
+// from peeks of world/kernel/world.h.
 #pragma once
 
 #include <cstdint>

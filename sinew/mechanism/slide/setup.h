@@ -19,7 +19,7 @@
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
-#include "sinew/mechanism/slide/schedule.h"
+#include "sinew/mechanism/driven/schedule.h"
 #include "sinew/mechanism/slide/transducer.h"
 #include "sinew/units/constants.h"
 

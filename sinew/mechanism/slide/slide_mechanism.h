@@ -10,7 +10,7 @@
 // With an air cylinder in the muscle's place L is how far its rod is out, and it pulls as the
 // pressure on the rod's side pushes it in. The air, and what prescribes its pressure: stand_air.h.
 //
-// One of the mechanisms of world/world.h; it cuts steps where something breaks off:
+// One of the mechanisms of world/kernel/world.h; it cuts steps where something breaks off:
 //
 //   the mesh comes to rest or breaks loose    at rest it holds while the load asks for no more than
 //                                             the bound, a real stick; in motion F_dry is at it

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "sinew/air/driven_muscle.h"
 #include "sinew/run/muscle/muscle_setup.h"
+#include "sinew/world/driven/driven_muscle.h"
 
 namespace sinew::run {
 

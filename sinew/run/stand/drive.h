@@ -11,7 +11,7 @@
 #include "sinew/actuator/bundle.h"
 #include "sinew/control/joint/seen.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/mechanism/slide/schedule.h"
+#include "sinew/mechanism/driven/schedule.h"
 #include "sinew/run/stand/drive_laws.h"
 #include "sinew/signals/port.h"
 

@@ -1,5 +1,5 @@
 // Laws of where a step is cut: on the far side of the break, near it, and soon found.
-#include "sinew/world/cut.h"
+#include "sinew/world/kernel/cut.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// world/world.h - a machine that its muscles move, as a Port: nodes, steps, cuts, peeks and
+// world/kernel/world.h - a machine that its muscles move, as a Port: nodes, steps, cuts, peeks and
 // events, written once for every mechanism and every air.
 //
 // One RK4 over body and air. Committed nodes are the multiples of the body step (less those that a
@@ -40,9 +40,9 @@
 
 #include "sinew/air/failure.h"
 #include "sinew/signals/port.h"
-#include "sinew/world/contract.h"
-#include "sinew/world/cut.h"
-#include "sinew/world/nodes.h"
+#include "sinew/world/kernel/contract.h"
+#include "sinew/world/kernel/cut.h"
+#include "sinew/world/kernel/nodes.h"
 
 namespace sinew::plant {
 
@@ -119,6 +119,21 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   void resume() noexcept { prepare_friction(mechanism_.pose(state_.time, state_.now.motion)); }
   double body_step() const noexcept { return step_; }  // between nodes [s]
 
+  // For a loop outside of Sinew, at the last node: an edge of a valve; the motion from there on;
+  // and a node at t [s], up to which all others are committed.
+  void command(const signals::Edge& edge) noexcept {
+    air_.command(edge, state_.time, state_.first.air, state_.valves);
+    prepare();
+  }
+  void steer(const Motion& motion) noexcept {
+    state_.now.motion = motion;
+    prepare();
+  }
+  void node_at(double t) noexcept {
+    advance(t);
+    if (!state_.failure && t > state_.time) commit(t);
+  }
+
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
   // and of the lift [m/s].
   template <WholeSteps = Mechanism>
@@ -192,7 +207,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   double whole_step() const noexcept {  // from one multiple to the next that is due [s]
     return static_cast<double>(1 + skipped_) * step_;
   }
-  void commit() noexcept;
+  void commit(double next) noexcept;
   void step(double to) noexcept;
   double longest_piece_of(const Look& look) const noexcept;  // infinite where nothing is quick [s]
   double pieces_of(double h, const Look& look) const noexcept;
@@ -261,6 +276,7 @@ template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare() noexcept {
   Look& first = state_.first;
   air_.move_valves(state_.time, state_.first.air, state_.valves);
+  if constexpr (PrescribesMotion<M>) mechanism_.begin(state_.time, state_.now.motion);
   if constexpr (CutsSteps<M>) {
     begin_part(state_.time, state_.now, state_.memory, state_.held, first);
     look_for_failure();
@@ -355,18 +371,19 @@ void World<M, A>::step(double to) noexcept {
 template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::next_node() const noexcept {
   const double multiple = static_cast<double>(state_.multiple + 1 + skipped_) * step_;
-  const double change = state_.valves.next_change;
+  double change = state_.valves.next_change;
+  if constexpr (PrescribesMotion<M>)
+    change = std::min(change, mechanism_.corner_after(state_.time));
   return change < multiple ? change : multiple;
 }
 
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::advance(double t) noexcept {
-  while (!state_.failure && next_node() <= t) commit();
+  for (double next; !state_.failure && (next = next_node()) <= t;) commit(next);
 }
 
 template <IsMechanism M, IsAirOf<M> A>
-void World<M, A>::commit() noexcept {
-  const double next = next_node();
+void World<M, A>::commit(double next) noexcept {
   if (next > state_.time) step(next);
   state_.time = next > state_.time ? next : state_.time;
   while (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
@@ -446,8 +463,8 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   if (state_.failure) return signals::Status::fault;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
   if (edge.valve.index >= air_.valves() || t < state_.time) return signals::Status::invalid;
-  while (!state_.failure && next_node() < t)
-    commit();  // later edges act at t or after: these nodes are final
+  // Later edges act at t or after: these nodes are final.
+  for (double next; !state_.failure && (next = next_node()) < t;) commit(next);
   air_.command(edge, t, state_.first.air, state_.valves);
   return signals::Status::ok;
 }

@@ -1,4 +1,4 @@
-// world/contract.h - what a world asks of what moves and of its air.
+// world/kernel/contract.h - what a world asks of what moves and of its air.
 //
 // A mechanism (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
 //
@@ -34,6 +34,11 @@
 // and may take a damper that is quicker than the step into the later stages (RelaxesStages):
 //
 //   relax(h, share, load, before, a)   accelerations in a step of length h, by those before
+//
+// and may be moved through a table, whose points are nodes (PrescribesMotion):
+//
+//   corner_after(t)                    the next point [s]
+//   begin(t, motion)                   what is prescribed from a node on
 //
 // and may be lifted by a cylinder (LiftsBody):
 //
@@ -107,6 +112,13 @@ concept RelaxesStages = WholeSteps<M> &&
     requires(const M& m, double h, const typename M::Load& load,
              const typename M::Acceleration& before, typename M::Acceleration& a) {
   m.relax(h, h, load, before, a);
+};
+
+// A mechanism that is moved through a table.
+template <class M>
+concept PrescribesMotion = WholeSteps<M> && requires(const M& m, double t, typename M::Motion& q) {
+  { m.corner_after(t) } -> std::same_as<double>;
+  m.begin(t, q);
 };
 
 // A mechanism whose body a cylinder may lift: the air in its chambers is a spring that grows stiff

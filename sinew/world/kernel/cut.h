@@ -1,4 +1,4 @@
-// world/cut.h - where a step has to be cut: the instant at which a law breaks off.
+// world/kernel/cut.h - where a step has to be cut: the instant at which a law breaks off.
 #pragma once
 
 namespace sinew::plant {

@@ -1,4 +1,4 @@
-// mechanism/slide/schedule.h - a quantity over time: straight lines between points, held after the
+// mechanism/driven/schedule.h - a quantity over time: straight lines between points, held after the
 // last.
 //
 //   x(t) = x_i + (t - t_i) (x_i+1 - x_i)/(t_i+1 - t_i)
@@ -35,6 +35,8 @@ struct Schedule {
   Schedule(std::vector<Point> p) : points(std::move(p)) {}
 
   bool empty() const { return points.empty(); }
+  // Returns whether it prescribes anything up to t but a constant.
+  bool moves_until(double t) const noexcept { return points.size() > 1 && t <= points.back().at; }
 
   // The piece that begins at t or holds there; 0 where there is no point.
   Line piece(double t) const noexcept {

@@ -1,5 +1,5 @@
-// air/driven_muscle.h - one muscle with its valves, hose and leak on a supply, moved by a loop
-// that is not ours: somebody else's robot, simulator or controller.
+// world/driven/driven_muscle.h - one muscle with its valves, hose and leak on a supply, moved by a
+// loop outside of Sinew: another program's robot, simulator or controller.
 //
 //   air::DrivenMuscle m(muscle, air, supply, 0.08);      // 80 mm long, at the room's pressure
 //   for (;;) {
@@ -8,9 +8,10 @@
 //     pull_with(m.tension());
 //   }
 //
-// Within a step the length runs straight to where it will be. Valves move at their own instants,
-// delays included, whatever the steps; hoses and what else is quicker go ahead of a step
-// (quick_bodies.h), so that a loop may be as slow as 1 ms.
+// It is the world of a driven length (mechanism/driven/driven_length.h): within a step the length
+// runs straight to where it will be. Valves move at their own instants, delays included, whatever
+// the steps; hoses and what else is quicker go ahead of a step (air/quick_bodies.h), so that a loop
+// may be as slow as 1 ms.
 //
 // State is one block, copied like bytes: two muscles of equal description go on alike from it.
 // After it is made a muscle allocates nothing, and throws only for a command that its valves do not
@@ -21,23 +22,22 @@
 #include "sinew/air/network.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
+#include "sinew/mechanism/driven/driven_length.h"
+#include "sinew/world/kernel/world.h"
+
+namespace sinew::plant {
+
+using DrivenWorld = World<DrivenLength, air::AirNetwork<driven_lanes>>;
+extern template class World<DrivenLength, air::AirNetwork<driven_lanes>>;
+
+}  // namespace sinew::plant
 
 namespace sinew::air {
 
 class DrivenMuscle {
-  using Air = AirNetwork<4>;
-
  public:
-  // Everything that its future depends on, and what it was like at the last step.
-  struct State {
-    double time = 0;              // since it was made [s]
-    double length = 0, rate = 0;  // [m], [m/s]
-    Air::State air{};             // lanes that no muscle uses are 0: states are compared as bytes
-    Air::Valves valves{};
-    Air::Memory memory{};
-    Air::Answer look{};
-    bool failed = false;
-  };
+  // Everything that its future depends on.
+  using State = plant::DrivenWorld::State;
 
   // `length` at the start [m]; `pressure` of its air there, absolute [Pa]. Throws
   // std::invalid_argument for a length at which it has no room for air.
@@ -58,40 +58,35 @@ class DrivenMuscle {
   // Lets `step` [s] pass, in which the muscle comes to be `length` [m] long.
   void advance(double step, double length) noexcept;
 
-  // Force on both ends [N]: static and viscous; a cord, so that it never pushes. A sensor between
+  // Force on both ends [N]: static and viscous; a tendon, so that it never pushes. A sensor between
   // the muscle and what it pulls sees up to friction() more where the muscle gives way, and less
   // where it pulls: who integrates decides whether it sticks.
-  double tension() const noexcept { return state_.look.tension[0]; }
+  double tension() const noexcept { return state().first.air.tension[0]; }
   double friction() const noexcept {
-    return state_.look.friction_bound[0];
+    return state().first.air.friction_bound[0];
   }  // bound of the dry part [N]
 
-  double pressure() const noexcept { return state_.look.pressure[0]; }  // absolute [Pa]
-  double length() const noexcept { return state_.length; }              // [m]
-  double time() const noexcept { return state_.time; }                  // [s]
+  double pressure() const noexcept { return state().first.air.pressure[0]; }  // absolute [Pa]
+  double length() const noexcept { return world_.motion().length; }           // [m]
+  double time() const noexcept { return world_.time(); }                      // [s]
 
   // Air in the muscle, and what has passed its valves and leaks since the start [kg]. What it holds
   // and its hose holds together is air_mass().
-  Account account() const noexcept { return air_.account(state_.air, 0); }
-  double air_mass() const noexcept { return air_.total_mass(state_.air, 0); }
+  Account account() const noexcept { return world_.air().account(state().now.air, 0); }
+  double air_mass() const noexcept { return world_.air_mass(); }
 
-  // Is its state no number any more? From then on it stands still.
-  bool failed() const noexcept { return state_.failed; }
+  // Returns whether its state is not finite any more. From then on it stands still.
+  bool failed() const noexcept { return static_cast<bool>(world_.failure()); }
 
-  // Returns its state, to be copied; and goes on from one of a muscle of equal description.
-  const State& state() const noexcept { return state_; }
-  void restore(const State& state) noexcept { state_ = state; }
+  // Returns its state, to be copied; and continues from one of a muscle of equal description.
+  const State& state() const noexcept { return world_.state(); }
+  void restore(const State& state) noexcept { world_.restore(state); }
 
  private:
   void command(int valve, bool on, std::uint16_t level) noexcept;
-  Air::Ends ends(double t) const noexcept;
-  void look(double t, const Air::State& air, Air::Answer& out) const noexcept;
-  void step(double h) noexcept;
-  void node() noexcept;
 
   gas::Valve::Kind kind_;  // of the inlet
-  Air air_;
-  State state_{};
+  plant::DrivenWorld world_;
 };
 
 }  // namespace sinew::air

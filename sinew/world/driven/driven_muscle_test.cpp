@@ -1,5 +1,5 @@
 // A muscle in somebody's loop is the network's, whatever the loop's steps.
-#include "sinew/air/driven_muscle.h"
+#include "sinew/world/driven/driven_muscle.h"
 
 #include <gtest/gtest.h>
 

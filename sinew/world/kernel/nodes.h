@@ -1,5 +1,5 @@
-// world/nodes.h - a mechanism with its air, from node to node: evaluations, the friction problem of
-// a node and RK4 over both, written once for one machine and for several side by side.
+// world/kernel/nodes.h - a mechanism with its air, from node to node: evaluations, the friction
+// problem of a node and RK4 over both, written once for one machine and for several side by side.
 //
 // S, the scalar of mechanism and air, is a double, or a pack of them (units/pack.h): a lane has the
 // bits of the machine alone. World (world.h) is one machine as a Port, LaneNodes (lane_nodes.h)
@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "sinew/world/contract.h"
+#include "sinew/world/kernel/contract.h"
 
 namespace sinew::plant {
 

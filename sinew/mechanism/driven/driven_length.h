@@ -1,0 +1,119 @@
+// mechanism/driven/driven_length.h - a muscle whose length is prescribed: through the points of a
+// table, which are nodes, or by a caller from node to node. Between two nodes it runs straight.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "sinew/air/lanes.h"
+#include "sinew/air/muscle.h"
+#include "sinew/air/state.h"
+#include "sinew/gas/air.h"
+#include "sinew/gas/supply.h"
+#include "sinew/mechanism/driven/schedule.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::plant {
+
+inline constexpr int driven_lanes = 4;  // a whole lane of air/lanes.h, for one muscle
+
+struct DrivenSetup {
+  air::Muscle muscle;
+  gas::Air air;
+  gas::Supply supply;
+  Schedule length;      // over time; after its last point a caller's rate holds [m]
+  double pressure = 0;  // at the start, absolute [Pa]
+  double step = 1e-3;   // between nodes [s]
+};
+
+struct DrivenTruth {
+  double length = 0, tension = 0, pressure = 0;  // [m], [N], absolute [Pa]
+  air::Account air;
+};
+
+// No transducer looks at it.
+struct DrivenSenses {
+  using Truth = DrivenTruth;
+
+  explicit DrivenSenses(const DrivenSetup&) {}
+  std::size_t channels() const noexcept { return 0; }
+  double quantity(const auto&, std::size_t, double) const noexcept { return 0; }
+  std::uint16_t counts(std::size_t, double, signals::Tick) const noexcept { return 0; }
+  Truth truth(auto& world, double t) const noexcept {
+    const auto p = world.peek(t);
+    return {p.look.ends.length[0], p.look.air.tension[0], p.look.air.pressure[0],
+            world.air().account(p.state.air, 0)};
+  }
+};
+
+class DrivenLength {
+ public:
+  static constexpr bool cuts_steps = false;
+
+  using Scalar = double;
+  using Setup = DrivenSetup;
+  using Senses = DrivenSenses;
+  using Ends = air::Ends<driven_lanes>;
+  struct Motion {
+    double length = 0, rate = 0;  // [m], [m/s]
+  };
+  // It has no inertia, nothing pulls it, and nothing rubs.
+  struct Nothing {};
+  using Acceleration = Nothing;
+  using Arms = Nothing;
+  using Pose = Nothing;
+  using Load = Nothing;
+  using Forces = Nothing;
+
+  explicit DrivenLength(const Setup& setup) : length_(setup.length) {}
+
+  const Schedule& constants() const noexcept { return length_; }
+  Motion start() const noexcept { return {length_.at(0), length_.piece(0).slope}; }
+  double node_step(const Setup& setup) const noexcept { return setup.step; }
+  template <class Air>
+  Air make_air(const Setup& s) const {
+    return Air(std::span(&s.muscle, 1), s.air, s.supply);
+  }
+  template <class Air>
+  auto start_air(const Air& air, const Setup& s, const Ends& ends) const {
+    return air.initial(s.pressure, ends.length, 0);
+  }
+  template <class Air>
+  auto start_memory(const Air& air, const Setup& s, const Ends& ends) const {
+    return air.memory_at_rest(s.pressure, ends.length);
+  }
+
+  // The next point of the table after t [s]; and what it prescribes from a node on.
+  double corner_after(double t) const noexcept { return length_.corner(t); }
+  void begin(double t, Motion& m) const noexcept {
+    if (length_.moves_until(t)) m = {length_.at(t), length_.piece(t).slope};
+  }
+
+  double sum(const Motion& m) const noexcept { return m.length; }
+  void route(double, const Motion& m, Ends& ends, Arms&) const noexcept {
+    ends.length.of.fill(m.length);
+    ends.rate.of.fill(m.rate);
+    ends.travel = ends.travel_rate = 0;
+  }
+  void move(Motion& out, const Motion& from, double h, const Motion&,
+            const Acceleration&) const noexcept {
+    out = {from.length + h * from.rate, from.rate};
+  }
+  void glide(Motion& m, double h, const Acceleration&) const noexcept { move(m, m, h, m, {}); }
+  void finish(Motion& now, double h, const Motion* const (&)[4],
+              const Acceleration (&)[4]) const noexcept {
+    move(now, now, h, now, {});
+  }
+
+  Pose pose(double, const Motion&) const noexcept { return {}; }
+  void load(const auto&...) const noexcept {}
+  Nothing accelerate(const auto&...) const noexcept { return {}; }
+  Nothing prepare(const auto&...) const noexcept { return {}; }
+  Forces hold(double, const Forces&) const noexcept { return {}; }
+  double trolley_bound(const Forces&, double last) const noexcept { return last; }
+
+ private:
+  Schedule length_;
+};
+
+}  // namespace sinew::plant
