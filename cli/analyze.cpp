@@ -5,7 +5,6 @@
 #include "cli/terminal.h"
 #include "cli/units.h"
 #include "cli/verdicts.h"
-#include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/page/content.h"
@@ -22,11 +21,9 @@ struct AnalyzeOptions {
   bool json = false, verdicts = false, force = false, quiet = false;
 };
 
-// The machine is a whole one or a stand. What is reported is of whole runs: there is no verdict on
-// a part of one.
-template <class Machine>
+// What is reported is of whole runs: there is no verdict on a part of one.
 ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const signals::Table& table,
-              Machine machine, const config::UnitsToShow& units) {
+              analysis::Machine machine, const config::UnitsToShow& units) {
   if (!table.complete) machine.reported.clear();
   analysis::Summary summary = analysis::summarize(table, machine);
   summary.cut_off = !table.complete;
@@ -60,8 +57,6 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
         " was cut off or is damaged; the numbers are of what stands before, without verdicts");
 
   const config::UnitsToShow units = units_asked(options.units, units::UnitSet::si, &file);
-  if (config::format_kind(file) == "rig")
-    return tell(options, messages, table, analysis::read_stand(file), units);
   return tell(options, messages, table, analysis::read_machine(file), units);
 }
 

@@ -83,8 +83,7 @@ bool is_out_dat(const std::string& path) {
 }
 
 // The thesis's own log knows what its columns are.
-run::Kept<analysis::Machine> import_out_dat(const ImportOptions& options,
-                                            const Messages& messages) {
+run::Kept import_out_dat(const ImportOptions& options, const Messages& messages) {
   const run::ImportRequest& request = options.request;
   const std::string& path = request.files.front();
   if (request.files.size() > 1)
@@ -102,9 +101,7 @@ run::Kept<analysis::Machine> import_out_dat(const ImportOptions& options,
                             {.folder = request.folder, .force = request.force}, messages.notices());
 }
 
-template <class Machine>
-ExitCode tell_kept(const run::Kept<Machine>& kept, const ImportOptions& options,
-                   const Messages& messages) {
+ExitCode tell_kept(const run::Kept& kept, const ImportOptions& options, const Messages& messages) {
   for (const std::string& text : kept.summary.warnings) messages.warning(text);
   if (options.json)
     fmt::print("{}", kept.json);
@@ -133,8 +130,6 @@ ExitCode import_recording(ImportOptions& options) {
   options.request.read = &read;
   const ProgressBar bar(read, bytes_to_show(options.request.files),
                         {.each = 1e-6, .unit = "MB", .decimals = 0}, options.quiet);
-  if (run::is_on_stand(options.request.experiment))
-    return tell_kept(run::import_stand_run(options.request, messages.notices()), options, messages);
   return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
 }
 

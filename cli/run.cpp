@@ -8,7 +8,7 @@
 #include "cli/emergency.h"
 #include "cli/interrupt.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/run/folder/kept_stand_run.h"
+#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/runnable.h"
 
 namespace sinew::cli {
@@ -29,21 +29,8 @@ run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept, Interrupt
   return run::run(kept.experiment(), run_options);
 }
 
-// A stand has no use for a pace, and its valve no board.
-ExitCode run_stand(const RunOptions& o, const Messages& messages) {
-  if (run::is_elsewhere(o.run.port))
-    config::fail({o.run.experiment, 0, 0}, "--port", o.run.port,
-                 "simulated: no board drives a test stand yet");
-  if (o.pace > 0)
-    config::fail({o.run.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
-                 "a run as fast as it goes: a stand has no live log");
-  tell(run::run_on_stand(o.run, messages.notices()), o, messages);
-  return ok;
-}
-
 ExitCode run_experiment(const RunOptions& options) {
   const Messages messages(options.quiet);
-  if (run::is_on_stand(options.run.experiment)) return run_stand(options, messages);
   if (options.pace > 0 && run::keeps_its_own_time(options.run.port))
     config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
                  "no pace: the machine keeps its own time");

@@ -33,8 +33,7 @@ inline void note_page(const std::filesystem::path& folder, const Messages& messa
 }
 
 // Verdicts or summary.json to stdout, where it is kept to stderr.
-template <class Machine>
-void tell(const run::Kept<Machine>& kept, const RunOptions& options, const Messages& messages) {
+inline void tell(const run::Kept& kept, const RunOptions& options, const Messages& messages) {
   if (options.json) {
     fmt::print("{}", kept.json);
     messages.note(kept.folder.string());

@@ -66,18 +66,4 @@ void print_verdicts(const analysis::Summary& summary, const analysis::Machine& m
     fmt::print("{}", run::main_figures(summary, machine, shown));
 }
 
-void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand,
-                    const units::ShownUnits* shown) {
-  if (print_reported(summary, stand.reported, stand.atmosphere, shown)) return;
-  report::TextTable table({"", "Sinew"});
-  for (const analysis::Entry& e : summary.entries()) {
-    std::string unit = analysis::unit_of_key(e.key);
-    if (unit == "m") unit = "mm";
-    if (shown) unit = analysis::shown_unit(e.key, *shown, e.value);
-    table.add({std::string(analysis::without_unit(e.key)),
-               analysis::show(e.value, e.key, unit, stand.atmosphere)});
-  }
-  if (!table.empty()) fmt::print("{}", table.text());
-}
-
 }  // namespace sinew::cli

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sinew/analysis/record/machine.h"
-#include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/units/shown.h"
 
@@ -11,8 +10,6 @@ namespace sinew::cli {
 // Prints the title, and what the source reports beside what came out: in the source's own units, or
 // in `shown`, where somebody asked for some.
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine,
-                    const units::ShownUnits* shown = nullptr);
-void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand,
                     const units::ShownUnits* shown = nullptr);
 
 }  // namespace sinew::cli

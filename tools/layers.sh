@@ -40,7 +40,6 @@ layers='
     port/hardware   control/link control/board host signals
     port/comedi     control/supervise host signals
     experiment      robot config control/gait
-    experiment/rig  experiment world
     identify/fit    actuator config host
     identify/data   identify/fit recording
     identify/actuator  identify/data
@@ -66,9 +65,8 @@ layers='
     run/setup       experiment control world port report/text
     run/controllers run/setup
     run/simulation  run/controllers log host
-    run/stand       run/simulation experiment/rig
-    run/muscle      run/setup experiment/rig world/driven
-    run/folder      run/simulation run/stand log analysis report recording
+    run/muscle      run/setup world/driven
+    run/folder      run/simulation log analysis report recording
     run/bring_up    run/folder report
     film            run/folder report
     tune            run/folder host

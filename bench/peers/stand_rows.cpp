@@ -10,7 +10,7 @@
 #include "bench/peers/experiments.h"
 #include "bench/peers/row.h"
 #include "bench/peers/stand_peers.h"
-#include "sinew/experiment/rig/rig.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/units/constants.h"
 #include "sinew/world/stand.h"
 
@@ -61,7 +61,7 @@ constexpr Steps our_steps[] = {{1e-5, 1e-9},   {8e-3, 1e-5},   {4e-3, 1e-5},
 
 void our_stand(int setting, int every, Lengths& out) {
   static const plant::StandSetup setup =
-      rig::setup_of(rig::load(experiment_file("rig/pwm-25hz-5lb.toml")));
+      run::stand_setup(experiment::load(experiment_file("rig/pwm-25hz-5lb.toml")));
   plant::StandSetup s = setup;
   s.step = our_steps[setting].node;
   s.accuracy = our_steps[setting].accuracy;

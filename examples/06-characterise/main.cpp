@@ -12,7 +12,7 @@
 #include "sinew/actuator/operating_point.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static.h"
-#include "sinew/run/folder/kept_stand_run.h"
+#include "sinew/run/folder/kept_run.h"
 
 namespace {
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // own, so that the time does not matter.
 identify::Measured measured_at(int psi, const fs::path& folder) {
   const auto kept =
-      run::run_on_stand({.experiment = "pressures.toml",
+      run::run_and_keep({.experiment = "pressures.toml",
                          .folder = folder / std::to_string(psi),
                          .sets = {"charge.pressure=" + std::to_string(psi) + " psi gauge"},
                          .report = false});

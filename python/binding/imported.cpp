@@ -7,7 +7,6 @@
 #include "python/binding/recording.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/run/folder/imported_run.h"
-#include "sinew/run/folder/runnable.h"
 
 namespace sinew::python {
 
@@ -71,24 +70,13 @@ std::shared_ptr<Recording> import_recording(
   request.mapping.keep_others = keep_others;
   request.mapping.clock = {clock.time, clock.time_unit, clock.rate, clock.scale, clock.start};
   request.mapping.table = table;
-  const bool on_stand = run::is_on_stand(request.experiment);
-  if (on_stand) {
-    std::optional<rig::Experiment> plain;  // for the units of numbers
-    request.sets = sets_of(sets, [&]() -> const config::Origins& {
-      if (!plain) plain = rig::load(request.experiment);
-      return plain->origins;
-    });
-  } else {
-    request.sets = experiment_of(experiment, sets)->sets;
-  }
+  request.sets = experiment_of(experiment, sets)->sets;
   std::vector<std::string> notes;
   const run::Notices notices{.on_note = [&](std::string_view note) { notes.emplace_back(note); }};
   std::shared_ptr<Recording> out;
   {
     const py::gil_scoped_release others;
-    const std::string kept = on_stand ? run::import_stand_run(request, notices).folder.string()
-                                      : run::import_run(request, notices).folder.string();
-    out = read_run(kept);
+    out = read_run(run::import_run(request, notices).folder.string());
   }
   for (std::string& note : notes) out->warnings.push_back(std::move(note));
   return out;

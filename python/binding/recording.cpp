@@ -6,7 +6,6 @@
 #include <pybind11/stl.h>
 
 #include "sinew/analysis/record/derived.h"
-#include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/analysis/verdict/compare.h"
 #include "sinew/config/compose.h"
@@ -41,8 +40,7 @@ py::object parsed(const std::string& json) {
   return py::module_::import("json").attr("loads")(json);
 }
 
-template <class Machine>
-void sum_up_as(Recording& recording, Machine machine) {
+void sum_up_as(Recording& recording, analysis::Machine machine) {
   if (!recording.table.complete) machine.reported.clear();
   analysis::Summary summary = analysis::summarize(recording.table, machine);
   summary.cut_off = !recording.table.complete;
@@ -66,7 +64,7 @@ py::object cell(const Recording& recording) {
 }
 
 Pointer derived(const Pointer& of) {
-  if (!of->machine)
+  if (of->machine && of->machine->stand)
     throw std::invalid_argument("derived: found a run of a test stand; expected one of a machine");
   auto out = std::make_shared<Recording>();
   out->table = analysis::derive(of->table, *of->machine);
@@ -87,10 +85,6 @@ py::object in_a_cell(const std::string& page) {
 }
 
 void sum_up(Recording& recording) {
-  if (config::format_kind(recording.resolved) == "rig") {
-    sum_up_as(recording, analysis::read_stand(recording.resolved));
-    return;
-  }
   recording.machine = analysis::read_machine(recording.resolved);
   sum_up_as(recording, *recording.machine);
 }

@@ -21,7 +21,7 @@ class Recording {
   signals::Table table;
   std::string summary;                       // summary.json
   std::string verdicts;                      // what is reported of the run, beside it: JSON
-  std::optional<analysis::Machine> machine;  // what its numbers mean; of a test stand: none
+  std::optional<analysis::Machine> machine;  // what its numbers mean
   std::vector<std::string> warnings;
   config::Node resolved;  // what was run, as resolved.toml says it
   std::string name;       // of the experiment

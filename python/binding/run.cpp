@@ -8,18 +8,13 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 #include "python/binding/recording.h"
 #include "sinew/config/node.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/run/folder/kept_run.h"
-#include "sinew/run/folder/kept_stand_run.h"
 #include "sinew/run/folder/outcome.h"
-#include "sinew/run/folder/runnable.h"
 #include "sinew/run/simulation/place.h"
-#include "sinew/run/stand/run.h"
 
 namespace sinew::python {
 
@@ -78,33 +73,10 @@ void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording
   out.warnings = std::move(warnings);
 }
 
-// On the test stand, in memory or kept.
-void run_on_stand(const run::RunRequest& request, Recording& out) {
-  if (!request.folder.empty()) {
-    out = std::move(*read_run(run::run_on_stand(request).folder.string()));
-    return;
-  }
-  const rig::Experiment e = run::runnable_on_stand(request.experiment, request.sets);
-  rig::Outcome outcome = rig::run(e);
-  if (outcome.failure || outcome.status != signals::Status::ok)
-    throw RunError(rig::cause_of(e, outcome));
-  out.table = std::move(outcome.table);
-  out.resolved = config::parse_text(rig::resolved(e, SINEW_VERSION), "resolved.toml");
-  out.name = e.name;
-  sum_up(out);
-}
-
 // Throws std::invalid_argument for what is no place.
-void check_place(const std::string& place, bool on_stand) {
+void check_place(const std::string& place) {
   if (const std::string wrong = run::problem_of_place(place); !wrong.empty())
     throw std::invalid_argument("port: " + wrong);
-  if (on_stand && run::is_elsewhere(place))
-    throw std::invalid_argument("port: found " + place +
-                                "; expected simulated: no board drives a test stand yet");
-}
-
-bool is_on_stand(const py::object& experiment) {
-  return !py::isinstance<HeldExperiment>(experiment) && run::is_on_stand(path_of(experiment));
 }
 
 Pointer run(const py::object& experiment, const py::object& sets, const py::object& folder,
@@ -116,18 +88,7 @@ Pointer run(const py::object& experiment, const py::object& sets, const py::obje
                           .port = port,
                           .clear_fault = clear_fault};
   std::atomic<bool> stop = false;
-  const bool on_stand = is_on_stand(experiment);
-  check_place(port, on_stand);
-  if (on_stand) {
-    request.experiment = path_of(experiment);
-    std::optional<rig::Experiment> plain;  // for the units of numbers
-    request.sets = sets_of(sets, [&]() -> const config::Origins& {
-      if (!plain) plain = rig::load(request.experiment);
-      return plain->origins;
-    });
-    do_interruptibly(stop, [&] { run_on_stand(request, *out); });
-    return out;
-  }
+  check_place(port);
   const ExperimentPointer e = experiment_of(experiment, sets);
   if (!request.folder.empty() && !e->text.empty())
     throw std::invalid_argument(

@@ -47,6 +47,19 @@ class Simulation(unittest.TestCase):
         self.assertEqual(here.summary, kept.summary)
         self.assertTrue(all(v["is"] for v in here.verdicts))
 
+    def test_a_stand_is_stepped_as_a_robot_is(self) -> None:
+        stand = sinew.shipped("experiments/rig/feedback.toml")
+        whole = sinew.run(stand, {"duration": 2.0})["/true/stand/length"]
+        here = sinew.Simulation(stand)
+        self.assertEqual(here.read("/true/stand/length"), whole[0])
+        here.advance(1.0)
+        saved = here.save()
+        here.advance(1.0)
+        self.assertEqual(here.read("/true/stand/length"), whole[-1])
+        here.restore(saved)
+        self.assertEqual(here.read("/true/stand/length"), whole[1000])
+        self.assertEqual(list(here.settings), [])
+
     def test_cuts_saves_and_copies_leave_no_trace(self) -> None:
         dice = random.Random(5)
         straight = sinew.Simulation(WALK)

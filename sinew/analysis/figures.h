@@ -62,6 +62,9 @@ void add_sole(Figures&);  // the discs of a leg's foot
 void add_phases(Figures&);
 void add_supervision(Figures&);
 
+// Returns the figures of a run of a test stand, those that its log allows.
+Summary summarize_stand(const signals::Table& table, const Machine& machine);
+
 // Adds legs.<name>.* of each leg: joints, muscles, passiveness, foot, ground reaction, air and
 // phases as those of a machine with one leg; and what its foot carries.
 void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived);

@@ -9,6 +9,7 @@
 namespace sinew::analysis {
 
 Summary summarize(const signals::Table& table, const Machine& machine) {
+  if (machine.stand) return summarize_stand(table, machine);
   const signals::Table derived = derive(table, machine);
   const Record record(table, machine, &derived);
   Summary summary;

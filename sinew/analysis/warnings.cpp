@@ -160,18 +160,26 @@ std::vector<Warning> cut_logs(const signals::Table& table) {
 namespace {
 
 // A length that no muscle can have is no result.
-std::vector<Warning> beyond_the_muscle(const Summary& summary) {
-  const double* least = summary.find("stand.least_length_m");
-  if (!least || *least > 0) return {};
+std::vector<Warning> beyond_the_muscle(const signals::Table& table) {
+  const Column* length = table.column("/true/stand/length");
+  if (!length) length = table.column("/stand/length");
+  if (!length || length->empty()) return {};
+  const double least = std::ranges::min(*length);
+  if (!(least <= 0)) return {};
   return {{fmt::format("the load was thrown to {:.3g} m: below the shortest length [31] has no "
                        "force; try an actuator whose short_end.law is not \"zero\"",
-                       *least),
+                       least),
            {}}};
 }
 
 }  // namespace
 
 std::vector<Warning> warnings(const signals::Table& table, const Machine& machine) {
+  if (machine.stand) {
+    std::vector<Warning> all = beyond_the_muscle(table);
+    append(all, clipped_transducers(table));
+    return all;
+  }
   std::vector<Warning> all = unused_air(table, machine);
   append(all, unopened_valves(table, machine));
   append(all, ended_tracks(table, machine));
@@ -183,12 +191,6 @@ std::vector<Warning> warnings(const signals::Table& table, const Machine& machin
   append(all, saturated_duties(table, machine.robot));
   append(all, clipped_sensors(table, machine.robot));
   append(all, lifted_rollers(table));
-  return all;
-}
-
-std::vector<Warning> warnings(const signals::Table& table, const Summary& of_the_stand) {
-  std::vector<Warning> all = beyond_the_muscle(of_the_stand);
-  append(all, clipped_transducers(table));
   return all;
 }
 

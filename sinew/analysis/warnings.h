@@ -70,10 +70,9 @@ std::vector<Warning> overturned_joints(const signals::Table&, const Machine&);
 
 // ---
 
-// All of these but cut_logs(), of which a summary has a key; of the test stand those that apply to
-// it, of its log and its figures.
+// All of these but cut_logs(), of which a summary has a key; of a test stand those that apply to
+// it.
 std::vector<Warning> warnings(const signals::Table&, const Machine&);
-std::vector<Warning> warnings(const signals::Table&, const Summary& of_the_stand);
 
 // Returns their words alone.
 std::vector<std::string> texts(const std::vector<Warning>&);

@@ -33,21 +33,15 @@ void need(const std::string& key, const std::string& name, const Items& items, L
                  config::closest_in_quotes(name, names)});
 }
 
-const gas::Valve* valve_of(const Experiment& e, const std::string& name) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == name) return &v;
-  return nullptr;
-}
-
 // A valve that seals needs another to let the air out; one that does not has no use for it. The
 // laws of a joint follow from its valves, so both muscles have the same.
 void check_valves(const Experiment& e, List& out) {
   using Kind = gas::Valve::Kind;
   for (const robot::Muscle& m : e.robot.muscles) {
-    const gas::Valve* inlet = valve_of(e, m.inlet);
+    const gas::Valve* inlet = find_valve(e, m.inlet);
     if (!inlet) continue;
     const bool seals = inlet->kind == Kind::two_way;
-    const gas::Valve* exhaust = valve_of(e, m.exhaust);
+    const gas::Valve* exhaust = find_valve(e, m.exhaust);
     if (seals && exhaust && exhaust->kind != Kind::two_way)
       out.push_back({"muscle." + m.name + ".exhaust.valve", config::in_quotes(m.exhaust),
                      "a 2-way valve", "a 3-way valve or a regulator stands at the inlet"});
@@ -60,7 +54,7 @@ void check_valves(const Experiment& e, List& out) {
                      seals ? "a valve, as the inlet seals" : "none, as the inlet also vents",
                      seals ? "exhaust = { valve = …, bit = … }" : "leave it out"});
     for (const robot::Muscle& other : e.robot.muscles) {
-      const gas::Valve* theirs = valve_of(e, other.inlet);
+      const gas::Valve* theirs = find_valve(e, other.inlet);
       if (other.joint == m.joint && theirs && theirs->kind != inlet->kind && &other < &m)
         out.push_back({"muscle." + m.name + ".inlet.valve", config::in_quotes(m.inlet),
                        "a valve of the same kind as muscle " + other.name + "'s",
@@ -75,7 +69,7 @@ void check_pressure_law(const Experiment& e, List& out) {
   for (const robot::Joint& j : e.robot.joints) {
     Kind kind = Kind::two_way;
     for (const robot::Muscle& m : e.robot.muscles)
-      if (const gas::Valve* v = valve_of(e, m.inlet); v && m.joint == j.name) kind = v->kind;
+      if (const gas::Valve* v = find_valve(e, m.inlet); v && m.joint == j.name) kind = v->kind;
     const robot::PressureLaw& law = j.pressure_law;
     const std::string key = "joint." + j.name + ".pressure_law.";
     if (kind == Kind::two_way && law.bias != robot::PressureLaw{}.bias)
@@ -140,7 +134,7 @@ void check_cylinder(const Experiment& e, List& out) {
     const std::string key = std::string("cylinder.") + word;
     for (const auto& [port, name] : {std::pair{".inlet.valve", chamber->inlet},
                                      std::pair{".exhaust.valve", chamber->exhaust}}) {
-      const gas::Valve* v = valve_of(e, name);
+      const gas::Valve* v = find_valve(e, name);
       if (v && v->kind != gas::Valve::Kind::two_way)
         out.push_back({key + port, config::in_quotes(name), "a 2-way valve", ""});
     }
@@ -285,8 +279,12 @@ void refuse(const std::vector<robot::Contradiction>& wrong, const Experiment& e)
 
 void refuse_contradictions(std::string_view kind, const Experiment& e) {
   const bool runs = kind == "experiment";
-  if (!runs && kind != "robot") return;
   List wrong;
+  if (e.stand) {
+    check_stand(e, wrong);
+    return refuse(wrong, e);
+  }
+  if (!runs && kind != "robot") return;
   check_muscles(e, wrong);
   check_lengths(e, wrong);
   check_valves(e, wrong);
@@ -308,6 +306,8 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   refuse(wrong, e);
 }
 
-void refuse_unreachable(const Experiment& e) { refuse(gait::unreachable(e.robot, e.plan), e); }
+void refuse_unreachable(const Experiment& e) {
+  if (!e.stand) refuse(gait::unreachable(e.robot, e.plan), e);
+}
 
 }  // namespace sinew::experiment

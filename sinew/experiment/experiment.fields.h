@@ -9,6 +9,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/fault.fields.h"
 #include "sinew/experiment/log_table.fields.h"
+#include "sinew/experiment/stand.fields.h"
 #include "sinew/gas/air.fields.h"
 #include "sinew/gas/valve.fields.h"
 #include "sinew/robot/robot.fields.h"
@@ -58,12 +59,20 @@ void fields(Visitor& v, PulseTable& p) {
 // Machine first: the plan's tables are named after its joints.
 template <class Visitor>
 void machine_fields(Visitor& v, Experiment& e) {
-  robot::fields(v, e.robot);
-  actuator::fields(v, e.actuators);
-  gas::fields(v, e.valves);
-  robot::fields(v, e.wiring);
+  if (e.stand) {
+    v.each({.name = "actuator", .optional = true, .doc = "actuators, by name"}, e.actuators,
+           [](auto& g, actuator::Actuator& a) { actuator::fields(g, a); });
+    v.each({.name = "valve", .optional = true, .doc = "valves, by name"}, e.valves,
+           [](auto& g, gas::Valve& valve) { gas::fields(g, valve); });
+  } else {
+    robot::fields(v, e.robot);
+    actuator::fields(v, e.actuators);
+    gas::fields(v, e.valves);
+    robot::fields(v, e.wiring);
+  }
   v.group({.name = "air", .doc = "atmosphere and supply"},
           [&](auto& g) { gas::fields(g, e.air, e.supply); });
+  if (e.stand) return;
   v.group({.name = "pulses",
            .optional = true,
            .doc = "low_level.valve_timing as numbers, in a resolved file"},
@@ -73,18 +82,15 @@ void machine_fields(Visitor& v, Experiment& e) {
 // What a file of that kind says of the machine.
 template <class Visitor>
 void machine_fields(Visitor& v, std::string_view kind, Experiment& e) {
-  if (kind == "robot" || kind == "experiment") machine_fields(v, e);
+  if (kind == "robot" || is_experiment(kind)) machine_fields(v, e);
   if (kind == "actuator") actuator::fields(v, e.actuators);
   if (kind == "valves") gas::fields(v, e.valves);
   if (kind == "wiring") robot::fields(v, e.wiring);
 }
 
+// Visits what is done with a robot: numerics, start and plan.
 template <class Visitor>
-void run_fields(Visitor& v, Experiment& e) {
-  v.text({.name = "title", .doc = "of the experiment"}, e.title);
-  v.text({.name = "reproduces", .optional = true, .doc = "section and figures"}, e.reproduces);
-  v.text({.name = "plant", .optional = true, .doc = "the world: planar"}, e.plant);
-  v.integer({.name = "seed", .min = 0, .optional = true, .doc = "of the sensors' noise"}, e.seed);
+void robot_run_fields(Visitor& v, Experiment& e) {
   v.group({.name = "plant_steps", .optional = true, .doc = "numerics"}, [&](auto& g) {
     g.number({.name = "body",
               .unit = "s",
@@ -97,9 +103,22 @@ void run_fields(Visitor& v, Experiment& e) {
   v.group({.name = "start", .doc = "where the machine is at time 0"},
           [&](auto& g) { fields(g, e.start); });
   gait::fields(v, e.plan);
+}
+
+template <class Visitor>
+void run_fields(Visitor& v, Experiment& e) {
+  v.text({.name = "title", .doc = "of the experiment"}, e.title);
+  v.text({.name = "reproduces", .optional = true, .doc = "section and figures"}, e.reproduces);
+  if (!e.stand) v.text({.name = "plant", .optional = true, .doc = "the world: planar"}, e.plant);
+  v.integer({.name = "seed", .min = 0, .optional = true, .doc = "of the sensors' noise"}, e.seed);
+  if (e.stand)
+    fields(v, *e.stand);
+  else
+    robot_run_fields(v, e);
   v.group({.name = "log", .optional = true, .doc = "what is recorded"}, [&](auto& g) {
     fields(g, e.log);
-    g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
+    if (!e.stand)
+      g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
   });
   v.group({.name = "page", .optional = true, .doc = "how people see the run"},
           [&](auto& g) { config::fields(g, e.page); });

@@ -1,8 +1,11 @@
-// experiment/experiment.h - what is run: a robot, a plan, a start, and what was reported of it.
+// experiment/experiment.h - what is run: a robot with its plan, or a test stand with its drive; its
+// start, what breaks, what is recorded, and what was reported of it.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
@@ -14,6 +17,7 @@
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/fault.h"
 #include "sinew/experiment/log_table.h"
+#include "sinew/experiment/stand.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
 #include "sinew/gas/valve.h"
@@ -49,6 +53,7 @@ struct Experiment {
 
   robot::Robot robot;
   robot::Wiring wiring;
+  std::optional<Stand> stand;  // in the robot's place, which is empty then, as are start and plan
   std::vector<actuator::Actuator> actuators;
   std::vector<gas::Valve> valves;
   gas::Air air;
@@ -79,6 +84,17 @@ Experiment load(const config::Node& root, const std::string& path);
 // Throws config::Error with every stretch of a foot path that the leg cannot reach. No part of
 // load(): a run is possible, the brain then aims at the nearest point that can be reached.
 void refuse_unreachable(const Experiment& experiment);
+
+// Returns whether a file of that kind says what is run.
+constexpr bool is_experiment(std::string_view kind) {
+  return kind == "experiment" || kind == "rig";
+}
+
+// Returns the kind of file that says it: "experiment", or "rig" of a test stand.
+std::string_view kind_of(const Experiment& experiment);
+
+// Returns the valve of that name, nullptr where there is none.
+const gas::Valve* find_valve(const Experiment& experiment, std::string_view name);
 
 // The last tick that a run can reach.
 signals::Tick last_tick(const Experiment& experiment);

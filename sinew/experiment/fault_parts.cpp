@@ -50,7 +50,34 @@ std::string_view word_of(What what) {
   return supply_words.front().text;
 }
 
+namespace {
+
+// Returns the element's muscle as "bpa", where its air comes by valves also "bpa.inlet",
+// "bpa.exhaust" and "supply"; the stand's transducers, so that they can be refused. None where the
+// pressure is prescribed: nothing that breaks would change it.
+std::vector<FaultPart> parts_of_stand(const Experiment& e) {
+  using Kind = FaultPart::Kind;
+  const Stand::Element& element = e.stand->element;
+  std::vector<FaultPart> out;
+  if (e.stand->charge.mode == robot::Stand::Charge::Mode::regulated) return out;
+  if (!(element.cylinder.bore > 0)) out.push_back({element.name, Kind::muscle, 0});
+  if (e.stand->charge.mode == robot::Stand::Charge::Mode::valves) {
+    const auto add = [&](const char* which, const std::string& valve, int index) {
+      if (!valve.empty())
+        out.push_back({element.name + which, kind_of_valve(e.valves, valve), index});
+    };
+    add(".inlet", element.inlet, 0);
+    add(".exhaust", element.exhaust, 1);
+    out.push_back({"supply", Kind::supply, 0});
+  }
+  for (const robot::Transducer& t : e.stand->sensors) out.push_back({t.name, Kind::transducer, 0});
+  return out;
+}
+
+}  // namespace
+
 std::vector<FaultPart> fault_parts(const Experiment& e) {
+  if (e.stand) return parts_of_stand(e);
   std::vector<FaultPart> out;
   const auto add = [&](std::string name, FaultPart::Kind kind, std::size_t index) {
     out.push_back({std::move(name), kind, static_cast<int>(index)});

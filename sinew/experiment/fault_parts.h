@@ -20,7 +20,7 @@ struct FaultPart {
   int index = 0;  // of its kind; valves: 2 x muscle + (0 inlet | 1 exhaust), the cylinder's behind
 };
 
-// Returns every part, by the name that a fault's `of` gives it.
+// Returns every part, by the name that a fault's `of` gives it: of a test stand those of its air.
 std::vector<FaultPart> fault_parts(const Experiment& experiment);
 
 // Returns what a valve is to the list [[fault]], by its name among `valves`.

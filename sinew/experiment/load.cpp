@@ -46,17 +46,16 @@ bool in_robots(const std::string& file) {
   return folder.filename() == "robots" || folder.parent_path().filename() == "robots";
 }
 
-void read_run(config::Reader& reader, Experiment& e) {
-  e.plan = gait::plan_for(e.robot);
-  run_fields(reader, e);
-}
-
 // What a file of that kind holds; the rest of the experiment keeps its default.
 Experiment read(const config::Node& root, std::string_view kind, const std::string& path) {
-  const bool runs = kind == "experiment";
+  const bool runs = is_experiment(kind);
   Experiment e;
   e.path = path;
   e.name = std::filesystem::path(path).stem().string();
+  if (kind == "rig") {
+    e.stand.emplace();
+    e.log.period = 1e-3;
+  }
 
   config::Reader reader(root,
                         {.atmosphere = config::atmosphere_of(root), .needs_source = in_robots});
@@ -68,21 +67,24 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
     fields(reader, imported);
   }
   machine_fields(reader, kind, e);
-  if (runs) read_run(reader, e);
+  if (runs) {
+    e.plan = gait::plan_for(e.robot);
+    run_fields(reader, e);
+  }
   reader.finish();
 
   e.origins = reader.origins();
   e.warnings = reader.warnings();
   e.unsourced = reader.unsourced();
   e.plan.settle = e.start.settle;
-  if (runs || kind == "robot") read_timing(e);
+  if (kind == "experiment" || kind == "robot") read_timing(e);
   refuse_contradictions(kind, e);
   return e;
 }
 
 // The order in which a person reads it.
 void write(config::Writer& writer, std::string_view kind, Experiment& e) {
-  if (kind == "experiment") run_fields(writer, e);
+  if (is_experiment(kind)) run_fields(writer, e);
   machine_fields(writer, kind, e);
 }
 
@@ -94,8 +96,16 @@ Experiment load(const std::string& path, const std::vector<std::string>& sets) {
 
 Experiment load(const config::Node& root, const std::string& path) {
   const std::string_view kind = config::format_kind(root);
-  if (kind != "experiment") throw config::Error(not_an_experiment(root, path));
+  if (!is_experiment(kind)) throw config::Error(not_an_experiment(root, path));
   return read(root, kind, path);
+}
+
+std::string_view kind_of(const Experiment& e) { return e.stand ? "rig" : "experiment"; }
+
+const gas::Valve* find_valve(const Experiment& e, std::string_view name) {
+  for (const gas::Valve& v : e.valves)
+    if (v.name == name) return &v;
+  return nullptr;
 }
 
 MachineFile load_machine_file(const std::string& path, const std::vector<std::string>& sets) {
@@ -104,7 +114,7 @@ MachineFile load_machine_file(const std::string& path, const std::vector<std::st
 
 MachineFile load_machine_file(const config::Node& root, const std::string& path) {
   const std::string kind(config::format_kind(root));
-  if (kind != "experiment" && kind != "robot" && kind != "actuator" && kind != "valves" &&
+  if (!is_experiment(kind) && kind != "robot" && kind != "actuator" && kind != "valves" &&
       kind != "wiring")
     config::fail({path, 0, 0}, "format", config::in_quotes(kind),
                  "an experiment, robot, actuator, valves or wiring file");
@@ -118,6 +128,7 @@ config::Node values_in_si(MachineFile file) {
 }
 
 Experiment without_files(Experiment e) {
+  if (e.stand) return e;
   e.pulses.closing.assign(e.timing.closing.begin(), e.timing.closing.end());
   e.pulses.opening.assign(e.timing.opening.begin(), e.timing.opening.end());
   e.robot.low_level.valve_timing.clear();
@@ -129,14 +140,14 @@ std::string resolved(const MachineFile& file, const std::string& version) {
   config::Writer writer(&e.origins);
   writer.format(file.kind);
   std::string sinew = version;
-  if (file.kind == "experiment")
+  if (is_experiment(file.kind))
     writer.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, sinew);
   write(writer, file.kind, e);
   return writer.text();
 }
 
 std::string resolved(const Experiment& experiment, const std::string& version) {
-  return resolved(MachineFile{"experiment", experiment}, version);
+  return resolved(MachineFile{std::string(kind_of(experiment)), experiment}, version);
 }
 
 }  // namespace sinew::experiment

@@ -14,7 +14,6 @@
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/gas/delay.h"
 #include "sinew/log/reader.h"
 #include "sinew/recording/mapping.h"
@@ -24,7 +23,6 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/check_motion.h"
 #include "sinew/run/simulation/run.h"
-#include "sinew/run/stand/run.h"
 #include "sinew/tune/optimizer/tuning.h"
 #include "sinew/tune/study.h"
 
@@ -50,10 +48,6 @@ void check_log(const std::filesystem::path& file, Finding& out) {
 void check_run(const std::filesystem::path& folder, Finding& out) {
   const run::RecordedRun run = run::recorded_run(folder);
   check_log(run.log, out);
-  if (const auto file = run::machine_of(run, ""); run::is_on_stand(file)) {
-    add(rig::load(file).warnings, out.warnings);
-    return;
-  }
   add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings, out.warnings);
 }
 
@@ -96,14 +90,6 @@ void tell_of_faults(const std::string& path, const std::vector<experiment::Fault
   }
 }
 
-void check_rig(const std::string& path, Finding& out) {
-  const rig::Experiment e = run::runnable_on_stand(path, {});
-  add(e.warnings, out.warnings);
-  tell_of_sources(e.unsourced, out);
-  const auto why = [&](const experiment::Fault& f) { return why_idle(f, rig::last_tick(e)); };
-  tell_of_faults(path, e.faults, why, out);
-}
-
 // Warns of valves that need so much of a period to open that small duties deliver nothing.
 void warn_of_slow_valves(const experiment::Experiment& e, Finding& out) {
   constexpr double much = 0.25;  // of the period
@@ -123,10 +109,11 @@ void warn_of_slow_valves(const experiment::Experiment& e, Finding& out) {
 }
 
 void check_machine(const std::string& path, Finding& out) {
-  const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
+  const std::string kind(config::format_kind(config::parse_file(path)));
+  const bool runs = experiment::is_experiment(kind);
   experiment::MachineFile file;
   if (runs) {
-    file = {"experiment", run::runnable(path, {}, false)};
+    file = {kind, run::runnable(path, {}, false)};
   } else {
     file = experiment::load_machine_file(path);
     run::refuse_unbuildable(file);
@@ -170,8 +157,6 @@ Finding check(const std::string& path) {
       config::read_user_settings(path);
     } else if (config::format_kind(root) == "tuning") {
       tune::load_tuning(path);
-    } else if (run::is_on_stand(path)) {
-      check_rig(path, out);
     } else {
       check_machine(path, out);
     }

@@ -9,7 +9,6 @@
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/experiment.fields.h"
 #include "sinew/experiment/imported.fields.h"
-#include "sinew/experiment/rig/rig.fields.h"
 #include "sinew/recording/mapping.fields.h"
 #include "sinew/tune/optimizer/tuning.fields.h"
 #include "sinew/tune/study.fields.h"
@@ -36,28 +35,25 @@ void imported_tables(Visitor& v) {
   experiment::fields(v, imported);
 }
 
-// Visits the tables of a test stand, without actuators and valves.
+// Visits what an experiment says of its run, on a test stand or with a robot. Where names of joints
+// are keys, there is one joint, <name>.
 template <class Visitor>
-void rig_tables(Visitor& v) {
-  rig::Experiment e;
-  rig::fields(v, e);
-  v.group({.name = "air", .doc = "atmosphere and supply"},
-          [&](auto& g) { gas::fields(g, e.air, e.supply); });
+void experiment_tables(Visitor& v, bool on_stand) {
+  experiment::Experiment e;
+  if (on_stand) e.stand.emplace();
+  e.plan.joints = {{.name = "<name>"}};
+  experiment::run_fields(v, e);
+  if (on_stand)
+    v.group({.name = "air", .doc = "atmosphere and supply"},
+            [&](auto& g) { gas::fields(g, e.air, e.supply); });
   imported_tables(v);
 }
 
-// Visits what belongs to that kind of file alone. Where names of joints are keys, there is one
-// joint, <name>.
+// Visits what belongs to that kind of file alone.
 template <class Visitor>
 void visit_tables(Visitor& v, std::string_view kind) {
   if (kind == "robot") return robot_tables(v);
-  if (kind == "rig") return rig_tables(v);
-  if (kind == "experiment") {
-    experiment::Experiment e;
-    e.plan.joints = {{.name = "<name>"}};
-    experiment::run_fields(v, e);
-    return imported_tables(v);
-  }
+  if (experiment::is_experiment(kind)) return experiment_tables(v, kind == "rig");
   if (kind == "actuator") {
     std::vector<actuator::Actuator> actuators;
     return actuator::fields(v, actuators);

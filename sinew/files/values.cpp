@@ -11,7 +11,6 @@
 #include "sinew/config/short_quantity.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/json/json.h"
 #include "sinew/recording/mapping.fields.h"
 #include "sinew/report/text/text_table.h"
@@ -128,10 +127,6 @@ Values values(const std::string& path, const std::vector<std::string>& sets,
               const std::vector<std::string>& keys) {
   if (config::format_kind(config::parse_file(path)) == "mapping")
     return mapping_values(path, sets, keys);
-  if (run::is_on_stand(path)) {
-    const rig::Experiment e = rig::load(path, sets);
-    return {rig::values_in_si(e), chosen(e.origins, keys, path)};
-  }
   const auto file = experiment::load_machine_file(path, sets);
   return {experiment::values_in_si(file), chosen(file.experiment.origins, keys, path)};
 }

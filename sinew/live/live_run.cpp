@@ -194,11 +194,7 @@ class LiveRun::Impl {
 namespace {
 
 // Refuses what can be refused before there is a folder.
-void require_live(const std::string& experiment, Port port) {
-  if (run::is_on_stand(experiment))
-    config::fail({experiment, 0, 0}, "", "an experiment on the stand",
-                 "one of a robot: a stand's run is over in a moment and is not steered",
-                 "sinew run, then sinew view");
+void require_live(Port port) {
   if (!report::has_page())
     throw std::runtime_error(
         "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
@@ -209,7 +205,7 @@ void require_live(const std::string& experiment, Port port) {
 }  // namespace
 
 LiveRun::LiveRun(const run::RunRequest& request, LiveOptions options, run::Notices notices) {
-  require_live(request.experiment, options.port);
+  require_live(options.port);
   if (run::keeps_its_own_time(request.port) && (options.paused || options.pace != 1))
     config::fail({request.experiment, 0, 0}, options.paused ? "paused" : "pace",
                  options.paused ? "true" : fmt::format("{}", options.pace),

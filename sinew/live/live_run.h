@@ -21,7 +21,7 @@ struct LiveOptions {
   bool once = false;    // end with the run; else its page stays until Ctrl-C
 
   // Called on the run's thread with what it left, before its page is that of a run that is over.
-  std::function<void(const run::Kept<analysis::Machine>&)> kept = {};
+  std::function<void(const run::Kept&)> kept = {};
 };
 
 class LiveRun {

@@ -220,6 +220,22 @@ TEST(Show, EachPageGetsEverythingOnce) {
 }
 
 // A change of the plan's list is marked as one of a slider is, once for each page, the release too.
+// A stand is drawn as it goes; nothing of it is changed on the way.
+TEST(Show, OfAStandHasItsDrawing) {
+  Experiment e = experiment::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml");
+  e.stand->duration = 1;
+  Stage stage(e);
+  run::expect_same(run::run(e).table, stage.run().table);
+  Show::Position page;
+  const Json first = Json::parse(stage.show.frame(page));
+  EXPECT_EQ(first["piece"]["samples"]["clocks"][0], 1001u);
+  EXPECT_EQ(first["state"]["values"].size(), 0u);
+  if (!report::has_page()) return;
+  const std::string text = stage.show.page("127.0.0.1:1");
+  EXPECT_NE(text.find("\"stand\":{"), text.npos);
+  EXPECT_NE(text.find("\"scene\":null"), text.npos);
+}
+
 TEST(Show, WhatIsSetIsToldToEachPageOnce) {
   Stage stage(in_air());
   EXPECT_EQ(stage.show.answer(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");

@@ -4,8 +4,6 @@
 #include <chrono>
 
 #include "sinew/run/folder/kept_run.h"
-#include "sinew/run/folder/kept_stand_run.h"
-#include "sinew/run/folder/runnable.h"
 
 namespace sinew::live {
 namespace {
@@ -18,7 +16,6 @@ std::filesystem::path run_and_keep(const tune::StudyRun& run, const std::atomic<
                                 .folder = "",
                                 .sets = run.sets,
                                 .allow_unreachable = run.allow_unreachable};
-  if (run::is_on_stand(run.experiment)) return run::run_on_stand(request).folder;
   run::KeptRun kept(request);
   run::RunOptions options{.stop = &stop};
   kept.apply(options);

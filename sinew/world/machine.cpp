@@ -15,7 +15,10 @@ AnyWorld body_world_for(const Setup& s) {
   return AnyWorld(std::in_place_type<First>, s);
 }
 
-AnyWorld world_for(const Setup& s) {
+AnyWorld world_for(const AnySetup& any) {
+  if (const auto* stand = std::get_if<StandSetup>(&any))
+    return AnyWorld(std::in_place_type<Stand>, *stand);
+  const Setup& s = std::get<Setup>(any);
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
   using std::in_place_type;
   if (chain && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
@@ -26,7 +29,7 @@ AnyWorld world_for(const Setup& s) {
 
 }  // namespace
 
-Machine::Machine(const Setup& setup) : world_(world_for(setup)) {}
+Machine::Machine(const AnySetup& setup) : world_(world_for(setup)) {}
 
 Machine::Machine(const LegLane& lane) : world_(lane) {}
 
@@ -34,8 +37,20 @@ signals::Port& Machine::port() noexcept {
   return *std::visit([](auto& world) -> signals::Port* { return &world; }, world_);
 }
 
+void Machine::truth(double t, Truths& out) noexcept {
+  const auto put = [&](auto& world) {
+    if constexpr (std::is_same_v<decltype(world.truth(t)), StandTruth>)
+      out.stand = world.truth(t);
+    else
+      out.robot = world.truth(t);
+  };
+  std::visit(put, world_);
+}
+
 Truth Machine::truth(double t) noexcept {
-  return std::visit([&](auto& world) { return world.truth(t); }, world_);
+  Truths out;
+  truth(t, out);
+  return out.robot;
 }
 
 void Machine::advance(double t) noexcept {

@@ -1,6 +1,6 @@
-// world/machine.h - a planar machine in simulation: the mechanism and the air that suit its
-// description, behind one face. Robots that a chain holds go by chain_mechanism.h, all others by
-// the first size of body_mechanism.h that has room for them.
+// world/machine.h - a machine in simulation: the mechanism and the air that suit its
+// description, under one interface. Robots that a chain holds use chain_mechanism.h, all others the
+// first size of body_mechanism.h that has room for them, a test stand slide_mechanism.h.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 #include "sinew/mechanism/planar/body_mechanism.h"
 #include "sinew/world/batch.h"
 #include "sinew/world/chain_world.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::plant {
 
@@ -29,19 +30,28 @@ extern template class World<BodyMechanism<most_joints, robot::max_discs, most_mu
 
 using AnyWorld =
     std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
-                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane>;
+                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane, Stand>;
+
+// A robot or a test stand, and what only a simulation has of it: the other one's is not used.
+using AnySetup = std::variant<Setup, StandSetup>;
+struct Truths {
+  Truth robot;
+  StandTruth stand;
+};
 
 class Machine {
  public:
-  // The setup must be free of contradictions (robot::contradictions).
-  explicit Machine(const Setup& setup);
+  // The setup must be free of contradictions (robot::contradictions); a stand's throws
+  // std::invalid_argument if it is not.
+  explicit Machine(const AnySetup& setup);
   // One that goes side by side with others; whoever holds them outlives this.
   explicit Machine(const LegLane& lane);
 
   // Returns it as a controller sees it.
   signals::Port& port() noexcept;
 
-  // As World's.
+  // As World's, of a robot or of a stand; and of a robot alone.
+  void truth(double t, Truths& out) noexcept;
   Truth truth(double t) noexcept;
   void advance(double t) noexcept;
   double time() const noexcept;

@@ -16,7 +16,6 @@
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/run/simulation/run.h"
-#include "sinew/run/stand/run.h"
 #include "tests/places.h"
 
 namespace sinew {
@@ -112,14 +111,9 @@ class Channels : public testing::TestWithParam<std::string> {
         random_(std::hash<std::string>{}(name_)) {}
   ~Channels() override { fs::remove(file_); }
 
-  // The stand's table is whole before it is logged; a robot's run feeds its log as it goes, here
-  // one of a random choice, which is put beside what the same run recorded.
+  // A run feeds its log as it goes, here one of a random choice, which is compared with what the
+  // same run recorded.
   Recorded record() {
-    const config::Node root = config::compose(GetParam());
-    if (config::format_kind(root) == "rig") {
-      const rig::Experiment e = rig::load(GetParam());
-      return {rig::run(e).table, rig::topics(e)};
-    }
     const experiment::Experiment e = experiment::load(GetParam());
     Recorded out{{}, run::topics(e)};
     const Patterns patterns = some(names_of(out.topics), out.topics.size() / 2);

@@ -101,17 +101,10 @@ Verdict judge(const Subject& subject, const NumericField& field, const std::stri
   Verdict out;
   try {
     const Node root = with(subject, field, cell);
-    if (subject.rig) {
-      rig::Experiment e = rig::load(root, "cell.toml");
-      const analysis::StandFile file = analysis::read_stand(root);
-      out.accepted = true;
-      judge_run(short_run(std::move(e), file), usual, out);
-    } else {
-      experiment::Experiment e = run::buildable(root, "cell.toml");
-      const analysis::Machine machine = analysis::read_machine(root);
-      out.accepted = true;
-      judge_run(short_run(std::move(e), machine), usual, out);
-    }
+    experiment::Experiment e = run::buildable(root, "cell.toml");
+    const analysis::Machine machine = analysis::read_machine(root);
+    out.accepted = true;
+    judge_run(short_run(std::move(e), machine), usual, out);
   } catch (const config::Error& e) {
     if (out.accepted) out.wrong = true;
     judge_refusal(e, field, cell, out);
@@ -136,9 +129,7 @@ Verdict judge_twice(const NumericField& field) {
 }
 
 std::set<std::string> usual_of(const Subject& s) {
-  const Ran ran = s.rig
-                      ? short_run(rig::load(s.root, s.name), analysis::read_stand(s.root))
-                      : short_run(experiment::load(s.root, s.name), analysis::read_machine(s.root));
+  const Ran ran = short_run(experiment::load(s.root, s.name), analysis::read_machine(s.root));
   EXPECT_FALSE(ran.ended) << s.name << ": " << ran.cause;
   return {ran.not_finite.begin(), ran.not_finite.end()};
 }

@@ -8,15 +8,11 @@
 #include <vector>
 
 #include "sinew/analysis/record/machine.h"
-#include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/experiment.fields.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/rig/rig.fields.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/run/simulation/run.h"
-#include "sinew/run/stand/run.h"
 #include "tests/guards/numeric_fields.h"
 #include "tests/places.h"
 
@@ -35,18 +31,10 @@ inline Subject subject(const std::filesystem::path& file) {
   const config::Node composed = config::compose(file.string());
   out.rig = config::format_kind(composed) == "rig";
   Lister lister;
-  std::string text;
-  if (out.rig) {
-    rig::Experiment e = rig::load(composed, file.string());
-    text = rig::resolved(e, "0");
-    rig::fields(lister, e);
-    rig::machine_fields(lister, e);
-  } else {
-    experiment::Experiment e = experiment::load(composed, file.string());
-    text = experiment::resolved(e, "0");
-    experiment::run_fields(lister, e);
-    experiment::machine_fields(lister, e);
-  }
+  experiment::Experiment e = experiment::load(composed, file.string());
+  const std::string text = experiment::resolved(e, "0");
+  experiment::run_fields(lister, e);
+  experiment::machine_fields(lister, e);
   out.root = config::parse_text(text, "resolved.toml");
   out.fields = std::move(lister.fields);
   return out;
@@ -83,6 +71,12 @@ inline void look_at(const signals::Table& table, const analysis::Summary& summar
 
 // The machine's first moments: every phase once, none for long.
 inline Ran short_run(experiment::Experiment e, const analysis::Machine& machine) {
+  if (e.stand) {
+    experiment::Stand& stand = *e.stand;
+    stand.duration = std::min(stand.duration, std::max(0.25, 6 * stand.drive.period));
+    stand.measured.from = 0;
+    if (stand.sweep.step > 0) stand.sweep.step = std::max(stand.sweep.step, 0.3);
+  }
   constexpr double most = 0.06;  // of a phase [s]
   e.plan.repeat = 1;
   e.start.settle = std::min(e.start.settle, most);
@@ -90,24 +84,11 @@ inline Ran short_run(experiment::Experiment e, const analysis::Machine& machine)
   e.robot.low_level.vent_time = std::min(e.robot.low_level.vent_time, most);
   for (gait::Phase& phase : e.plan.phases) phase.duration = std::min(phase.duration, most);
   e.log.period = std::max(e.log.period, 1e-3);
-  run::Outcome outcome = run::run(e);
+  run::Outcome outcome = run::run(e, {.threads = 1});
   Ran out;
   out.ended = outcome.ended_early();
   if (out.ended) out.cause = cause_of(e, outcome);
   if (!out.ended) look_at(outcome.table, analysis::summarize(outcome.table, machine), out);
-  out.table = std::move(outcome.table);
-  return out;
-}
-
-inline Ran short_run(rig::Experiment e, const analysis::StandFile& file) {
-  e.duration = std::min(e.duration, std::max(0.25, 6 * e.drive.period));
-  e.measured.from = 0;
-  if (e.sweep.step > 0) e.sweep.step = std::max(e.sweep.step, 0.3);
-  rig::Outcome outcome = rig::run(e, {.threads = 1});
-  Ran out;
-  out.ended = outcome.failure || outcome.status != signals::Status::ok;
-  if (out.ended) out.cause = cause_of(e, outcome);
-  if (!out.ended) look_at(outcome.table, analysis::summarize(outcome.table, file), out);
   out.table = std::move(outcome.table);
   return out;
 }

@@ -60,7 +60,7 @@ class TestStand {
   // Air of `pressure` [psia] at `sealed_at` [in]; set free at `length` [in].
   std::vector<Sample> run(double length, double pressure, double sealed_at, double seconds) {
     const bool pulsed = stand_.frequency > 0;
-    using Mode = plant::Charge::Mode;
+    using Mode = robot::Stand::Charge::Mode;
     plant::Stand stand({.muscle = muscle(stand_),
                         .supply = {.pressure = stand_.reading.supply * units::psi},
                         .load = {.mass = stand_.load * units::pound_mass},

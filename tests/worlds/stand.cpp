@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/run/stand/faulty_setup.h"
-#include "sinew/run/stand/run.h"
+#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/world/stand.h"
 #include "tests/places.h"
 #include "tests/worlds/on_world.h"
@@ -25,9 +25,9 @@ StandSetup varied(StandSetup s, const Variant& v) {
     a.bladder = {};
   }
   if (v.step > 0) s.step = v.step;
-  if (v.pressure > 0 && s.charge.mode != plant::Charge::Mode::regulated)
+  if (v.pressure > 0 && s.charge.mode != robot::Stand::Charge::Mode::regulated)
     s.start.pressure = v.pressure;
-  if (v.displaced && s.load.mode == plant::Load::Mode::hanging) s.start.displacement = 2e-3;
+  if (v.displaced && s.load.mode == robot::Stand::Load::Mode::hanging) s.start.displacement = 2e-3;
   return s;
 }
 
@@ -84,13 +84,13 @@ Subject of_setup(const std::string& name, const StandSetup& s) {
               .make = [s](const Variant& v) { return std::make_unique<OnStand>(varied(s, v)); },
               .step = s.step};
   const gas::Valve& inlet = s.cylinder ? s.cylinder->inlet[air::up] : s.muscle.inlet;
-  const bool valves = s.charge.mode == plant::Charge::Mode::valves;
+  const bool valves = s.charge.mode == robot::Stand::Charge::Mode::valves;
   if (valves) out.taps = {{0, inlet.kind == gas::Valve::Kind::regulator}};
   if (valves && inlet.kind == gas::Valve::Kind::two_way) out.taps.push_back({1});
   const bool leaks = s.muscle.leak.area > 0 || s.muscle.leak.conductance > 0 || !s.faults.empty();
-  const bool seals = !leaks && s.charge.mode != plant::Charge::Mode::regulated &&
+  const bool seals = !leaks && s.charge.mode != robot::Stand::Charge::Mode::regulated &&
                      (!valves || inlet.kind == gas::Valve::Kind::two_way);
-  out.conserves = seals && s.load.mode == plant::Load::Mode::hanging &&
+  out.conserves = seals && s.load.mode == robot::Stand::Load::Mode::hanging &&
                   !(s.muscle.hose.volume > 0) && !(s.air.wall_time > 0) &&
                   !(s.muscle.actuator.hysteresis.half_width > 0);
   return out;
@@ -113,16 +113,16 @@ std::vector<experiment::Fault> broken() {
 Subject of_stand_experiment(const std::string& name, const std::string& file, Sets sets = {},
                             const std::vector<experiment::Fault>& faults = {}) {
   const auto load = [file, faults](const Sets& with) {
-    rig::Experiment e =
-        rig::load(sinew::test::source_dir() + "/experiments/rig/" + file + ".toml", with);
+    experiment::Experiment e =
+        experiment::load(sinew::test::source_dir() + "/experiments/rig/" + file + ".toml", with);
     e.faults = faults;
     return e;
   };
-  Subject out = of_setup(name, rig::faulty_setup_of(load(sets)));
+  Subject out = of_setup(name, run::stand_setup(load(sets)));
   sets.push_back("duration=1 s");
-  const rig::Experiment shorter = load(sets);
+  const experiment::Experiment shorter = load(sets);
   out.run = [shorter](bool every_tick, int) {
-    const rig::Outcome o = rig::run(shorter, {.every_tick = every_tick});
+    const run::Outcome o = run::run(shorter, {.every_tick = every_tick});
     return o.status == signals::Status::ok ? o.table : signals::Table{};
   };
   return out;
@@ -130,14 +130,14 @@ Subject of_stand_experiment(const std::string& name, const std::string& file, Se
 
 // The cylinder of 6.3 with a weight on its rod, filled and vented through two valves.
 StandSetup hanging_cylinder() {
-  StandSetup s = rig::setup_of(
-      rig::load(sinew::test::source_dir() + "/experiments/rig/sealed-cylinder.toml", {}));
-  const StandSetup valves =
-      rig::setup_of(rig::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml", {}));
+  StandSetup s = run::stand_setup(
+      experiment::load(sinew::test::source_dir() + "/experiments/rig/sealed-cylinder.toml", {}));
+  const StandSetup valves = run::stand_setup(
+      experiment::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml", {}));
   s.cylinder->inlet[air::up] = valves.muscle.inlet;
   s.cylinder->exhaust[air::up] = valves.muscle.exhaust;
   s.load = valves.load;
-  s.charge.mode = plant::Charge::Mode::valves;
+  s.charge.mode = robot::Stand::Charge::Mode::valves;
   s.air.polytropic_exponent = 1.4;
   const double ring = air::area(*s.cylinder, air::up);
   s.start = {.pressure = s.air.atmosphere + s.load.mass.at(0) * s.load.gravity / ring,
@@ -147,11 +147,11 @@ StandSetup hanging_cylinder() {
 
 // A tensile machine pulls to and fro while the regulator's set point moves and jumps.
 StandSetup regulated() {
-  StandSetup s = rig::setup_of(
-      rig::load(sinew::test::source_dir() + "/experiments/rig/length-sweep.toml", {}));
-  s.load.length = plant::Schedule({{0, 0.075}, {0.3003, 0.085}, {0.5003, 0.085}, {0.9003, 0.07}});
+  StandSetup s = run::stand_setup(
+      experiment::load(sinew::test::source_dir() + "/experiments/rig/length-sweep.toml", {}));
+  s.load.length = signals::Schedule({{0, 0.075}, {0.3003, 0.085}, {0.5003, 0.085}, {0.9003, 0.07}});
   s.charge.pressure =
-      plant::Schedule({{0, 2e5}, {0.4, 5e5}, {0.6003, 5e5}, {0.6003, 3e5}, {1, 4e5}});
+      signals::Schedule({{0, 2e5}, {0.4, 5e5}, {0.6003, 5e5}, {0.6003, 3e5}, {1, 4e5}});
   s.start = {};
   return s;
 }

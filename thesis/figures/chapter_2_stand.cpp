@@ -8,8 +8,8 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/tension.h"
-#include "sinew/experiment/rig/measured.h"
-#include "sinew/run/stand/run.h"
+#include "sinew/experiment/measured.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/units/constants.h"
 #include "thesis/figures/chapter_2.h"
 
@@ -27,16 +27,16 @@ using units::inch, units::psi, units::pound_force;
 struct Loop {
   int nominal = 0;                              // [psi gauge]
   std::vector<double> length, force, pressure;  // [in] [lbf] [psi gauge]
-  rig::Experiment experiment;
+  experiment::Experiment experiment;
   std::vector<double> predicted_pressure, ideal_force, effective_force;
 };
 
 Loop measured(const Sources& from, const std::string& name) {
-  Loop out{.experiment = rig::load(from.path("experiments/rig/" + name + ".toml"))};
-  const rig::Notes notes = rig::notes(out.experiment, rig::run(out.experiment).table);
+  Loop out{.experiment = experiment::load(from.path("experiments/rig/" + name + ".toml"))};
+  const experiment::Notes notes = experiment::notes(out.experiment, run::run(out.experiment).table);
   for (std::size_t s = 0; s < notes.values.size(); ++s) {
-    using Of = plant::Transducer::Of;
-    const auto of = out.experiment.sensors[s].of;
+    using Of = robot::Transducer::Of;
+    const auto of = out.experiment.stand->sensors[s].of;
     const double unit = of == Of::length ? inch : of == Of::force ? pound_force : psi;
     std::vector<double>& to = of == Of::length  ? out.length
                               : of == Of::force ? out.force
@@ -48,7 +48,7 @@ Loop measured(const Sources& from, const std::string& name) {
 
 // [29]: P V is what it was at the first reading  [psi gauge].
 void predict_pressure(Loop& loop, double atmosphere) {
-  const rig::Element& element = loop.experiment.element;
+  const experiment::Stand::Element& element = loop.experiment.stand->element;
   const auto volume = [&](double length) {
     return actuator::volume(loop.experiment.actuators[0].braid, length * inch) +
            element.external_volume / element.count;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/stand.h"
+#include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
 #include "sinew/robot/sensing.h"
-#include "sinew/run/stand/run.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/units/constants.h"
 #include "thesis/figures/thesis.h"
 
@@ -29,12 +29,12 @@ struct Pair {
 struct Run {
   Curve length;
   analysis::Summary summary;
-  analysis::StandFile stand;
+  analysis::Machine stand;
 };
 
 // Length over time as the stand records it; through the potentiometer where there is one.
-Curve recorded(const rig::Experiment& e, const signals::Table& table,
-               const plant::Transducer* potentiometer) {
+Curve recorded(const experiment::Experiment& e, const signals::Table& table,
+               const robot::Transducer* potentiometer) {
   const signals::Series& length = *table.find("/true/stand/length");
   constexpr std::size_t every = 5;  // rows of the log
   Curve out;
@@ -43,7 +43,7 @@ Curve recorded(const rig::Experiment& e, const signals::Table& table,
     if (potentiometer) {
       const signals::Tick tick = length.time_ns[row] / signals::tick_nanoseconds;
       const double added_noise = robot::noise(static_cast<std::uint64_t>(e.seed), 0, tick);
-      l = plant::shown(*potentiometer, plant::counts(*potentiometer, l, added_noise));
+      l = robot::shown(*potentiometer, robot::counts(*potentiometer, l, added_noise));
     }
     out.xs.push_back(static_cast<double>(length.time_ns[row]) * 1e-9);
     out.ys.push_back(l / inch);
@@ -52,11 +52,12 @@ Curve recorded(const rig::Experiment& e, const signals::Table& table,
 }
 
 Run run(const Sources& from, const std::string& file, const std::vector<std::string>& sets,
-        const plant::Transducer* potentiometer) {
+        const robot::Transducer* potentiometer) {
   const std::string path = from.path("experiments/rig/" + file + ".toml");
-  const rig::Experiment e = rig::load(path, sets);
-  const signals::Table table = rig::run(e).table;
-  Run out{recorded(e, table, potentiometer), {}, analysis::read_stand(config::compose(path, sets))};
+  const experiment::Experiment e = experiment::load(path, sets);
+  const signals::Table table = run::run(e).table;
+  Run out{
+      recorded(e, table, potentiometer), {}, analysis::read_machine(config::compose(path, sets))};
   out.summary = analysis::summarize(table, out.stand);
   return out;
 }
@@ -77,8 +78,8 @@ std::vector<std::string> departures(int trial, bool pulsed) {
 }
 
 Run on_our_stand(const Sources& from, const Pair& pair, bool pulsed) {
-  const plant::Transducer potentiometer{.name = "length",
-                                        .of = plant::Transducer::Of::length,
+  const robot::Transducer potentiometer{.name = "length",
+                                        .of = robot::Transducer::Of::length,
                                         .low = 2.2 * inch,
                                         .high = 4.2 * inch,
                                         .noise = 0.002 * inch};

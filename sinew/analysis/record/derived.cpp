@@ -260,6 +260,7 @@ void add_one(Series& out, const Record& record, const Machine& machine) {
 }  // namespace
 
 signals::Table derive(const signals::Table& table, const Machine& machine) {
+  if (machine.stand) return {};
   const Record record(table, machine);
   Series out(record);
   Pushes pushes;

@@ -9,6 +9,7 @@
 #include "sinew/gas/delay.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.fields.h"
+#include "sinew/robot/stand.fields.h"
 
 namespace sinew::analysis {
 namespace {
@@ -74,8 +75,19 @@ MachineValve what_matters(const gas::Valve& valve) {
 }
 
 void read_parts(config::Reader& reader, Machine& m) {
-  robot::fields(reader, m.robot);
-  actuator::fields(reader, m.actuators);
+  if (m.stand) {
+    robot::fields(reader, static_cast<robot::Stand&>(*m.stand));
+    reader.each({.name = "actuator", .optional = true}, m.actuators,
+                [](auto& g, actuator::Actuator& a) { actuator::fields(g, a); });
+    reader.group({.name = "drive", .optional = true}, [&](auto& g) {
+      g.text({.name = "kind", .optional = true}, m.stand->drive);
+      g.number({.name = "period", .unit = "s", .min = 1e-4, .optional = true},
+               m.stand->drive_period);
+    });
+  } else {
+    robot::fields(reader, m.robot);
+    actuator::fields(reader, m.actuators);
+  }
   std::vector<gas::Valve> valves;
   reader.each({.name = "valve", .optional = true}, valves,
               [](auto& g, gas::Valve& valve) { timing_fields(g, valve); });
@@ -107,19 +119,16 @@ void read_run(config::Reader& reader, Machine& m) {
   });
   reader.list({.name = "reported", .optional = true}, m.reported,
               [&](auto& g, Reported& r) { analysis::fields(g, r, m.atmosphere); });
-  read_faults(reader, m.faults);
+  reader.list({.name = "fault", .optional = true}, m.faults,
+              [](auto& g, MachineFault& f) { fields(g, f); });
 }
 
 }  // namespace
 
-void read_faults(config::Reader& reader, std::vector<MachineFault>& faults) {
-  reader.list({.name = "fault", .optional = true}, faults,
-              [](auto& g, MachineFault& f) { fields(g, f); });
-}
-
 Machine read_machine(const config::Node& root) {
   Machine m;
   m.atmosphere = config::atmosphere_of(root);
+  if (root.find("element")) m.stand.emplace();
   config::Reader reader(root, {.atmosphere = m.atmosphere});
   read_parts(reader, m);
   read_run(reader, m);

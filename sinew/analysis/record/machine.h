@@ -5,6 +5,7 @@
 // Only what analysis needs is read, so a file may hold more than this folder knows of.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "sinew/config/node.h"
 #include "sinew/config/reader.h"
 #include "sinew/robot/robot.h"
+#include "sinew/robot/stand.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::analysis {
@@ -29,11 +31,18 @@ struct MachineValve {
   double shut = 0;    // from the edge that opens it until the shutter moves [s]
 };
 
+// A test stand, and what of its drive matters here.
+struct MachineStand : robot::Stand {
+  std::string drive = "none";  // its kind
+  double drive_period = 0.04;  // [s]
+};
+
 struct Machine {
   std::string title;
   std::string reproduces;
 
   robot::Robot robot;
+  std::optional<MachineStand> stand;  // in the robot's place, which is empty then
   std::vector<actuator::Actuator> actuators;
   std::vector<MachineValve> valves;
   double atmosphere = units::atmosphere;  // [Pa]
@@ -45,10 +54,8 @@ struct Machine {
   std::vector<MachineFault> faults;
 };
 
-// Reads the list [[fault]], of which only parts, words and times matter here.
-void read_faults(config::Reader& reader, std::vector<MachineFault>& faults);
-
-// Throws config::Error with everything that is wrong in what is read.
+// Reads a robot or, where there is an [element], a test stand. Throws config::Error with everything
+// that is wrong in what is read.
 Machine read_machine(const config::Node& root);
 
 // Positions in Machine::phases by what 5.4 calls them: `foot_plant` and `propulsion` are stance,

@@ -120,7 +120,7 @@ RunFitFound find_run_fit(const RunFitSettings& settings) {
   const run::RecordedRun run = run::recorded_run(settings.run);
   const std::string machine = run::machine_of(run, settings.machine).string();
   const config::Node root = config::compose(machine, all_sets(settings));
-  experiment::Experiment e = run::buildable(root, machine);
+  experiment::Experiment e = run::buildable_robot(root, machine);
   if (!e.faults.empty())
     config::fail({machine, 0, 0}, "fault", "a run in which something broke",
                  "one of a machine that stays what it is", "a run without [[fault]]");

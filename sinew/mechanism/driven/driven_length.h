@@ -10,8 +10,8 @@
 #include "sinew/air/state.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
-#include "sinew/mechanism/driven/schedule.h"
 #include "sinew/signals/port.h"
+#include "sinew/signals/schedule.h"
 
 namespace sinew::plant {
 
@@ -21,9 +21,9 @@ struct DrivenSetup {
   air::Muscle muscle;
   gas::Air air;
   gas::Supply supply;
-  Schedule length;      // over time; after its last point a caller's rate holds [m]
-  double pressure = 0;  // at the start, absolute [Pa]
-  double step = 1e-3;   // between nodes [s]
+  signals::Schedule length;  // over time; after its last point a caller's rate holds [m]
+  double pressure = 0;       // at the start, absolute [Pa]
+  double step = 1e-3;        // between nodes [s]
 };
 
 struct DrivenTruth {
@@ -67,7 +67,7 @@ class DrivenLength {
 
   explicit DrivenLength(const Setup& setup) : length_(setup.length) {}
 
-  const Schedule& constants() const noexcept { return length_; }
+  const signals::Schedule& constants() const noexcept { return length_; }
   Motion start() const noexcept { return {length_.at(0), length_.piece(0).slope}; }
   double node_step(const Setup& setup) const noexcept { return setup.step; }
   template <class Air>
@@ -113,7 +113,7 @@ class DrivenLength {
   double trolley_bound(const Forces&, double last) const noexcept { return last; }
 
  private:
-  Schedule length_;
+  signals::Schedule length_;
 };
 
 }  // namespace sinew::plant

@@ -128,7 +128,7 @@ StandSetup prepared(const StandSetup& setup) {
   refuse_without_air(s, start.length);
   refuse_without_air(s, first);
   const Reach r = reach(s);
-  for (const Point& p : s.load.length.points) {
+  for (const Schedule::Point& p : s.load.length.points) {
     refuse_without_air(s, p.value);
     if (!s.cylinder && (p.value < r.low || p.value > r.high))
       refuse("a driven length of " + std::to_string(p.value) +

@@ -47,7 +47,7 @@ class StandSenses {
     const Transducer& t = transducers_[index];
     const auto channel = static_cast<std::uint8_t>(index);
     const double added_noise = t.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
-    return plant::counts(t, value, added_noise);
+    return robot::counts(t, value, added_noise);
   }
 
   // Returns what only a simulation knows, at t.

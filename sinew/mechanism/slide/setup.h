@@ -19,16 +19,19 @@
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
-#include "sinew/mechanism/driven/schedule.h"
-#include "sinew/mechanism/slide/transducer.h"
+#include "sinew/robot/stand.h"
+#include "sinew/robot/transducer.h"
+#include "sinew/signals/schedule.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::plant {
 
+using robot::Transducer;
+using signals::Schedule;
+
 // What pulls back.
 struct Load {
-  // hanging: a mass, figure 3-3; driven: a machine that prescribes the length
-  enum class Mode { hanging, driven };
+  using Mode = robot::Stand::Load::Mode;
 
   Mode mode = Mode::hanging;
   Schedule mass;                             // hanging: M, above 0 [kg]
@@ -39,9 +42,7 @@ struct Load {
 
 // How its air gets in.
 struct Charge {
-  // sealed: what is in at the start stays; valves: those of the muscle; regulated: `pressure`, by a
-  // regulator that nothing disturbs
-  enum class Mode { sealed, valves, regulated };
+  using Mode = robot::Stand::Charge::Mode;
 
   Mode mode = Mode::sealed;
   Schedule pressure;  // regulated: absolute [Pa]

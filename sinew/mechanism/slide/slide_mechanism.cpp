@@ -7,7 +7,7 @@ namespace sinew::plant {
 
 SlideMechanism::SlideMechanism(const Setup& setup)
     : setup_(prepared(setup)),
-      driven_(setup.load.mode == plant::Load::Mode::driven),
+      driven_(setup.load.mode == robot::Stand::Load::Mode::driven),
       regulated_(setup.charge.mode == Charge::Mode::regulated),
       cylinder_(setup.cylinder.has_value()) {
   const actuator::Actuator& a = setup_.muscle.actuator;

@@ -205,7 +205,7 @@ class SlideMechanism {
 
   // Holds what is prescribed, from one point of a schedule to the next.
   struct Prescribed {
-    Line mass, force, length, pressure;
+    Schedule::Piece mass, force, length, pressure;
     double begin = 0, end = -infinite;  // [s]
   };
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sinew/analysis/record/derived.h"
-#include "sinew/analysis/stand.h"
+#include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/stand.h"
@@ -56,31 +56,25 @@ std::optional<std::int64_t> sequence_start(const signals::Table& table,
 }
 
 // Adds what follows from the samples at their new times.
-void describe(ComparedRun& run, const analysis::Machine& machine, const config::Node&) {
+void describe(ComparedRun& run, const analysis::Machine& machine) {
   run.derived = analysis::derive(run.logged, machine);
   const analysis::Record record(run.logged, machine, &run.derived);
   run.phases = phases_of(record, machine);
   Channels channels;
   channels.add(run.logged);
   channels.add(run.derived);
-  run.panels = panels(channels, machine.robot);
-  run.scene = scene(channels, machine, record, run.drawn);
+  if (machine.stand) {
+    run.stand = stand(channels, machine, run.drawn);
+    channels.add(run.drawn);
+    run.charts = stand_charts(channels, run.stand);
+  } else {
+    run.scene = scene(channels, machine, record, run.drawn);
+  }
+  run.panels = panels(channels, machine);
 }
 
-void describe(ComparedRun& run, const analysis::StandFile& file, const config::Node& resolved) {
-  run.phases = R"({"names":[],"stretches":[]})";
-  Channels channels;
-  channels.add(run.logged);
-  run.stand = stand(channels, resolved, file, run.drawn);
-  channels.add(run.drawn);
-  run.charts = stand_charts(channels, run.stand);
-  run.panels = panels_of_stand(channels, file.element);
-}
-
-// Opens a machine's or a stand's run; its times become those of the first run.
-template <class Machine>
-void open(ComparedRun& run, const Machine& machine, const config::Node& resolved,
-          const analysis::Clock& clock) {
+// Opens a machine's run; its times become those of the first run.
+void open(ComparedRun& run, const analysis::Machine& machine, const analysis::Clock& clock) {
   run.title = machine.title;
   run.reproduces = machine.reproduces;
   run.atmosphere = machine.atmosphere;
@@ -88,7 +82,7 @@ void open(ComparedRun& run, const Machine& machine, const config::Node& resolved
   run.verdicts = compare(run.summary, machine.reported, machine.atmosphere);
   run.shift = clock.shift;
   analysis::reclock(run.logged, clock);
-  describe(run, machine, resolved);
+  describe(run, machine);
   if (const auto times = analysis::times_of(run.logged)) {
     run.first = static_cast<double>(times->first) / 1e9;
     run.last = static_cast<double>(times->last) / 1e9;
@@ -136,12 +130,6 @@ ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
   run.parameters = parameters(recorded.resolved);
   run.seed = value_of(run.parameters, "seed");
   run.version = value_of(run.parameters, "sinew_version");
-  if (config::format_kind(recorded.resolved) == "rig") {
-    if (wish.by == Align::sequence) no_sequence(run.label);
-    const analysis::StandFile file = analysis::read_stand(recorded.resolved);
-    open(run, file, recorded.resolved, clock_of(run, wish, first, {}));
-    return run;
-  }
   const analysis::Machine machine = analysis::read_machine(recorded.resolved);
   run.robot = machine.robot.name;
   std::optional<std::int64_t> sequence;
@@ -150,7 +138,7 @@ ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
     if (!sequence) no_sequence(run.label);
   }
   if (!first.run) first.sequence = sequence;
-  open(run, machine, recorded.resolved, clock_of(run, wish, first, sequence));
+  open(run, machine, clock_of(run, wish, first, sequence));
   return run;
 }
 

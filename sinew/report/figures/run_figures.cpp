@@ -9,7 +9,6 @@
 #include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
-#include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/figures/run_maker.h"
 #include "sinew/report/page/panels.h"
@@ -234,46 +233,6 @@ void add_chart(Maker& make, const Chart& chart) {
             axis_of(in_sentence(chart.y.label), y), std::move(curves), false, "");
 }
 
-std::vector<Figure> of_robot(const Run& run, const RunFigureOptions& options) {
-  const analysis::Machine machine = analysis::read_machine(run.resolved);
-  const signals::Table derived = analysis::derive(run.table, machine);
-  const analysis::Record record(run.table, machine, &derived);
-  Channels channels;
-  channels.add(run.table);
-  channels.add(derived);
-
-  Maker make(channels, words_of(run, machine.title, machine.robot.name), options,
-             machine.atmosphere);
-  if (machine.robot.legs.empty()) make.shade(stance_of(record, machine));  // else each has its own
-  if (record.rows() > 0) make.shade(machine.faults, record.time(record.rows() - 1));
-  const std::vector<Panel> all = panels(channels, machine.robot);
-  if (!options.channels.empty()) return channel_figures(make, channels, all, options.channels);
-  for (const Panel& panel : all) make.panel(panel);
-  for (const robot::LegParts& leg : robot::legs_of(machine.robot))
-    add_foot_path(make, channels, leg.name);
-  return std::move(make.list);
-}
-
-std::vector<Figure> of_stand(const Run& run, const RunFigureOptions& options) {
-  const analysis::StandFile file = analysis::read_stand(run.resolved);
-  Channels channels;
-  channels.add(run.table);
-  signals::Table drawn;
-  const Stand stand_of_run = stand(channels, run.resolved, file, drawn);
-  channels.add(drawn);
-
-  Maker make(channels, words_of(run, file.title, ""), options, file.atmosphere);
-  if (!stand_of_run.empty()) {
-    const signals::Times& time = *channels.find(stand_of_run.length).time_ns;
-    if (!time.empty()) make.shade(file.faults, seconds_of(time.back()));
-  }
-  const std::vector<Panel> all = panels_of_stand(channels, file.element);
-  if (!options.channels.empty()) return channel_figures(make, channels, all, options.channels);
-  for (const Panel& panel : all) make.panel(panel);
-  for (const Chart& chart : stand_charts(channels, stand_of_run)) add_chart(make, chart);
-  return std::move(make.list);
-}
-
 }  // namespace
 
 std::vector<Span> stance_of(const analysis::Record& record, const analysis::Machine& machine) {
@@ -295,14 +254,38 @@ std::vector<std::string> topics_of(const Run& run) {
     for (const signals::Series& s : table.series) out.push_back(s.topic.name);
   };
   add(run.table);
-  if (config::format_kind(run.resolved) != "rig")
-    add(analysis::derive(run.table, analysis::read_machine(run.resolved)));
+  add(analysis::derive(run.table, analysis::read_machine(run.resolved)));
   return out;
 }
 
 std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options) {
-  return config::format_kind(run.resolved) == "rig" ? of_stand(run, options)
-                                                    : of_robot(run, options);
+  const analysis::Machine machine = analysis::read_machine(run.resolved);
+  const signals::Table derived = analysis::derive(run.table, machine);
+  const analysis::Record record(run.table, machine, &derived);
+  Channels channels;
+  channels.add(run.table);
+  channels.add(derived);
+  signals::Table drawn;
+  Stand stand_of_run;
+  if (machine.stand) stand_of_run = stand(channels, machine, drawn);
+  channels.add(drawn);
+
+  Maker make(channels, words_of(run, machine.title, machine.robot.name), options,
+             machine.atmosphere);
+  if (machine.robot.legs.empty()) make.shade(stance_of(record, machine));  // else each has its own
+  if (record.rows() > 0) make.shade(machine.faults, record.time(record.rows() - 1));
+  if (!stand_of_run.empty()) {
+    const signals::Times& time = *channels.find(stand_of_run.length).time_ns;
+    if (!time.empty()) make.shade(machine.faults, seconds_of(time.back()));
+  }
+  const std::vector<Panel> all = panels(channels, machine);
+  if (!options.channels.empty()) return channel_figures(make, channels, all, options.channels);
+  for (const Panel& panel : all) make.panel(panel);
+  for (const robot::LegParts& leg : robot::legs_of(machine.robot))
+    add_foot_path(make, channels, leg.name);
+  if (machine.stand)
+    for (const Chart& chart : stand_charts(channels, stand_of_run)) add_chart(make, chart);
+  return std::move(make.list);
 }
 
 }  // namespace sinew::report

@@ -6,9 +6,7 @@
 #include <iterator>
 
 #include "sinew/analysis/record/derived.h"
-#include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/config/compose.h"
 #include "sinew/config/quantity.h"
 #include "sinew/report/page/changes.h"
 #include "sinew/report/page/page.h"
@@ -101,7 +99,9 @@ std::vector<analysis::Warning> what_is_left_out(const Blob& blob, const Channels
 // Only whole runs are held against reported figures.
 bool whole(const Run& run) { return run.ended.empty() && run.table.complete; }
 
-Content of_robot(const Run& run) {
+}  // namespace
+
+Content content(const Run& run) {
   analysis::Machine machine = analysis::read_machine(run.resolved);
   if (!whole(run)) machine.reported.clear();
   const signals::Table derived = analysis::derive(run.table, machine);
@@ -114,7 +114,12 @@ Content of_robot(const Run& run) {
   channels.add(run.table);
   channels.add(derived);
   signals::Table drawn;
-  const Scene scene_of_run = scene(channels, machine, record, drawn);
+  Scene scene_of_run;
+  Stand stand_of_run;
+  if (machine.stand)
+    stand_of_run = stand(channels, machine, drawn);
+  else
+    scene_of_run = scene(channels, machine, record, drawn);
   channels.add(drawn);
 
   Blob blob;
@@ -126,8 +131,12 @@ Content of_robot(const Run& run) {
   if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
   if (const std::vector<PageChange> changes = changes_of(run.resolved); !changes.empty())
     json.put("changes", to_json(changes));
-  json.put("panels", to_json(panels(channels, machine.robot), columns));
+  json.put("panels", to_json(panels(channels, machine), columns));
   json.put("scene", to_json(scene_of_run, columns));
+  if (machine.stand) {
+    json.put("stand", to_json(stand_of_run, columns));
+    json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
+  }
   std::vector<analysis::Warning> warnings = how_it_ended(run);
   std::ranges::move(what_is_left_out(blob, channels, record.stretches().size()),
                     std::back_inserter(warnings));
@@ -136,43 +145,6 @@ Content of_robot(const Run& run) {
   json.put("warnings", to_json(warnings));
   return finish(std::move(json), run, summary,
                 compare(summary, machine.reported, machine.atmosphere), blob);
-}
-
-Content of_stand(const Run& run) {
-  analysis::StandFile file = analysis::read_stand(run.resolved);
-  if (!whole(run)) file.reported.clear();
-  analysis::Summary summary;
-  summary.title = file.title;
-  if (run.ended.empty()) summary = analysis::summarize(run.table, file);
-  Channels channels;
-  channels.add(run.table);
-  signals::Table drawn;
-  const Stand stand_of_run = stand(channels, run.resolved, file, drawn);
-  channels.add(drawn);
-
-  Blob blob;
-  Columns columns(channels, blob);
-  Object json = head(run, {file.title, file.reproduces, "", file.atmosphere});
-  json.put("duration", config::format_number(end_of(channels)));
-  json.put("phases", R"({"names":[],"stretches":[]})");
-  if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
-  json.put("panels", to_json(panels_of_stand(channels, file.element), columns));
-  json.put("scene", "null");
-  json.put("stand", to_json(stand_of_run, columns));
-  json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
-  std::vector<analysis::Warning> warnings = how_it_ended(run);
-  std::ranges::move(what_is_left_out(blob, channels, 0), std::back_inserter(warnings));
-  std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
-  std::ranges::move(analysis::warnings(run.table, summary), std::back_inserter(warnings));
-  json.put("warnings", to_json(warnings));
-  return finish(std::move(json), run, summary, compare(summary, file.reported, file.atmosphere),
-                blob);
-}
-
-}  // namespace
-
-Content content(const Run& run) {
-  return config::format_kind(run.resolved) == "rig" ? of_stand(run) : of_robot(run);
 }
 
 }  // namespace sinew::report

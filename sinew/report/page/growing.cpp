@@ -64,7 +64,23 @@ class Prototype {
       if (topic == robot::logged_topic(m.robot, "/true/muscle/" + muscle.name + "/length"))
         return std::min(length_by_cams(m.robot, muscle, poses_[row]),
                         robot::actuator_of(muscle, m.actuators).braid.thread_length);
-    return 0;
+    return m.stand ? value_of_stand(topic, row, m) : 0;
+  }
+  // Between the longest and the shortest element, so that there is room for all that it can be.
+  static double value_of_stand(const std::string& topic, std::size_t row,
+                               const analysis::Machine& m) {
+    const robot::Stand& stand = *m.stand;
+    const bool read = std::ranges::any_of(stand.sensors, [&](const robot::Transducer& t) {
+      return t.of == robot::Transducer::Of::length && topic == "/sensor/" + t.name + "/value";
+    });
+    if (!read && topic != "/true/stand/length") return 0;
+    double longest = stand.element.cylinder.stroke, shortest = 0;
+    for (const actuator::Actuator& a : m.actuators)
+      if (a.name == stand.element.actuator) {
+        longest = a.braid.thread_length;
+        shortest = actuator::shortest_length(a.braid);
+      }
+    return row == 1 ? shortest : longest;
   }
 
   std::vector<std::vector<double>> poses_;
@@ -88,7 +104,10 @@ struct Growing::Parts {
         record(table, machine, &derived) {
     channels.add(table);
     channels.add(derived);
-    scene = report::scene(channels, machine, record, drawn);
+    if (machine.stand)
+      stand = report::stand(channels, machine, drawn);
+    else
+      scene = report::scene(channels, machine, record, drawn);
     channels.add(drawn);
   }
 
@@ -96,6 +115,7 @@ struct Growing::Parts {
   analysis::Record record;
   Channels channels;
   Scene scene;
+  Stand stand;
 };
 
 Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
@@ -108,8 +128,8 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   const report::Content whole = report::content(
       {.table = prototype.table, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
   units_ = whole.units;
-  const std::string curves = to_json(panels(parts.channels, machine_.robot), columns);
-  const std::string scene = to_json(parts.scene, columns);
+  const std::string curves = to_json(panels(parts.channels, machine_), columns);
+  const std::string scene = to_json(parts.scene, columns), stand = to_json(parts.stand, columns);
   Blob::Layout layout = blob.layout();
   std::ranges::fill(layout.clocks, 0);
   std::vector<ChangedMember> members = {{"duration", to_json(of_.duration)},
@@ -122,6 +142,7 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
                                         {"verdicts", "[]"},
                                         {"summary", "{}"},
                                         {"samples", to_json(layout)}};
+  if (machine_.stand) members.push_back({"stand", stand});
   if (!machine_.faults.empty())
     members.push_back({"faults", to_json(machine_.faults, of_.duration)});
   head_ = with_members(whole.json, members);

@@ -141,7 +141,7 @@ TEST(Panels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
   const signals::Table t = test::walking(m);
   Channels channels;
   channels.add(t);
-  const std::vector<Panel> all = panels(channels, m.robot);
+  const std::vector<Panel> all = panels(channels, m);
   for (const signals::Series& s : t.series) {
     int times = 0;
     for (const Panel& p : all)
@@ -159,7 +159,7 @@ TEST(Panels, HideTheTruthOnlyWhereAMeasurementStandsForIt) {
     log.scalar(topic, analysis::test::constant(1));
   Channels channels;
   channels.add(log.table);
-  const Panel angles = panel(panels(channels, m.robot), "Joint angles");
+  const Panel angles = panel(panels(channels, m), "Joint angles");
   ASSERT_EQ(angles.lines.size(), 3u);
   EXPECT_EQ(angles.lines[0].style, Line::Style::measured);
   EXPECT_EQ(angles.lines[1].style, Line::Style::hidden);

@@ -300,24 +300,21 @@ std::vector<Panel> not_empty(std::vector<Panel> list) {
 
 }  // namespace
 
-std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot) {
+std::vector<Panel> panels(const Channels& channels, const analysis::Machine& machine) {
+  const robot::Robot& robot = machine.robot;
   Panels p(channels, robot);
-  joints(p);
-  muscles(p);
-  const std::vector<robot::LegParts> legs = robot::legs_of(robot);
-  for (std::size_t l = 0; l < legs.size(); ++l) foot(p, robot::foot_of(robot, l), legs[l].name);
-  body(p);
-  valves(p);
-  air(p);
-  p.others("Other");
-  return not_empty(std::move(p.list));
-}
-
-std::vector<Panel> panels_of_stand(const Channels& channels, const std::string& element) {
-  const robot::Robot none;
-  Panels p(channels, none);
-  stand(p, element);
-  stand_valves(p, element);
+  if (machine.stand) {
+    stand(p, machine.stand->element.name);
+    stand_valves(p, machine.stand->element.name);
+  } else {
+    joints(p);
+    muscles(p);
+    const std::vector<robot::LegParts> legs = robot::legs_of(robot);
+    for (std::size_t l = 0; l < legs.size(); ++l) foot(p, robot::foot_of(robot, l), legs[l].name);
+    body(p);
+    valves(p);
+    air(p);
+  }
   p.others("Other");
   return not_empty(std::move(p.list));
 }

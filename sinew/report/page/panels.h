@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/analysis/record/machine.h"
 #include "sinew/report/page/channels.h"
-#include "sinew/robot/robot.h"
 
 namespace sinew::report {
 
@@ -28,9 +28,6 @@ struct Panel {
 };
 
 // Panels of what the channels hold, empty ones left out. What no panel knows comes last, by unit.
-std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot);
-
-// Of a run on the test stand; `element` is its name in the topics.
-std::vector<Panel> panels_of_stand(const Channels& channels, const std::string& element);
+std::vector<Panel> panels(const Channels& channels, const analysis::Machine& machine);
 
 }  // namespace sinew::report

@@ -180,7 +180,7 @@ std::string picture_of_recording() {
 }  // namespace
 
 std::string picture(const config::Node& resolved) {
-  if (config::format_kind(resolved) == "rig") return picture_of_stand();
+  if (resolved.find("element")) return picture_of_stand();
   try {
     if (std::string drawn = picture_of_robot(resolved); !drawn.empty()) return drawn;
   } catch (const std::exception&) {

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/stand.h"
-#include "sinew/config/node.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/report/page/channels.h"
 #include "sinew/report/page/charts.h"
 #include "sinew/signals/table.h"
@@ -45,9 +44,8 @@ struct Stand {
   bool empty() const { return length.none(); }
 };
 
-// `drawn` receives what is drawn beside the logged series: /draw/….
-Stand stand(const Channels& channels, const config::Node& resolved, const analysis::StandFile& file,
-            signals::Table& drawn);
+// Of a machine that is a stand. `drawn` receives what is drawn beside the logged series: /draw/….
+Stand stand(const Channels& channels, const analysis::Machine& machine, signals::Table& drawn);
 
 // One quantity against another: loops of tension, pressure and length, or what a sweep settled at.
 std::vector<Chart> stand_charts(const Channels& channels, const Stand& stand);

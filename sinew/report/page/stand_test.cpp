@@ -25,7 +25,7 @@ constexpr double pound = 4.4482216152605;
 
 struct Drawn {
   config::Node resolved;
-  analysis::StandFile file;
+  analysis::Machine machine;
   signals::Table table, drawn;
   Channels channels;
   Stand stand;
@@ -33,10 +33,10 @@ struct Drawn {
   Drawn(const std::string& experiment, analysis::test::Log log,
         const std::vector<std::string>& sets = {})
       : resolved(config::compose(path_of(experiment), sets)),
-        file(analysis::read_stand(resolved)),
+        machine(analysis::read_machine(resolved)),
         table(std::move(log.table)) {
     channels.add(table);
-    stand = report::stand(channels, resolved, file, drawn);
+    stand = report::stand(channels, machine, drawn);
     channels.add(drawn);
   }
   const signals::Column& values(const Channel& c) const { return *channels.find(c).values; }
@@ -100,7 +100,7 @@ TEST(Stand, IsDrawnFromSensorsWhereThereIsNoTruth) {
   const Drawn d("isometric.toml", log);
   EXPECT_EQ(d.stand.drawn_from, "measured values");
   EXPECT_EQ(d.stand.load, Stand::Load::clamped);
-  EXPECT_NEAR(d.values(d.stand.pressure)[0], 4e5 + d.file.atmosphere, 1e-9);
+  EXPECT_NEAR(d.values(d.stand.pressure)[0], 4e5 + d.machine.atmosphere, 1e-9);
   EXPECT_EQ(d.values(d.stand.tension)[0], 10);
   EXPECT_TRUE(Drawn("isometric.toml", analysis::test::Log(10)).stand.empty());
 }
@@ -130,7 +130,7 @@ TEST(StandCharts, OfASweepAreOverItsDuties) {
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_EQ(charts[0].x.unit, "share");
   EXPECT_EQ(charts[0].curves[0].x, d.values({"/sweep/duty"}));
-  EXPECT_TRUE(panels_of_stand(d.channels, "bpa").empty()) << "it has no time";
+  EXPECT_TRUE(panels(d.channels, d.machine).empty()) << "it has no time";
 }
 
 TEST(StandPanels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
@@ -143,7 +143,8 @@ TEST(StandPanels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
   Channels channels;
   channels.add(log.table);
   std::map<std::string, int> times;
-  for (const Panel& p : panels_of_stand(channels, "bpa"))
+  for (const Panel& p :
+       panels(channels, analysis::read_machine(config::compose(path_of("feedback.toml")))))
     for (const Line& l : p.lines) times[l.channel.topic] += 1;
   for (const signals::Series& s : log.table.series)
     EXPECT_EQ(times[s.topic.name], s.topic.name.ends_with("/open") ? 0 : 1) << s.topic.name;

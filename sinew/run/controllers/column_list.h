@@ -52,7 +52,11 @@ inline bool moves(const robot::Cylinder& c) {
   return c.present && c.mode != robot::Cylinder::Mode::locked;
 }
 
-// Adds what only a simulation knows: the topics under /true.
+// Adds what only a simulation has: the topics under /true.
 void true_columns(const experiment::Experiment& e, Columns& out);
+void true_fault_columns(const experiment::Experiment& e, Columns& out);
+
+// Adds all columns of a stand.
+void stand_columns(const experiment::Experiment& e, Columns& out);
 
 }  // namespace sinew::run

@@ -29,18 +29,18 @@ JointAt place_of(const robot::Robot& robot, std::size_t joint) {
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
-               [s](const Snapshot& m) { return m.seen.supervised(s).counts; });
+               [s](const Snapshot& m) { return m.seen->supervised(s).counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
     const JointAt at_leg = place_of(robot, j);
     const std::size_t leg = at_leg.leg, i = at_leg.joint;
     out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
-               [j](const Snapshot& m) { return m.measured.angle[j]; });
+               [j](const Snapshot& m) { return m.measured->angle[j]; });
     out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
-               [j](const Snapshot& m) { return m.measured.stiffness[j]; });
+               [j](const Snapshot& m) { return m.measured->stiffness[j]; });
     out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
-               [j](const Snapshot& m) { return m.measured.velocity[j]; });
+               [j](const Snapshot& m) { return m.measured->velocity[j]; });
     out.scalar(want + "/angle", "rad", "desired by the brain",
                [=](const Snapshot& m) { return m.desired[leg].joint[i].angle; });
     out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
@@ -58,12 +58,12 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
   const double own = 1.0 / (sensor.scale * per_volt);
   out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
              "measured, by its own transducer's scale; clips",
-             [=](const Snapshot& m) { return m.measured.tension[muscle] / believed * own; });
+             [=](const Snapshot& m) { return m.measured->tension[muscle] / believed * own; });
 }
 
 // A valve's duty counts only while its joint is enabled and laws run.
 bool active(const Snapshot& m, std::size_t joint) {
-  return m.seen.joint(joint).enabled && m.seen.phase == control::Phase::running;
+  return m.seen->joint(joint).enabled && m.seen->phase == control::Phase::running;
 }
 
 // A regulator has no duty; its set points are in the log of its edges.
@@ -84,11 +84,11 @@ void duty_columns(const robot::Robot& robot, std::size_t index, Columns& out) {
     return active(m, j) || active(m, other) ? 0.01 * percent : 0.0;
   };
   out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Snapshot& m) {
-    const control::Duties& d = m.seen.joint(j).duties;
+    const control::Duties& d = m.seen->joint(j).duties;
     return share(m, flexor ? d.flexor_inlet : d.extensor_inlet);
   });
   out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Snapshot& m) {
-    const control::Duties& d = m.seen.joint(j).duties;
+    const control::Duties& d = m.seen->joint(j).duties;
     return share(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
   });
 }
@@ -105,13 +105,13 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   if (!robot::has_cylinder_joint(robot)) return;
   const std::size_t j = robot.joints.size();
   out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
-             [](const Snapshot& m) { return m.measured.cylinder; });
+             [](const Snapshot& m) { return m.measured->cylinder; });
   out.scalar("/desired/cylinder/position", "m", "by the plan, up from the extended stop",
              [](const Snapshot& m) { return m.desired[0].cylinder.position; });
   const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
     out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
                [j, which](const Snapshot& m) {
-                 return active(m, j) ? 0.01 * (m.seen.joint(j).duties.*which) : 0.0;
+                 return active(m, j) ? 0.01 * (m.seen->joint(j).duties.*which) : 0.0;
                });
   };
   duty("up/inlet_duty", &control::Duties::flexor_inlet);
@@ -123,7 +123,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
 void low_level_columns(const robot::Robot& robot, Columns& out) {
   if (!control::laws_overrun(robot)) return;
   out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
-             [](const Snapshot& m) { return m.seen.overruns(); });
+             [](const Snapshot& m) { return m.seen->overruns(); });
 }
 
 // Answers whether there is a reason to record what was rejected: a fault, or a limit in the robot's
@@ -142,16 +142,16 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string at = "/sensor/" + e.robot.sensors[s].name;
     out.scalar(at + "/rejected", "1", "readings so far that were not believed",
-               [s](const Snapshot& m) { return m.seen.supervised(s).rejected; });
+               [s](const Snapshot& m) { return m.seen->supervised(s).rejected; });
     out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
-               [s](const Snapshot& m) { return m.seen.supervised(s).frozen; });
+               [s](const Snapshot& m) { return m.seen->supervised(s).frozen; });
   }
   out.scalar("/low_level/rejected_commands", "1", "commands so far that were not followed",
-             [](const Snapshot& m) { return m.seen.rejected_commands(); });
+             [](const Snapshot& m) { return m.seen->rejected_commands(); });
   out.scalar("/low_level/gaps", "1", "ticks so far that came later than announced",
-             [](const Snapshot& m) { return m.seen.gaps(); });
+             [](const Snapshot& m) { return m.seen->gaps(); });
   out.scalar("/low_level/tripped", "1", "1 from when the supervisor has ended the run",
-             [](const Snapshot& m) { return m.seen.tripped() ? 1.0 : 0.0; });
+             [](const Snapshot& m) { return m.seen->tripped() ? 1.0 : 0.0; });
 }
 
 // A foot is desired only in phases that give it a path, and only of a leg.
@@ -195,6 +195,10 @@ void gain_columns(const experiment::Experiment& e, const LegAt& leg, Columns& ou
 
 std::vector<Column> columns(const experiment::Experiment& e) {
   Columns out;
+  if (e.stand) {
+    stand_columns(e, out);
+    return std::move(out.list);
+  }
   joint_columns(e.robot, out);
   muscle_columns(e, out);
   cylinder_columns(e.robot, out);
@@ -208,13 +212,30 @@ std::vector<Column> columns(const experiment::Experiment& e) {
   return std::move(out.list);
 }
 
+namespace {
+
+std::vector<Topic> topics_of_sweep() {
+  return {{"/sweep/duty", "commanded, one stand each", {{"value", "1"}}},
+          {"/true/sweep/length", "mean of the last five periods", {{"value", "m"}}},
+          {"/true/sweep/ripple", "of the length in them", {{"value", "m"}}},
+          {"/true/sweep/pressure", "mean, absolute", {{"value", "Pa"}}},
+          {"/true/sweep/force", "mean, on the load", {{"value", "N"}}}};
+}
+
+}  // namespace
+
 std::vector<Topic> topics(const experiment::Experiment& e) {
+  if (e.stand && e.stand->sweep.step > 0) return topics_of_sweep();
   std::vector<Topic> out;
   for (Column& c : columns(e)) out.push_back(std::move(c.topic));
   const auto valve = [&](const std::string& valves, const char* which) {
     out.push_back(
         {valves + "/" + which + "/open", "electrical edges: 1 opens, 0 shuts", {{"value", "1"}}});
   };
+  if (e.stand && e.stand->charge.mode == robot::Stand::Charge::Mode::valves) {
+    valve("/valve/" + e.stand->element.name, "inlet");
+    if (!e.stand->element.exhaust.empty()) valve("/valve/" + e.stand->element.name, "exhaust");
+  }
   for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
     const std::string valves = robot::topic_of_valves(e.robot, i);
     valve(valves, "inlet");

@@ -11,19 +11,23 @@
 #include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/mechanism/planar/setup.h"
 #include "sinew/run/controllers/boards.h"
+#include "sinew/run/controllers/drive.h"
 #include "sinew/signals/table.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::run {
 
-// Everything that can be recorded at one instant.
+// Everything that can be recorded at one instant: of a robot or of a stand, nullptr of the other.
 struct Snapshot {
-  const MachineSeen& seen;
-  const gait::MachineMeasured& measured;
-  std::span<const gait::Desired> desired;  // by leg
-  const plant::Truth& truth;
   double time = 0;  // [s]
+  const plant::Truths* true_of = nullptr;
+
+  const MachineSeen* seen = nullptr;
+  const gait::MachineMeasured* measured = nullptr;
+  std::span<const gait::Desired> desired = {};  // by leg
+
+  const Drive* drive = nullptr;
 };
 
 struct Column {
@@ -41,7 +45,7 @@ struct Column {
 std::vector<Column> columns(const experiment::Experiment& experiment);
 
 // Of those, and after them of the valves by their index: 2 x muscle + (0 inlet | 1 exhaust), then
-// the four of a cylinder.
+// the four of a cylinder. Of a sweep of duties what each stand settled at.
 std::vector<signals::Topic> topics(const experiment::Experiment& experiment);
 
 }  // namespace sinew::run

@@ -8,7 +8,6 @@
 
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/imported.fields.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/log/file.h"
 #include "sinew/recording/assemble.h"
 #include "sinew/recording/read.h"
@@ -18,7 +17,6 @@
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/filled_channels.h"
 #include "sinew/run/folder/page.h"
-#include "sinew/run/stand/run.h"
 
 namespace sinew::run {
 
@@ -100,8 +98,7 @@ struct Keeping {
   const Notices& notices;
 };
 
-template <class Machine>
-void keep_files(const signals::Table& table, const Keeping& what, Kept<Machine>& kept) {
+void keep_files(const signals::Table& table, const Keeping& what, Kept& kept) {
   OutputFolder folder = run_folder(what.where.folder, what.where.force, what.name);
   try {
     kept.folder = folder.path();
@@ -162,6 +159,11 @@ experiment::ImportedFile imported_file(const std::string& path, const std::strin
 
 std::vector<signals::Topic> importable_topics(const experiment::Experiment& e) {
   Topics out(run::topics(e));
+  if (e.stand) {
+    out.add("/stand/length", "m", "measured, of the element");
+    out.add("/stand/force", "N", "measured, of the element");
+    out.add("/muscle/" + e.stand->element.name + "/pressure", "Pa", "measured, absolute");
+  }
   for (std::size_t j = 0; j < e.robot.joints.size(); ++j) {
     const std::string at = robot::topic_of_joint(e.robot, j);
     out.add(at + "/angle", "rad", "measured");
@@ -185,22 +187,13 @@ std::vector<signals::Topic> importable_topics(const experiment::Experiment& e) {
   return out.take();
 }
 
-std::vector<signals::Topic> importable_topics(const rig::Experiment& e) {
-  Topics out(rig::topics(e));
-  out.add("/stand/length", "m", "measured, of the element");
-  out.add("/stand/force", "N", "measured, of the element");
-  out.add("/muscle/" + e.element.name + "/pressure", "Pa", "measured, absolute");
-  return out.take();
-}
-
-Kept<analysis::Machine> keep_imported(const signals::Table& table, const experiment::Experiment& e,
-                                      std::vector<experiment::ImportedFile> files,
-                                      const std::string& mapping, const RunRequest& where,
-                                      const Notices& notices) {
+Kept keep_imported(const signals::Table& table, const experiment::Experiment& e,
+                   std::vector<experiment::ImportedFile> files, const std::string& mapping,
+                   const RunRequest& where, const Notices& notices) {
   std::string resolved = experiment::resolved(e, SINEW_VERSION);
   if (!files.empty()) resolved = with_files(std::move(resolved), std::move(files));
   const config::Node values = config::parse_text(resolved, std::string(resolved_name));
-  Kept<analysis::Machine> kept{.machine = analysis::read_machine(values)};
+  Kept kept{.machine = analysis::read_machine(values)};
   kept.summary = analysis::summarize(table, kept.machine);
   kept.json = to_json(kept.summary);
   kept.duration = duration_of(table);
@@ -208,35 +201,16 @@ Kept<analysis::Machine> keep_imported(const signals::Table& table, const experim
   return kept;
 }
 
-Kept<analysis::Machine> import_run(const ImportRequest& request, const Notices& notices) {
+Kept import_run(const ImportRequest& request, const Notices& notices) {
   refuse_early(request);
   const experiment::Experiment e = experiment::load(request.experiment, request.sets);
   recording::Assembled read_in = read(request, importable_topics(e), e.air.atmosphere);
   const auto filled = fill_channels(read_in.table, e.robot, e.air.atmosphere, run::topics(e));
   tell(read_in, filled, notices);
-  if (!read_in.table.find("/plan/phase") && e.robot.legs.empty())
+  if (!e.stand && !read_in.table.find("/plan/phase") && e.robot.legs.empty())
     notices.note("no plan in the recording: figures of its phases and steps are absent");
   auto kept = keep_imported(read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
                             {.folder = request.folder, .force = request.force}, notices);
-  save_mapping(request, read_in);
-  return kept;
-}
-
-Kept<analysis::StandFile> import_stand_run(const ImportRequest& request, const Notices& notices) {
-  refuse_early(request);
-  const rig::Experiment e = rig::load(request.experiment, request.sets);
-  const recording::Assembled read_in = read(request, importable_topics(e), e.air.atmosphere);
-  tell(read_in, {}, notices);
-  const std::string resolved = with_files(rig::resolved(e, SINEW_VERSION), facts_of(read_in));
-  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
-  Kept<analysis::StandFile> kept{.machine = analysis::read_stand(values)};
-  kept.summary = analysis::summarize(read_in.table, kept.machine);
-  kept.json = to_json(kept.summary);
-  kept.duration = duration_of(read_in.table);
-  const RunRequest where{.folder = request.folder, .force = request.force};
-  keep_files(read_in.table,
-             {e.name, e.seed, resolved, values, recording::text_of(read_in.used), where, notices},
-             kept);
   save_mapping(request, read_in);
   return kept;
 }

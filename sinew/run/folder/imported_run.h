@@ -16,9 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/stand.h"
 #include "sinew/experiment/imported.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/run/folder/kept_run.h"
 
@@ -40,25 +38,21 @@ struct ImportRequest {
   std::atomic<std::int64_t>* read = nullptr;  // counts the bytes of a table while it is read
 };
 
-// Keeps recordings of a machine, or of a test stand (is_on_stand says which), as a run. Throws
+// Keeps recordings of a machine as a run. Throws
 // config::Error and log::Error; then there is no folder.
-Kept<analysis::Machine> import_run(const ImportRequest& request, const Notices& notices = {});
-Kept<analysis::StandFile> import_stand_run(const ImportRequest& request,
-                                           const Notices& notices = {});
+Kept import_run(const ImportRequest& request, const Notices& notices = {});
 
 // Returns what a recording can hold of that machine: what a run logs, and what instruments measure
 // besides.
 std::vector<signals::Topic> importable_topics(const experiment::Experiment& experiment);
-std::vector<signals::Topic> importable_topics(const rig::Experiment& experiment);
 
 // Returns what [[imported]] says of a file, without what was taken of it. Throws log::Error.
 experiment::ImportedFile imported_file(const std::string& path, const std::string& kind);
 
 // Keeps a table that came from these files as a run of `e`. `mapping`: the text of mapping.toml;
 // empty: there is none.
-Kept<analysis::Machine> keep_imported(const signals::Table& table, const experiment::Experiment& e,
-                                      std::vector<experiment::ImportedFile> files,
-                                      const std::string& mapping, const RunRequest& where,
-                                      const Notices& notices = {});
+Kept keep_imported(const signals::Table& table, const experiment::Experiment& e,
+                   std::vector<experiment::ImportedFile> files, const std::string& mapping,
+                   const RunRequest& where, const Notices& notices = {});
 
 }  // namespace sinew::run

@@ -4,6 +4,7 @@
 
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/node.h"
+#include "sinew/experiment/measured.h"
 #include "sinew/run/folder/imported_run.h"
 #include "sinew/run/folder/outcome.h"
 #include "sinew/run/folder/page.h"
@@ -113,11 +114,15 @@ void KeptRun::break_off(const run::Outcome& outcome) {
                          : "it keeps no log"));
 }
 
-Kept<analysis::Machine> KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
-  Kept<analysis::Machine> kept{.folder = folder(),
-                               .summary = analysis::summarize(outcome.table, machine),
-                               .duration = outcome.duration,
-                               .wall = outcome.wall};
+Kept KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
+  Kept kept{.folder = folder(),
+            .summary = analysis::summarize(outcome.table, machine),
+            .duration = outcome.duration,
+            .wall = outcome.wall};
+  if (experiment_.stand)
+    if (const std::string measured = experiment::measured_csv(experiment_, outcome.table);
+        !measured.empty())
+      write_into(*folder_, measured_name, measured);
   warn(kept.summary.warnings, outcome);
   kept.json = summary_json(kept.summary, experiment_, *place_, outcome);
   write_into(*folder_, summary_name, kept.json);
@@ -135,7 +140,7 @@ void KeptRun::warn(const std::vector<std::string>& of_the_log, const run::Outcom
     notices_.warning(text);
 }
 
-Kept<analysis::Machine> KeptRun::keep(run::Outcome outcome) try {
+Kept KeptRun::keep(run::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
   analysis::Machine machine = analysis::read_machine(values_);
@@ -149,15 +154,15 @@ Kept<analysis::Machine> KeptRun::keep(run::Outcome outcome) try {
   throw std::runtime_error(e.what() + where_left(*folder_));
 }
 
-Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices) {
+Kept run_and_keep(RunRequest request, Notices notices) {
   KeptRun kept(std::move(request), std::move(notices));
   run::RunOptions options;
   kept.apply(options);
   return kept.keep(run::run(kept.experiment(), options));
 }
 
-Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
-                                   const RunRequest& where, const Notices& notices) {
+Kept keep_table(const signals::Table& table, const experiment::Experiment& e,
+                const RunRequest& where, const Notices& notices) {
   return keep_imported(table, e, {}, "", where, notices);
 }
 

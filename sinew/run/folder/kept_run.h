@@ -33,13 +33,11 @@ struct RunRequest {
   const std::atomic<bool>* stop = nullptr;  // true: a board is waited for no longer
 };
 
-// The files and figures that a run left. Machine is analysis::Machine or, of a stand,
-// analysis::StandFile.
-template <class Machine>
+// The files and figures that a run left.
 struct Kept {
   std::filesystem::path folder;
   analysis::Summary summary;
-  Machine machine;                // as `sinew analyze` will read it
+  analysis::Machine machine;      // as `sinew analyze` will read it
   std::string json;               // summary.json
   double duration = 0, wall = 0;  // simulated, and of the clock on the wall [s]
   bool page = false;              // there is a report.html
@@ -68,13 +66,13 @@ class KeptRun {
   // After the loop: the log's end, summary and page into the folder. What was changed on the way
   // stands in resolved.toml. Only then it takes the place of an older run. Throws where the run
   // ended early, with its last records, and where it was stopped: then its log reads as cut off.
-  Kept<analysis::Machine> keep(run::Outcome outcome);
+  Kept keep(run::Outcome outcome);
 
  private:
   void resolve();
   void finish_log(const run::Outcome& outcome);
   [[noreturn]] void break_off(const run::Outcome& outcome);
-  Kept<analysis::Machine> keep_files(run::Outcome& outcome, analysis::Machine machine);
+  Kept keep_files(run::Outcome& outcome, analysis::Machine machine);
   void warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const;
   void keep_trip(const run::Outcome& outcome);
   std::string keep_fault_log();
@@ -91,11 +89,11 @@ class KeptRun {
 };
 
 // Runs an experiment as fast as it goes and keeps it. Throws as KeptRun does.
-Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices = {});
+Kept run_and_keep(RunRequest request, Notices notices = {});
 
 // Keeps a table that is there already, as of a recording from elsewhere, as the run of `e`;
 // `where.folder` and `where.force` say where. Throws config::Error or log::Error.
-Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
-                                   const RunRequest& where, const Notices& notices = {});
+Kept keep_table(const signals::Table& table, const experiment::Experiment& e,
+                const RunRequest& where, const Notices& notices = {});
 
 }  // namespace sinew::run

@@ -24,10 +24,25 @@ void add_joint(const robot::Robot& robot, std::size_t joint, Keys& keys) {
   keys.push_back({at + ".passiveness", "%"});
 }
 
+// Returns all figures of a stand: they are few.
+std::string figures_of_stand(const analysis::Summary& summary, double atmosphere,
+                             const units::ShownUnits* shown) {
+  report::TextTable table({"", "Sinew"});
+  for (const analysis::Entry& e : summary.entries()) {
+    std::string unit = analysis::unit_of_key(e.key);
+    if (unit == "m") unit = "mm";
+    if (shown) unit = analysis::shown_unit(e.key, *shown, e.value);
+    table.add({std::string(analysis::without_unit(e.key)),
+               analysis::show(e.value, e.key, unit, atmosphere)});
+  }
+  return table.empty() ? "" : table.text();
+}
+
 }  // namespace
 
 std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine,
                          const units::ShownUnits* shown) {
+  if (machine.stand) return figures_of_stand(summary, machine.atmosphere, shown);
   Keys keys = {{"sequence_duration_s", "s"},
                {"trolley.distance_m", "mm"},
                {"trolley.mean_speed_m_per_s", "mm/s"}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/kept_run.h"
@@ -65,7 +66,8 @@ Replayed replay_run(const ReplayRequest& request, const Notices& notices) {
     config::fail({"replay", 0, 0}, "band", fmt::format("{:g} %", 100 * request.band),
                  "a share of a channel's range, 0 to 100 %", "5 %");
   const RecordedRun run = recorded_run(request.run);
-  const auto e = buildable(machine_of(run, request.machine).string(), request.sets);
+  const std::string machine = machine_of(run, request.machine).string();
+  const auto e = buildable_robot(config::compose(machine, request.sets), machine);
   const signals::Table recorded = log::read(run.log);
   if (!recorded.complete)
     notices.warning(run.log.string() + " was cut off; compared as far as it goes");

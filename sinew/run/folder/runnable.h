@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/rig/rig.h"
 
 namespace sinew::run {
 
@@ -15,12 +14,5 @@ namespace sinew::run {
 // own lines; with `allow_unreachable` a foot path may leave the reach.
 experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
                                 bool allow_unreachable);
-
-// Returns an experiment on the test stand that can be run; throws as runnable() does.
-rig::Experiment runnable_on_stand(const std::string& path, const std::vector<std::string>& sets);
-
-// Is the file an experiment on the test stand, of format sinew.rig? Throws config::Error where it
-// cannot be read.
-bool is_on_stand(const std::string& path);
 
 }  // namespace sinew::run

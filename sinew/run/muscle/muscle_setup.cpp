@@ -8,17 +8,17 @@
 #include "sinew/config/node.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/rig/rig.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/stand_setup.h"
 #include "sinew/units/hash.h"
 
 namespace sinew::run {
 
 namespace {
 
-// Length of the element at the start; 0 where only the stand would know it  [m].
+// Length of the element at the start; 0 where only the stand itself has it  [m].
 double start_length(const plant::StandSetup& s) {
-  return s.load.mode == plant::Load::Mode::driven ? s.load.length.at(0) : s.start.length;
+  return s.load.mode == robot::Stand::Load::Mode::driven ? s.load.length.at(0) : s.start.length;
 }
 
 // The values alone: what a file says of them is no part of the muscle.
@@ -26,9 +26,9 @@ std::uint64_t model_of(const config::Node& values, const std::string& name) {
   return units::hash(name, units::hash(config::to_toml(values)));
 }
 
-MuscleSetup of_rig(const config::Node& root, const std::string& path, const std::string& name) {
-  const rig::Experiment e = rig::load(root, path);
-  const plant::StandSetup s = rig::setup_of(e);
+MuscleSetup of_stand(const experiment::MachineFile& file, const std::string& path,
+                     const std::string& name) {
+  const plant::StandSetup s = stand_setup(file.experiment);
   if (s.cylinder)
     config::fail({path, 0, 0}, "element.cylinder", "an air cylinder in the muscle's place",
                  "a braided muscle");
@@ -38,8 +38,8 @@ MuscleSetup of_rig(const config::Node& root, const std::string& path, const std:
           s.supply,
           start_length(s),
           s.start.pressure,
-          rig::resolved(e, SINEW_VERSION),
-          model_of(rig::values_in_si(e), s.muscle.name)};
+          experiment::resolved(file, SINEW_VERSION),
+          model_of(experiment::values_in_si(file), s.muscle.name)};
 }
 
 MuscleSetup of_machine(const experiment::MachineFile& file, const std::string& path,
@@ -60,11 +60,11 @@ MuscleSetup of_machine(const experiment::MachineFile& file, const std::string& p
 
 MuscleSetup of_tree(const config::Node& root, const std::string& path, const std::string& name) {
   const std::string kind(config::format_kind(root));
-  if (kind == "rig") return of_rig(root, path, name);
-  if (kind != "robot" && kind != "experiment")
+  if (kind != "robot" && !experiment::is_experiment(kind))
     config::fail({path, 0, 0}, "format", config::in_quotes(kind),
                  "a rig, robot or experiment file");
-  return of_machine(experiment::load_machine_file(root, path), path, name);
+  const experiment::MachineFile file = experiment::load_machine_file(root, path);
+  return file.experiment.stand ? of_stand(file, path, name) : of_machine(file, path, name);
 }
 
 }  // namespace

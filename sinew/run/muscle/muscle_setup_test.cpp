@@ -6,10 +6,11 @@
 #include <stdexcept>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/rig/rig.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/run/muscle/save.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/setup/stand_setup.h"
 #include "tests/places.h"
 
 namespace sinew::run::muscle_setup_test {
@@ -44,7 +45,7 @@ std::string refusal(const std::string& path, const std::string& name = "",
 }
 
 TEST(MuscleSetup, IsTheRigsElement) {
-  const plant::StandSetup stand = rig::setup_of(rig::load(rig_file));
+  const plant::StandSetup stand = run::stand_setup(experiment::load(rig_file));
   const MuscleSetup read = muscle_setup(rig_file);
   EXPECT_EQ(read.length, stand.load.length.at(0));
   EXPECT_EQ(read.pressure, stand.air.atmosphere);

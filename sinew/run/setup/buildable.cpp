@@ -6,20 +6,26 @@
 #include "sinew/run/setup/air_faults.h"
 #include "sinew/run/setup/check_motion.h"
 #include "sinew/run/setup/installation.h"
+#include "sinew/run/setup/stand_setup.h"
 
 namespace sinew::run {
 
 using experiment::Experiment;
 
 void refuse_unbuildable(const Experiment& e) {
-  std::vector<robot::Contradiction> wrong = control::misfits(installation(e));
+  std::vector<robot::Contradiction> wrong;
+  if (!e.stand) wrong = control::misfits(installation(e));
   check_air_faults(e.faults, wrong);
+  if (e.stand) {
+    check_stand_setup(e, wrong);
+    return refuse(wrong, e);
+  }
   if (wrong.empty()) check_motion(e, wrong);
   refuse(wrong, e);
 }
 
 void refuse_unbuildable(const experiment::MachineFile& file) {
-  if (file.kind == "experiment") return refuse_unbuildable(file.experiment);
+  if (experiment::is_experiment(file.kind)) return refuse_unbuildable(file.experiment);
   if (file.kind == "robot")
     refuse(control::misfits(installation(file.experiment)), file.experiment);
 }
@@ -31,6 +37,14 @@ Experiment buildable(const std::string& path, const std::vector<std::string>& se
 Experiment buildable(const config::Node& root, const std::string& path) {
   Experiment e = experiment::load(root, path);
   refuse_unbuildable(e);
+  return e;
+}
+
+Experiment buildable_robot(const config::Node& root, const std::string& path) {
+  Experiment e = buildable(root, path);
+  if (e.stand)
+    config::fail({path, 0, 0}, "", "an experiment on a test stand", "one of a robot",
+                 "sinew list experiments");
   return e;
 }
 

@@ -2,18 +2,14 @@
 
 #include "sinew/robot/actuator_of.h"
 #include "sinew/run/setup/air_faults.h"
+#include "sinew/run/setup/stand_setup.h"
 
 namespace sinew::run {
 
 using experiment::Experiment;
+using experiment::find_valve;
 
 namespace {
-
-const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == name) return &v;
-  return nullptr;
-}
 
 // The robot's cylinder with its valves, if it moves.
 std::optional<air::Cylinder> cylinder_of(const Experiment& e) {
@@ -70,6 +66,11 @@ plant::Setup planar_setup(const Experiment& e) {
   s.steps.body = e.body_step;
   s.seed = static_cast<std::uint64_t>(e.seed);
   return s;
+}
+
+plant::AnySetup machine_setup(const Experiment& e) {
+  if (e.stand) return stand_setup(e);
+  return planar_setup(e);
 }
 
 }  // namespace sinew::run

@@ -22,6 +22,12 @@ std::string_view word(signals::Status status) {
 
 std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
   const SeenTotals& seen = outcome.seen;
+  if (e.stand && outcome.failure) {
+    actuator::Actuator its;
+    for (const actuator::Actuator& a : e.actuators)
+      if (a.name == e.stand->element.actuator) its = a;
+    return in_words(outcome.failure, "element " + e.stand->element.name, its, "step");
+  }
   if (outcome.failure) {
     const auto m = static_cast<std::size_t>(outcome.failure.muscle);
     if (m >= e.robot.muscles.size()) return in_words(outcome.failure, "", {}, "plant_steps.body");
@@ -37,6 +43,8 @@ std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
   std::string text(word(by_sensor ? seen.fault : outcome.status));
   if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
     text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
+  if (by_sensor && e.stand && seen.fault_channel.index < e.stand->sensors.size())
+    text += " of sensor " + e.stand->sensors[seen.fault_channel.index].name;
   return text + fmt::format(" at {:.4f} s", outcome.duration);
 }
 

@@ -59,7 +59,7 @@ class Lane {
       : experiment(e),
         simulation_(e, machine),
         run_(simulation_, {.recorded = recorded}),
-        bounds_(simulation_.boards().scan()) {}
+        bounds_(simulation_.controllers().scan()) {}
 
   // The tick at which it stands, once its nodes are there; answers how far they must be for the
   // next.
@@ -149,8 +149,8 @@ class Group {
 // themselves. False where there is none.
 bool fill(const Lanes& lanes, std::optional<Group>& group, int k) {
   while (const Experiment* e = lanes.next()) {
-    const plant::Setup setup = planar_setup(*e);
-    if (!plant::Batch::holds(setup) || (group && !group->takes(setup))) {
+    const plant::Setup setup = e->stand ? plant::Setup{} : planar_setup(*e);
+    if (e->stand || !plant::Batch::holds(setup) || (group && !group->takes(setup))) {
       run_alone(lanes, *e);
       continue;
     }

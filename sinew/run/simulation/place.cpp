@@ -135,6 +135,8 @@ Place::Place(const std::string& place, const experiment::Experiment& experiment)
   if (const std::string wrong = problem_of_place(place); !wrong.empty())
     throw std::invalid_argument(wrong);
   if (!is_elsewhere(place)) return;
+  if (experiment.stand)
+    refuse(experiment, place, "", "an experiment on a test stand", "one of a robot");
   if (place.starts_with(comedi)) {
     open_card(place.substr(comedi.size()), experiment, place);
     return;

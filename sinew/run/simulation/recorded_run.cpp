@@ -9,15 +9,10 @@ void Watch::sample(Tick t) noexcept {
   // Nothing is recorded of a machine that has failed.
   if (machine && t >= sample_at()) machine->advance(static_cast<double>(t) * signals::tick_seconds);
   if (failed()) return;
+  plant::Truths truths;
   for (int i = 0; i < extra_readers; ++i)
-    if (machine) (void)machine->truth(static_cast<double>(t) * signals::tick_seconds);
+    if (machine) machine->truth(static_cast<double>(t) * signals::tick_seconds, truths);
   if (recorder) recorder->sample(t);
-}
-
-Recorder::TruthAt RecordedRun::truth_of(plant::Machine* machine) {
-  if (!machine) return {};
-  return
-      [machine](Tick t) { return machine->truth(static_cast<double>(t) * signals::tick_seconds); };
 }
 
 RecordedRun::RecordedRun(Simulation& simulation, const RunOptions& options)
@@ -26,9 +21,8 @@ RecordedRun::RecordedRun(Simulation& simulation, const RunOptions& options)
              options.stop},
       start_(std::chrono::steady_clock::now()) {
   if (!options.recorded) return;
-  watch_.recorder =
-      &recorder_.emplace(simulation.experiment(), simulation.boards(), simulation.high_level(),
-                         truth_of(simulation.machine()), simulation.last());
+  watch_.recorder = &recorder_.emplace(simulation.experiment(), simulation.controllers(),
+                                       simulation.machine(), simulation.last());
   if (options.tap.push) recorder_->tap(options.tap, options.tapped);
   recorder_->progress(options.progress);
 }
@@ -50,11 +44,16 @@ Outcome RecordedRun::finish() {
     out.lost = far->lost();
     out.foreign = far->foreign();
   }
-  out.seen = simulation_.boards().seen_totals();
-  out.supervised = simulation_.boards().supervised_totals();
-  out.changes = simulation_.high_level().changes().all();
-  out.unreachable_periods = simulation_.high_level().legs().unreachable_periods();
+  const Controllers& controllers = simulation_.controllers();
+  out.seen = controllers.seen_totals();
+  out.supervised = controllers.supervised_totals();
   out.duration = static_cast<double>(simulation_.last()) * signals::tick_seconds;
+  if (const auto* robot = controllers.robot()) {
+    out.changes = robot->gait.changes().all();
+    out.unreachable_periods = robot->gait.legs().unreachable_periods();
+  } else {
+    out.duration = simulation_.experiment().stand->duration;
+  }
   for (const signals::Series& s : out.table.series)
     if (!s.time_ns.empty() && s.topic.name.ends_with("/plan/phase"))
       out.duration = 1e-9 * static_cast<double>(s.time_ns.back());

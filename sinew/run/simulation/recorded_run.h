@@ -65,8 +65,6 @@ class RecordedRun {
   Outcome finish();
 
  private:
-  static Recorder::TruthAt truth_of(plant::Machine* machine);
-
   Simulation& simulation_;
   std::optional<Recorder> recorder_;
   Watch watch_;

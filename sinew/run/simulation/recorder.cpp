@@ -24,14 +24,11 @@ Samples room(const signals::PageFile& pages, std::size_t most) {
 
 }  // namespace
 
-Recorder::Recorder(const experiment::Experiment& e, const Boards& spine,
-                   const HighLevel& high_level, TruthAt truth, Tick end)
-    : spine_(spine), high_(high_level), truth_(std::move(truth)) {
-  // Sample where the last law of a period has run; other periods keep that offset.
+Recorder::Recorder(const experiment::Experiment& e, const Controllers& controllers,
+                   plant::Machine* machine, Tick end)
+    : controllers_(controllers), machine_(machine) {
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
-  const Tick scan = spine.scan().period;
-  const auto& conversions = spine.scan().conversions;
-  next_ = period_ % scan == 0 && !conversions.empty() ? conversions.back().read : 0;
+  next_ = controllers.first_sample(period_);
 
   // What a row holds; without a truth the topics under /true have no samples.
   columns_ = columns(e);
@@ -39,11 +36,11 @@ Recorder::Recorder(const experiment::Experiment& e, const Boards& spine,
   first_edge_ = columns_.size();
   std::size_t width = 0;  // numbers in a row
   for (const Column& c : columns_)
-    if (truth_ || !c.of_truth()) width += c.topic.fields.size();
+    if (machine_ || !c.of_truth()) width += c.topic.fields.size();
 
-  // Room for everything that can come: samples, and four edges per valve and period.
+  // Room for everything that can come.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
-  const auto edges = 4 * static_cast<std::size_t>(end / scan + 2);
+  const std::size_t edges = controllers.most_edges(end);
   if (samples > signals::Column::page_size || edges > signals::Column::page_size) {
     pages_ = signals::PageFile::make();
     if (!pages_.open(0)) pages_ = {};  // then memory has to hold all of it
@@ -112,22 +109,20 @@ signals::Table Recorder::take() {
 void Recorder::sample(Tick t) noexcept {
   if (t < next_) return;
   next_ += period_;
-  if (!spine_.knows(t)) return;  // what a board far away said of it is lost
+  if (!controllers_.knows(t)) return;  // what a board far away said of it is lost
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   cursor_ = number_ = 0;
-  const MachineSeen seen = spine_.seen();
-  const gait::MachineMeasured measured = high_.believe(seen);
-  plant::Truth truth;
-  if (truth_) truth = truth_(t);
-  const Snapshot now{seen, measured, high_.desired(), truth,
-                     static_cast<double>(t) * signals::tick_seconds};
-  for (const Column& c : columns_) {
-    if (!truth_ && c.of_truth()) break;  // they come last
-    std::array<double, 2> values{};
-    c.value(now, values.data());
-    put({values.data(), c.topic.fields.size()});
-  }
+  const double time = static_cast<double>(t) * signals::tick_seconds;
+  if (machine_) machine_->truth(time, truths_);
+  controllers_.look(time, &truths_, [&](const Snapshot& now) {
+    for (const Column& c : columns_) {
+      if (!machine_ && c.of_truth()) break;  // they come last
+      std::array<double, 2> values{};
+      c.value(now, values.data());
+      put({values.data(), c.topic.fields.size()});
+    }
+  });
 }
 
 }  // namespace sinew::run

@@ -16,11 +16,10 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/mechanism/planar/setup.h"
-#include "sinew/run/controllers/boards.h"
 #include "sinew/run/controllers/columns.h"
-#include "sinew/run/controllers/high_level.h"
+#include "sinew/run/controllers/controllers.h"
 #include "sinew/signals/table.h"
+#include "sinew/world/machine.h"
 
 namespace sinew::run {
 
@@ -33,12 +32,10 @@ struct Tap {
 
 class Recorder {
  public:
-  // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
-  using TruthAt = std::function<plant::Truth(signals::Tick)>;
-
-  // Looks at boards and high level, which outlive it, up to the tick `end`.
-  Recorder(const experiment::Experiment& experiment, const Boards& spine,
-           const HighLevel& high_level, TruthAt truth, signals::Tick end);
+  // Reads controllers and machine, which outlive it, up to the tick `end`; the machine is nullptr
+  // for a body that is not simulated.
+  Recorder(const experiment::Experiment& experiment, const Controllers& controllers,
+           plant::Machine* machine, signals::Tick end);
 
   // Hands each sample to somebody else too, with the topic that each series has there.
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
@@ -62,9 +59,9 @@ class Recorder {
  private:
   void put(std::span<const double> values) noexcept;
 
-  const Boards& spine_;
-  const HighLevel& high_;
-  TruthAt truth_;
+  const Controllers& controllers_;
+  plant::Machine* machine_;
+  plant::Truths truths_;  // of the last sample
 
   // Once there is no more room, nothing is kept any more; the tap still gets it.
   template <class Samples>

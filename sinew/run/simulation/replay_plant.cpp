@@ -78,20 +78,18 @@ PlantReplay replay_plant(const experiment::Experiment& e, const signals::Table& 
   std::optional<FaultyPort> faulty;
   signals::Port& body =
       e.faults.empty() ? static_cast<signals::Port&>(driven) : faulty.emplace(e, driven);
-  Boards boards(e);
-  HighLevel high_level(e.robot, e.plan);
+  Controllers controllers(e, nullptr);
   const Tick end = std::min(experiment::last_tick(e), commands.end);
-  Recorder recorder(
-      e, boards, high_level,
-      [&](Tick t) { return machine.truth(static_cast<double>(t) * signals::tick_seconds); }, end);
+  Recorder recorder(e, controllers, &machine, end);
 
   PlantReplay out{.rebuilt = commands.rebuilt};
   DrivenWatch watch{{&recorder, &machine}, &driven};
   SimulatedClock clock;
-  out.outcome.status = loop(boards, high_level, body, clock, watch, end);
+  out.outcome.status = controllers.visit(
+      [&](auto& joint, auto& gait) { return loop(joint, gait, body, clock, watch, end); });
   out.outcome.failure = machine.failure();
-  out.outcome.seen = boards.seen_totals();
-  out.outcome.supervised = boards.supervised_totals();
+  out.outcome.seen = controllers.seen_totals();
+  out.outcome.supervised = controllers.supervised_totals();
   out.outcome.nodes = machine.nodes();
   out.outcome.table = recorder.take();
   out.outcome.no_room = recorder.problem();

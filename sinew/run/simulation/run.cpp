@@ -3,6 +3,7 @@
 #include "sinew/host/realtime.h"
 #include "sinew/port/recorded/recorded.h"
 #include "sinew/run/simulation/clock.h"
+#include "sinew/run/simulation/duty_sweep.h"
 #include "sinew/run/simulation/recorded_run.h"
 #include "sinew/run/simulation/simulation.h"
 
@@ -62,6 +63,7 @@ Outcome run(const experiment::Experiment& e, const RunOptions& options) {
     Simulation simulation(e, *options.board, options.lead, options.steering);
     return by_its_clock(simulation, e, options);
   }
+  if (e.stand && e.stand->sweep.step > 0) return sweep_duties(e, options);
   Simulation simulation(e, options.steering);
   return by_its_clock(simulation, e, options);
 }

@@ -9,10 +9,9 @@
 #include "sinew/air/failure.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/host/beat.h"
-#include "sinew/mechanism/planar/setup.h"
 #include "sinew/port/comedi/comedi_port.h"
 #include "sinew/port/hardware/remote_board.h"
-#include "sinew/run/controllers/boards.h"
+#include "sinew/run/controllers/controllers.h"
 #include "sinew/run/controllers/steering.h"
 #include "sinew/run/simulation/recorder.h"
 #include "sinew/signals/table.h"
@@ -36,7 +35,8 @@ struct RunOptions {
   bool every_tick = false;                        // visit each tick: slower, the same bits
   bool recorded = true;                           // false: the outcome's table is empty
   int extra_readers = 0;                          // looks at the world per event: the same bits
-  RealBody body;                                  // in place of the simulated machine, in real time
+  int threads = 0;  // of a sweep of duties; 0: as many as the computer has. The same bits
+  RealBody body;    // in place of the simulated machine, in real time
   plant::RemoteBoard* board = nullptr;  // drives the machine in place of the simulation; armed
   int lead = 1;                         // of its commands [periods] (remote_boards.h)
   bool board_keeps_time = true;         // false: it waits for the host, who may set a pace

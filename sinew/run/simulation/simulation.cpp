@@ -21,7 +21,6 @@ using signals::Tick;
 
 namespace {
 
-static_assert(std::is_trivially_copyable_v<HighLevel::State>);
 static_assert(std::is_trivially_copyable_v<FaultyPort::State>);
 static_assert(std::is_trivially_copyable_v<LoopState>);
 
@@ -69,15 +68,14 @@ Simulation::Simulation(const experiment::Experiment& experiment, const Machine& 
     : experiment_(experiment),
       machine_(std::in_place, machine),
       port_(&machine_->port()),
-      boards_(experiment_),
-      high_level_(experiment_.robot, experiment_.plan, steering),
+      controllers_(experiment_, steering),
       last_(experiment::last_tick(experiment_)) {
   if (!experiment_.faults.empty()) port_ = &faulty_.emplace(experiment_, *port_);
   list_channels();
 }
 
 Simulation::Simulation(const experiment::Experiment& experiment, Steering* steering)
-    : Simulation(experiment, planar_setup(experiment), steering) {}
+    : Simulation(experiment, machine_setup(experiment), steering) {}
 
 Simulation::Simulation(const experiment::Experiment& experiment, const plant::LegLane& lane)
     : Simulation(experiment, lane, nullptr) {}
@@ -86,8 +84,7 @@ Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& 
                        Steering* steering)
     : experiment_(experiment),
       port_(&body),
-      boards_(experiment_),
-      high_level_(experiment_.robot, experiment_.plan, steering),
+      controllers_(experiment_, steering),
       last_(experiment::last_tick(experiment_)) {
   list_channels();
 }
@@ -95,16 +92,15 @@ Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& 
 Simulation::Simulation(const experiment::Experiment& experiment, plant::RemoteBoard& board,
                        int lead, Steering* steering)
     : experiment_(experiment),
-      boards_(experiment_),
-      high_level_(experiment_.robot, experiment_.plan, steering),
+      controllers_(experiment_, steering),
       last_(experiment::last_tick(experiment_)) {
-  port_ = &remote_.emplace(boards_, board, lead);
+  port_ = &remote_.emplace(controllers_.robot()->joint, board, lead);
   list_channels();
 }
 
 bool Simulation::ended() const noexcept {
   return tick_ >= last_ || loop_.status != signals::Status::ok ||
-         boards_.seen().phase == control::Phase::off;
+         controllers_.phase() == control::Phase::off;
 }
 
 void Simulation::advance_to(Tick tick) noexcept {
@@ -148,22 +144,21 @@ double Simulation::read(std::size_t channel) noexcept {
 }
 
 void Simulation::read(std::span<const std::size_t> channels, std::span<double> values) noexcept {
-  const MachineSeen seen = boards_.seen();
-  const gait::MachineMeasured measured = high_level_.believe(seen);
   const bool of_truth = std::ranges::any_of(
       channels, [&](std::size_t c) { return columns_[column_of_[c].first].of_truth(); });
-  const plant::Truth known = of_truth ? truth() : plant::Truth{};
-  const Snapshot now{seen, measured, high_level_.desired(), known, time()};
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const auto [column, field] = column_of_[channels[i]];
-    double numbers[2] = {};
-    columns_[column].value(now, numbers);
-    values[i] = numbers[field];
-  }
+  controllers_.look(time(), of_truth ? &truths() : nullptr, [&](const Snapshot& now) {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const auto [column, field] = column_of_[channels[i]];
+      double numbers[2] = {};
+      columns_[column].value(now, numbers);
+      values[i] = numbers[field];
+    }
+  });
 }
 
-plant::Truth Simulation::truth() noexcept {
-  return machine_ ? machine_->truth(time()) : plant::Truth{};
+const plant::Truths& Simulation::truths() noexcept {
+  if (machine_) machine_->truth(time(), truths_);
+  return truths_;
 }
 
 air::Failure Simulation::failure() const noexcept {
@@ -174,8 +169,8 @@ std::string Simulation::cause() const {
   Outcome so_far;
   so_far.status = loop_.status;
   so_far.failure = failure();
-  so_far.seen = boards_.seen_totals();
-  so_far.supervised = boards_.supervised_totals();
+  so_far.seen = controllers_.seen_totals();
+  so_far.supervised = controllers_.supervised_totals();
   so_far.duration = time();
   return so_far.ended_early() ? cause_of(experiment_, so_far) : "";
 }
@@ -185,6 +180,9 @@ std::string Simulation::cause() const {
 std::size_t Simulation::find_setting(std::string_view key) const {
   const int found = gait::find_setting(settings(), key);
   if (found >= 0) return static_cast<std::size_t>(found);
+  if (settings().empty())
+    refuse("setting: found \"" + std::string(key) +
+           "\"; expected none: a test stand has nothing that is changed on the way");
   std::string all;
   for (const gait::Setting& s : settings()) all += (all.empty() ? "" : ", ") + s.key;
   refuse("setting: found \"" + std::string(key) + "\"; expected one of " + all);
@@ -204,7 +202,7 @@ void Simulation::wish(std::size_t setting, double value, int leg) {
   if (!(value >= 0 && value <= gait::Setting::most))
     refuse(settings()[setting].key + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
            std::string(settings()[setting].unit));
-  (void)high_level_.wish({setting, value, false, leg});
+  (void)controllers_.robot()->gait.wish({setting, value, false, leg});
 }
 
 void Simulation::change(std::string_view key, double value, std::string_view leg) {
@@ -214,7 +212,8 @@ void Simulation::change(std::string_view key, double value, std::string_view leg
 void Simulation::change(std::size_t setting, double value) { wish(setting, value, -1); }
 
 void Simulation::release(std::string_view key, std::string_view leg) {
-  (void)high_level_.wish({find_setting(key), 0, true, leg_number(leg)});
+  const std::size_t setting = find_setting(key);
+  (void)controllers_.robot()->gait.wish({setting, 0, true, leg_number(leg)});
 }
 
 // --- saving ---
@@ -222,8 +221,8 @@ void Simulation::release(std::string_view key, std::string_view leg) {
 // The values alone: what a file says of them is no part of the machine.
 std::uint64_t Simulation::model() {
   if (model_) return *model_;
-  const std::string values = config::to_toml(
-      experiment::values_in_si({"experiment", experiment::without_files(experiment_)}));
+  const std::string values = config::to_toml(experiment::values_in_si(
+      {std::string(experiment::kind_of(experiment_)), experiment::without_files(experiment_)}));
   const std::size_t sizes[] = {save_size()};
   model_ =
       units::hash(std::as_bytes(std::span(sizes)), units::hash(values, units::hash(SINEW_VERSION)));
@@ -231,8 +230,8 @@ std::uint64_t Simulation::model() {
 }
 
 std::size_t Simulation::save_size() const noexcept {
-  return sizeof(Header) + (machine_ ? machine_->state_size() : 0) + boards_.state_size() +
-         sizeof(HighLevel::State) + sizeof(FaultyPort::State) + sizeof loop_;
+  return sizeof(Header) + (machine_ ? machine_->state_size() : 0) + controllers_.state_size() +
+         sizeof(FaultyPort::State) + sizeof loop_;
 }
 
 std::vector<std::byte> Simulation::save() {
@@ -241,9 +240,8 @@ std::vector<std::byte> Simulation::save() {
   const std::span<std::byte> all(out), state = all.subspan(sizeof(Header));
   std::span<std::byte> rest = state.subspan(machine_->state_size());
   machine_->save(state.first(machine_->state_size()));
-  boards_.save(rest.first(boards_.state_size()));
-  rest = rest.subspan(boards_.state_size());
-  put(rest, high_level_.state());
+  controllers_.save(rest.first(controllers_.state_size()));
+  rest = rest.subspan(controllers_.state_size());
   put(rest, faulty_ ? faulty_->state() : FaultyPort::State{});
   put(rest, loop_);
   Header header{.model = model(), .tick = tick_};
@@ -269,18 +267,15 @@ void Simulation::restore(std::span<const std::byte> saved) {
 
   machine_->restore(saved.first(machine_->state_size()));
   saved = saved.subspan(machine_->state_size());
-  boards_.restore(saved.first(boards_.state_size()));
-  saved = saved.subspan(boards_.state_size());
-  HighLevel::State high_level;
-  take(saved, high_level);
-  high_level_.restore(high_level);
+  controllers_.restore(saved.first(controllers_.state_size()));
+  saved = saved.subspan(controllers_.state_size());
   FaultyPort::State faulty;
   take(saved, faulty);
   if (faulty_) faulty_->restore(faulty);
   take(saved, loop_);
   tick_ = header.tick;
   // Another machine learns when conversions begin.
-  if (loop_.started) (void)port_->start(boards_.scan());
+  if (loop_.started) (void)port_->start(controllers_.scan());
 }
 
 }  // namespace sinew::run

@@ -1,5 +1,5 @@
-// run/simulation/simulation.h - a run that somebody holds: an experiment's machine and its
-// controllers, advanced by as much as one likes, looked at, changed, saved and restored.
+// run/simulation/simulation.h - a run that a caller holds: an experiment's machine, a robot or a
+// test stand, and its controllers, advanced by any amount, read, changed, saved and restored.
 //
 //   Simulation s(buildable("experiments/walk-test-1.toml"));
 //   s.advance_by(2.0);
@@ -26,9 +26,8 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/run/controllers/boards.h"
 #include "sinew/run/controllers/columns.h"
-#include "sinew/run/controllers/high_level.h"
+#include "sinew/run/controllers/controllers.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/remote_boards.h"
@@ -39,7 +38,7 @@ namespace sinew::run {
 class Simulation {
  public:
   // The experiment, a buildable one, at its start. `steering` may be null and outlives this. Throws
-  // std::invalid_argument for a robot that no plant can hold.
+  // std::invalid_argument for a machine that no plant can hold.
   explicit Simulation(const experiment::Experiment& experiment, Steering* steering = nullptr);
 
   // The experiment in a machine that goes side by side with others, at its start.
@@ -80,9 +79,11 @@ class Simulation {
     if (tick_ < last_ && until > tick_) {
       until = until < last_ ? until : last_;
       if (remote_)
-        run::advance(loop_, *remote_, high_level_, port(), clock, watch, until);
+        run::advance(loop_, *remote_, controllers_.robot()->gait, port(), clock, watch, until);
       else
-        run::advance(loop_, boards_, high_level_, port(), clock, watch, until);
+        controllers_.visit([&](auto& joint, auto& gait) {
+          run::advance(loop_, joint, gait, port(), clock, watch, until);
+        });
       tick_ = loop_.at < until ? loop_.at : until;
     }
   }
@@ -108,8 +109,9 @@ class Simulation {
   void read(std::span<const std::size_t> channels, std::span<double> values) noexcept;
   std::size_t find(std::string_view channel) const;
 
-  // Returns what only a simulation knows, now. Not for a body that is none.
-  plant::Truth truth() noexcept;
+  // Returns what only a simulation has, now. Not for a body that is none.
+  const plant::Truths& truths() noexcept;
+  const plant::Truth& truth() noexcept { return truths().robot; }
   // Returns what of the machine was no number any more.
   air::Failure failure() const noexcept;
   // Returns why it has ended before its plan did, in words; empty where it has not.
@@ -124,11 +126,11 @@ class Simulation {
   void change(std::string_view key, double value, std::string_view leg = {});
   void change(std::size_t setting, double value);  // by its number in settings(), of every leg
   void release(std::string_view key, std::string_view leg = {});
-  const std::vector<gait::Setting>& settings() const noexcept { return high_level_.settings(); }
+  const std::vector<gait::Setting>& settings() const noexcept { return controllers_.settings(); }
   // Returns what a setting, by its number, is at now, the plan's or what was set in its place; of
   // the first leg  [its SI unit].
   double value_of(std::size_t setting) const noexcept {
-    return gait::value_of(settings()[setting], high_level_.desired().front());
+    return gait::value_of(settings()[setting], controllers_.robot()->gait.desired().front());
   }
   // Returns the number of a setting by its key; throws as change() does.
   std::size_t find_setting(std::string_view key) const;
@@ -144,11 +146,10 @@ class Simulation {
 
   // --- the parts, for whoever records ---
 
-  // Returns what is run; the boards and the high level that control it; a board far away and the
-  // simulated machine, nullptr where there is none.
+  // Returns what is run; what controls it; a board far away and the simulated machine, nullptr
+  // where there is none.
   const experiment::Experiment& experiment() const noexcept { return experiment_; }
-  const Boards& boards() const noexcept { return boards_; }
-  const HighLevel& high_level() const noexcept { return high_level_; }
+  const Controllers& controllers() const noexcept { return controllers_; }
   const RemoteBoards* remote() const noexcept { return remote_ ? &*remote_ : nullptr; }
   plant::Machine* machine() noexcept { return machine_ ? &*machine_ : nullptr; }
 
@@ -167,16 +168,16 @@ class Simulation {
   std::optional<plant::Machine> machine_;
   std::optional<FaultyPort> faulty_;
   signals::Port* port_ = nullptr;
-  Boards boards_;
-  std::optional<RemoteBoards> remote_;  // shown by boards_
-  HighLevel high_level_;
+  Controllers controllers_;
+  std::optional<RemoteBoards> remote_;  // shown by the controllers' boards
   signals::Tick last_ = 0, tick_ = 0;
   LoopState loop_;
 
   std::vector<Column> columns_;
   std::vector<Channel> channels_;
   std::vector<std::pair<std::size_t, std::size_t>> column_of_;  // and which of its numbers
-  std::optional<std::uint64_t> model_;                          // once somebody has asked for it
+  std::optional<std::uint64_t> model_;                          // once it was needed
+  plant::Truths truths_;                                        // the last ones
 };
 
 }  // namespace sinew::run

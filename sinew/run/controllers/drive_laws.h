@@ -1,4 +1,4 @@
-// run/stand/drive_laws.h - how long a valve of the stand is opened in one period.
+// run/controllers/drive_laws.h - how long a valve of the stand is opened in one period.
 //
 //   steady duty   d = m'_out/(m'_in + m'_out) at the pressure P          no mean flow, 3-way valve
 //   commanded     d + (opening delay - closing delay)/T                  figure 3-13, backwards
@@ -17,10 +17,10 @@
 #include "sinew/actuator/bundle.h"
 #include "sinew/gas/orifice.h"
 
-namespace sinew::rig {
+namespace sinew::run {
 
 // Share of the period for each valve; a 3-way one has an inlet only.
-struct Shares {
+struct DriveShares {
   double inlet = 0, exhaust = 0;
 };
 
@@ -62,17 +62,17 @@ inline double air_at(const actuator::Bundle& bundle, const gas::Air& air, double
 }
 
 // Of an error of the length; `hold` is what a 3-way valve needs to stay where it is.
-constexpr Shares on_off(double error, double dead_band, bool three_way, double before) {
+constexpr DriveShares on_off(double error, double dead_band, bool three_way, double before) {
   const bool in = error > dead_band, out = error < -dead_band;
   if (three_way) return {in ? 1.0 : out ? 0.0 : before, 0.0};
   return {in ? 1.0 : 0.0, out ? 1.0 : 0.0};
 }
-constexpr Shares proportional(double error, double gain, double dead_band, bool three_way,
-                              double hold) {
+constexpr DriveShares proportional(double error, double gain, double dead_band, bool three_way,
+                                   double hold) {
   const double wanted = gain * error;
   if (three_way) return {within_0_and_1(hold + wanted), 0.0};
   if (error <= dead_band && error >= -dead_band) return {};
   return {within_0_and_1(wanted), within_0_and_1(-wanted)};
 }
 
-}  // namespace sinew::rig
+}  // namespace sinew::run

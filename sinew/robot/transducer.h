@@ -1,4 +1,4 @@
-// mechanism/slide/transducer.h - what the stand's controller reads and what a rig writes down: a
+// robot/transducer.h - what the stand's controller reads and what a rig writes down: a
 // quantity by a 12-bit converter, with the errors that a transducer has.
 //
 //   x'     = scale x + offset + noise
@@ -16,7 +16,7 @@
 
 #include "sinew/signals/port.h"
 
-namespace sinew::plant {
+namespace sinew::robot {
 
 struct Transducer {
   // Pressure is gauge; the force is what a load cell between actuator and load sees.
@@ -51,4 +51,4 @@ inline double shown(const Transducer& t, double counts) noexcept {
   return t.resolution > 0 ? t.resolution * std::round(value / t.resolution) : value;
 }
 
-}  // namespace sinew::plant
+}  // namespace sinew::robot

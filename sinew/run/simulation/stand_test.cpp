@@ -12,16 +12,21 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/run/stand/drive_laws.h"
-#include "sinew/run/stand/run.h"
+#include "sinew/run/controllers/drive_laws.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/run/setup/stand_setup.h"
+#include "sinew/run/simulation/run.h"
+#include "sinew/run/simulation/simulation.h"
+#include "sinew/run/simulation/test_same.h"
 #include "sinew/signals/pulse.h"
 #include "sinew/world/stand.h"
 #include "tests/places.h"
 
-namespace sinew::rig::rig_test {
+namespace sinew::run::stand_test {
 namespace {
 
 namespace fs = std::filesystem;
+using experiment::Experiment;
 
 const std::string folder = sinew::test::source_dir() + "/experiments/rig/";
 
@@ -33,24 +38,15 @@ std::vector<fs::path> all_files() {
   return out;
 }
 
-void expect_same(const signals::Table& a, const signals::Table& b) {
-  ASSERT_EQ(a.series.size(), b.series.size());
-  for (std::size_t i = 0; i < a.series.size(); ++i) {
-    EXPECT_EQ(a.series[i].topic.name, b.series[i].topic.name);
-    EXPECT_EQ(a.series[i].time_ns, b.series[i].time_ns) << a.series[i].topic.name;
-    EXPECT_EQ(a.series[i].columns, b.series[i].columns) << a.series[i].topic.name;
-  }
-}
-
 TEST(RigFiles, ResolvedOnesRunAgainWithTheSameBits) {
   const fs::path copy = fs::path(testing::TempDir()) / "resolved.toml";
   for (const fs::path& file : all_files()) {
     SCOPED_TRACE(file.filename().string());
-    Experiment e = load(file.string());
-    e.duration = std::min(e.duration, 0.7);
-    if (e.sweep.step > 0) e.sweep.to = e.sweep.from + 2 * e.sweep.step;
-    std::ofstream(copy) << resolved(e, "0");
-    const Experiment again = load(copy.string());
+    Experiment e = experiment::load(file.string());
+    e.stand->duration = std::min(e.stand->duration, 0.7);
+    if (e.stand->sweep.step > 0) e.stand->sweep.to = e.stand->sweep.from + 2 * e.stand->sweep.step;
+    std::ofstream(copy) << experiment::resolved(e, "0");
+    const Experiment again = experiment::load(copy.string());
     expect_same(run(e).table, run(again).table);
     EXPECT_TRUE(run(e).table.complete);
   }
@@ -60,7 +56,7 @@ TEST(RigFiles, ResolvedOnesRunAgainWithTheSameBits) {
 TEST(RigFiles, ALengthWithoutVolumeIsRefusedByItsKey) {
   const auto refusal = [](const std::vector<std::string>& sets) -> std::string {
     try {
-      load(folder + "length-sweep.toml", sets);
+      experiment::load(folder + "length-sweep.toml", sets);
     } catch (const config::Error& e) {
       return e.what();
     }
@@ -79,9 +75,9 @@ TEST(RigFiles, ALengthWithoutVolumeIsRefusedByItsKey) {
 // A load that tears the muscle beyond its thread's length, where it has no volume: the run ends
 // with the element, the time and what happened.
 TEST(RigRun, AirThatVanishesEndsTheRun) {
-  Experiment e = load(folder + "pwm-25hz-5lb.toml");
-  e.element.external_volume = 0;
-  e.load.mass = 45;
+  Experiment e = experiment::load(folder + "pwm-25hz-5lb.toml");
+  e.stand->element.external_volume = 0;
+  e.stand->load.mass = 45;
   const Outcome out = run(e);
   ASSERT_EQ(out.failure.of, air::Failure::Of::air);
   EXPECT_GT(out.failure.time, 0.01);
@@ -93,7 +89,7 @@ TEST(RigRun, AirThatVanishesEndsTheRun) {
 // A third of the gravity and three times the mass weigh the same: the load hangs where it hung.
 TEST(RigRun, AWeightIsMassTimesTheGravityOfTheFile) {
   const auto hangs = [](const std::vector<std::string>& sets) {
-    return plant::hanging_length(setup_of(load(folder + "trapped-60-6.toml", sets)));
+    return plant::hanging_length(stand_setup(experiment::load(folder + "trapped-60-6.toml", sets)));
   };
   const double on_earth = hangs({});
   EXPECT_EQ(hangs({"load.gravity=9.80665 m/s2"}), on_earth)
@@ -104,16 +100,16 @@ TEST(RigRun, AWeightIsMassTimesTheGravityOfTheFile) {
 
 TEST(RigRun, EveryTickVisitedIsTheSameRun) {
   for (const char* name : {"feedback.toml", "pwm-25hz-5lb.toml", "pressure-steps.toml"}) {
-    Experiment e = load(folder + name);
-    e.duration = 2;
+    Experiment e = experiment::load(folder + name);
+    e.stand->duration = 2;
     expect_same(run(e).table, run(e, {.every_tick = true}).table);
   }
 }
 
 TEST(RigRun, ThreadsOfASweepChangeNothing) {
-  Experiment e = load(folder + "duty-sweep.toml");
-  e.duration = 0.5;
-  e.sweep = {.from = 0.2, .to = 0.4, .step = 0.05};
+  Experiment e = experiment::load(folder + "duty-sweep.toml");
+  e.stand->duration = 0.5;
+  e.stand->sweep = {.from = 0.2, .to = 0.4, .step = 0.05};
   const Outcome one = run(e, {.threads = 1});
   expect_same(one.table, run(e, {.threads = 3}).table);
   ASSERT_EQ(one.table.column("/sweep/duty")->size(), 5u);
@@ -121,12 +117,12 @@ TEST(RigRun, ThreadsOfASweepChangeNothing) {
 
 // A row of a sweep is the run with that duty alone.
 TEST(RigRun, ASweepIsItsRuns) {
-  Experiment e = load(folder + "duty-sweep.toml");
-  e.sweep = {.from = 0.3, .to = 0.4, .step = 0.1};
-  e.duration = 1;
+  Experiment e = experiment::load(folder + "duty-sweep.toml");
+  e.stand->sweep = {.from = 0.3, .to = 0.4, .step = 0.1};
+  e.stand->duration = 1;
   const double swept = (*run(e).table.column("/true/sweep/length"))[1];
-  e.sweep = {};
-  e.drive.duty = 0.4;
+  e.stand->sweep = {};
+  e.stand->drive.duty = 0.4;
   e.log.period = 1e-4;
   const signals::Table table = run(e).table;
   const signals::Column& length = *table.column("/true/stand/length");
@@ -137,41 +133,98 @@ TEST(RigRun, ASweepIsItsRuns) {
 
 // The valve's delays and 50 % make the ideal valve's 42.5 %, shifted by the opening delay.
 TEST(RigRun, CommandedDutyThroughDelaysIsTheDeliveredOne) {
-  Experiment delayed = load(folder + "pwm-25hz-5lb.toml");
-  delayed.element.inlet = "758";
-  delayed.drive.duty = 0.5;
+  Experiment delayed = experiment::load(folder + "pwm-25hz-5lb.toml");
+  delayed.stand->element.inlet = "758";
+  delayed.stand->drive.duty = 0.5;
   Experiment ideal = delayed;
-  ideal.element.inlet = "ideal";
-  ideal.drive.duty = signals::delivered_duty(0.5, 0.04, 0.004, 0.001);
-  EXPECT_DOUBLE_EQ(ideal.drive.duty, 0.425);
+  ideal.stand->element.inlet = "ideal";
+  ideal.stand->drive.duty = signals::delivered_duty(0.5, 0.04, 0.004, 0.001);
+  EXPECT_DOUBLE_EQ(ideal.stand->drive.duty, 0.425);
   const auto mean = [](const Experiment& e) {
     Experiment one = e;
-    one.sweep = {.from = e.drive.duty, .to = e.drive.duty + 0.01, .step = 1};
-    return sweep(one, 1)[0];
+    one.stand->sweep = {.from = e.stand->drive.duty, .to = e.stand->drive.duty + 0.01, .step = 1};
+    return run(one).table;
   };
-  const Settled a = mean(delayed), b = mean(ideal);
-  EXPECT_NEAR(a.length, b.length, 1e-5);
-  EXPECT_NEAR(a.pressure, b.pressure, 1e-3 * b.pressure);
+  const signals::Table a = mean(delayed), b = mean(ideal);
+  const auto first = [](const signals::Table& of, const char* what) {
+    return (*of.column(what))[0];
+  };
+  EXPECT_NEAR(first(a, "/true/sweep/length"), first(b, "/true/sweep/length"), 1e-5);
+  EXPECT_NEAR(first(a, "/true/sweep/pressure") / first(b, "/true/sweep/pressure"), 1, 1e-3);
 }
 
 // Feedback sees counts: noise and a load that it does not know move the muscle back all the same.
 TEST(RigRun, FeedbackGoesBackAfterATug) {
-  const Experiment e = load(folder + "feedback.toml");
+  const Experiment e = experiment::load(folder + "feedback.toml");
   const signals::Table table = run(e).table;
   const signals::Column& length = *table.column("/true/stand/length");
   const signals::Column& desired = *table.column("/desired/length");
   const signals::Column& counts = *table.column("/sensor/length/count");
   EXPECT_NEAR(length.back(), desired.back(), 0.05 * 0.0254);
-  EXPECT_NEAR(plant::quantity(e.sensors[0], counts.back()), length.back(), 0.005 * 0.0254);
+  EXPECT_NEAR(robot::quantity(e.stand->sensors[0], counts.back()), length.back(), 0.005 * 0.0254);
   // Two pounds more stretch it where the valves rest.
   EXPECT_GT(length[6100], length[5990]);
+}
+
+// --- a stand that a caller holds
+// ------------------------------------------------------------------
+
+constexpr const char* driven_stands[] = {"feedback",       "feed-forward",    "pwm-25hz-5lb",
+                                         "pressure-steps", "feedback-on-off", "creep"};
+
+Experiment stand_of(const std::string& name) { return experiment::load(folder + name + ".toml"); }
+
+std::vector<double> values(Simulation& s) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < s.channels().size(); ++i) out.push_back(s.read(i));
+  return out;
+}
+
+// Cut anywhere, read, saved and restored, here or into another one: the same bits.
+TEST(StandSimulation, CutsReadsAndSavesLeaveNoTrace) {
+  std::mt19937 random(7);
+  for (const char* name : driven_stands) {
+    const Experiment e = stand_of(name);
+    Simulation straight(e), cut(e);
+    straight.advance_to(16000);
+    while (cut.tick() < 16000) {
+      cut.advance_to(std::min<signals::Tick>(16000, cut.tick() + random() % 700));
+      (void)values(cut);
+      const std::vector<std::byte> saved = cut.save();
+      if (random() % 3 > 0) continue;
+      cut.advance_by(0.05);
+      cut.restore(saved);
+    }
+    EXPECT_EQ(values(straight), values(cut)) << name;
+    Simulation other(e);
+    other.restore(cut.save());
+    other.advance_by(0.3);
+    straight.advance_by(0.3);
+    EXPECT_EQ(values(straight), values(other)) << name;
+    EXPECT_EQ(straight.cause(), "") << name;
+  }
+}
+
+TEST(StandSimulation, ASaveOfAnotherStandIsRefused) {
+  Simulation one(stand_of("feedback")), other(stand_of("creep"));
+  EXPECT_THROW(other.restore(one.save()), std::invalid_argument);
+  EXPECT_TRUE(one.settings().empty());
+  EXPECT_THROW(one.change("control.stiffness.hip", 1), std::invalid_argument);
+}
+
+TEST(StandSimulation, PacedAndWatchedIsTheSameRun) {
+  Experiment e = stand_of("feedback");
+  e.stand->duration = 1;
+  const signals::Table alone = run(e).table;
+  expect_same(alone, run(e, {.pace = 100}).table);
+  expect_same(alone, run(e, {.extra_readers = 3}).table);
 }
 
 // --- files that contradict themselves -----------------------------------------------------------
 
 std::string refusal(const std::string& name, const std::vector<std::string>& sets) {
   try {
-    load(folder + name, sets);
+    buildable(folder + name, sets);
   } catch (const config::Error& e) {
     return e.what();
   }
@@ -213,16 +266,16 @@ TEST(RigFiles, OtherFormatsAreRefused) {
   const fs::path file = fs::path(testing::TempDir()) / "newer.toml";
   std::ofstream(file) << "format = \"sinew.rig/2\"\n";
   try {
-    load(file.string());
+    experiment::load(file.string());
     ADD_FAILURE();
   } catch (const config::Error& e) {
     EXPECT_NE(std::string(e.what()).find("\"sinew.rig/1\" or older"), std::string::npos);
   }
   try {
-    load(sinew::test::source_dir() + "/robots/leg/valves.toml");
+    experiment::load(sinew::test::source_dir() + "/robots/leg/valves.toml");
     ADD_FAILURE();
   } catch (const config::Error& e) {
-    EXPECT_NE(std::string(e.what()).find("expected \"sinew.rig/1\""), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("expected \"sinew.experiment/1\""), std::string::npos);
   }
 }
 
@@ -273,4 +326,4 @@ TEST(DriveLaws, FeedbackOpensTheValveThatHelps) {
 }
 
 }  // namespace
-}  // namespace sinew::rig::rig_test
+}  // namespace sinew::run::stand_test

@@ -1,4 +1,4 @@
-// experiment/rig/measured.h - what the stand's transducers showed, as the CSV that a rig would
+// experiment/measured.h - what the stand's transducers showed, as the CSV that a rig would
 // write and `sinew identify` reads.
 //
 //   time [s],force [N],length [m],pressure [Pa gauge]
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "sinew/experiment/rig/rig.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/signals/table.h"
 
-namespace sinew::rig {
+namespace sinew::experiment {
 
 // The rows: instants, and what each sensor showed, in the order of the experiment's.
 struct Notes {
@@ -25,4 +25,4 @@ Notes notes(const Experiment& experiment, const signals::Table& table);
 // The same as text. Empty where nothing was read: no sensors, or a sweep.
 std::string measured_csv(const Experiment& experiment, const signals::Table& table);
 
-}  // namespace sinew::rig
+}  // namespace sinew::experiment

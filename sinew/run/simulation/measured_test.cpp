@@ -1,5 +1,5 @@
 // The static tests of the stand as somebody writes them down: loops, creep, air shut in.
-#include "sinew/experiment/rig/measured.h"
+#include "sinew/experiment/measured.h"
 
 #include <gtest/gtest.h>
 
@@ -8,26 +8,26 @@
 #include <sstream>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/run/stand/run.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/units/constants.h"
 #include "tests/places.h"
 
-namespace sinew::rig::measured_test {
+namespace sinew::run::measured_test {
 namespace {
 
 using units::inch, units::psi, units::pound_force;
-using Of = plant::Transducer::Of;
+using Of = robot::Transducer::Of;
 
 const std::string folder = sinew::test::source_dir() + "/experiments/rig/";
 
 struct Done {
-  Experiment experiment;
+  experiment::Experiment experiment;
   signals::Table table;
-  Notes notes;
+  experiment::Notes notes;
 
   const std::vector<double>& of(Of what) const {
-    for (std::size_t s = 0; s < experiment.sensors.size(); ++s)
-      if (experiment.sensors[s].of == what) return notes.values[s];
+    for (std::size_t s = 0; s < experiment.stand->sensors.size(); ++s)
+      if (experiment.stand->sensors[s].of == what) return notes.values[s];
     throw std::logic_error("no such sensor");
   }
   // What was true at the same instants.
@@ -39,9 +39,9 @@ struct Done {
 };
 
 Done done(const std::string& name, const std::vector<std::string>& sets = {}) {
-  Done t{load(folder + name + ".toml", sets), {}, {}};
+  Done t{experiment::load(folder + name + ".toml", sets), {}, {}};
   t.table = run(t.experiment).table;
-  t.notes = notes(t.experiment, t.table);
+  t.notes = experiment::notes(t.experiment, t.table);
   return t;
 }
 
@@ -93,7 +93,7 @@ TEST(Measured, ReadsTheTruth) {
 TEST(Measured, AirShutInObeysBoyle) {
   for (const char* name : {"sealed-bpa", "sealed-cylinder"}) {
     const Done t = done(name);
-    const Element& e = t.experiment.element;
+    const experiment::Stand::Element& e = t.experiment.stand->element;
     const auto volume = [&](double length) {
       if (e.cylinder.bore > 0)
         return e.cylinder.dead_volume + 0.25 * M_PI *
@@ -159,15 +159,15 @@ TEST(Measured, CreepGrows) {
 
 TEST(Measured, IsACsvWithUnits) {
   Done t = done("weights-60");
-  std::istringstream in(measured_csv(t.experiment, t.table));
+  std::istringstream in(experiment::measured_csv(t.experiment, t.table));
   std::string line;
   std::getline(in, line);
   EXPECT_EQ(line, "time [s],length [m],force [N],pressure [Pa gauge]");
   std::getline(in, line);
   EXPECT_EQ(line.substr(0, 4), "0.4,");
-  t.experiment.sensors.clear();
-  EXPECT_EQ(measured_csv(t.experiment, t.table), "");
+  t.experiment.stand->sensors.clear();
+  EXPECT_EQ(experiment::measured_csv(t.experiment, t.table), "");
 }
 
 }  // namespace
-}  // namespace sinew::rig::measured_test
+}  // namespace sinew::run::measured_test

@@ -1,33 +1,33 @@
-#include "sinew/experiment/rig/measured.h"
+#include "sinew/experiment/measured.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace sinew::rig {
+namespace sinew::experiment {
 namespace {
 
-std::string_view unit_of(plant::Transducer::Of of) {
-  using Of = plant::Transducer::Of;
+std::string_view unit_of(robot::Transducer::Of of) {
+  using Of = robot::Transducer::Of;
   return of == Of::length ? "m" : of == Of::force ? "N" : of == Of::pressure ? "Pa gauge" : "m/s2";
 }
 
 // Counts of each sensor, in their order; nothing where the table has not all of them.
 std::vector<const signals::Series*> counts_of(const Experiment& e, const signals::Table& table) {
   std::vector<const signals::Series*> out;
-  for (const plant::Transducer& t : e.sensors)
+  for (const robot::Transducer& t : e.stand->sensors)
     if (const signals::Series* s = table.find("/sensor/" + t.name + "/count")) out.push_back(s);
-  if (out.size() != e.sensors.size()) out.clear();
+  if (out.size() != e.stand->sensors.size()) out.clear();
   return out;
 }
 
 // The rows that are written down: the first at or after each instant.
 std::vector<std::size_t> rows_of(const Experiment& e, const signals::Times& time_ns) {
-  const double period = e.measured.period > 0 ? e.measured.period : e.log.period;
+  const double period = e.stand->measured.period > 0 ? e.stand->measured.period : e.log.period;
   std::vector<std::size_t> out;
   std::size_t row = 0;
   for (std::int64_t k = 0;; ++k) {
-    const auto at = std::llround(1e9 * (e.measured.from + static_cast<double>(k) * period));
+    const auto at = std::llround(1e9 * (e.stand->measured.from + static_cast<double>(k) * period));
     while (row < time_ns.size() && time_ns[row] < at) ++row;
     if (row == time_ns.size()) return out;
     out.push_back(row);
@@ -39,14 +39,14 @@ std::vector<std::size_t> rows_of(const Experiment& e, const signals::Times& time
 Notes notes(const Experiment& e, const signals::Table& table) {
   Notes out;
   const std::vector<const signals::Series*> counts = counts_of(e, table);
-  if (counts.empty() || e.sweep.step > 0) return out;
+  if (counts.empty() || e.stand->sweep.step > 0) return out;
   const signals::Times& time_ns = counts[0]->time_ns;
   const std::vector<std::size_t> rows = rows_of(e, time_ns);
   for (const std::size_t row : rows) out.time.push_back(static_cast<double>(time_ns[row]) * 1e-9);
   for (std::size_t s = 0; s < counts.size(); ++s) {
     out.values.emplace_back();
     for (const std::size_t row : rows)
-      out.values[s].push_back(plant::shown(e.sensors[s], counts[s]->columns[0][row]));
+      out.values[s].push_back(robot::shown(e.stand->sensors[s], counts[s]->columns[0][row]));
   }
   return out;
 }
@@ -55,7 +55,7 @@ std::string measured_csv(const Experiment& e, const signals::Table& table) {
   const Notes read = notes(e, table);
   if (read.time.empty()) return {};
   std::string out = "time [s]";
-  for (const plant::Transducer& t : e.sensors)
+  for (const robot::Transducer& t : e.stand->sensors)
     out += fmt::format(",{} [{}]", t.name, unit_of(t.of));
   out += '\n';
   for (std::size_t row = 0; row < read.time.size(); ++row) {
@@ -67,4 +67,4 @@ std::string measured_csv(const Experiment& e, const signals::Table& table) {
   return out;
 }
 
-}  // namespace sinew::rig
+}  // namespace sinew::experiment

@@ -1,4 +1,12 @@
-#include "sinew/analysis/stand.h"
+// analysis/figures_stand.cpp - a run on the test stand in numbers, from its log alone.
+//
+//   stand.…    lengths, forces, pressures at their extremes, air used
+//   swing.…    of a load that swings freely: turns, period, and what [45]-[53] make of them
+//   pulsed.…   means and ripples of the last five periods of a pulsed valve
+//   track.…    length against the desired one
+//   sweep.…    settled lengths by duty, "sweep.42_5.length_m"
+//
+// docs/theory/test-stand.md has the definitions. A key that does not apply is absent.
 
 #include <fmt/format.h>
 
@@ -7,10 +15,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sinew/analysis/record/machine.h"
-#include "sinew/analysis/verdict/reported.fields.h"
+#include "sinew/analysis/figures.h"
 #include "sinew/analysis/warnings.h"
-#include "sinew/config/reader.h"
 
 namespace sinew::analysis {
 namespace {
@@ -29,7 +35,7 @@ const signals::Series* known(const signals::Table& table, const std::string& top
 
 struct Log {
   const signals::Table& table;
-  const StandFile& file;
+  const MachineStand& stand;
   Summary& summary;
   const signals::Times& time_ns;
   Column time;  // [s]
@@ -39,7 +45,7 @@ struct Log {
   // Values at `time`; nothing of what was recorded at other times.
   const Column* of_stand(const std::string& what) const { return at_time("/stand/" + what); }
   const Column* muscle(const std::string& what) const {
-    return at_time("/muscle/" + file.element + "/" + what);
+    return at_time("/muscle/" + stand.element.name + "/" + what);
   }
 
  private:
@@ -108,7 +114,7 @@ void add_swing(Log& log) {
   const Column* length = log.of_stand("length");
   const Column* speed = log.of_stand("velocity");
   const Column* mass = log.of_stand("mass");
-  if (log.file.drive != "none" || !mass || !length || !speed || length->empty()) return;
+  if (log.stand.drive != "none" || !mass || !length || !speed || length->empty()) return;
   if (mass->front() != mass->back() || speed->front() != 0) return;
   std::vector<Turn> turns{{0, length->front()}};
   for (const Turn& t : tops(log.time, *length)) turns.push_back(t);
@@ -135,7 +141,7 @@ struct Window {
 
 // The samples of the last five whole periods.
 Window last_periods(const Log& log) {
-  const double last = log.time.back(), period = log.file.period;
+  const double last = log.time.back(), period = log.stand.drive_period;
   const double whole = std::floor(last / period + 1e-6) * period;
   Window w;
   const auto sample = [&](double t) {
@@ -164,7 +170,8 @@ bool pulses(const std::string& drive) {
 }
 
 void add_pulsed(Log& log) {
-  if (!pulses(log.file.drive) || log.time.back() < 5 * log.file.period || log.time.size() < 2)
+  if (!pulses(log.stand.drive) || log.time.back() < 5 * log.stand.drive_period ||
+      log.time.size() < 2)
     return;
   const Window w = last_periods(log);
   add_ripple(log, w, log.of_stand("length"), "length_m", "length_ripple_m");
@@ -205,46 +212,25 @@ void add_sweep(const signals::Table& table, Summary& summary) {
 
 }  // namespace
 
-StandFile read_stand(const config::Node& root) {
-  StandFile f;
-  f.atmosphere = config::atmosphere_of(root);
-  config::Reader reader(root, {.atmosphere = f.atmosphere});
-  reader.text({.name = "title", .optional = true}, f.title);
-  reader.text({.name = "reproduces", .optional = true}, f.reproduces);
-  reader.group({.name = "element", .optional = true},
-               [&](auto& g) { g.text({.name = "name", .optional = true}, f.element); });
-  reader.group({.name = "drive", .optional = true}, [&](auto& g) {
-    g.text({.name = "kind", .optional = true}, f.drive);
-    g.number({.name = "period", .unit = "s", .min = 1e-4, .optional = true}, f.period);
-  });
-  reader.list({.name = "reported", .optional = true}, f.reported,
-              [&](auto& g, Reported& r) { analysis::fields(g, r, f.atmosphere); });
-  read_faults(reader, f.faults);
-  reader.finish_part();
-  mark_changed(f.reported, root);
-  return f;
-}
-
-Summary summarize(const signals::Table& table, const StandFile& file) {
+Summary summarize_stand(const signals::Table& table, const Machine& machine) {
   Summary summary;
-  summary.title = file.title;
-  summary.reproduces = file.reproduces;
-  summary.faults = file.faults;
+  summary.title = machine.title;
+  summary.reproduces = machine.reproduces;
+  summary.faults = machine.faults;
   add_sweep(table, summary);
   const signals::Series* rows = known(table, "/stand/length");
   if (!rows) rows = known(table, "/stand/force");
-  if (!rows) rows = known(table, "/muscle/" + file.element + "/pressure");
-  summary.warnings = texts(warnings(table, summary));
+  if (!rows) rows = known(table, "/muscle/" + machine.stand->element.name + "/pressure");
+  summary.warnings = texts(warnings(table, machine));
   if (!rows) return summary;
-  Log log{table, file, summary, rows->time_ns, Column(rows->time_ns.file())};
+  Log log{table, *machine.stand, summary, rows->time_ns, Column(rows->time_ns.file())};
   for (const std::int64_t ns : rows->time_ns)
     log.time.push_back(seconds_per_ns * static_cast<double>(ns));
-  summary.faults = begun_by(file.faults, log.time.back());
+  summary.faults = begun_by(machine.faults, log.time.back());
   add_stand(log);
   add_swing(log);
   add_pulsed(log);
   add_track(log);
-  summary.warnings = texts(warnings(table, summary));
   return summary;
 }
 

@@ -1,4 +1,4 @@
-// mechanism/driven/schedule.h - a quantity over time: straight lines between points, held after the
+// signals/schedule.h - a quantity over time: straight lines between points, held after the
 // last.
 //
 //   x(t) = x_i + (t - t_i) (x_i+1 - x_i)/(t_i+1 - t_i)
@@ -11,22 +11,22 @@
 #include <limits>
 #include <vector>
 
-namespace sinew::plant {
-
-struct Point {
-  double at = 0;     // [s]
-  double value = 0;  // in the SI unit of the quantity
-};
-
-// One of the pieces.
-struct Line {
-  double from = 0, value = 0, slope = 0;
-
-  // Returns its value at t.
-  double at(double t) const { return value + (t - from) * slope; }
-};
+namespace sinew::signals {
 
 struct Schedule {
+  struct Point {
+    double at = 0;     // [s]
+    double value = 0;  // in the SI unit of the quantity
+  };
+
+  // One of the straight lines.
+  struct Piece {
+    double from = 0, value = 0, slope = 0;
+
+    // Returns its value at t.
+    double at(double t) const { return value + (t - from) * slope; }
+  };
+
   std::vector<Point> points;
 
   Schedule() = default;
@@ -39,7 +39,7 @@ struct Schedule {
   bool moves_until(double t) const noexcept { return points.size() > 1 && t <= points.back().at; }
 
   // The piece that begins at t or holds there; 0 where there is no point.
-  Line piece(double t) const noexcept {
+  Piece piece(double t) const noexcept {
     const std::size_t next = after(t);
     if (points.empty()) return {};
     if (next == 0) return {t, points[0].value, 0.0};
@@ -72,4 +72,14 @@ struct Schedule {
   }
 };
 
-}  // namespace sinew::plant
+// Returns the points as steps: each value holds from its instant on.
+inline std::vector<Schedule::Point> steps_of(const std::vector<Schedule::Point>& points) {
+  std::vector<Schedule::Point> out;
+  for (const Schedule::Point& p : points) {
+    if (!out.empty()) out.push_back({p.at, out.back().value});
+    out.push_back(p);
+  }
+  return out;
+}
+
+}  // namespace sinew::signals

@@ -1,12 +1,12 @@
 // A transducer's errors, each against its line.
-#include "sinew/mechanism/slide/transducer.h"
+#include "sinew/robot/transducer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace sinew::plant::transducer_test {
+namespace sinew::robot::transducer_test {
 namespace {
 
 Transducer gauge() { return {.name = "gauge", .of = Transducer::Of::pressure, .high = 8e5}; }
@@ -59,4 +59,4 @@ TEST(Transducer, NoiseIsInItsUnit) {
 }
 
 }  // namespace
-}  // namespace sinew::plant::transducer_test
+}  // namespace sinew::robot::transducer_test
