@@ -14,6 +14,7 @@
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
+#include "sinew/run/setup/buildable.h"
 #include "thesis/out_dat/out_dat.h"
 #include "thesis/out_dat/ports.h"
 
@@ -47,7 +48,8 @@ void refuse_csv_options(const ExportOptions& options) {
 }
 
 experiment::Experiment experiment_of(const run::RecordedRun& run, const ExportOptions& options) {
-  return experiment::load(run::machine_of(run, options.machine).string());
+  const std::string file = run::machine_of(run, options.machine).string();
+  return run::buildable_robot(config::compose(file), file);
 }
 
 // Line by line, since a long run's text is longer than memory.

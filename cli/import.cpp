@@ -8,12 +8,13 @@
 #include "cli/run.h"
 #include "cli/table_options.h"
 #include "cli/terminal.h"
+#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/text_file.h"
 #include "sinew/recording/number.h"
 #include "sinew/run/folder/imported_run.h"
-#include "sinew/run/folder/runnable.h"
+#include "sinew/run/setup/buildable.h"
 #include "thesis/out_dat/out_dat.h"
 
 namespace sinew::cli {
@@ -89,7 +90,8 @@ run::Kept import_out_dat(const ImportOptions& options, const Messages& messages)
   if (request.files.size() > 1)
     config::fail({path, 0, 0}, "", "out.dat beside other files", "out.dat alone",
                  "an import of each");
-  const experiment::Experiment e = experiment::load(request.experiment, request.sets);
+  const experiment::Experiment e =
+      run::buildable_robot(config::compose(request.experiment, request.sets), request.experiment);
   const signals::Table table =
       thesis::parse_out_dat(config::read_text_file(path, "a log out.dat"), path, e);
   experiment::ImportedFile file = run::imported_file(path, "out.dat");

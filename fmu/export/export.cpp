@@ -106,7 +106,7 @@ Made make_machine(const Asked& asked) {
 }
 
 Made make(const Asked& asked) {
-  const std::string kind(config::format_kind(config::compose(asked.file, asked.sets)));
+  const std::string kind(config::tables_kind(config::compose(asked.file, asked.sets)));
   const bool of_machine =
       !asked.inputs.empty() || !asked.outputs.empty() || !asked.parameters.empty();
   const bool of_joint = !asked.joints.empty(), of_muscle = !asked.muscle.empty();

@@ -86,8 +86,7 @@ const config::Origin& origin_at(const HeldExperiment& held, const std::string& k
 // In SI; None where the key is there and nothing is set.
 py::object in_si(const HeldExperiment& held, const std::string& key) {
   const config::Origin& origin = origin_at(held, key);
-  const config::Node root =
-      experiment::values_in_si({std::string(experiment::kind_of(held.read)), held.read});
+  const config::Node root = experiment::values_in_si({"experiment", held.read});
   const config::Node* node = config::value_at(root, key);
   if (!node || (node->is_table() && !node->is_value_table())) return py::none();
   return value_of(*node, !origin.unit.empty());
@@ -243,9 +242,7 @@ void bind_experiment(py::module_& m) {
       .def(
           "to_dict",
           [](const HeldExperiment& e) {
-            return values_of(
-                experiment::values_in_si({std::string(experiment::kind_of(e.read)), e.read}),
-                e.read.origins);
+            return values_of(experiment::values_in_si({"experiment", e.read}), e.read.origins);
           },
           "Returns all values by their keys, in SI.")
       .def(

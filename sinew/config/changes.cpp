@@ -28,13 +28,14 @@ std::vector<std::string> segments(std::string_view path) {
 
 std::vector<std::string_view> names_of_kinds(const Changes& changes) {
   std::vector<std::string_view> names;
-  for (const Kind& kind : changes.kinds) names.push_back(kind.name);
+  for (const Kind& kind : changes.kinds)
+    if (kind.now.empty()) names.push_back(kind.name);
   return names;
 }
 
 std::string format_line(const Kind* kind) {
-  return fmt::format("format = \"sinew.{}/{}\"", kind ? kind->name : "experiment",
-                     kind ? kind->newest : 1);
+  if (!kind || !kind->now.empty()) return "format = \"sinew.experiment/1\"";
+  return fmt::format("format = \"sinew.{}/{}\"", kind->name, kind->newest);
 }
 
 }  // namespace
@@ -44,14 +45,15 @@ const Kind* Changes::find(std::string_view kind) const {
   return it == kinds.end() ? nullptr : &*it;
 }
 
-// Every format stands at its first number: no key has been taken away since.
+// Every format has its first number: no key has been taken away since. A test stand was a kind of
+// its own, before it became a machine of an experiment.
 const Changes& changes() {
   static const Changes all{.kinds = {{"robot"},
                                      {"actuator"},
                                      {"valves"},
                                      {"wiring"},
                                      {"experiment"},
-                                     {"rig"},
+                                     {"rig", 1, "experiment"},
                                      {"plan"},
                                      {"tuning"},
                                      {"settings"},
@@ -128,8 +130,8 @@ std::string_view likely_kind(const Node& root) {
   static constexpr Sign signs[] = {{"tune", "tuning"},
                                    {"vary", "plan"},
                                    {"experiment", "plan"},
-                                   {"element", "rig"},
-                                   {"load", "rig"},
+                                   {"element", "experiment"},
+                                   {"load", "experiment"},
                                    {"robot", "experiment"},
                                    {"phase", "experiment"},
                                    {"sequence", "experiment"},

@@ -28,7 +28,8 @@ struct KeyChange {
 // A kind of file, and the number of its newest format.
 struct Kind {
   std::string_view name;
-  int newest = 1;  // number
+  int newest = 1;             // number
+  std::string_view now = {};  // the kind that took its place, at its first number; empty: none
 };
 
 struct Changes {

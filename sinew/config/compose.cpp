@@ -271,7 +271,22 @@ void set_element(Node& table, std::string_view segment, std::string_view text,
 
 std::string_view format_kind(const Node& root) {
   const Node* node = root.find("format");
-  return node ? format_of(node->text).kind : std::string_view{};
+  if (!node) return {};
+  const std::string_view said = format_of(node->text).kind;
+  const Kind* kind = changes().find(said);
+  return kind && !kind->now.empty() ? kind->now : said;
+}
+
+bool is_on_stand(const Node& root) {
+  const Node* node = root.find("format");
+  for (const char* table : {"element", "load", "charge"})
+    if (root.find(table)) return true;
+  return node && format_of(node->text).kind == "rig";
+}
+
+std::string_view tables_kind(const Node& root) {
+  const std::string_view kind = format_kind(root);
+  return kind == "experiment" && is_on_stand(root) ? "rig" : kind;
 }
 
 void apply_set(Node& root, std::string_view set) {

@@ -107,14 +107,15 @@ void apply(const KeyChange& change, const std::string& name, Migrated& out, Prob
   out.edits.insert(out.edits.end(), edits.rbegin(), edits.rend());
 }
 
-void set_number(int number, Migrated& out) {
+// Writes the format that `out` has by its kind and number.
+void set_format(Migrated& out) {
   for (const KeyPlace& place : key_places(out.text)) {
     if (dotted(place.path) != "format") continue;
-    const std::size_t slash = out.text.find('/', place.value);
-    const std::size_t end = out.text.find_first_not_of("0123456789", slash + 1);
-    out.edits.push_back({place.line, fmt::format("sinew.{}/{}", out.kind, out.from),
-                         fmt::format("sinew.{}/{}", out.kind, number)});
-    out.text.replace(slash + 1, end - slash - 1, std::to_string(number));
+    const std::size_t begin = out.text.find("sinew.", place.value);
+    const std::size_t end = out.text.find_first_not_of("0123456789", out.text.find('/', begin) + 1);
+    const std::string is = fmt::format("sinew.{}/{}", out.kind, out.to);
+    out.edits.push_back({place.line, out.text.substr(begin, end - begin), is});
+    out.text.replace(begin, end - begin, is);
     return;
   }
 }
@@ -179,15 +180,21 @@ Migrated migrated(std::string_view text, const std::string& name, const Changes&
     out.from = out.to = format.number;
   }
 
-  const int newest = changes.find(out.kind)->newest;
+  out.was_kind = out.kind;
+  const Kind& kind = *changes.find(out.kind);
   Problems problems;
-  for (int number = std::max(out.from, 1) + 1; number <= newest; ++number) {
+  for (int number = std::max(out.from, 1) + 1; number <= kind.newest; ++number) {
     for (const KeyChange* change : changes_to(number, out.kind, changes))
       apply(*change, name, out, problems);
     out.to = number;
   }
   if (!problems.empty()) throw Error(problems);
-  if (out.to > std::max(out.from, 1)) set_number(out.to, out);
+  const bool replaced = !kind.now.empty();
+  if (replaced) {
+    out.kind = kind.now;
+    out.to = 1;
+  }
+  if (replaced || out.to > std::max(out.from, 1)) set_format(out);
   require_same_values(text, name, out);
   return out;
 }

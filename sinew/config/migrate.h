@@ -13,7 +13,8 @@ namespace sinew::config {
 // A file in today's format, and what became of its lines.
 struct Migrated {
   std::string text;
-  std::string kind;      // "robot"
+  std::string was_kind;  // "robot", by the old format
+  std::string kind;      // by the new one
   int from = 0, to = 0;  // number of its format; from 0: it did not say one
   // One line that reads otherwise.
   struct Edit {

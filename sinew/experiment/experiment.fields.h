@@ -82,7 +82,7 @@ void machine_fields(Visitor& v, Experiment& e) {
 // What a file of that kind says of the machine.
 template <class Visitor>
 void machine_fields(Visitor& v, std::string_view kind, Experiment& e) {
-  if (kind == "robot" || is_experiment(kind)) machine_fields(v, e);
+  if (kind == "robot" || kind == "experiment") machine_fields(v, e);
   if (kind == "actuator") actuator::fields(v, e.actuators);
   if (kind == "valves") gas::fields(v, e.valves);
   if (kind == "wiring") robot::fields(v, e.wiring);

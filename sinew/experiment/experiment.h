@@ -85,14 +85,6 @@ Experiment load(const config::Node& root, const std::string& path);
 // load(): a run is possible, the brain then aims at the nearest point that can be reached.
 void refuse_unreachable(const Experiment& experiment);
 
-// Returns whether a file of that kind says what is run.
-constexpr bool is_experiment(std::string_view kind) {
-  return kind == "experiment" || kind == "rig";
-}
-
-// Returns the kind of file that says it: "experiment", or "rig" of a test stand.
-std::string_view kind_of(const Experiment& experiment);
-
 // Returns the valve of that name, nullptr where there is none.
 const gas::Valve* find_valve(const Experiment& experiment, std::string_view name);
 

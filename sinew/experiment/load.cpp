@@ -48,11 +48,11 @@ bool in_robots(const std::string& file) {
 
 // What a file of that kind holds; the rest of the experiment keeps its default.
 Experiment read(const config::Node& root, std::string_view kind, const std::string& path) {
-  const bool runs = is_experiment(kind);
+  const bool runs = kind == "experiment";
   Experiment e;
   e.path = path;
   e.name = std::filesystem::path(path).stem().string();
-  if (kind == "rig") {
+  if (runs && config::is_on_stand(root)) {
     e.stand.emplace();
     e.log.period = 1e-3;
   }
@@ -77,14 +77,14 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
   e.warnings = reader.warnings();
   e.unsourced = reader.unsourced();
   e.plan.settle = e.start.settle;
-  if (kind == "experiment" || kind == "robot") read_timing(e);
+  if ((runs && !e.stand) || kind == "robot") read_timing(e);
   refuse_contradictions(kind, e);
   return e;
 }
 
 // The order in which a person reads it.
 void write(config::Writer& writer, std::string_view kind, Experiment& e) {
-  if (is_experiment(kind)) run_fields(writer, e);
+  if (kind == "experiment") run_fields(writer, e);
   machine_fields(writer, kind, e);
 }
 
@@ -96,11 +96,9 @@ Experiment load(const std::string& path, const std::vector<std::string>& sets) {
 
 Experiment load(const config::Node& root, const std::string& path) {
   const std::string_view kind = config::format_kind(root);
-  if (!is_experiment(kind)) throw config::Error(not_an_experiment(root, path));
+  if (kind != "experiment") throw config::Error(not_an_experiment(root, path));
   return read(root, kind, path);
 }
-
-std::string_view kind_of(const Experiment& e) { return e.stand ? "rig" : "experiment"; }
 
 const gas::Valve* find_valve(const Experiment& e, std::string_view name) {
   for (const gas::Valve& v : e.valves)
@@ -114,7 +112,7 @@ MachineFile load_machine_file(const std::string& path, const std::vector<std::st
 
 MachineFile load_machine_file(const config::Node& root, const std::string& path) {
   const std::string kind(config::format_kind(root));
-  if (!is_experiment(kind) && kind != "robot" && kind != "actuator" && kind != "valves" &&
+  if (kind != "experiment" && kind != "robot" && kind != "actuator" && kind != "valves" &&
       kind != "wiring")
     config::fail({path, 0, 0}, "format", config::in_quotes(kind),
                  "an experiment, robot, actuator, valves or wiring file");
@@ -140,14 +138,14 @@ std::string resolved(const MachineFile& file, const std::string& version) {
   config::Writer writer(&e.origins);
   writer.format(file.kind);
   std::string sinew = version;
-  if (is_experiment(file.kind))
+  if (file.kind == "experiment")
     writer.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, sinew);
   write(writer, file.kind, e);
   return writer.text();
 }
 
 std::string resolved(const Experiment& experiment, const std::string& version) {
-  return resolved(MachineFile{std::string(kind_of(experiment)), experiment}, version);
+  return resolved(MachineFile{"experiment", experiment}, version);
 }
 
 }  // namespace sinew::experiment

@@ -11,7 +11,7 @@
 namespace sinew::experiment {
 
 struct MachineFile {
-  std::string kind;       // "experiment", "rig", "robot", "actuator", "valves" or "wiring"
+  std::string kind;       // "experiment", "robot", "actuator", "valves" or "wiring"
   Experiment experiment;  // what the file does not say keeps its default
 };
 

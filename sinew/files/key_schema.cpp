@@ -191,7 +191,8 @@ void refuse_unknown(std::string_view kind) {
 
 std::string schema_of(std::string_view kind) {
   refuse_unknown(kind);
-  const std::string format = fmt::format("sinew.{}/1", kind);
+  const std::string format =
+      fmt::format("sinew.{}/1", kind == "rig" ? std::string_view("experiment") : kind);
   Place root;
   for (const std::string& one : kinds_within(kind))
     for (const Key& key : keys_of(one))

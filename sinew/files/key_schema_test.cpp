@@ -126,7 +126,7 @@ TEST(KeySchema, RefusesWhatIsNoFileOfOurs) {
   EXPECT_EQ(wrong(format + "gravity = \"9.81 m/s2\""), "");
   EXPECT_EQ(wrong(format + "gravity = { value = \"9.81 m/s2\", source = \"here\" }"), "");
   EXPECT_THAT(wrong("gravity = \"9.81 m/s2\""), HasSubstr("no format"));
-  EXPECT_THAT(wrong("format = \"sinew.rig/1\""), HasSubstr("another constant"));
+  EXPECT_THAT(wrong("format = \"sinew.plan/1\""), HasSubstr("another constant"));
   for (const auto& [text, what] :
        {std::pair{"gravitation = \"9.81 m/s2\"", "an unknown key"},
         {"gravity = 9.81", "another type"},

@@ -53,7 +53,7 @@ void experiment_tables(Visitor& v, bool on_stand) {
 template <class Visitor>
 void visit_tables(Visitor& v, std::string_view kind) {
   if (kind == "robot") return robot_tables(v);
-  if (experiment::is_experiment(kind)) return experiment_tables(v, kind == "rig");
+  if (kind == "experiment" || kind == "rig") return experiment_tables(v, kind == "rig");
   if (kind == "actuator") {
     std::vector<actuator::Actuator> actuators;
     return actuator::fields(v, actuators);

@@ -18,8 +18,8 @@ inline std::map<std::string, std::string> shipped_files() {
     const std::string root = sinew::test::source_dir() + "/" + folder;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
       if (entry.path().extension() != ".toml") continue;
-      const config::Node file = config::parse_file(entry.path().string());
-      out[entry.path().string()] = config::format_kind(file);
+      const config::Node file = config::compose(entry.path().string());
+      out[entry.path().string()] = config::tables_kind(file);
     }
   }
   return out;

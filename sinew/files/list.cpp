@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
@@ -29,7 +30,7 @@ constexpr std::uintmax_t largest = 1'000'000;
 
 constexpr std::size_t longest_title = 100;
 
-// The kind of `format = "sinew.rig/1"`, which stands before the first table.
+// The kind of `format = "sinew.robot/1"`, which stands before the first table.
 std::string_view kind_of_format(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = config::trimmed(text.substr(0, text.find('\n')));
@@ -81,9 +82,20 @@ std::string first_sentence(std::string_view text) {
   return out;
 }
 
+// Returns whether the experiment, or the one that it changes, is on a test stand.
+bool is_of_stand(const config::Node& root, const fs::path& file) {
+  if (config::is_on_stand(root)) return true;
+  const config::Node* base = root.find("base");
+  std::error_code none;
+  const fs::path changed = base ? file.parent_path() / base->text : fs::path();
+  return fs::is_regular_file(changed, none) &&
+         config::is_on_stand(config::parse_file(changed.string()));
+}
+
 void read_title(const fs::path& file, std::string_view text, Listed& out) {
   try {
     const config::Node root = config::parse_file(file.string());
+    if (out.kind == "experiments" && is_of_stand(root, file)) out.kind = "rigs";
     out.title = first_sentence(text);
     for (const char* key : {"name", "title"}) {
       const config::Node* node = root.find(key);

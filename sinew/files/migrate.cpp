@@ -86,7 +86,7 @@ Migration migrate(const std::string& path, const MigrateOptions& options) {
   }
   const std::string old_text = config::read_text_file(path, "a TOML file");
   const config::Migrated migrated = config::migrated(old_text, path);
-  out.was = format_text(migrated.kind, migrated.from);
+  out.was = format_text(migrated.was_kind, migrated.from);
   out.is = format_text(migrated.kind, migrated.to);
   if (migrated.edits.empty()) return out;
   for (const auto& edit : migrated.edits) out.changes.push_back(in_words(edit));

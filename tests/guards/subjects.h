@@ -29,7 +29,7 @@ struct Subject {
 inline Subject subject(const std::filesystem::path& file) {
   Subject out{.name = file.stem().string(), .rig = false, .root = {}, .fields = {}};
   const config::Node composed = config::compose(file.string());
-  out.rig = config::format_kind(composed) == "rig";
+  out.rig = config::is_on_stand(composed);
   Lister lister;
   experiment::Experiment e = experiment::load(composed, file.string());
   const std::string text = experiment::resolved(e, "0");

@@ -328,7 +328,7 @@ Subject driven_length() {
 0.7007,0.088
 1.1,0.081
 )");
-  plant::Schedule length;
+  signals::Schedule length;
   std::string row;
   std::getline(csv, row);
   while (std::getline(csv, row)) {

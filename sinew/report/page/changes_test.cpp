@@ -54,7 +54,7 @@ std::size_t count(const std::string& text, std::string_view part) {
 
 TEST(Picture, IsOfTheStandOrOfARecordingWhereThereIsNoRobot) {
   const std::string stand =
-      picture(config::parse_text("format = \"sinew.rig/1\"\n[element]\n", "resolved.toml"));
+      picture(config::parse_text("format = \"sinew.experiment/1\"\n[element]\n", "resolved.toml"));
   const std::string curve = picture(config::parse_text("title = \"a log\"", "resolved.toml"));
   for (const std::string& svg : {stand, curve}) {
     EXPECT_TRUE(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\""));

@@ -60,7 +60,7 @@ MuscleSetup of_machine(const experiment::MachineFile& file, const std::string& p
 
 MuscleSetup of_tree(const config::Node& root, const std::string& path, const std::string& name) {
   const std::string kind(config::format_kind(root));
-  if (kind != "robot" && !experiment::is_experiment(kind))
+  if (kind != "robot" && kind != "experiment")
     config::fail({path, 0, 0}, "format", config::in_quotes(kind),
                  "a rig, robot or experiment file");
   const experiment::MachineFile file = experiment::load_machine_file(root, path);

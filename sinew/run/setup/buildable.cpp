@@ -25,7 +25,7 @@ void refuse_unbuildable(const Experiment& e) {
 }
 
 void refuse_unbuildable(const experiment::MachineFile& file) {
-  if (experiment::is_experiment(file.kind)) return refuse_unbuildable(file.experiment);
+  if (file.kind == "experiment") return refuse_unbuildable(file.experiment);
   if (file.kind == "robot")
     refuse(control::misfits(installation(file.experiment)), file.experiment);
 }

@@ -221,8 +221,8 @@ void Simulation::release(std::string_view key, std::string_view leg) {
 // The values alone: what a file says of them is no part of the machine.
 std::uint64_t Simulation::model() {
   if (model_) return *model_;
-  const std::string values = config::to_toml(experiment::values_in_si(
-      {std::string(experiment::kind_of(experiment_)), experiment::without_files(experiment_)}));
+  const std::string values = config::to_toml(
+      experiment::values_in_si({"experiment", experiment::without_files(experiment_)}));
   const std::size_t sizes[] = {save_size()};
   model_ =
       units::hash(std::as_bytes(std::span(sizes)), units::hash(values, units::hash(SINEW_VERSION)));
