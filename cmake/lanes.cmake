@@ -11,6 +11,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     if(SINEW_TESTS AND NOT SINEW_SANITIZE)
       add_test(NAME "world: ${width} lanes have their names"
                COMMAND ${PROJECT_SOURCE_DIR}/tools/own-symbols.sh $<TARGET_FILE:sinew_world> ${width})
+      set_tests_properties("world: ${width} lanes have their names" PROPERTIES LABELS tests)
     endif()
   endforeach()
 endif()

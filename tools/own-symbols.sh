@@ -17,7 +17,7 @@ object=lanes_$2.cpp.o
 (cd "$folder" && ar x "$1" "$object")
 
 shared=$(nm --defined-only --extern-only --format=posix "$folder/$object" | cut -d ' ' -f 1)
-strangers=$(grep -Fv "Li$2E" <<<"$shared" | grep -vx DW.ref.__gxx_personality_v0 || true)
+strangers=$(grep -Fv "Li$2E" <<<"$shared" | grep -vxE 'DW\.ref\.__gxx_personality_v0|__clang_call_terminate' || true)
 if [[ -z $shared ]]; then
   echo "$object: defines nothing"
   exit 1

@@ -95,4 +95,19 @@ const air::Failure& Machine::failure() const noexcept {
   return *std::visit([](const auto& world) { return &world.failure(); }, world_);
 }
 
+// The worlds, compiled once.
+template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
+template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
+template class BodyMechanism<2, 4, 8>;
+template class BodyMechanism<3, 2, 4>;
+template class BodyMechanism<4, 4, 8>;
+template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
+template class World<BodyMechanism<3, 2, 4>, air::AirNetwork<4>>;
+template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
+template class BodyMechanism<8, 8, 8>;
+template class BodyMechanism<most_joints, robot::max_discs, most_muscles>;
+template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
+template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
+                     air::AirNetwork<most_muscles>>;
+
 }  // namespace sinew::plant

@@ -10,10 +10,6 @@
 
 namespace sinew::plant {
 
-// Static length at which the load hangs, valves holding the start's pressure, without friction [m].
-// Throws std::invalid_argument where there is none.
-double hanging_length(const StandSetup& setup);
-
 using Stand = World<SlideMechanism, StandAir>;
 extern template class World<SlideMechanism, StandAir>;
 

@@ -7,6 +7,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::identify {
 
@@ -71,10 +72,11 @@ class Motion {
     const auto moved = [&](const State& by, double t) {
       return State{s.length + t * by.length, s.velocity + t * by.velocity};
     };
-    const State k1 = slope(s), k2 = slope(moved(k1, dt / 2)), k3 = slope(moved(k2, dt / 2)),
-                k4 = slope(moved(k3, dt));
-    return {s.length + dt / 6 * (k1.length + 2 * k2.length + 2 * k3.length + k4.length),
-            s.velocity + dt / 6 * (k1.velocity + 2 * k2.velocity + 2 * k3.velocity + k4.velocity)};
+    State k[4] = {slope(s)};
+    for (int i = 1; i < 4; ++i) k[i] = slope(moved(k[i - 1], i < 3 ? dt / 2 : dt));
+    const units::StageMean mean(dt);
+    return {s.length + mean([&](int i) { return k[i].length; }),
+            s.velocity + mean([&](int i) { return k[i].velocity; })};
   }
 
   // The part of dt after which the speed is zero: between `s` and `next` it changes sides. By false

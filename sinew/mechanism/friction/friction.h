@@ -12,10 +12,19 @@
 // change as little as they must from the last step's, so that the shares are a matter of history
 // and not of the step.
 //
-// friction_lanes.h solves the problems of machines side by side.
+// Machines side by side have the bits of the scalar solution in each lane.
+// Which contacts stick differs from lane to lane. So every row is there that sticks in one of them,
+// and in the lanes where it does not it is that of the unit matrix with nothing on its right side:
+//
+//   L_ab = L_ba = 0, pivot = 1, x = 0
+//
+// which leaves the others' numbers as they are: less nothing, in the same order. Lanes whose sides
+// agree stand still until the last one's do; one that needs very long is solved by itself.
 #pragma once
 
 #include <array>
+
+#include "sinew/units/pack.h"
 
 namespace sinew::plant {
 
@@ -128,6 +137,130 @@ template <int C>
   }
   for (int i = 0; i < count; ++i)
     force[i] = force[i] < -p.bound[i] ? -p.bound[i] : force[i] > p.bound[i] ? p.bound[i] : force[i];
+  return force;
+}
+
+namespace detail {
+
+// The problem, and what is known of its solution so far.
+template <int C, int W>
+class FrictionLanes {
+ public:
+  using S = units::Pack<W>;
+  using Mask = units::PackMask<W>;
+  using Forces = std::array<S, C>;
+
+  FrictionLanes(const FrictionProblem<C, S>& problem, const Forces& last)
+      : p_(problem), force_(last) {
+    for (int i = 0; i < C; ++i) {
+      const S &b = p_.bound[i], f = force_[i];
+      const Mask idle = b <= 0.0, free = (f < b) & (f > -b);
+      sticks_[i] = free & !idle;
+      slides_[i] = !(free | idle);
+      const S bounded = units::select(free, f, units::select(f > 0.0, b, -b));
+      force_[i] = units::select(idle, 0.0, bounded);
+    }
+  }
+
+  const Forces& force() const { return force_; }
+  const Mask& unsettled() const { return unsettled_; }
+
+  // One change of all contacts that have to change.
+  void change() {
+    solve_sticking();
+    settle();
+  }
+
+ private:
+  S slip_under(int i) const {
+    S s = p_.slip[i];
+    for (int j = 0; j < C; ++j) s += p_.response[i][j] * force_[j];
+    return s;
+  }
+
+  void solve_sticking() {
+    // The rows that stick in some lane; the others' numbers would be nothing in all of them.
+    std::array<int, C> index;
+    std::array<Mask, C> row;
+    int n = 0;
+    S largest = 0;
+    for (int i = 0; i < C; ++i) {
+      const Mask sticks = sticks_[i] & unsettled_;
+      if (!units::any(sticks)) continue;
+      const S& own = p_.response[i][i];
+      largest = units::select(sticks & (own > largest), own, largest);
+      row[n] = sticks;
+      index[n++] = i;
+    }
+
+    std::array<std::array<S, C>, C> lower;
+    std::array<S, C> pivot, inverse, x;
+    const S damping = 1e-9 * largest;
+    for (int a = 0; a < n; ++a) {
+      const int i = index[a];
+      for (int b = 0; b <= a; ++b) {
+        S m = p_.response[i][index[b]];
+        for (int k = 0; k < b; ++k) m -= lower[a][k] * lower[b][k] * pivot[k];
+        if (a == b) {
+          pivot[a] = units::select(row[a], units::select(m > 0.0, m, 0.0) + damping, 1.0);
+          inverse[a] = 1.0 / pivot[a];
+        } else {
+          lower[a][b] = units::select(row[a] & row[b], m * inverse[b], 0.0);
+        }
+      }
+      x[a] = -slip_under(i);
+      for (int k = 0; k < a; ++k) x[a] -= lower[a][k] * x[k];
+      x[a] = units::select(row[a], x[a], 0.0);
+    }
+    for (int a = n - 1; a >= 0; --a) {
+      x[a] *= inverse[a];
+      for (int k = a + 1; k < n; ++k) x[a] -= lower[k][a] * x[k];
+    }
+    for (int a = 0; a < n; ++a) {
+      S& force = force_[index[a]];
+      force = units::select(row[a], force + x[a], force);
+    }
+  }
+
+  // Lets go what asks for more than its bound, holds what slides the way it is pushed.
+  void settle() {
+    Mask changed = unsettled_ ^ unsettled_;
+    for (int i = 0; i < C; ++i) {
+      const S &b = p_.bound[i], f = force_[i];
+      const Mask lets_go = sticks_[i] & ((f > b) | (f < -b)) & unsettled_;
+      Mask holds = slides_[i] & unsettled_;
+      if (units::any(holds)) holds = holds & (slip_under(i) * f > 0.0);
+      force_[i] = units::select(lets_go, units::select(f > 0.0, b, -b), f);
+      sticks_[i] = (sticks_[i] & !lets_go) | holds;
+      slides_[i] = (slides_[i] & !holds) | lets_go;
+      changed = changed | lets_go | holds;
+    }
+    unsettled_ = changed;
+  }
+
+  const FrictionProblem<C, S>& p_;
+  Forces force_;
+  std::array<Mask, C> sticks_, slides_;
+  Mask unsettled_ = S(0.0) == S(0.0);
+};
+
+}  // namespace detail
+
+template <int C, int W>
+std::array<units::Pack<W>, C> solve_friction(const FrictionProblem<C, units::Pack<W>>& p,
+                                             const std::array<units::Pack<W>, C>& last) {
+  constexpr int most = C < 4 ? 2 * C : 8;  // rounds side by side; all of them change all at once
+  detail::FrictionLanes<C, W> lanes(p, last);
+  for (int k = 0; k < most && units::any(lanes.unsettled()); ++k) lanes.change();
+  std::array<units::Pack<W>, C> force = lanes.force();
+  if (!units::any(lanes.unsettled())) return force;
+
+  for (int k = 0; k < W; ++k) {
+    if (!lanes.unsettled()[k]) continue;
+    const auto alone = solve_friction<C>(units::lane_of<FrictionProblem<C>>(p, k),
+                                         units::lane_of<std::array<double, C>>(last, k));
+    for (int c = 0; c < C; ++c) force[c].set(k, alone[c]);
+  }
   return force;
 }
 

@@ -14,7 +14,6 @@
 #include <limits>
 
 #include "sinew/mechanism/friction/friction.h"
-#include "sinew/mechanism/friction/friction_lanes.h"
 #include "sinew/mechanism/planar/chain.h"
 #include "sinew/robot/robot.h"
 

@@ -1,9 +1,146 @@
 #include "sinew/mechanism/slide/slide_mechanism.h"
 
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "sinew/actuator/body.h"
+#include "sinew/actuator/braid.h"
 #include "sinew/actuator/stiffness.h"
-#include "sinew/mechanism/slide/prepare.h"
 
 namespace sinew::plant {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("test stand: " + what);
+}
+
+void refuse_schedule(const Schedule& s, const char* name, double least) {
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    if (!(s.points[i].value > least) || !std::isfinite(s.points[i].value))
+      refuse(std::string(name) + (least == 0 ? " must be above 0" : " must be finite"));
+    if (i > 0 && s.points[i].at < s.points[i - 1].at)
+      refuse(std::string(name) + " goes back in time");
+  }
+}
+
+void refuse_contradictions(const StandSetup& s) {
+  const bool driven = s.load.mode == Load::Mode::driven;
+  if (!(s.step > 0)) refuse("its step must be above 0");
+  if (!(s.accuracy > 0)) refuse("its accuracy must be above 0");
+  if (driven && s.load.length.empty()) refuse("a driven load has a length over time");
+  if (!driven && s.load.mass.empty()) refuse("a hanging load has a mass");
+  refuse_schedule(s.load.mass, "the mass", 0);
+  refuse_schedule(s.load.length, "the length", 0);
+  refuse_schedule(s.load.force, "the force", -infinite);
+  refuse_schedule(s.charge.pressure, "the regulated pressure", 0);
+  if (s.charge.mode == Charge::Mode::regulated && s.charge.pressure.empty())
+    refuse("a regulated stand has a pressure over time");
+  if (s.charge.mode == Charge::Mode::regulated && !s.faults.empty())
+    refuse("nothing that breaks changes a prescribed pressure");
+  if (!(s.start.pressure > 0)) refuse("the pressure at the start must be above 0");
+  if (driven && (s.start.displacement != 0 || s.start.length != 0))
+    refuse("a driven load starts where its length says");
+  if (s.cylinder && s.cylinder->mode != air::Cylinder::Mode::single_acting)
+    refuse("its cylinder is single-acting");
+  if (!s.cylinder && !(s.muscle.actuator.braid.turns > 0)) refuse("its muscle has no braid");
+  for (const Transducer& t : s.transducers)
+    if (!(t.high > t.low)) refuse("transducer " + t.name + " has no range");
+}
+
+// Shut or regulated valves are no valves of the muscle's: a 3-way one would let the air out.
+StandSetup with_valves(StandSetup s) {
+  refuse_contradictions(s);
+  if (s.charge.mode == Charge::Mode::valves) return s;
+  s.muscle.inlet = s.muscle.exhaust = gas::Valve{};
+  if (s.cylinder) s.cylinder->inlet[air::up] = s.cylinder->exhaust[air::up] = gas::Valve{};
+  return s;
+}
+
+// Lengths at which a muscle may hang or be let go.
+struct Reach {
+  double low, high;  // [m]
+};
+Reach reach(const StandSetup& s) {
+  const actuator::Braid& braid = s.muscle.actuator.braid;
+  return {0.5 * actuator::shortest_length(braid), 1.5 * braid.thread_length};
+}
+
+// Where the threads lie straight a muscle has no volume, and without hose and fittings no room for
+// its air: its pressure would be no number.
+void refuse_without_air(const StandSetup& s, double length) {
+  const double room =
+      s.muscle.count * actuator::volume(s.muscle.actuator, length) + s.muscle.external_volume;
+  if (s.cylinder || room > 0) return;
+  refuse("at a length of " + std::to_string(length) +
+         " m its muscle has no room for air: give an external_volume above 0, or stay shorter");
+}
+
+}  // namespace
+
+double hanging_length(const StandSetup& setup) {
+  if (setup.cylinder) refuse("an air cylinder at one pressure hangs nowhere: give start.length");
+  StandSetup s = setup;
+  s.muscle.actuator.loss.stick = true;  // the sign of no speed would be a force
+  // At one pressure the room for air takes no part; beyond the threads there must be some.
+  if (!(s.muscle.external_volume > 0)) s.muscle.external_volume = 1e-6;
+  using Air = air::AirNetwork<4>;
+  const Air network = air_of(s);
+  const Air::Valves valves = network.valves_at_rest();
+  const double weight = s.load.mass.at(0) * s.load.gravity + s.load.force.at(0);
+  const auto surplus = [&](double length) {
+    Air::Ends ends{};
+    ends.length.of.fill(length);
+    const Air::State air = network.initial(s.start.pressure, ends.length, 0);
+    const Air::Memory memory = network.memory_at_rest(s.start.pressure, ends.length);
+    Air::Answer pull;
+    network.evaluate(0, ends, air, valves, memory, pull);
+    return pull.clamped[0] - weight;
+  };
+  auto [low, high] = reach(s);
+  if (!(surplus(low) < 0 && surplus(high) > 0))
+    refuse("its load hangs nowhere between half the shortest length and 1.5 threads");
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (surplus(middle) < 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+namespace {
+
+// Returns the set-up with the length at which the stand starts, and without valves where the air
+// does not come by them. Throws std::invalid_argument for one that is no stand.
+StandSetup prepared(const StandSetup& setup) {
+  StandSetup s = with_valves(setup);
+  const bool driven = s.load.mode == Load::Mode::driven;
+  StandStart& start = s.start;
+  if (s.charge.mode == Charge::Mode::regulated) start.pressure = s.charge.pressure.at(0);
+  if (driven)
+    start.length = s.load.length.at(0);
+  else if (!(start.length > 0))
+    start.length = hanging_length(s);
+  if (s.cylinder) s.cylinder->initial_pressure[air::up] = start.pressure;
+
+  const double first = start.length + start.displacement;
+  refuse_without_air(s, start.length);
+  refuse_without_air(s, first);
+  const Reach r = reach(s);
+  for (const Schedule::Point& p : s.load.length.points) {
+    refuse_without_air(s, p.value);
+    if (!s.cylinder && (p.value < r.low || p.value > r.high))
+      refuse("a driven length of " + std::to_string(p.value) +
+             " m is beyond half the shortest length and 1.5 threads of its muscle");
+  }
+  if (!s.cylinder && !driven && !(first >= r.low && first <= r.high))
+    refuse("it starts beyond half the shortest length and 1.5 threads");
+  return s;
+}
+
+}  // namespace
 
 SlideMechanism::SlideMechanism(const Setup& setup)
     : setup_(prepared(setup)),

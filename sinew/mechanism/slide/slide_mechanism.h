@@ -246,4 +246,8 @@ class SlideMechanism {
   double shortest_ = 0, longest_ = 0;  // lengths whose law holds on it [m]
 };
 
+// Static length at which the load hangs, valves holding the start's pressure, without friction [m].
+// Throws std::invalid_argument where there is none.
+double hanging_length(const StandSetup& setup);
+
 }  // namespace sinew::plant
