@@ -25,8 +25,8 @@ struct AnalyzeOptions {
 ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const signals::Table& table,
               analysis::Machine machine, const config::UnitsToShow& units) {
   if (!table.complete) machine.reported.clear();
-  analysis::Summary summary = analysis::summarize(table, machine);
-  summary.cut_off = !table.complete;
+  const analysis::Analysis a(table, std::move(machine));
+  const analysis::Summary& summary = a.summary;
   for (const std::string& text : summary.warnings) messages.warning(text);
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
@@ -36,11 +36,11 @@ ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const sig
     run::write_file(options.out, json);
   }
   if (options.verdicts) {
-    fmt::print("{}\n", report::to_json(compare(summary, machine.reported, machine.atmosphere)));
+    fmt::print("{}\n", report::to_json(a.verdicts));
   } else if (options.json) {
     fmt::print("{}", json);
   } else {
-    print_verdicts(summary, machine, units.asked ? &units.units : nullptr);
+    print_verdicts(summary, a.machine, units.asked ? &units.units : nullptr);
   }
   return ok;
 }

@@ -40,21 +40,12 @@ py::object parsed(const std::string& json) {
   return py::module_::import("json").attr("loads")(json);
 }
 
-void sum_up_as(Recording& recording, analysis::Machine machine) {
-  if (!recording.table.complete) machine.reported.clear();
-  analysis::Summary summary = analysis::summarize(recording.table, machine);
-  summary.cut_off = !recording.table.complete;
-  recording.warnings = summary.warnings;
-  recording.summary = to_json(summary);
-  recording.verdicts = report::to_json(compare(summary, machine.reported, machine.atmosphere));
-}
-
 std::string page(const Recording& recording) {
   if (recording.name.empty())
     throw std::invalid_argument("page: found what follows from a run; expected the run itself");
   // With the lock: samples that stand in a file are read by one thread at a time.
   return report::page(
-      {.table = recording.table, .resolved = recording.resolved, .name = recording.name});
+      {.analysis = *recording.analysis, .resolved = recording.resolved, .name = recording.name});
 }
 
 // A cell of a notebook shows the page within.
@@ -64,11 +55,10 @@ py::object cell(const Recording& recording) {
 }
 
 Pointer derived(const Pointer& of) {
-  if (of->machine && of->machine->stand)
+  if (of->analysis && of->analysis->machine.stand)
     throw std::invalid_argument("derived: found a run of a test stand; expected one of a machine");
   auto out = std::make_shared<Recording>();
-  out->table = analysis::derive(of->table, *of->machine);
-  out->machine = of->machine;
+  out->table = of->analysis->derived;
   out->summary = of->summary;
   out->verdicts = of->verdicts;
   out->folder = of->folder;
@@ -85,8 +75,12 @@ py::object in_a_cell(const std::string& page) {
 }
 
 void sum_up(Recording& recording) {
-  recording.machine = analysis::read_machine(recording.resolved);
-  sum_up_as(recording, *recording.machine);
+  recording.analysis = std::make_unique<analysis::Analysis>(
+      recording.table, analysis::read_machine(recording.resolved));
+  const analysis::Analysis& a = *recording.analysis;
+  recording.warnings = a.summary.warnings;
+  recording.summary = to_json(a.summary);
+  recording.verdicts = report::to_json(a.verdicts);
 }
 
 std::vector<Recording::Channel> Recording::channels() const {

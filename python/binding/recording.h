@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "python/binding/bind.h"
-#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/summary.h"
 #include "sinew/config/node.h"
 #include "sinew/signals/table.h"
 
@@ -19,9 +19,10 @@ namespace sinew::python {
 class Recording {
  public:
   signals::Table table;
-  std::string summary;                       // summary.json
-  std::string verdicts;                      // what is reported of the run, beside it: JSON
-  std::optional<analysis::Machine> machine;  // what its numbers mean
+  // What follows from the table; nullptr where the table follows from a run itself.
+  std::unique_ptr<const analysis::Analysis> analysis;
+  std::string summary;   // summary.json
+  std::string verdicts;  // what is reported of the run, beside it: JSON
   std::vector<std::string> warnings;
   config::Node resolved;  // what was run, as resolved.toml says it
   std::string name;       // of the experiment
@@ -48,8 +49,8 @@ class Recording {
   std::map<std::size_t, std::vector<double>> times_;
 };
 
-// Fills what follows from table and `resolved`: the machine, summary and verdicts; a part of a run
-// has no verdicts.
+// Fills what follows from table and `resolved`, which both stay: summary and verdicts; a part of a
+// run has no verdicts.
 void sum_up(Recording& recording);
 
 // Returns a page as HTML that a cell of a notebook shows.

@@ -1,5 +1,6 @@
 #include "sinew/analysis/summary.h"
 
+#include <utility>
 #include <vector>
 
 #include "sinew/analysis/figures.h"
@@ -8,21 +9,12 @@
 
 namespace sinew::analysis {
 
-Summary summarize(const signals::Table& table, const Machine& machine) {
-  if (machine.stand) return summarize_stand(table, machine);
-  const signals::Table derived = derive(table, machine);
-  const Record record(table, machine, &derived);
-  Summary summary;
-  summary.title = machine.title;
-  summary.reproduces = machine.reproduces;
-  summary.warnings = texts(warnings(table, machine));
-  if (record.rows() == 0) return summary;
-  summary.faults = begun_by(machine.faults, record.time(record.rows() - 1));
+namespace {
 
-  Figures figures{machine, record, summary};
+void add_figures(Figures& figures, const signals::Table& table, const signals::Table& derived) {
   add_run(figures);
   add_trolley(figures);
-  const bool one_leg = machine.robot.legs.empty();
+  const bool one_leg = figures.machine.robot.legs.empty();
   if (one_leg) {
     add_joints(figures);
     add_muscles(figures);
@@ -38,20 +30,47 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   add_machine(figures);
   if (one_leg) add_phases(figures);
   add_legs(figures, table, derived);
-  add_supervision(figures);
+}
+
+Summary summary_of(const Analysis& a) {
+  const bool whole = a.ended.empty();
+  Summary summary;
+  if (a.machine.stand && whole) {
+    summary = summarize_stand(a.table, a.machine);
+  } else {
+    summary.title = a.machine.title;
+    if (whole) summary.reproduces = a.machine.reproduces;
+    summary.warnings = texts(a.warnings);
+    if (a.record.rows() > 0) {
+      summary.faults = begun_by(a.machine.faults, a.record.time(a.record.rows() - 1));
+      Figures figures{a.machine, a.record, summary};
+      if (whole) add_figures(figures, a.table, a.derived);
+      add_supervision(figures);
+    }
+  }
+  summary.cut_off = !a.table.complete;
   return summary;
 }
 
-Summary summarize_trip(const signals::Table& table, const Machine& machine) {
-  const Record record(table, machine);
-  Summary summary;
-  summary.title = machine.title;
-  summary.warnings = texts(warnings(table, machine));
-  if (record.rows() == 0) return summary;
-  summary.faults = begun_by(machine.faults, record.time(record.rows() - 1));
-  Figures figures{machine, record, summary};
-  add_supervision(figures);
-  return summary;
+std::vector<Verdict> verdicts_of(const Analysis& a) {
+  if (!a.ended.empty() || !a.table.complete) return {};
+  return compare(a.summary, a.machine.reported, a.machine.atmosphere);
+}
+
+}  // namespace
+
+Analysis::Analysis(const signals::Table& of, Machine its, std::string why)
+    : table(of),
+      ended(std::move(why)),
+      machine(std::move(its)),
+      derived(derive(table, machine)),
+      record(table, machine, &derived),
+      warnings(analysis::warnings(table, machine)),
+      summary(summary_of(*this)),
+      verdicts(verdicts_of(*this)) {}
+
+Summary summarize(const signals::Table& table, const Machine& machine) {
+  return Analysis(table, machine).summary;
 }
 
 }  // namespace sinew::analysis

@@ -1,17 +1,40 @@
 // analysis/summary.h - from a log to a run in numbers.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
+#include "sinew/analysis/verdict/compare.h"
 #include "sinew/analysis/verdict/summary.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
+// What follows from a run's channels and its description. It is made once and handed to summary,
+// page, figures and Python.
+struct Analysis {
+  // Makes all of it of a table that outlives it. `why`: what ended the run before its time, so that
+  // its summary has counts and the cause, without a whole run's figures; empty for other runs. What
+  // is reported is of whole runs: of a part of one, also by a log that was cut off, there are no
+  // verdicts.
+  Analysis(const signals::Table& table, Machine machine, std::string why = "");
+  Analysis(const Analysis&) = delete;
+  Analysis& operator=(const Analysis&) = delete;
+
+  const signals::Table& table;
+  const std::string ended;  // `why`
+  const Machine machine;
+  const signals::Table derived;  // channels that follow from those of the table
+  const Record record;           // of both
+  const std::vector<Warning> warnings;
+  const Summary summary;
+  const std::vector<Verdict> verdicts;
+};
+
 // Returns the figures of a whole run, and its warnings.
 Summary summarize(const signals::Table&, const Machine&);
-
-// Returns the counts and the cause of a run that its supervisor ended, without a whole run's
-// figures.
-Summary summarize_trip(const signals::Table&, const Machine&);
 
 }  // namespace sinew::analysis

@@ -19,15 +19,12 @@ std::string file_of(const std::string& name) { return "experiments/" + name + ".
 
 LegRun::LegRun(const Sources& from, const std::string& name)
     : file_(file_of(name)),
-      machine_(analysis::read_machine(config::compose(from.path(file_), {}))),
       table_(run::run(experiment::load(from.path(file_))).table),
-      derived_(analysis::derive(table_, machine_)),
-      record_(table_, machine_, &derived_),
-      summary_(analysis::summarize(table_, machine_)),
-      start_(record_.sequence_start()) {}
+      analysis_(table_, analysis::read_machine(config::compose(from.path(file_), {}))),
+      start_(analysis_.record.sequence_start()) {}
 
 double LegRun::summary(std::string_view key) const {
-  const double* value = summary_.find(key);
+  const double* value = analysis_.summary.find(key);
   return value ? *value : std::nan("");
 }
 
@@ -38,17 +35,18 @@ std::string LegRun::caption(const std::string& what) const {
       what, file_);
 }
 
-Window LegRun::sequence() const { return {0, record_.sequence_end() - start_}; }
+Window LegRun::sequence() const { return {0, analysis_.record.sequence_end() - start_}; }
 
 Window LegRun::phase(std::string_view name) const {
-  for (const analysis::Stretch& s : record_.stretches())
-    if (machine_.phases[static_cast<std::size_t>(s.phase)] == name)
-      return {record_.time(s.first) - start_, record_.end_of(s.last - 1) - start_};
+  for (const analysis::Stretch& s : analysis_.record.stretches())
+    if (analysis_.machine.phases[static_cast<std::size_t>(s.phase)] == name)
+      return {analysis_.record.time(s.first) - start_,
+              analysis_.record.end_of(s.last - 1) - start_};
   return {};
 }
 
 std::vector<report::Span> LegRun::stance() const {
-  std::vector<report::Span> out = report::stance_of(record_, machine_);
+  std::vector<report::Span> out = report::stance_of(analysis_.record, analysis_.machine);
   for (report::Span& s : out) s = {s.from - start_, s.to - start_};
   return out;
 }
@@ -56,7 +54,7 @@ std::vector<report::Span> LegRun::stance() const {
 report::Channels LegRun::channels() const {
   report::Channels out;
   out.add(table_);
-  out.add(derived_);
+  out.add(analysis_.derived);
   return out;
 }
 
@@ -69,7 +67,8 @@ bool LegRun::within(const Window& window, std::int64_t time_ns) const {
 units::ShownUnit LegRun::unit_of(const report::Channel& channel) const {
   const report::Samples samples = channels().find(channel);
   return units::ShownUnits(units::UnitSet::thesis)
-      .of(channel.topic.ends_with("_duty") ? "share" : samples.unit, 0, machine_.atmosphere);
+      .of(channel.topic.ends_with("_duty") ? "share" : samples.unit, 0,
+          analysis_.machine.atmosphere);
 }
 
 report::Curve LegRun::curve(const std::string& label, const report::Channel& channel,
@@ -105,14 +104,14 @@ report::Curve LegRun::path(const std::string& label, const std::string& topic,
 analysis::Column LegRun::rows(const report::Channel& channel) const {
   analysis::Column out;
   const units::ShownUnit unit = unit_of(channel);
-  for (const double si : record_.column(channel.topic, channel.field)) out.push_back(unit.of(si));
+  for (const double si : analysis_.record.column(channel.topic, channel.field))
+    out.push_back(unit.of(si));
   return out;
 }
 
 std::vector<report::Claim> LegRun::verdicts(const std::vector<std::string>& keys) const {
   std::vector<report::Claim> out;
-  for (const analysis::Verdict& v :
-       analysis::compare(summary_, machine_.reported, machine_.atmosphere))
+  for (const analysis::Verdict& v : analysis_.verdicts)
     if (std::ranges::any_of(keys, [&](const std::string& k) { return v.key.starts_with(k); }))
       out.push_back(in_words(v));
   return out;

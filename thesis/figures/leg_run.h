@@ -28,8 +28,8 @@ class LegRun {
   LegRun& operator=(const LegRun&) = delete;
 
   // Returns the machine that went, and what it recorded.
-  const analysis::Machine& machine() const { return machine_; }
-  const analysis::Record& record() const { return record_; }
+  const analysis::Machine& machine() const { return analysis_.machine; }
+  const analysis::Record& record() const { return analysis_.record; }
   double summary(std::string_view key) const;          // NaN: no such key
   std::string caption(const std::string& what) const;  // says of which run it is
 
@@ -58,10 +58,8 @@ class LegRun {
   bool within(const Window& window, std::int64_t time_ns) const;
 
   std::string file_;
-  analysis::Machine machine_;
-  signals::Table table_, derived_;
-  analysis::Record record_;
-  analysis::Summary summary_;
+  signals::Table table_;
+  analysis::Analysis analysis_;
   double start_ = 0;  // of the first phase [s]
 };
 

@@ -47,14 +47,6 @@ std::string value_of(const std::vector<Parameter>& parameters, std::string_view 
   return at == parameters.end() ? "" : at->value;
 }
 
-// Start of the sequence; nothing where the run has none  [ns].
-std::optional<std::int64_t> sequence_start(const signals::Table& table,
-                                           const analysis::Machine& machine) {
-  const analysis::Record record(table, machine);
-  if (!record.has_sequence()) return std::nullopt;
-  return record.time_ns()[record.first_row()];
-}
-
 // Adds what follows from the samples at their new times.
 void describe(ComparedRun& run, const analysis::Machine& machine) {
   run.derived = analysis::derive(run.logged, machine);
@@ -73,13 +65,18 @@ void describe(ComparedRun& run, const analysis::Machine& machine) {
   run.panels = panels(channels, machine);
 }
 
-// Opens a machine's run; its times become those of the first run.
-void open(ComparedRun& run, const analysis::Machine& machine, const analysis::Clock& clock) {
-  run.title = machine.title;
-  run.reproduces = machine.reproduces;
-  run.atmosphere = machine.atmosphere;
-  run.summary = analysis::summarize(run.logged, machine);
-  run.verdicts = compare(run.summary, machine.reported, machine.atmosphere);
+// Fills in what follows from the samples at their own times.
+void open(ComparedRun& run, const analysis::Analysis& own) {
+  run.title = own.machine.title;
+  run.reproduces = own.machine.reproduces;
+  run.robot = own.machine.robot.name;
+  run.atmosphere = own.machine.atmosphere;
+  run.summary = own.summary;
+  run.verdicts = own.verdicts;
+}
+
+// The run's times become those of the first one.
+void place(ComparedRun& run, const analysis::Machine& machine, const analysis::Clock& clock) {
   run.shift = clock.shift;
   analysis::reclock(run.logged, clock);
   describe(run, machine);
@@ -131,14 +128,15 @@ ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
   run.seed = value_of(run.parameters, "seed");
   run.version = value_of(run.parameters, "sinew_version");
   const analysis::Machine machine = analysis::read_machine(recorded.resolved);
-  run.robot = machine.robot.name;
-  std::optional<std::int64_t> sequence;
-  if (wish.by == Align::sequence) {
-    sequence = sequence_start(run.logged, machine);
-    if (!sequence) no_sequence(run.label);
+  std::optional<std::int64_t> sequence;  // its start [ns]
+  {
+    const analysis::Analysis own(run.logged, machine);
+    open(run, own);
+    if (own.record.has_sequence()) sequence = own.record.time_ns()[own.record.first_row()];
   }
+  if (wish.by == Align::sequence && !sequence) no_sequence(run.label);
   if (!first.run) first.sequence = sequence;
-  open(run, machine, clock_of(run, wish, first, sequence));
+  place(run, machine, clock_of(run, wish, first, sequence));
   return run;
 }
 

@@ -253,18 +253,17 @@ std::vector<std::string> topics_of(const Run& run) {
   const auto add = [&](const signals::Table& table) {
     for (const signals::Series& s : table.series) out.push_back(s.topic.name);
   };
-  add(run.table);
-  add(analysis::derive(run.table, analysis::read_machine(run.resolved)));
+  add(run.analysis.table);
+  add(run.analysis.derived);
   return out;
 }
 
 std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options) {
-  const analysis::Machine machine = analysis::read_machine(run.resolved);
-  const signals::Table derived = analysis::derive(run.table, machine);
-  const analysis::Record record(run.table, machine, &derived);
+  const analysis::Machine& machine = run.analysis.machine;
+  const analysis::Record& record = run.analysis.record;
   Channels channels;
-  channels.add(run.table);
-  channels.add(derived);
+  channels.add(run.analysis.table);
+  channels.add(run.analysis.derived);
   signals::Table drawn;
   Stand stand_of_run;
   if (machine.stand) stand_of_run = stand(channels, machine, drawn);

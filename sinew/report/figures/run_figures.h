@@ -1,7 +1,7 @@
 // report/figures/run_figures.h - the figures of a recorded run: a figure for each panel of its
 // page, from the same series, and paths and loops that have no time axis.
 //
-//   for (const Figure& f : run_figures({.table = table, .resolved = resolved})) …
+//   for (const Figure& f : run_figures({.analysis = analysis, .resolved = resolved})) …
 //
 // Of a robot, in simulation or on hardware, and of the test stand. What a page hides until it is
 // asked for is left out.

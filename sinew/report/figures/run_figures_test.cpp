@@ -31,8 +31,10 @@ signals::Table logged() {
   return table;
 }
 
-std::vector<Figure> figures(const signals::Table& table, const RunFigureOptions& options = {}) {
-  return run_figures({.table = table, .resolved = walk(), .name = "walk-test-1"}, options);
+std::vector<Figure> figures(const signals::Table& table, const RunFigureOptions& options = {},
+                            const config::Node& resolved = walk()) {
+  const analysis::Analysis analysis(table, analysis::read_machine(resolved));
+  return run_figures({.analysis = analysis, .resolved = resolved, .name = "walk-test-1"}, options);
 }
 
 const Figure& named(const std::vector<Figure>& list, const std::string& name) {
@@ -129,9 +131,7 @@ TEST(RunFigures, ShadeTheTimesOfFaults) {
   const signals::Table table = logged();
   const auto faults = [&](const RunFigureOptions& options) {
     std::vector<Span> out;
-    const Figure figure =
-        named(run_figures({.table = table, .resolved = broken, .name = "broken"}, options),
-              "joint-angles");
+    const Figure figure = named(figures(table, options, broken), "joint-angles");
     for (const Span& s : figure.plots[0].spans)
       if (s.of == Span::Of::fault) out.push_back(s);
     const bool told = figure.caption.find("broken on purpose: ") != std::string::npos;

@@ -31,7 +31,7 @@ bool is_simulated(const signals::Table& table) {
 }  // namespace
 
 RunWords words_of(const Run& run, const std::string& title, const std::string& robot) {
-  const bool simulated = is_simulated(run.table);
+  const bool simulated = is_simulated(run.analysis.table);
   RunWords out{.kind = simulated ? Kind::computed : Kind::measured};
   out.run = title.empty() ? run.name : "“" + title + "”";
   if (!title.empty() && !run.name.empty()) out.run += " (" + run.name + ")";

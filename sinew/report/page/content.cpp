@@ -61,9 +61,9 @@ Object head(const Run& run, const About& about) {
 }
 
 // What pages of any run end with.
-Content finish(Object json, const Run& run, const analysis::Summary& summary,
-               const std::vector<analysis::Verdict>& verdicts, const Blob& blob) {
-  json.put("verdicts", to_json(verdicts));
+Content finish(Object json, const Run& run, const Blob& blob) {
+  const analysis::Summary& summary = run.analysis.summary;
+  json.put("verdicts", to_json(run.analysis.verdicts));
   json.put("summary", analysis::to_json(summary));
   json.put("parameters", to_json(parameters(run.resolved)));
   json.put("samples", to_json(blob.layout()));
@@ -76,8 +76,8 @@ Content finish(Object json, const Run& run, const analysis::Summary& summary,
 
 // Returns the warning at the top of the page of a run that was ended.
 std::vector<analysis::Warning> how_it_ended(const Run& run) {
-  if (run.ended.empty()) return {};
-  return {{"the run was ended: " + run.ended, {}}};
+  if (run.analysis.ended.empty()) return {};
+  return {{"the run was ended: " + run.analysis.ended, {}}};
 }
 
 // Returns what the page says where it cannot show all of a long run.
@@ -96,22 +96,12 @@ std::vector<analysis::Warning> what_is_left_out(const Blob& blob, const Channels
            {}}};
 }
 
-// Only whole runs are held against reported figures.
-bool whole(const Run& run) { return run.ended.empty() && run.table.complete; }
-
 }  // namespace
 
 Content content(const Run& run) {
-  analysis::Machine machine = analysis::read_machine(run.resolved);
-  if (!whole(run)) machine.reported.clear();
-  const signals::Table derived = analysis::derive(run.table, machine);
-  const analysis::Record record(run.table, machine, &derived);
-  const analysis::Summary summary = run.ended.empty()
-                                        ? analysis::summarize(run.table, machine)
-                                        : analysis::summarize_trip(run.table, machine);
-
+  const auto& [table, ended, machine, derived, record, warned, summary, verdicts] = run.analysis;
   Channels channels;
-  channels.add(run.table);
+  channels.add(table);
   channels.add(derived);
   signals::Table drawn;
   Scene scene_of_run;
@@ -140,11 +130,10 @@ Content content(const Run& run) {
   std::vector<analysis::Warning> warnings = how_it_ended(run);
   std::ranges::move(what_is_left_out(blob, channels, record.stretches().size()),
                     std::back_inserter(warnings));
-  std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
-  std::ranges::move(analysis::warnings(run.table, machine), std::back_inserter(warnings));
+  std::ranges::move(analysis::cut_logs(table), std::back_inserter(warnings));
+  std::ranges::copy(warned, std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));
-  return finish(std::move(json), run, summary,
-                compare(summary, machine.reported, machine.atmosphere), blob);
+  return finish(std::move(json), run, blob);
 }
 
 }  // namespace sinew::report

@@ -125,8 +125,9 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
 
   Blob blob;
   Columns columns(parts.channels, blob);
+  const analysis::Analysis analysis(prototype.table, machine_);
   const report::Content whole = report::content(
-      {.table = prototype.table, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
+      {.analysis = analysis, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
   units_ = whole.units;
   const std::string curves = to_json(panels(parts.channels, machine_), columns);
   const std::string scene = to_json(parts.scene, columns), stand = to_json(parts.stand, columns);

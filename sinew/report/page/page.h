@@ -1,6 +1,7 @@
 // report/page/page.h - a run as one self-contained page: report.html, which opens offline.
 //
-//   const std::string html = page({.table = table, .resolved = config::parse_file(...)});
+//   const analysis::Analysis analysis(table, analysis::read_machine(resolved));
+//   const std::string html = page({.analysis = analysis, .resolved = resolved});
 //
 // The look stands in web/ and is bundled into one template when the program is built; this folder
 // fills it. The page computes nothing: series, poses, figures and verdicts are all made here.
@@ -10,17 +11,16 @@
 #include <string>
 #include <string_view>
 
+#include "sinew/analysis/summary.h"
 #include "sinew/config/node.h"
-#include "sinew/signals/table.h"
 
 namespace sinew::report {
 
 struct Run {
-  const signals::Table& table;   // what was logged
-  const config::Node& resolved;  // resolved.toml
-  std::string name;              // of the experiment; empty where nobody knows
-  std::string ended{};           // why it was not finished: then no verdicts; empty where it was
-  std::string units{};           // asked for now, as config/shown_units.h reads it
+  const analysis::Analysis& analysis;  // of what was logged
+  const config::Node& resolved;        // resolved.toml
+  std::string name;                    // of the experiment; empty where nobody knows
+  std::string units{};                 // asked for now, as config/shown_units.h reads it
 };
 
 // Was the program built with its page? Without npm there is none.

@@ -68,7 +68,8 @@ TEST(Fill, RefusesATemplateWithoutAPlace) {
 TEST(Content, IsTheSameForTheSameRun) {
   const config::Node node = resolved();
   const signals::Table a = table(), b = table();
-  const Content first = content({a, node, "walk"}), second = content({b, node, "walk"});
+  const Content first = test::content_of(a, node, "walk"),
+                second = test::content_of(b, node, "walk");
   EXPECT_EQ(first.json, second.json);
   EXPECT_EQ(first.samples, second.samples);
 }
@@ -76,7 +77,7 @@ TEST(Content, IsTheSameForTheSameRun) {
 TEST(Content, HoldsTheSummaryAsItIs) {
   const config::Node node = resolved();
   const signals::Table t = table();
-  const Json run = Json::parse(content({t, node, "walk"}).json);
+  const Json run = Json::parse(test::content_of(t, node, "walk").json);
   const auto machine = analysis::read_machine(node);
   EXPECT_EQ(run["summary"], Json::parse(to_json(analysis::summarize(t, machine))));
   EXPECT_EQ(run["verdicts"].size(), machine.reported.size());
@@ -89,7 +90,7 @@ TEST(Content, HoldsTheSummaryAsItIs) {
 TEST(Content, RefersOnlyToColumnsThatAreThere) {
   const config::Node node = resolved();
   const signals::Table t = table();
-  const Json run = Json::parse(content({t, node, ""}).json);
+  const Json run = Json::parse(test::content_of(t, node, "").json);
   const std::size_t columns = run["samples"]["columns"].size();
   for (const Json& panel : run["panels"])
     for (const Json& line : panel["lines"]) EXPECT_LT(line["column"], columns) << panel["title"];
@@ -106,7 +107,7 @@ TEST(Content, RefersOnlyToColumnsThatAreThere) {
 TEST(Content, OfAnEmptyLogIsAPageWithoutReplay) {
   const config::Node node = resolved();
   const signals::Table nothing;
-  const Json run = Json::parse(content({nothing, node, ""}).json);
+  const Json run = Json::parse(test::content_of(nothing, node, "").json);
   EXPECT_TRUE(run["scene"].is_null());
   EXPECT_TRUE(run["panels"].empty());
   EXPECT_EQ(run["duration"], 0.0);
@@ -116,12 +117,13 @@ TEST(Content, OfAnEmptyLogIsAPageWithoutReplay) {
 TEST(Page, SaysWhatIsMissingWithoutNpm) {
   const config::Node node = resolved();
   const signals::Table t = table();
+  const analysis::Analysis analysis(t, analysis::read_machine(node));
   if (has_page()) {
-    EXPECT_GT(page({t, node, ""}).size(), 50000u);
+    EXPECT_GT(page({analysis, node, ""}).size(), 50000u);
     return;
   }
   try {
-    page({t, node, ""});
+    page({analysis, node, ""});
     FAIL();
   } catch (const std::runtime_error& e) {
     EXPECT_NE(std::string(e.what()).find("npm ci in web/"), std::string::npos) << e.what();

@@ -11,6 +11,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/panels.h"
+#include "sinew/report/page/test_run.h"
 #include "tests/places.h"
 
 namespace sinew::report::stand_test {
@@ -152,7 +153,7 @@ TEST(StandPanels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
 
 TEST(StandContent, RefersOnlyToColumnsThatAreThere) {
   const Drawn d("feedback.toml", hanging());
-  const auto run = nlohmann::json::parse(content({d.table, d.resolved, "feedback"}).json);
+  const auto run = nlohmann::json::parse(test::content_of(d.table, d.resolved, "feedback").json);
   const std::size_t columns = run["samples"]["columns"].size();
   for (const char* key : {"length", "diameter", "pressure", "tension", "weight"})
     EXPECT_LT(run["stand"][key], columns) << key;
@@ -160,7 +161,7 @@ TEST(StandContent, RefersOnlyToColumnsThatAreThere) {
   EXPECT_EQ(run["stand"]["air"], "valves");
   for (const auto& chart : run["charts"])
     for (const auto& curve : chart["curves"]) EXPECT_LT(curve["x"], columns);
-  const auto nothing = nlohmann::json::parse(content({{}, d.resolved, ""}).json);
+  const auto nothing = nlohmann::json::parse(test::content_of({}, d.resolved, "").json);
   EXPECT_TRUE(nothing["stand"].is_null());
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sinew/analysis/record/test_log.h"
+#include "sinew/report/page/page.h"
 
 namespace sinew::report::test {
 
@@ -34,6 +35,13 @@ inline analysis::Machine machine() {
   analysis::Machine m = analysis::test::walking_leg();
   m.actuators.front().braid = {.thread_length = 0.107, .turns = 1.5};
   return m;
+}
+
+// Returns the run's part of the page of a table.
+inline Content content_of(const signals::Table& table, const config::Node& resolved,
+                          const std::string& name) {
+  const analysis::Analysis analysis(table, analysis::read_machine(resolved));
+  return content({.analysis = analysis, .resolved = resolved, .name = name});
 }
 
 }  // namespace sinew::report::test

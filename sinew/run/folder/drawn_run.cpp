@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
@@ -30,8 +31,19 @@ struct Drawn {
   config::Node resolved;
   signals::Table table;
   std::string name;  // of its experiment
+};
 
-  report::Run run() const { return {.table = table, .resolved = resolved, .name = name}; }
+// A run whose times are final, and what follows from it.
+struct Analysed {
+  explicit Analysed(const Drawn& run)
+      : drawn(run), analysis(run.table, analysis::read_machine(run.resolved)) {}
+
+  report::Run run() const {
+    return {.analysis = analysis, .resolved = drawn.resolved, .name = drawn.name};
+  }
+
+  const Drawn& drawn;
+  analysis::Analysis analysis;
 };
 
 Drawn read(const fs::path& named, const DrawingRequest& request, const Notices& notices) {
@@ -59,10 +71,10 @@ report::ChosenFigure chosen(const std::string& text) {
 
 // Does any of the runs have a channel that each pattern asks for?
 void check_channels(const std::vector<report::ChosenFigure>& figures,
-                    const std::vector<Drawn>& runs) {
+                    const std::deque<Analysed>& runs) {
   std::vector<std::string> topics;
-  for (const Drawn& drawn : runs)
-    for (std::string& topic : report::topics_of(drawn.run())) topics.push_back(std::move(topic));
+  for (const Analysed& one : runs)
+    for (std::string& topic : report::topics_of(one.run())) topics.push_back(std::move(topic));
   constexpr std::string_view truth = "/true";
   const std::vector<std::string_view> names(topics.begin(), topics.end());
   for (const report::ChosenFigure& figure : figures)
@@ -128,9 +140,10 @@ std::vector<Figures> figures_of(const std::vector<Drawn>& runs, const DrawingReq
   options.units =
       config::units_to_show({.now = request.units, .run = &runs.front().resolved}).units;
   for (const std::string& text : request.channels) options.channels.push_back(chosen(text));
-  if (!options.channels.empty()) check_channels(options.channels, runs);
+  std::deque<Analysed> analysed(runs.begin(), runs.end());
+  if (!options.channels.empty()) check_channels(options.channels, analysed);
   std::vector<Figures> out;
-  for (const Drawn& drawn : runs) out.push_back(report::run_figures(drawn.run(), options));
+  for (const Analysed& one : analysed) out.push_back(report::run_figures(one.run(), options));
   return out;
 }
 

@@ -98,7 +98,8 @@ struct Keeping {
   const Notices& notices;
 };
 
-void keep_files(const signals::Table& table, const Keeping& what, Kept& kept) {
+void keep_files(const analysis::Analysis& a, const Keeping& what, Kept& kept) {
+  const signals::Table& table = a.table;
   OutputFolder folder = run_folder(what.where.folder, what.where.force, what.name);
   try {
     kept.folder = folder.path();
@@ -109,7 +110,7 @@ void keep_files(const signals::Table& table, const Keeping& what, Kept& kept) {
     log.write(table);
     log.finish(what.resolved, "");
     write_into(folder, summary_name, kept.json);
-    kept.page = write_report(folder, table, what.values, what.name, what.notices);
+    kept.page = write_report(folder, a, what.values, what.name, what.notices);
     commit_run(folder);
   } catch (const std::exception& problem) {
     throw std::runtime_error(problem.what() + where_left(folder));
@@ -193,11 +194,10 @@ Kept keep_imported(const signals::Table& table, const experiment::Experiment& e,
   std::string resolved = experiment::resolved(e, SINEW_VERSION);
   if (!files.empty()) resolved = with_files(std::move(resolved), std::move(files));
   const config::Node values = config::parse_text(resolved, std::string(resolved_name));
-  Kept kept{.machine = analysis::read_machine(values)};
-  kept.summary = analysis::summarize(table, kept.machine);
-  kept.json = to_json(kept.summary);
+  const analysis::Analysis a(table, analysis::read_machine(values));
+  Kept kept{.summary = a.summary, .machine = a.machine, .json = to_json(a.summary)};
   kept.duration = duration_of(table);
-  keep_files(table, {e.name, e.seed, resolved, values, mapping, where, notices}, kept);
+  keep_files(a, {e.name, e.seed, resolved, values, mapping, where, notices}, kept);
   return kept;
 }
 

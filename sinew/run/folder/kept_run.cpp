@@ -80,12 +80,10 @@ void KeptRun::finish_log(const run::Outcome& outcome) {
   log_->finish(resolved_, ended);
 }
 
-// Who the supervisor did not believe: no other figures of a run that was not finished.
-void KeptRun::keep_trip(const run::Outcome& outcome) {
+// Keeps what a run that its supervisor ended has: no other figures of a run that was not finished.
+void KeptRun::keep_trip(const analysis::Analysis& a, const run::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
-  const analysis::Summary summary =
-      analysis::summarize_trip(outcome.table, analysis::read_machine(values_));
-  write_into(*folder_, summary_name, summary_json(summary, experiment_, *place_, outcome));
+  write_into(*folder_, summary_name, summary_json(a.summary, experiment_, *place_, outcome));
 }
 
 // What the board knows of its fault, and the line may not have brought. Returns where it is.
@@ -114,9 +112,22 @@ void KeptRun::break_off(const run::Outcome& outcome) {
                          : "it keeps no log"));
 }
 
+// The page is of what the log holds, which is all of it but for an experiment that logs a part.
+bool KeptRun::write_page(const analysis::Analysis& of_all, run::Outcome& outcome) {
+  if (!log_ || !request_.report) return false;
+  const auto write = [&](const analysis::Analysis& logged) {
+    return write_report(*folder_, logged, values_, experiment_.name, notices_, request_.units);
+  };
+  if (is_whole(logged_)) return write(of_all);
+  const signals::Table part = run::logged_part(std::move(outcome.table), logged_);
+  return write(analysis::Analysis(part, of_all.machine));
+}
+
 Kept KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
+  const analysis::Analysis a(outcome.table, std::move(machine));
   Kept kept{.folder = folder(),
-            .summary = analysis::summarize(outcome.table, machine),
+            .summary = a.summary,
+            .machine = a.machine,
             .duration = outcome.duration,
             .wall = outcome.wall};
   if (experiment_.stand)
@@ -126,11 +137,8 @@ Kept KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
   warn(kept.summary.warnings, outcome);
   kept.json = summary_json(kept.summary, experiment_, *place_, outcome);
   write_into(*folder_, summary_name, kept.json);
-  if (log_ && request_.report)
-    kept.page = write_report(*folder_, run::logged_part(std::move(outcome.table), logged_), values_,
-                             experiment_.name, notices_, request_.units);
+  kept.page = write_page(a, outcome);
   commit_run(*folder_);
-  kept.machine = std::move(machine);
   return kept;
 }
 
@@ -145,8 +153,9 @@ Kept KeptRun::keep(run::Outcome outcome) try {
   finish_log(outcome);
   analysis::Machine machine = analysis::read_machine(values_);
   if (outcome.ended_early()) {
-    warn(analysis::texts(analysis::warnings(outcome.table, machine)), outcome);
-    keep_trip(outcome);
+    const analysis::Analysis a(outcome.table, std::move(machine), cause_of(experiment_, outcome));
+    warn(analysis::texts(a.warnings), outcome);
+    keep_trip(a, outcome);
     throw std::runtime_error(black_box(experiment_, outcome) + keep_fault_log());
   }
   return keep_files(outcome, std::move(machine));

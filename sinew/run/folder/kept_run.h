@@ -74,7 +74,8 @@ class KeptRun {
   [[noreturn]] void break_off(const run::Outcome& outcome);
   Kept keep_files(run::Outcome& outcome, analysis::Machine machine);
   void warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const;
-  void keep_trip(const run::Outcome& outcome);
+  bool write_page(const analysis::Analysis& of_all, run::Outcome& outcome);
+  void keep_trip(const analysis::Analysis& a, const run::Outcome& outcome);
   std::string keep_fault_log();
 
   RunRequest request_;

@@ -12,11 +12,9 @@ std::string page_of(const RecordedRun& run, const std::string& machine, const No
   const config::Node resolved = config::compose(machine_of(run, machine).string());
   const signals::Table table = log::read(run.log);
   const std::string ended = ended_in(run.log);
-  std::string page = report::page({.table = table,
-                                   .resolved = resolved,
-                                   .name = experiment_in(run.log),
-                                   .ended = ended,
-                                   .units = units});
+  const analysis::Analysis analysis(table, analysis::read_machine(resolved), ended);
+  std::string page = report::page(
+      {.analysis = analysis, .resolved = resolved, .name = experiment_in(run.log), .units = units});
   if (!ended.empty())
     notices.warning(run.log.string() + ": the run was ended: " + ended +
                     "; the page shows it until then");
@@ -26,7 +24,7 @@ std::string page_of(const RecordedRun& run, const std::string& machine, const No
   return page;
 }
 
-bool write_report(const OutputFolder& folder, const signals::Table& logged,
+bool write_report(const OutputFolder& folder, const analysis::Analysis& logged,
                   const config::Node& values, const std::string& name, const Notices& notices,
                   const std::string& units) {
   if (!report::has_page()) {
@@ -34,7 +32,7 @@ bool write_report(const OutputFolder& folder, const signals::Table& logged,
     return false;
   }
   write_into(folder, report_name,
-             report::page({.table = logged, .resolved = values, .name = name, .units = units}));
+             report::page({.analysis = logged, .resolved = values, .name = name, .units = units}));
   return true;
 }
 

@@ -4,10 +4,10 @@
 
 #include <string>
 
+#include "sinew/analysis/summary.h"
 #include "sinew/config/node.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"
-#include "sinew/signals/table.h"
 
 namespace sinew::run {
 
@@ -17,7 +17,7 @@ inline constexpr std::string_view report_name = "report.html";
 // page_of() makes of the folder. `values`: what resolved.toml says; `units`: those in which it
 // begins (config/shown_units.h), as asked for now. Returns false, with a note and no file, where
 // the library was built without its page. Throws log::Error.
-bool write_report(const OutputFolder& folder, const signals::Table& logged,
+bool write_report(const OutputFolder& folder, const analysis::Analysis& logged,
                   const config::Node& values, const std::string& name, const Notices& notices,
                   const std::string& units = "");
 

@@ -53,6 +53,10 @@ LoggedTopics logged_topics(const experiment::Experiment& e) {
   return logged_topics(topics(e), e.log.channels, e.origins, e.path);
 }
 
+bool is_whole(const LoggedTopics& logged) {
+  return std::ranges::find(logged.of_series, not_tapped) == logged.of_series.end();
+}
+
 signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged) {
   refuse_other_topics(table, logged);
   signals::Table out;

@@ -29,6 +29,9 @@ LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
                            const std::string& path);
 LoggedTopics logged_topics(const experiment::Experiment& experiment);
 
+// Returns whether the log holds all that is recorded.
+bool is_whole(const LoggedTopics& logged);
+
 // The part of a run's table that its log holds, as log::read() gives it back. Takes it out of
 // there.
 signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged);
