@@ -230,7 +230,7 @@ struct Settling {
 };
 
 Settling settling(const Run& stand, const Run& model) {
-  const double period = model.stand.period;
+  const double period = model.stand.stand->drive_period;
   return {std::fabs(settled(stand.length, period) - settled(model.length, period)),
           left_over(model.length, period) / left_over(stand.length, period)};
 }
