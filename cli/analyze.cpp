@@ -21,7 +21,7 @@ struct AnalyzeOptions {
   bool json = false, verdicts = false, force = false, quiet = false;
 };
 
-// What is reported is of whole runs: there is no verdict on a part of one.
+// The source reports whole runs, so a part of a run has no verdict.
 ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const signals::Table& table,
               analysis::Machine machine, const config::UnitsToShow& units) {
   if (!table.complete) machine.reported.clear();

@@ -19,7 +19,7 @@ namespace sinew::python {
 class Recording {
  public:
   signals::Table table;
-  // What follows from the table; nullptr where the table follows from a run itself.
+  // Holds what follows from the table; nullptr where the table itself was derived from a run.
   std::unique_ptr<const analysis::Analysis> analysis;
   std::string summary;   // summary.json
   std::string verdicts;  // what is reported of the run, beside it: JSON

@@ -38,6 +38,8 @@ namespace quick {
 inline constexpr double from_rate = 2.5;  // rate times step from which a body of air goes ahead
 }
 
+// The bodies of air of a machine: of its muscles, hoses and cylinder, with the valves that join
+// them.
 template <int Most>
 class BodiesOfAir : public ValveBank<Most> {
  public:
@@ -54,9 +56,9 @@ class BodiesOfAir : public ValveBank<Most> {
   // For steps in which densities leave the reach of their series as a rule.
   void take_long_steps() { braids_.go_by_table(); }
 
-  // Returns whether there is nothing but muscles between valves on a constant supply; and whether
-  // none of it will ever break, nor do valves open gradually: plain_air.h then has its law, which
-  // goes by these.
+  // The first returns whether the machine has nothing but muscles between valves on a constant
+  // supply. The second also excludes later faults and valves that open gradually: for such machines
+  // plain_air.h calculates in lanes, with the numbers below.
   bool plain() const noexcept { return plain_; }
   bool plain_for_good() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
   const BraidLanes& braids() const noexcept { return braids_; }
@@ -147,6 +149,7 @@ class BodiesOfAir : public ValveBank<Most> {
 
  protected:
   using Bank = ValveBank<Most>;
+  // These members of the valves are used without their class's name.
   using Bank::air_, Bank::blocked, Bank::failed_line, Bank::faults_, Bank::none, Bank::of_pressure_,
       Bank::other, Bank::ramping_, Bank::rate_of, Bank::slope_of_faults, Bank::taps_;
   using typename Bank::Flows, typename Bank::Now, typename Bank::Tap;
@@ -174,9 +177,11 @@ class BodiesOfAir : public ValveBank<Most> {
     bool cut = false;  // a fault has cut it from its tank
   };
 
+  // Makes the bodies of a machine, with what is broken on purpose.
   BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
               const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults);
 
+  // Return a muscle, and its line.
   const Muscle& muscle(int i) const noexcept { return muscles_[static_cast<std::size_t>(i)]; }
   const Line& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
 

@@ -19,7 +19,7 @@
 // side by side by braid_lanes.h where it holds them and no wall is warm, else one after the other
 // by actuator/tension.h. What a machine does not have costs nothing: a muscle between two valves is
 // lanes and a flow per open valve; only lines with more (a hose, a leak, a regulator, a warm wall),
-// and all of them while something is broken, are asked one by one.
+// and all of them while something is broken, are evaluated one by one.
 //
 //   valve_bank.h    valves and regulators with their faults    bodies.h  the bodies of air
 //   quick_bodies.h  those that are quicker than a step         here      what flows between them

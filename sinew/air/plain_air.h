@@ -38,7 +38,8 @@ class PlainAir {
   };
   using Valves = Shares;
   using Memory = Reference<Most, S>;
-  struct Course {  // nothing goes ahead of a step
+  // Nothing goes ahead of a step.
+  struct Course {
     static constexpr std::uint64_t muscles = 0;
   };
   struct Answer : Pull<Most, S> {

@@ -40,6 +40,7 @@ class QuickBodies : public BodiesOfAir<Most> {
   using Bodies = BodiesOfAir<Most>;
   using Bodies::Bodies;
   using Cell = typename Course::Cell;
+  // These members of the slower bodies are used without their class's name.
   using Bodies::air_, Bodies::beside_, Bodies::blocked, Bodies::braids_, Bodies::broken_,
       Bodies::cylinder_, Bodies::each_line, Bodies::faults_, Bodies::inlets, Bodies::line,
       Bodies::muscle, Bodies::none, Bodies::other, Bodies::plain_, Bodies::ramping_,

@@ -38,8 +38,8 @@ class ValveBank {
   using Memory = AirMemory<Most>;
   using Answer = AirAnswer<Most>;
 
-  // How many there are: 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up
-  // exhaust, down inlet, down exhaust.
+  // The number of valves. Their order: 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up
+  // inlet, up exhaust, down inlet, down exhaust.
   int valves() const noexcept { return static_cast<int>(taps_.size()); }
   const gas::Valve& valve(int index) const noexcept { return tap(index).valve; }
   const gas::FlowConstants& flow(int valve) const noexcept { return tap(valve).flow; }
@@ -68,7 +68,7 @@ class ValveBank {
   struct Flows {
     double in = 0, out = 0;  // from the supply, to the room [kg/s]
   };
-  // The flows of one evaluation go by these, beside the chambers.
+  // The flows of one evaluation depend on these numbers and on the chambers.
   struct Now {
     double t;         // [s]
     double y_supply;  // of the line to the inlets
@@ -88,6 +88,7 @@ class ValveBank {
     double y = 1;  // of the supply's line
   };
 
+  // Takes what is broken on purpose; the valves are added one by one.
   ValveBank(const gas::Air& air, std::span<const AirFault> faults) : air_(air), faults_(faults) {
     for (const AirFault& f : faults_.all()) {
       Broken broken{.leak = gas::leak_constants(f.leak, air_)};
@@ -96,6 +97,7 @@ class ValveBank {
     }
   }
 
+  // Return another number of the state than the masses, its rate in an answer, and a valve.
   static double other(const State& s, int i) noexcept {
     return s.other[static_cast<std::size_t>(i)];
   }
@@ -103,6 +105,7 @@ class ValveBank {
   static double& rate_of(Answer& a, int i) noexcept { return a.rate[static_cast<std::size_t>(i)]; }
   const Tap& tap(int valve) const noexcept { return taps_[static_cast<std::size_t>(valve)]; }
 
+  // Adds a valve behind the ones that are there.
   void add_tap(const gas::Valve& valve);
   // An electrical edge of a valve at t, or a regulator's set point from t on. `difference`: how
   // much higher the pressure is on the side that the valve holds back [Pa].

@@ -13,13 +13,13 @@
 
 namespace sinew::analysis {
 
-// What follows from a run's channels and its description. It is made once and handed to summary,
+// Holds all results of a run's channels and its description. It is made once and handed to summary,
 // page, figures and Python.
 struct Analysis {
-  // Makes all of it of a table that outlives it. `why`: what ended the run before its time, so that
-  // its summary has counts and the cause, without a whole run's figures; empty for other runs. What
-  // is reported is of whole runs: of a part of one, also by a log that was cut off, there are no
-  // verdicts.
+  // Makes the results of a table, which has to outlive them. `why` is the cause that ended a run
+  // before its time and is empty for other runs: the summary of an ended run has counts and the
+  // cause, without a whole run's figures. The source reports whole runs, so that an ended run, and
+  // a log that was cut off, have no verdicts.
   Analysis(const signals::Table& table, Machine machine, std::string why = "");
   Analysis(const Analysis&) = delete;
   Analysis& operator=(const Analysis&) = delete;

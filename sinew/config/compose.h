@@ -32,8 +32,8 @@ Node compose(const std::string& path, const std::vector<std::string>& sets = {})
 // "experiment" of format = "sinew.experiment/1"; empty where there is no such key.
 std::string_view format_kind(const Node& root);
 
-// Returns whether what an experiment says is of a test stand: it has an [element], or the older
-// format sinew.rig/1.
+// Returns whether an experiment describes a test stand: it has an [element], or the older format
+// sinew.rig/1.
 bool is_on_stand(const Node& root);
 
 // Returns the kind by its tables: as format_kind(), and "rig" of an experiment on a test stand.

@@ -18,7 +18,7 @@ namespace sinew::config {
 
 namespace {
 
-// --- what the reader's messages say of a field: its default, what it may hold ---
+// --- the words of a field in messages: its default, and the values that it may have ---
 
 std::string bounds_text(const units::Field& field) {
   const std::string low = format_quantity(field.min, field.unit);
@@ -418,8 +418,7 @@ void Reader::add_problem(const Node& at, std::string path, std::string found, st
       {at.where, std::move(path), std::move(found), std::move(expected), std::move(try_this)});
 }
 
-// --- what a reader finds out about a value beside the value: source, fit, guess, range,
-// uncertainty ---
+// --- what a reader finds with a value: source, fit, guess, range, uncertainty ---
 
 const Origin* find_origin(const Origins& origins, std::string_view path) {
   const auto it = std::find_if(origins.begin(), origins.end(),

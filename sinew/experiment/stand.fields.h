@@ -101,8 +101,8 @@ void fields(Visitor& v, Stand::Measured& m) {
   robot::amount(v, "from", "s", 0, "the first row", m.from);
 }
 
-// Visits what an experiment says of its stand; title, seed, air and log are those of any
-// experiment.
+// Visits the keys of an experiment that describe its stand; title, seed, air and log are those of
+// any experiment.
 template <class Visitor>
 void fields(Visitor& v, Stand& s) {
   v.number({.name = "duration", .unit = "s", .min = 1e-3, .max = 1e5, .doc = "of the run"},

@@ -10,12 +10,12 @@
 namespace sinew::experiment {
 
 struct Stand : robot::Stand {
-  // What opens and shuts the valves: run/controllers/drive.h.
+  // The drive opens and shuts the valves: run/controllers/drive.h.
   struct Drive {
     // Names the law: nothing; pulses of a duty; single pulses; by the model to a length; by a
     // sensor to a length.
     enum class Kind { none, pwm, pulses, feed_forward, feedback };
-    // Names how the feedback answers an error: by full pulses beyond the dead band, or a duty by
+    // Names how the feedback corrects an error: by full pulses beyond the dead band, or a duty by
     // the error.
     enum class Law { on_off, proportional };
 

@@ -35,8 +35,8 @@ void imported_tables(Visitor& v) {
   experiment::fields(v, imported);
 }
 
-// Visits what an experiment says of its run, on a test stand or with a robot. Where names of joints
-// are keys, there is one joint, <name>.
+// Visits the keys of an experiment that describe its run, on a test stand or with a robot. Where
+// names of joints are keys, there is one joint, <name>.
 template <class Visitor>
 void experiment_tables(Visitor& v, bool on_stand) {
   experiment::Experiment e;

@@ -8,10 +8,10 @@
 
 namespace sinew::host {
 
-// Counts pieces that are done, for a watcher; null: there is none.
+// Counts pieces that are done, for a progress bar; null: nothing is counted.
 using Tally = std::atomic<std::int64_t>;
 
-// Returns that many threads, or as many as the computer has cores where none are asked for, 0.
+// Returns that many threads, or as many as the computer has cores where `asked` is 0.
 int threads_of(int asked);
 
 // Calls `work` with each number below `count`, on so many threads, of which the caller's is one, or

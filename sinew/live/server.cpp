@@ -35,7 +35,7 @@ namespace sinew::live {
 
 namespace {
 
-// --- a word that nobody guesses, as part of an address ---
+// --- a word that cannot be guessed, as part of an address ---
 
 // 128 random bits of the operating system as 32 hexadecimal digits. Throws std::runtime_error where
 // it has none.

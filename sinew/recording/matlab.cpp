@@ -20,7 +20,7 @@ namespace sinew::recording {
 
 namespace {
 
-// --- is a file MATLAB's, and all of it there? Looked at before the library ---
+// --- checks of a MATLAB file that come before the library ---
 
 constexpr std::size_t header = 128;  // of level 5 [B]
 

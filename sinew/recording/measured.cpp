@@ -33,7 +33,7 @@ namespace sinew::recording {
 
 namespace {
 
-// --- where the wanted columns stand in a table, and what their numbers mean ---
+// --- the places of the wanted columns in a table, and the meaning of their numbers ---
 
 // Numbers of a file's unit to SI: a pressure may have an offset.
 struct ToSi {

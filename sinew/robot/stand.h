@@ -43,6 +43,7 @@ struct Stand {
     std::vector<signals::Schedule::Point> weights, lengths, forces;
     double gravity = units::standard_gravity;  // hanging [m/s^2]
   };
+  // The way in which the air gets in.
   struct Charge {
     // sealed: what is in at the start stays; valves: those of the element; regulated: by a
     // regulator that nothing disturbs

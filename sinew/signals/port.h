@@ -1,7 +1,7 @@
 // signals/port.h - what a controller's loop may ask of a body.
 //
 // Simulated worlds, a recorded log and real cards implement it (world/, port/, firmware/); the
-// controller never sees it. The one loop that joins the two stands in run/simulation/loop.h.
+// controller never sees it. The one loop that joins the two is run/simulation/loop.h.
 //
 //   order within a tick: period start (commands of the high level), edges decided earlier,
 //                        the conversion due. Ticks never decrease.

@@ -8,8 +8,8 @@ namespace sinew::units {
 template <class S>
 class StageMean {
  public:
+  // Takes the step [s]; the second returns h times the mean.
   explicit StageMean(const S& h) : sixth_(h / 6.0) {}
-
   template <class Of>
   [[gnu::always_inline]] S operator()(const Of& of) const {
     return sixth_ * (of(0) + 2.0 * of(1) + 2.0 * of(2) + of(3));

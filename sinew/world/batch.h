@@ -67,6 +67,7 @@ class LegLane final : public signals::Port {
   using World = ChainWorld<2>;
   using State = World::State;
 
+  // Takes lane `k` of a batch that outlives it.
   LegLane(Batch& batch, int k) : batch_(&batch), k_(k) {}
 
   signals::Status start(const signals::Scan& scan) noexcept override;

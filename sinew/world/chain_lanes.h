@@ -1,8 +1,8 @@
 // world/chain_lanes.h - W plain machines side by side: chains whose muscles are filled through
 // valves from a constant supply. Each is a World, and has the bits that it has alone.
 //
-// The nodes are integrated in lanes (lane_nodes.h); readings look ahead from what the lanes have;
-// all that is rare a World does by itself, to which its lane is taken out. Each machine has its own
+// The nodes are integrated in lanes (lane_nodes.h); readings extrapolate from the lanes;
+// for rare work a lane is copied into the World that it is. Each machine has its own
 // steps, edges and failures. They go in lockstep by node, not by time: a machine that is not to go
 // on waits, and its lane is calculated and thrown away.
 //
@@ -251,7 +251,7 @@ auto ChainLanes<N, W>::only(int k) const noexcept -> Mask {
   return mask;
 }
 
-// Where the World itself has been driven, or has gone on, its lane follows.
+// Copies the World back into its lane, where it was driven or integrated by itself.
 template <int N, int W>
 void ChainLanes<N, W>::follow(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);

@@ -40,6 +40,7 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
     typename Body::Acceleration acceleration{};
   };
 
+  // Takes the models of all lanes side by side.
   LaneNodes(const Body& body, const Air& air) : Integrated(body, air) {}
 
   // Returns what is integrated, and replaces its model.
@@ -51,9 +52,9 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
   // RK4 by h under the friction of the step. Lanes that do not step keep what they have.
   void step(const Mask& steps, const S& h, State& s) const noexcept;
 
-  // A new node of the machines that go: references, the first stage, friction. What the others'
-  // first stage says, said before their references followed, stays. Returns each machine's first
-  // muscle whose density is not finite, or -1.
+  // A new node of the machines that go: references, the first stage, friction. The others
+  // keep their first stage, which was evaluated before their references moved. Returns each
+  // machine's first muscle whose density is not finite, or -1.
   std::array<int, W> prepare(const Mask& goes, State& s) noexcept;
 
   // The friction problem: from the same numbers the same, so that of those that wait nothing

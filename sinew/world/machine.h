@@ -32,7 +32,7 @@ using AnyWorld =
     std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
                  SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane, Stand>;
 
-// A robot or a test stand, and what only a simulation has of it: the other one's is not used.
+// A robot or a test stand, and its true values: those of the other one are not used.
 using AnySetup = std::variant<Setup, StandSetup>;
 struct Truths {
   Truth robot;

@@ -1,6 +1,7 @@
-// air/stiff/quick.h - one body of air, or two in a row, through a step of the machine that they are
-// quicker than: in steps of rodas3.h that the error chooses. quick_bodies.h says of which laws,
-// regulator_lanes.h has the calm step of muscles behind regulators side by side.
+// air/stiff/quick.h - integrates one body of air, or two in a row, that are quicker than a step of
+// the machine, through that step. It takes steps of rodas3.h, whose length the error decides.
+// quick_bodies.h has the laws, regulator_lanes.h the calm step of muscles behind regulators in
+// lanes.
 #pragma once
 
 #include <array>

@@ -54,8 +54,8 @@ struct Machine {
   std::vector<MachineFault> faults;
 };
 
-// Reads a robot or, where there is an [element], a test stand. Throws config::Error with everything
-// that is wrong in what is read.
+// Reads a robot or, where there is an [element], a test stand. Throws config::Error with all
+// mistakes in the keys that are read.
 Machine read_machine(const config::Node& root);
 
 // Positions in Machine::phases by what 5.4 calls them: `foot_plant` and `propulsion` are stance,

@@ -396,7 +396,7 @@ void Program::obey_word() noexcept {
   if (code != Code::done) step_.what = What::bad;
 }
 
-// --- what a board says: answers, telemetry, events, edges and the log of a fault ---
+// --- what a board sends: replies, telemetry, events, edges and the log of a fault ---
 
 void Program::say(std::uint8_t type, std::span<const std::uint8_t> body) noexcept {
   std::array<std::uint8_t, link::max_frame> frame;

@@ -27,7 +27,7 @@ namespace sinew::identify {
 
 namespace {
 
-// --- the poses of a joint, for a picture of what the models say of them ---
+// --- the poses of a joint, for a picture of the models ---
 
 // What the muscles hold less the load's torque, from the sum of both as they turn the joint.
 std::vector<double> told_from(std::vector<double> sums) {

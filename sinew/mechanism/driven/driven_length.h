@@ -17,6 +17,7 @@ namespace sinew::plant {
 
 inline constexpr int driven_lanes = 4;  // a whole lane of air/lanes.h, for one muscle
 
+// A muscle with its air, and the length that is prescribed.
 struct DrivenSetup {
   air::Muscle muscle;
   gas::Air air;
@@ -26,15 +27,16 @@ struct DrivenSetup {
   double step = 1e-3;        // between nodes [s]
 };
 
+// True values, which a simulation has without a sensor.
 struct DrivenTruth {
   double length = 0, tension = 0, pressure = 0;  // [m], [N], absolute [Pa]
   air::Account air;
 };
 
-// No transducer looks at it.
+// The length has no transducer.
 struct DrivenSenses {
   using Truth = DrivenTruth;
-
+  // Has no channel to read, and returns the truth at t [s].
   explicit DrivenSenses(const DrivenSetup&) {}
   std::size_t channels() const noexcept { return 0; }
   double quantity(const auto&, std::size_t, double) const noexcept { return 0; }
@@ -49,7 +51,6 @@ struct DrivenSenses {
 class DrivenLength {
  public:
   static constexpr bool cuts_steps = false;
-
   using Scalar = double;
   using Setup = DrivenSetup;
   using Senses = DrivenSenses;
@@ -65,8 +66,9 @@ class DrivenLength {
   using Load = Nothing;
   using Forces = Nothing;
 
+  // Takes a set-up; returns what is constant, the motion at the start, the time between nodes [s],
+  // and the air with its state and memory at the start.
   explicit DrivenLength(const Setup& setup) : length_(setup.length) {}
-
   const signals::Schedule& constants() const noexcept { return length_; }
   Motion start() const noexcept { return {length_.at(0), length_.piece(0).slope}; }
   double node_step(const Setup& setup) const noexcept { return setup.step; }
@@ -74,21 +76,18 @@ class DrivenLength {
   Air make_air(const Setup& s) const {
     return Air(std::span(&s.muscle, 1), s.air, s.supply);
   }
-  template <class Air>
-  auto start_air(const Air& air, const Setup& s, const Ends& ends) const {
+  auto start_air(const auto& air, const Setup& s, const Ends& ends) const {
     return air.initial(s.pressure, ends.length, 0);
   }
-  template <class Air>
-  auto start_memory(const Air& air, const Setup& s, const Ends& ends) const {
+  auto start_memory(const auto& air, const Setup& s, const Ends& ends) const {
     return air.memory_at_rest(s.pressure, ends.length);
   }
-
   // The next point of the table after t [s]; and what it prescribes from a node on.
   double corner_after(double t) const noexcept { return length_.corner(t); }
   void begin(double t, Motion& m) const noexcept {
     if (length_.moves_until(t)) m = {length_.at(t), length_.piece(t).slope};
   }
-
+  // A number that is finite where the motion is; the muscle's ends; the motion h [s] later.
   double sum(const Motion& m) const noexcept { return m.length; }
   void route(double, const Motion& m, Ends& ends, Arms&) const noexcept {
     ends.length.of.fill(m.length);
@@ -104,7 +103,7 @@ class DrivenLength {
               const Acceleration (&)[4]) const noexcept {
     move(now, now, h, now, {});
   }
-
+  // Nothing is accelerated and nothing rubs.
   Pose pose(double, const Motion&) const noexcept { return {}; }
   void load(const auto&...) const noexcept {}
   Nothing accelerate(const auto&...) const noexcept { return {}; }

@@ -5,8 +5,8 @@
 //   layout.h    routes of the muscles        stops.h     ends of the joints' ranges
 //
 // S is a double; or a pack of them: machines side by side, of any numbers, whose muscles pull the
-// same joints. Each has the bits that it has alone. chain_mechanism.h makes a mechanism of
-// world/kernel/world.h of it, contract.h says what the members do.
+// same joints. Each has the bits that it has alone. chain_mechanism.h makes a mechanism
+// for world/kernel/world.h of it; contract.h describes the members.
 #pragma once
 
 #include <array>

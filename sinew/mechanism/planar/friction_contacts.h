@@ -627,6 +627,7 @@ auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces 
   return hold_of(h, last, active_count_);
 }
 
+// Returns the friction forces of the step, by as many contacts as are there.
 template <int N, int D>
 template <class Count>
 auto FrictionContacts<N, D>::hold_of(double h, const Forces& last, Count active) const -> Forces {

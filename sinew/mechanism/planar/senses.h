@@ -1,5 +1,5 @@
-// mechanism/planar/senses.h - what the sensors of a planar machine read, and what a simulation
-// tells of it, from peeks of world.h.
+// mechanism/planar/senses.h - the readings of a planar machine's sensors, and its true values,
+// from previews of world.h.
 #pragma once
 
 #include <array>

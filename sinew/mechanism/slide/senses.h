@@ -1,5 +1,5 @@
-// mechanism/slide/senses.h - what the stand's transducers read, and what a simulation tells of it,
-// from peeks of world/kernel/world.h.
+// mechanism/slide/senses.h - the readings of the stand's transducers, and its true values, from
+// previews of world/kernel/world.h.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// port/recorded/recorded.h - a log as a body: it answers with the readings of that run, whatever
-// it is told to do. The same controller must then decide the same edges.
+// port/recorded/recorded.h - a log as a body: it returns the readings of that run, whatever it is
+// commanded. The same controller must then decide the same edges.
 #pragma once
 
 #include <cstdint>

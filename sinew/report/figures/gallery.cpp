@@ -12,7 +12,7 @@ namespace sinew::report {
 
 namespace {
 
-// --- how the page of figures looks; colors as in web/src/style.css ---
+// --- the style of the page of figures; colors as in web/src/style.css ---
 
 constexpr std::string_view gallery_style = R"css(
 :root { color-scheme: light; --paper: #fff; --back: #f5f6f8; --ink: #1c2430; --quiet: #5d6878;

@@ -19,7 +19,7 @@ namespace sinew::report {
 
 namespace {
 
-// --- figures of channels that somebody chose, in place of the ---
+// --- figures of channels that a user chose ---
 
 constexpr std::string_view truth = "/true";
 

@@ -44,7 +44,8 @@ struct Stand {
   bool empty() const { return length.none(); }
 };
 
-// Of a machine that is a stand. `drawn` receives what is drawn beside the logged series: /draw/….
+// Returns the drawing of a stand. `drawn` receives the series that are drawn and not logged:
+// /draw/….
 Stand stand(const Channels& channels, const analysis::Machine& machine, signals::Table& drawn);
 
 // One quantity against another: loops of tension, pressure and length, or what a sweep settled at.

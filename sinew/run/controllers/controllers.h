@@ -17,10 +17,12 @@ namespace sinew::run {
 
 class Controllers {
  public:
+  // The two levels of a robot: its boards, and what gives them set points.
   struct OfRobot {
     Boards joint;
     HighLevel gait;
   };
+  // The two levels of a test stand: its drive, and the set points that it follows.
   struct OfStand {
     Drive joint;
     DriveSchedule gait;
@@ -65,7 +67,7 @@ class Controllers {
                  .desired = robot()->gait.desired()});
   }
 
-  // Returns the counters of all boards, and whom they did not believe.
+  // Return the counters of all boards, and of what their supervisors rejected.
   SeenTotals seen_totals() const;
   SupervisedTotals supervised_totals() const;
 

@@ -45,7 +45,7 @@ class DriveSchedule {
   signals::Schedule length_, duty_;
 };
 
-// What the stand's controller has at the end of a period.
+// The values of the stand's controller at the end of a period.
 struct DriveSeen {
   control::Phase phase = control::Phase::running;
   DriveSetpoint setpoint;

@@ -112,7 +112,7 @@ void KeptRun::break_off(const run::Outcome& outcome) {
                          : "it keeps no log"));
 }
 
-// The page is of what the log holds, which is all of it but for an experiment that logs a part.
+// Writes the page of the logged channels. An experiment may log a part of what is recorded.
 bool KeptRun::write_page(const analysis::Analysis& of_all, run::Outcome& outcome) {
   if (!log_ || !request_.report) return false;
   const auto write = [&](const analysis::Analysis& logged) {

@@ -1,5 +1,5 @@
 // run/muscle/muscle_setup.h - one muscle of a file, with its valves, its hose and what feeds it,
-// for a loop that is somebody's own (world/driven/driven_muscle.h).
+// for a loop of the caller's own (world/driven/driven_muscle.h).
 //
 //   const MuscleSetup read = muscle_setup("muscle.toml");            // a rig's element
 //   const MuscleSetup read = muscle_setup("robot.toml", "hip_flexor");

@@ -25,7 +25,7 @@ experiment::Experiment buildable(const std::string& path,
                                  const std::vector<std::string>& sets = {});
 experiment::Experiment buildable(const config::Node& root, const std::string& path);
 
-// The same for what only a robot can do; also throws for an experiment on a test stand.
+// Does the same for uses that need a robot; also throws for an experiment on a test stand.
 experiment::Experiment buildable_robot(const config::Node& root, const std::string& path);
 
 }  // namespace sinew::run

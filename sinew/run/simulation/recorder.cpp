@@ -109,7 +109,7 @@ signals::Table Recorder::take() {
 void Recorder::sample(Tick t) noexcept {
   if (t < next_) return;
   next_ += period_;
-  if (!controllers_.knows(t)) return;  // what a board far away said of it is lost
+  if (!controllers_.knows(t)) return;  // its message from a remote board is lost
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   cursor_ = number_ = 0;

@@ -109,7 +109,7 @@ class Simulation {
   void read(std::span<const std::size_t> channels, std::span<double> values) noexcept;
   std::size_t find(std::string_view channel) const;
 
-  // Returns what only a simulation has, now. Not for a body that is none.
+  // Return the true values now. The body has to be a simulated one.
   const plant::Truths& truths() noexcept;
   const plant::Truth& truth() noexcept { return truths().robot; }
   // Returns what of the machine was no number any more.

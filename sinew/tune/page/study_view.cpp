@@ -17,7 +17,7 @@ namespace sinew::tune {
 
 namespace {
 
-// --- what the text of a study's question (results/asked.h) says of its ---
+// --- facts from the text of a study (results/asked.h) ---
 
 // "vary = KEY [unit]: values" without its name; nothing for another line.
 std::optional<std::string> value_after(const std::string& line, const std::string& name) {

@@ -57,7 +57,7 @@ constexpr std::string_view of_candidates = "candidate, generation, feasible, vio
 // Returns a list of texts as JSON; text need not be UTF-8.
 std::string json_of(const std::vector<std::string>& texts) { return Json(texts).text(); }
 
-// Returns the texts of such a list. Throws log::Error for a text that is none.
+// Returns the texts of such a list. Throws log::Error for JSON that is no list of texts.
 std::vector<std::string> texts_of(const std::string& json, const fs::path& file) {
   Json list;
   (void)Json::parse(json, list);

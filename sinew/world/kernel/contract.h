@@ -1,4 +1,4 @@
-// world/kernel/contract.h - what a world asks of what moves and of its air.
+// world/kernel/contract.h - what a world needs of its mechanism and of its air.
 //
 // A mechanism (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
 //

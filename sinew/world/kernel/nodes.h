@@ -35,6 +35,7 @@ class Nodes {
   };
 
  protected:
+  // Takes the two models.
   Nodes(const M& mechanism, const A& air) : mechanism_(mechanism), air_(air) {}
   // Takes what a set-up describes.
   template <class Setup>

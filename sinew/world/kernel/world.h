@@ -113,8 +113,8 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   const State& state() const noexcept { return state_; }
   // Goes on from there as the world did whose state it was: the same bits.
   void restore(const State& state) noexcept;
-  // For whoever integrates in this world's place (chain_lanes.h): the state, to be brought
-  // to another node; and then the world goes on from there.
+  // Serve chain_lanes.h, which integrates in this world's place: the first gives out the state, to
+  // be brought to another node; after the second the world continues from there.
   State& borrow() noexcept { return state_; }
   void resume() noexcept { prepare_friction(mechanism_.pose(state_.time, state_.now.motion)); }
   double body_step() const noexcept { return step_; }  // between nodes [s]
