@@ -11,7 +11,7 @@
 #include "cli/units.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
-#include "sinew/config/named.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/json/json.h"
 #include "sinew/run/setup/actuator_text.h"

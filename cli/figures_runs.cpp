@@ -10,7 +10,7 @@
 #include "sinew/json/json.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/drawn_run.h"
-#include "sinew/run/folder/muscle_figures.h"
+#include "sinew/run/folder/figure_files.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::cli {

@@ -16,7 +16,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/json/json.h"
 #include "sinew/robot/legs.h"
-#include "sinew/run/setup/stance_text.h"
+#include "sinew/run/setup/stance.h"
 
 namespace sinew::cli {
 

@@ -1,5 +1,5 @@
 // cli/merge.cpp - `sinew merge`: the files of a study's shards as one.
-#include "sinew/tune/results/merge.h"
+#include "sinew/tune/results/results.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "cli/sweep_runs.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/tune/sensitivity_text.h"
+#include "sinew/tune/sensitivity.h"
 
 namespace sinew::cli {
 

@@ -6,7 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/units.h"
 #include "sinew/host/side_by_side.h"
-#include "sinew/tune/results/kept.h"
+#include "sinew/tune/results/results.h"
 
 namespace sinew::cli {
 

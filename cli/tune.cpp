@@ -12,7 +12,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/tune/optimizer/candidate_file.h"
-#include "sinew/tune/optimizer/kept.h"
+#include "sinew/tune/optimizer/optimize.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 
 namespace sinew::cli {

@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
-#include "sinew/config/named.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
 #include "sinew/gas/heat.h"

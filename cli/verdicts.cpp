@@ -7,7 +7,7 @@
 #include "cli/terminal.h"
 #include "sinew/config/quantity.h"
 #include "sinew/report/text/text_table.h"
-#include "sinew/run/folder/main_figures.h"
+#include "sinew/run/folder/figure_files.h"
 
 namespace sinew::cli {
 

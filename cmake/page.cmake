@@ -23,7 +23,7 @@ else()
   set(sinew_has_page OFF)
   set(page_template ${CMAKE_CURRENT_BINARY_DIR}/no_page_template.cpp)
   file(CONFIGURE OUTPUT ${page_template} CONTENT
-"#include \"sinew/report/page/page_template.h\"
+"#include \"sinew/report/page/page.h\"
 std::string_view sinew::report::page_template() { return {}; }
 std::string_view sinew::report::comparison_template() { return {}; }
 std::string_view sinew::report::fit_template() { return {}; }

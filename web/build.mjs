@@ -57,7 +57,7 @@ std::string_view sinew::report::${name}() {
 
 const run = page_of('page.html', 'style.css', 'main.js', '@connect@');
 if (out.endsWith('.cpp'))
-  writeFileSync(out, '// Made by web/build.mjs.\n#include "sinew/report/page/page_template.h"\n' +
+  writeFileSync(out, '// Made by web/build.mjs.\n#include "sinew/report/page/page.h"\n' +
     as_cpp('page_template', run) +
     as_cpp('film_script', bundle('film.js')) +
     as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')) +

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sinew/actuator/operating_point.h"
-#include "sinew/config/named.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/valve_flow.h"

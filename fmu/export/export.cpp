@@ -17,7 +17,6 @@
 #include "fmu/muscle/tube.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/host/module.h"
 #include "sinew/run/muscle/muscle_setup.h"

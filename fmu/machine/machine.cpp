@@ -9,7 +9,6 @@
 #include "fmu/slave/saved.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/lookup.h"
 #include "sinew/config/node.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/run/setup/buildable.h"

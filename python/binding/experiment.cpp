@@ -5,7 +5,6 @@
 #include "python/binding/numbers.h"
 #include "python/binding/values.h"
 #include "sinew/config/compose.h"
-#include "sinew/config/lookup.h"
 #include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/shown_units.h"

@@ -8,7 +8,7 @@
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/actuator/tension.h"
-#include "sinew/config/named.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/valve_flow.h"
 #include "sinew/run/setup/actuator_text.h"

@@ -11,7 +11,6 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/files/values.h"
 #include "sinew/run/muscle/muscle_setup.h"
-#include "sinew/run/muscle/save.h"
 #include "sinew/world/driven/driven_muscle.h"
 
 namespace sinew::python {

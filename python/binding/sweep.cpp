@@ -11,7 +11,7 @@
 #include "python/binding/numbers.h"
 #include "sinew/config/quantity.h"
 #include "sinew/host/side_by_side.h"
-#include "sinew/tune/optimizer/kept.h"
+#include "sinew/tune/optimizer/optimize.h"
 #include "sinew/tune/optimizer/tuned_text.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
 #include "sinew/files/values.h"
 
 namespace sinew::python {

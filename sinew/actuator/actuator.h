@@ -1,7 +1,7 @@
 // actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
 //
-// The laws stand in braid.h (geometry), body.h, bladder.h, pull.h, toe.h, series.h, tension.h,
-// loss.h, hysteresis.h, creep.h and stiffness.h. Everything is SI; pressure is absolute unless a
+// The laws are in braid.h (geometry), body.h, bladder.h, pull.h, series.h, tension.h, loss.h,
+// hysteresis.h, creep.h and stiffness.h. Everything is SI; pressure is absolute unless a
 // name says gauge. Sources: Colbrunn (2000), equation numbers in brackets.
 #pragma once
 
@@ -106,7 +106,7 @@ struct Series {
   double compliance = 0;  // C_s [m/N]
 };
 
-// Softens where a slack muscle begins to pull; not in the thesis, see toe.h.
+// Softens where a slack muscle begins to pull; not in the thesis, see series.h.
 struct Toe {
   double tension = 0;  // F_toe [N], 0: it begins at once
 };

@@ -6,7 +6,7 @@
 //
 // Beyond the thesis, all of it neutral where nothing is set: a threshold of the pressure (here),
 // caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h), a soft beginning
-// (toe.h), ends that give way (series.h):
+// and ends that give way (series.h):
 //
 //   F = P_act Eff(p) (b^2/(4 pi n^2) (3 L_b^2/b^2 - 1) + A_t(L_b)) + ...
 //

@@ -1,5 +1,5 @@
 // A slack muscle that begins to pull softly.
-#include "sinew/actuator/toe.h"
+#include "sinew/actuator/series.h"
 
 #include <gtest/gtest.h>
 

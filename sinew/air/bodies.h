@@ -26,7 +26,6 @@
 #include "sinew/air/valve_bank.h"
 #include "sinew/gas/heat.h"
 #include "sinew/gas/hose.h"
-#include "sinew/gas/series.h"
 #include "sinew/gas/supply.h"
 
 namespace sinew::air {

@@ -7,8 +7,8 @@
 //   y = (P/P_atm)^(1/7) = y_ref (1 + x)^(n/7)
 //
 // by gas/power_series.h while x is small (the reference is taken anew, exactly, at a node from
-// |x| > 0.02 on), else by units::power, or by gas/power_table.h where that is the rule. No libm, no
-// branches between lanes: one muscle alone and among others has the same bits. The reference
+// |x| > 0.02 on), else by units::power, or by gas/power_series.h where that is the rule. No libm,
+// no branches between lanes: one muscle alone and among others has the same bits. The reference
 // belongs to the state: who restores a state restores its reference with it.
 //
 // For muscles that lanes_hold: the thesis's law of a braid with a linear bladder. Others go by
@@ -24,7 +24,6 @@
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/power_series.h"
-#include "sinew/gas/power_table.h"
 
 namespace sinew::air {
 

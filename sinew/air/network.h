@@ -24,7 +24,7 @@
 //   valve_bank.h    valves and regulators with their faults    bodies.h  the bodies of air
 //   quick_bodies.h  those that are quicker than a step         here      what flows between them
 //
-// The laws: gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h,
+// The laws: gas/orifice.h, hose.h, leak.h, heat.h, supply.h, valve.h, cylinder.h,
 // actuator/hysteresis.h, creep.h.
 #pragma once
 

@@ -3,8 +3,8 @@
 // A hose's small volume settles within 0.1 ms, a muscle behind a wide regulator or with a burst
 // wall within less; RK4 of the whole machine would have to take such steps. Instead such a body of
 // air, or two in a row (hose and muscle), goes ahead through the step on its own, by the linearly
-// implicit rodas3.h in steps that its error chooses, and the body's stages see its masses at the
-// half and at the end.
+// implicit RODAS3 (stiff/quick.h) in steps that its error chooses, and the body's stages see its
+// masses at the half and at the end.
 //
 // What is held while it goes ahead: the muscle's length runs on at the node's rate (V is straight
 // over the step: an error of l'' h^2/2, 1e-4 of the volume at 20 m/s^2 and 1 ms), the supply's

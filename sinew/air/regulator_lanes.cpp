@@ -78,7 +78,7 @@ SINEW_WIDE void RegulatorLanes::go(int first, double h, double y_supply, const G
   const S outlet_rate = units::select(outlet[0] > supply, 0.0, follows);
   for (S& y : outlet) y = units::min(y, supply);
 
-  // One step of rodas3.h.
+  // One step of RODAS3.
   const S y = root(of_density_, base, start * by_volume[0] - 1.0, good);
   const gas::SlopedFlowOf<S> f = gas::sloped_flow_side_by_side(k.flow, outlet[0], y);
   const S by_mass = f.by_b * (n7 * y / start);

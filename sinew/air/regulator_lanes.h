@@ -1,6 +1,6 @@
 // air/regulator_lanes.h - muscles behind pressure regulators go ahead of a calm step side by side,
-// four at a time. They take one step of rodas3.h, as in quick_bodies.h, with a pack in the place
-// of each number.
+// four at a time. They take one step of RODAS3 (stiff/quick.h), as in quick_bodies.h, with a pack
+// in the place of each number.
 //
 // State per muscle: the mass m of its air.
 //

@@ -1,4 +1,4 @@
-// The calm step of four muscles behind regulators is rodas3.h's step of each.
+// The calm step of four muscles behind regulators is RODAS3's step of each.
 #include "sinew/air/regulator_lanes.h"
 
 #include <gtest/gtest.h>

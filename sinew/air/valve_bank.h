@@ -2,7 +2,7 @@
 // are from node to node, and what flows through a pair of them.
 //
 // A pair is an inlet from the supply and an exhaust to the room; a 3-way valve and a regulator
-// serve both ways. fault.h has the list of faults. The laws: gas/orifice.h, delay.h, regulator.h,
+// serve both ways. fault.h has the list of faults. The laws: gas/orifice.h, delay.h, valve.h,
 // leak.h.
 #pragma once
 

@@ -7,7 +7,7 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
 #include "sinew/analysis/verdict/compare.h"
-#include "sinew/analysis/verdict/summary.h"
+#include "sinew/analysis/verdict/reported.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/signals/table.h"
 

@@ -1,14 +1,26 @@
 #include "sinew/analysis/warnings.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "sinew/analysis/measures/statistics.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/analysis/times.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
 #include "sinew/robot/legs.h"
+#include "sinew/signals/tick.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::analysis {
+
 namespace {
 
 constexpr double whole_period = 0.9999;  // a duty of 100 % as a double [-]
@@ -197,6 +209,254 @@ std::vector<Warning> warnings(const signals::Table& table, const Machine& machin
 std::vector<std::string> texts(const std::vector<Warning>& warnings) {
   std::vector<std::string> out;
   for (const Warning& w : warnings) out.push_back(w.text);
+  return out;
+}
+
+// A robot that does nothing, or that stands where it can go no further: what to warn of.
+
+namespace {
+
+// From a topic's first sample to its last; nothing where the log does not have it.
+std::optional<double> gained(const signals::Table& table, const std::string& topic) {
+  const signals::Series* s = table.find(topic);
+  if (!s || s->columns.empty() || s->columns[0].empty()) return std::nullopt;
+  return s->columns[0].back() - s->columns[0].front();
+}
+
+// Returns the span from the first sample of any topic to the last one  [s].
+Span span_of(const signals::Table& table) {
+  std::int64_t from = std::numeric_limits<std::int64_t>::max(), to = 0;
+  for (const signals::Series& s : table.series) {
+    if (s.time_ns.empty()) continue;
+    from = std::min(from, s.time_ns.front());
+    to = std::max(to, s.time_ns.back());
+  }
+  return {1e-9 * static_cast<double>(from), 1e-9 * static_cast<double>(to)};
+}
+
+// Holds the pulses of one valve of a muscle, and how much of its duty it delivers.
+struct Pulses {
+  Occasions times;
+  std::map<signals::Tick, std::size_t>
+      lasts;                            // how many so long, without one that the end cuts off
+  double commanded = 0, delivered = 0;  // shares of the log's time [-]
+};
+
+Pulses pulses_of(const signals::Series& series, const MachineValve& valve, double from, double to) {
+  Pulses out;
+  const Edges list = edges_of(series.time_ns, series.columns[0]);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].open) continue;
+    out.times.add(std::llround(1e9 * list[i].time));
+    if (i + 1 == list.size()) continue;
+    // A pulse of a second or more is long in any period, and a long run has few lengths that way.
+    constexpr double longest = 1;  // [s]
+    const double lasts = std::min(list[i + 1].time - list[i].time, longest);
+    ++out.lasts[std::llround(lasts / signals::tick_seconds)];
+  }
+  out.commanded = open_time(list, from, to) / (to - from);
+  out.delivered = open_time(delivered(list, valve.shut, valve.closing), from, to) / (to - from);
+  return out;
+}
+
+// Returns how long half of the pulses last at most  [s].
+double half_lasts(const Pulses& pulses) {
+  std::size_t all = 0, so_far = 0;
+  for (const auto& [length, count] : pulses.lasts) all += count;
+  for (const auto& [length, count] : pulses.lasts)
+    if ((so_far += count) > all / 2) return static_cast<double>(length) * signals::tick_seconds;
+  return 0;
+}
+
+// Muscles whose valves of one kind hardly open.
+struct Unopened {
+  std::vector<std::string> muscles;
+  Pulses worst;
+  MachineValve valve;
+};
+
+constexpr double hardly = 0.1;       // delivered of what was commanded [-]
+constexpr double commanded = 0.005;  // least share of the time that counts as a duty [-]
+
+void add_unopened(const signals::Table& table, const Machine& machine, const robot::Muscle& muscle,
+                  bool inlet, Unopened& out) {
+  const MachineValve valve = valve_of(machine, inlet ? muscle.inlet : muscle.exhaust);
+  const auto logged = [&](const std::string& topic) {
+    return robot::logged_topic(machine.robot, topic);
+  };
+  const std::string name = inlet ? "inlet" : "exhaust";
+  const signals::Series* edges = table.find(logged("/valve/" + muscle.name + "/" + name + "/open"));
+  if (!edges || edges->columns.empty() || valve.shut <= 0) return;
+  const Span log = span_of(table);
+  if (!(log.to > log.from)) return;
+  Pulses pulses = pulses_of(*edges, valve, log.from, log.to);
+  if (pulses.lasts.empty() || pulses.commanded < commanded) return;
+  if (pulses.delivered > hardly * pulses.commanded) return;
+  // Air that went through where no pulse was long enough: then the delays are not those of the log.
+  const std::string moved =
+      logged("/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out"));
+  if (pulses.delivered == 0 && gained(table, moved).value_or(0) > 0) return;
+  if (out.muscles.empty() || pulses.commanded > out.worst.commanded) out.worst = std::move(pulses);
+  out.muscles.push_back(muscle.name);
+  out.valve = valve;
+}
+
+std::string text_of(const Unopened& all, std::string_view which) {
+  const std::size_t others = all.muscles.size() - 1;
+  const std::string more =
+      others == 0 ? "" : fmt::format(" and {} more muscle{}", others, others == 1 ? "" : "s");
+  const Pulses& p = all.worst;
+  return fmt::format(
+      "{}{}: the {} hardly opens: {:.2g} % of the time for {:.3g} % commanded; half of its {} "
+      "pulses "
+      "last {:.3g} ms at most, and the valve takes {:.3g} ms to open; try more "
+      "low_level.pwm_ticks, or "
+      "a quicker valve",
+      all.muscles.front(), more, which, 100 * p.delivered, 100 * p.commanded, p.times.count,
+      1e3 * half_lasts(p), 1e3 * all.valve.shut);
+}
+
+constexpr double held = units::degree;  // a desired angle that changes by less is held [rad]
+
+// Does the plan move a joint, or was an inlet told to open? A joint that is held may need no air.
+bool is_commanded(const Record& record, const Machine& machine) {
+  for (const robot::Joint& joint : machine.robot.joints) {
+    const Column desired = record.column("/desired/joint/" + joint.name + "/angle");
+    if (!joint.enabled || desired.empty()) continue;
+    if (largest(desired, record.sequence()) - smallest(desired, record.sequence()) > held)
+      return true;
+  }
+  for (const robot::Muscle& muscle : machine.robot.muscles) {
+    const Column duty = record.column("/muscle/" + muscle.name + "/inlet_duty");
+    if (!duty.empty() && largest(duty, record.sequence()) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Warning> unopened_valves(const signals::Table& table, const Machine& machine) {
+  std::vector<Warning> out;
+  for (const bool inlet : {true, false}) {
+    std::map<std::string, Unopened> by_valve;
+    for (const robot::Muscle& muscle : machine.robot.muscles)
+      add_unopened(table, machine, muscle, inlet, by_valve[inlet ? muscle.inlet : muscle.exhaust]);
+    for (auto& [name, all] : by_valve)
+      if (!all.muscles.empty())
+        out.push_back(
+            {text_of(all, inlet ? "inlet" : "exhaust"), std::move(all.worst.times.spans)});
+  }
+  return out;
+}
+
+std::vector<Warning> unused_air(const signals::Table& table, const Machine& machine) {
+  bool known = false;
+  for (const robot::Muscle& muscle : machine.robot.muscles) {
+    const auto in = gained(
+        table, robot::logged_topic(machine.robot, "/true/muscle/" + muscle.name + "/air_in"));
+    if (in.value_or(0) > 0) return {};
+    known = known || in.has_value();
+  }
+  const Record record(table, machine);
+  if (!known || !record.has_sequence() || !is_commanded(record, machine)) return {};
+  return {
+      {fmt::format("no muscle took any air in the {:.4g} s of the plan, whatever it commanded: the "
+                   "robot does nothing",
+                   record.sequence_lasts()),
+       {{record.sequence_start(), record.sequence_end()}}}};
+}
+
+std::vector<Warning> ended_tracks(const signals::Table& table, const Machine& machine) {
+  const double track = machine.robot.trolley.track_length;
+  if (!machine.robot.trolley.present || track <= 0) return {};
+  const Record record(table, machine);
+  const Column x = record.column("/true/trolley/position");
+  if (x.empty() || !record.has_sequence()) return {};
+  Occasions times;
+  for (std::size_t i = record.first_row(); i <= record.last_row(); ++i)
+    if (x[i] >= track) times.add(record.time_ns()[i]);
+  if (times.count == 0) return {};
+  const double at = times.spans.front().from;
+  return {{fmt::format("the trolley reaches the end of its track at {:.2f} s, {:.2f} s before the "
+                       "sequence is over: distance and mean speed are up to there",
+                       at, record.sequence_end() - at),
+           std::move(times.spans)}};
+}
+
+namespace {
+
+constexpr double stretched = 1.1;  // of the thread: more than an end gives [-]
+
+// A muscle across one joint alone, on a round cam: of any other it takes more than one angle.
+bool is_of_one_joint(const robot::Muscle& m, const robot::Joint& joint) {
+  return m.joint == joint.name && m.second.joint.empty() && m.cam.angle.empty() &&
+         std::isnan(m.cam.radius);
+}
+
+// Says what is wrong with the muscle's length at this angle; empty: nothing.
+std::string beyond(const robot::Joint& joint, const robot::Muscle& m, const actuator::Actuator& a,
+                   double angle) {
+  const double length = robot::muscle_length(joint, m.role, m.mount_length, angle);
+  const double thread = a.caps.length + a.braid.thread_length;
+  if (length > a.caps.length && length - a.caps.length <= stretched * a.braid.thread_length)
+    return "";
+  const bool longer = length > thread;
+  return fmt::format("{} would be {:.4g} mm long, {} its {}'s {:.4g} mm", m.name, 1e3 * length,
+                     longer ? "beyond" : "below", longer ? "thread" : "caps",
+                     1e3 * (longer ? thread : a.caps.length));
+}
+
+std::string what_is_beyond(const Machine& machine, const robot::Joint& joint, double turned) {
+  if (std::abs(turned) > 2 * std::numbers::pi) return "more than a whole turn";
+  if (joint.kind != robot::Joint::Kind::driven) return "";
+  for (const robot::Muscle& m : machine.robot.muscles) {
+    if (!is_of_one_joint(m, joint)) continue;
+    const actuator::Actuator a = robot::actuator_of(m, machine.actuators);
+    const std::string text = beyond(joint, m, a, joint.rest_angle + turned);
+    if (!text.empty()) return text;
+  }
+  return "";
+}
+
+// The true angle; of hardware the measured one, which knows no whole turns.
+const signals::Series* angles_of(const signals::Table& table, const robot::Robot& robot,
+                                 const robot::Joint& joint) {
+  const std::string at = "/joint/" + joint.name + "/angle";
+  const signals::Series* known = table.find(robot::logged_topic(robot, "/true" + at));
+  return known ? known : table.find(robot::logged_topic(robot, at));
+}
+
+// In each sample; of equal angles the log's first is the one next to the rest angle.
+Column turned_from_rest(const robot::Joint& joint, const Column& angle) {
+  Column out(angle.file());
+  if (angle.empty()) return out;
+  constexpr double turn = 2 * std::numbers::pi;
+  const double whole = turn * std::round((angle.front() - joint.rest_angle) / turn);
+  const double rest = joint.rest_angle + (std::isfinite(whole) ? whole : 0.0);
+  for (const double a : angle) out.push_back(a - rest);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Warning> overturned_joints(const signals::Table& table, const Machine& machine) {
+  std::vector<Warning> out;
+  for (const robot::Joint& joint : machine.robot.joints) {
+    const signals::Series* series = angles_of(table, machine.robot, joint);
+    if (!series || series->columns.empty()) continue;
+    const Column turned = turned_from_rest(joint, series->columns[0]);
+    double furthest = 0;
+    for (const double t : turned)
+      if (std::abs(t) > std::abs(furthest)) furthest = t;
+    const std::string text = what_is_beyond(machine, joint, furthest);
+    if (text.empty()) continue;
+    Occasions times;
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      if (!what_is_beyond(machine, joint, turned[i]).empty()) times.add(series->time_ns[i]);
+    out.push_back({fmt::format("{}: turned {:.0f} deg from its rest angle: {}", joint.name,
+                               furthest / units::degree, text),
+                   std::move(times.spans)});
+  }
   return out;
 }
 

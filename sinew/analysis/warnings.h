@@ -52,7 +52,7 @@ std::vector<Warning> rejected_commands(const signals::Table&);
 // A log that ends before its run did.
 std::vector<Warning> cut_logs(const signals::Table&);
 
-// --- idle.cpp: a robot that does nothing, or that stands where it can go no further ---
+// --- A robot that does nothing, or that can go no further ---
 
 // Valves that let through less than a tenth of what they are commanded, as their pulses are shorter
 // than they take to open: one warning for the muscles with the same valve.

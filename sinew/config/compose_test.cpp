@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
 #include "tests/places.h"
 
 namespace sinew::config::compose_test {

@@ -14,13 +14,14 @@ namespace sinew::config {
 
 namespace {
 
-constexpr const char* columns = "angle gain, stiffness gain, velocity gain";
+constexpr const char* gain_columns = "angle gain, stiffness gain, velocity gain";
 
 bool parse_row(std::string_view text, GainRow& row, RowProblems& problems) {
   const std::vector<Cell> cells = cells_of(text);
   if (cells.size() < 2 || cells.size() > 3) {
     problems.add(row.line, 1, "", fmt::format("{} columns", cells.size()),
-                 std::string(columns) + ", the last may be missing", "a comma between two numbers");
+                 std::string(gain_columns) + ", the last may be missing",
+                 "a comma between two numbers");
     return false;
   }
   double* const values[] = {&row.angle, &row.stiffness, &row.velocity};
@@ -88,7 +89,7 @@ std::vector<GainRow> parse_gains(std::string_view text, const std::string& name)
 }
 
 std::vector<GainRow> read_gains(const std::string& path) {
-  return parse_gains(read_text_file(path, std::string("rows of ") + columns), path);
+  return parse_gains(read_text_file(path, std::string("rows of ") + gain_columns), path);
 }
 
 void put_gains(Node& root, const Node& entry, const std::string& path, bool with_control) {

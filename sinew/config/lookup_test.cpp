@@ -1,10 +1,10 @@
 // A value is found by the key that an error or an origin names it by; items by their names.
-#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
 
 #include <gtest/gtest.h>
 
 #include "sinew/config/compose.h"
-#include "sinew/config/named.h"
+#include "sinew/config/diagnostics.h"
 
 namespace sinew::config::lookup_test {
 namespace {

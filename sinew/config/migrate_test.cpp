@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "sinew/config/key_places.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/text_file.h"
 #include "tests/places.h"

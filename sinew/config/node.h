@@ -67,4 +67,10 @@ std::vector<std::string_view> keys_of(const Node& table);
 Node parse_file(const std::string& path);
 Node parse_text(std::string_view text, const std::string& name);
 
+// A value of a tree by its key, as origins name it.
+
+// Returns the value under "reported[0].accept" or "joint.hip.damping"; nullptr where the tree has
+// none.
+const Node* value_at(const Node& root, std::string_view path);
+
 }  // namespace sinew::config

@@ -301,7 +301,7 @@ std::optional<Reader::Entry> Reader::open(const Field& field, std::string defaul
   entry.origin.path = path_of(field.name);
   entry.origin.unit = unit;
   if (!node) {
-    if (field.optional) {
+    if (field.optional || options_.of_a_log) {
       entry.origin.text = std::move(default_text);
       entry.origin.is_default = true;
       origins_.push_back(std::move(entry.origin));
@@ -324,7 +324,7 @@ const Node* Reader::open_container(const Field& field, Node::Kind kind) {
   const Node* node = ask(field);
   const std::string path = path_of(field.name);
   if (!node) {
-    if (!field.optional) {
+    if (!field.optional && !options_.of_a_log) {
       add_problem(*scopes_.back().table, path, "nothing", std::string(kind_name(kind)),
                   fmt::format("[{}]", path));
     }
@@ -406,6 +406,7 @@ void Reader::finish_part() {
 
 void Reader::complain(std::string_view key, std::string found, std::string expected,
                       std::string try_this) {
+  if (options_.of_a_log) return;
   const Node& table = *scopes_.back().table;
   const Node* node = table.find(key);
   add_problem(node ? *node : table, path_of(key), std::move(found), std::move(expected),

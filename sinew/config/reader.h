@@ -33,6 +33,8 @@ struct ReaderOptions {
   // Is a number without a source in this file a problem? Absent: in none.
   std::function<bool(const std::string& file)> needs_source = {};
   const Changes* changes = &config::changes();  // what became of keys that are gone
+  // True where keys may be missing, and those that do not go together are no problem.
+  bool of_a_log = false;
 };
 
 // What the file's own gauge pressures stand on: its air.atmosphere, or else the standard one. To be

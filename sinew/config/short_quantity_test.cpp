@@ -1,5 +1,4 @@
 // config/short_quantity_test.cpp - what nobody wrote is not shown, and no bit is lost.
-#include "sinew/config/short_quantity.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/user_settings.h"
 

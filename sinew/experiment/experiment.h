@@ -16,7 +16,6 @@
 #include "sinew/config/shown_units.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/fault.h"
-#include "sinew/experiment/log_table.h"
 #include "sinew/experiment/stand.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
@@ -27,6 +26,15 @@
 #include "sinew/signals/timing.h"
 
 namespace sinew::experiment {
+
+// What of a run is recorded: [log] of every kind of experiment.
+
+struct Log {
+  bool enabled = true;
+  std::vector<std::string> channels = {"*"};  // topics, * for any run of characters
+  double period = 0.01;                       // [s]
+  bool gains = false;                         // those in effect too; a stand has none
+};
 
 struct Start {
   std::map<std::string, double> joint_angles;  // [rad]

@@ -1,12 +1,17 @@
+
+#include <cmath>
 #include <filesystem>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/control/gait/legs.h"
 #include "sinew/experiment/check.h"
 #include "sinew/experiment/experiment.fields.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/experiment/imported.fields.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
 
@@ -146,6 +151,19 @@ std::string resolved(const MachineFile& file, const std::string& version) {
 
 std::string resolved(const Experiment& experiment, const std::string& version) {
   return resolved(MachineFile{"experiment", experiment}, version);
+}
+
+using signals::Tick;
+
+Tick last_tick(const Experiment& e) {
+  // One tick more than the run of a stand takes, so that its last instant is sampled too.
+  if (e.stand) return std::llround(e.stand->duration / signals::tick_seconds) + 1;
+  const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
+  const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
+  const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
+  // One period for the last valves to shut, and for a sample of where the plan has led to.
+  const Tick last = e.robot.low_level.pwm_ticks;
+  return plan + std::llround(vent / signals::tick_seconds) + last;
 }
 
 }  // namespace sinew::experiment

@@ -1,18 +1,160 @@
 #include "sinew/files/keys.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/files/key_lister.h"
 #include "sinew/files/key_tables.h"
+#include "sinew/units/field.h"
+#include "sinew/units/ranges.h"
 
 namespace sinew::files {
+
+// The visitor of units/field.h that notes which fields there are.
+//
+// Which fields a table has, and with which unit, can follow from the words beside them. So a lister
+// can be told what to find at a place, and another one sees another table.
+
+// What a lister finds at places: a word of a choice, a text, a number.
+using Found = std::map<std::string, std::string>;
+
+class KeyLister {
+ public:
+  using Field = units::Field;
+
+  // `kind` is that of the keys that it lists.
+  KeyLister(std::string_view kind, Found found) : kind_(kind), found_(std::move(found)) {}
+
+  // What was visited, in its order.
+  std::vector<Key> keys;
+
+  // The functions of a visitor, units/field.h.
+  void number(const Field& f, double& value) {
+    quantity(f, KeyType::number, text_of(f, value));
+    if (const auto at = found_.find(keys.back().path); at != found_.end())
+      value = std::stod(at->second);
+  }
+  void numbers(const Field& f, std::vector<double>& values) {
+    quantity(f, KeyType::numbers, joined(f, values));
+  }
+  void polynomial(const Field& f, std::vector<double>&, std::string_view per) {
+    // Their ends are those of their units alone.
+    Key& key = add(f, KeyType::polynomial);
+    key.unit = f.unit;
+    key.per = per;
+  }
+  void integer(const Field& f, int& value) {
+    Key& key = add(f, KeyType::whole);
+    key.min = f.min;
+    key.max = f.max;
+    default_is(key, std::to_string(value));
+  }
+  void flag(const Field& f, bool& value) {
+    default_is(add(f, KeyType::flag), value ? "true" : "false");
+  }
+  void text(const Field& f, std::string& value) {
+    Key& key = add(f, KeyType::text);
+    default_is(key, value);
+    if (const auto at = found_.find(key.path); at != found_.end()) value = at->second;
+  }
+  void texts(const Field& f, std::vector<std::string>& values) {
+    std::string all;
+    for (const std::string& one : values) all += (all.empty() ? "" : ", ") + one;
+    default_is(add(f, KeyType::texts), all);
+  }
+  void named_numbers(const Field& f, std::map<std::string, double>&) {
+    group(f, [&](KeyLister& v) {
+      Field one = f;
+      one.name = "<name>";
+      double value = 0;
+      v.number(one, value);
+    });
+  }
+  template <class Enum>
+  void choice(const Field& f, Enum& value,
+              std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {
+    Key& key = add(f, KeyType::choice);
+    for (const auto& choice : choices) {
+      key.choices.emplace_back(choice.word);
+      if (choice.value == value) default_is(key, std::string(choice.word));
+    }
+    const auto at = found_.find(key.path);
+    if (at == found_.end()) return;
+    for (const auto& choice : choices)
+      if (choice.word == at->second) value = choice.value;
+  }
+  template <class Visit>
+  void group(const Field& f, Visit visit) {
+    add(f, KeyType::table);
+    inside(std::string(f.name), [&] { visit(*this); });
+  }
+  template <class T, class Visit>
+  void each(const Field& f, std::vector<T>&, Visit visit) {
+    add(f, KeyType::tables);
+    T item{};
+    item.name = "<name>";
+    inside(std::string(f.name) + ".<name>", [&] { visit(*this, item); });
+  }
+  template <class T, class Visit>
+  void list(const Field& f, std::vector<T>&, Visit visit) {
+    add(f, KeyType::list);
+    T item{};
+    inside(std::string(f.name) + "[]", [&] { visit(*this, item); });
+  }
+
+ private:
+  static std::string text_of(const Field& f, double value) {
+    return std::isfinite(value) ? config::format_quantity(value, f.unit) : "not set";
+  }
+  static std::string joined(const Field& f, const std::vector<double>& values) {
+    std::string all;
+    for (const double value : values) all += (all.empty() ? "" : ", ") + text_of(f, value);
+    return all;
+  }
+  static void default_is(Key& key, std::string text) {
+    if (!key.required) key.default_text = std::move(text);
+  }
+
+  Key& add(const Field& f, KeyType type) {
+    keys.push_back({.kind = kind_,
+                    .path = prefix_ + std::string(f.name),
+                    .type = type,
+                    .required = !f.optional,
+                    .doc = std::string(f.doc)});
+    return keys.back();
+  }
+  void quantity(const Field& f, KeyType type, std::string default_text) {
+    Key& key = add(f, type);
+    key.unit = f.unit;
+    key.min = f.min;
+    key.max = f.max;
+    key.least = f.least;
+    key.most = units::range_of(f.unit).most;
+    key.why = f.why;
+    default_is(key, std::move(default_text));
+  }
+  template <class Visit>
+  void inside(const std::string& name, const Visit& visit) {
+    const std::string outer = prefix_;
+    prefix_ += name + ".";
+    visit();
+    prefix_ = outer;
+  }
+
+  std::string kind_;
+  Found found_;
+  std::string prefix_;
+};
 
 namespace {
 
@@ -356,6 +498,149 @@ std::string_view to_text(KeyType type) {
       return "list";
   }
   return "";
+}
+
+// A key by a real name or by words.
+
+namespace {
+
+using Parts = std::vector<std::string>;
+
+// "fault[0].at" as fault[] and at.
+Parts parts_of(std::string_view path) {
+  Parts out;
+  for (std::size_t from = 0; from <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', from), path.size());
+    std::string part(path.substr(from, dot - from));
+    if (const std::size_t bracket = part.find('['); bracket != part.npos && part.ends_with(']')) {
+      const std::string inside = part.substr(bracket + 1, part.size() - bracket - 2);
+      const bool number = inside.find_first_not_of("0123456789") == inside.npos;
+      if (number) part = part.substr(0, bracket) + "[]";
+    }
+    out.push_back(std::move(part));
+    from = dot + 1;
+  }
+  return out;
+}
+
+std::string without_brackets(std::string_view part) {
+  return std::string(part.ends_with("[]") ? part.substr(0, part.size() - 2) : part);
+}
+
+// Does the key begin with these parts? A list's brackets may be left out.
+bool begins_as(const Parts& key, const Parts& path) {
+  if (path.size() > key.size()) return false;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (key[i] == "<name>" ? path[i].empty()
+                           : without_brackets(key[i]) != without_brackets(path[i]))
+      return false;
+  }
+  return true;
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+bool has_word(const Key& key, const std::string& word) {
+  if (lower(key.path).find(word) != std::string::npos) return true;
+  if (lower(key.doc).find(word) != std::string::npos) return true;
+  return std::ranges::any_of(key.choices, [&](const std::string& choice) {
+    return lower(choice).find(word) != std::string::npos;
+  });
+}
+
+// The keys that a word with a dot names, or those below it; none, where it names none.
+std::vector<Key> named(const std::vector<Key>& among, std::string_view word) {
+  std::vector<Key> exact, below;
+  const Parts path = parts_of(word);
+  for (const Key& key : among) {
+    if (is_key(key, word) && key.type != KeyType::table && key.type != KeyType::tables &&
+        key.type != KeyType::list)
+      exact.push_back(key);
+    if (begins_as(parts_of(key.path), path)) below.push_back(key);
+  }
+  return exact.empty() ? below : exact;
+}
+
+// The keys under the names that the word has: joint.hip.damping beside "joint.hip.dampnig".
+std::string in_names_of(const Key& key, const Parts& word) {
+  Parts path = parts_of(key.path);
+  std::string out;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i] == "<name>" && i < word.size() && !word[i].empty()) path[i] = word[i];
+    out += (out.empty() ? "" : ".") + path[i];
+  }
+  return out;
+}
+
+// The nearest key to a word that no key has; without a dot, the nearest part of one.
+std::string nearest(const std::vector<Key>& among, std::string_view word) {
+  const bool path = word.find('.') != word.npos;
+  const Parts names = parts_of(word);
+  std::set<std::string> candidates;
+  for (const Key& key : among) {
+    if (path) {
+      candidates.insert(in_names_of(key, names));
+    } else {
+      for (const std::string& part : parts_of(key.path))
+        if (part != "<name>") candidates.insert(without_brackets(part));
+    }
+  }
+  return std::string(config::closest(word, {candidates.begin(), candidates.end()}));
+}
+
+[[noreturn]] void refuse(const std::string& found, const std::string& expected,
+                         const std::string& try_this) {
+  config::fail({"keys", 0, 0}, "", found, expected, try_this);
+}
+
+std::vector<Key> with_word(const std::vector<Key>& among, const std::string& word) {
+  if (word.find('.') != word.npos) {
+    if (std::vector<Key> found = named(among, word); !found.empty()) return found;
+  }
+  std::vector<Key> out;
+  const std::string small = lower(word);
+  for (const Key& key : among)
+    if (has_word(key, small)) out.push_back(key);
+  return out;
+}
+
+}  // namespace
+
+bool is_key(const Key& key, std::string_view path) {
+  const Parts own = parts_of(key.path);
+  Parts asked = parts_of(path);
+  return own.size() == asked.size() && begins_as(own, asked);
+}
+
+std::vector<Key> find_keys(const std::vector<std::string>& words, std::string_view kind) {
+  const std::vector<Key> all = kind.empty() ? keys() : keys_of(kind);
+  const std::string where = kind.empty() ? "" : fmt::format(" of kind {}", kind);
+  std::vector<Key> found = all;
+  for (const std::string& word : words) {
+    const std::vector<Key> with = with_word(all, word);
+    if (with.empty() || word.empty()) {
+      const std::string near = nearest(all, word);
+      refuse(config::in_quotes(word),
+             fmt::format("a key{}, the beginning of one, or a word of its description", where),
+             near.empty() ? "sinew keys, for the tables" : near);
+    }
+    std::vector<Key> both;
+    for (const Key& key : found)
+      if (std::ranges::any_of(with, [&](const Key& other) {
+            return other.kind == key.kind && other.path == key.path && other.when == key.when;
+          }))
+        both.push_back(key);
+    if (both.empty())
+      refuse(config::in_quotes(word),
+             fmt::format("a word that a key{} has beside the others", where), "fewer words");
+    found = std::move(both);
+  }
+  return found;
 }
 
 }  // namespace sinew::files

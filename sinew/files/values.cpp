@@ -5,10 +5,9 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
-#include "sinew/config/short_quantity.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/json/json.h"

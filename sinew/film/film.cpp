@@ -12,7 +12,6 @@
 #include "sinew/film/video.h"
 #include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
-#include "sinew/report/page/page_template.h"
 #include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"

@@ -1,6 +1,6 @@
 // What a coil takes, and the rest of a valve's electrical side: drives, delays that depend on the
 // pressure, the fastest wave; regulators and tanks.
-#include "sinew/gas/coil.h"
+#include "sinew/gas/coil_current.h"
 
 #include <gtest/gtest.h>
 

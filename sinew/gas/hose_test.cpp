@@ -7,7 +7,6 @@
 #include <random>
 
 #include "sinew/gas/leak.h"
-#include "sinew/gas/series.h"
 
 namespace sinew::gas::hose_test {
 namespace {

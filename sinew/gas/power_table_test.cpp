@@ -1,5 +1,5 @@
 // Laws of a power from a table: as exact as units::power, everywhere.
-#include "sinew/gas/power_table.h"
+#include "sinew/gas/power_series.h"
 
 #include <gtest/gtest.h>
 

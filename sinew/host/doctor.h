@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/host/latency.h"
+#include "sinew/host/realtime.h"
 
 namespace sinew::host {
 
@@ -42,5 +42,31 @@ std::vector<Finding> examine(const DoctorAsked& asked);
 
 // Does anything lack that this kind of place needs? `simulated` needs nothing.
 bool is_ready(const std::vector<Finding>& findings, const std::string& place);
+
+// What the doctor reads of a system below a root: text, devices, the groups
+// and limits of this process.
+
+// The text of a file without what ends it; empty where there is none.
+std::string text_of(const std::filesystem::path& file);
+
+// Files of a folder whose names start so, sorted.
+std::vector<std::filesystem::path> named(const std::filesystem::path& folder,
+                                         const std::vector<std::string>& starts);
+
+// Who this process is, by /proc/self/status.
+struct User {
+  long id = -1, group = -1;
+  std::vector<long> groups;
+};
+User user_of(const std::filesystem::path& root);
+
+// May the user read and write it, by owner, group and mode? The first user may everything.
+bool may_use(const std::filesystem::path& file, const User& user);
+
+// The name of the group that a file has, by etc/group; its number where there is no name.
+std::string group_of(const std::filesystem::path& file, const std::filesystem::path& root);
+
+// A soft limit by its name in /proc/self/limits; -1: unlimited, 0 where it is not told.
+double limit_of(const std::filesystem::path& root, const std::string& name);
 
 }  // namespace sinew::host

@@ -7,8 +7,6 @@
 
 #include <fstream>
 
-#include "sinew/host/doctor_files.h"
-
 namespace sinew::host::doctor_test {
 namespace {
 

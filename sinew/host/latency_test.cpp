@@ -1,9 +1,7 @@
 // How late a computer is, from wake-ups that are known, and the beat by which a loop goes.
-#include "sinew/host/latency.h"
+#include "sinew/host/realtime.h"
 
 #include <gtest/gtest.h>
-
-#include "sinew/host/beat.h"
 
 namespace sinew::host::latency_test {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/live/request.h"
 #include "sinew/live/server.h"
 #include "sinew/live/show.h"
-#include "sinew/live/text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/page.h"

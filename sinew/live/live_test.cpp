@@ -7,7 +7,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/json/json.h"
-#include "sinew/live/feed.h"
 #include "sinew/live/request.h"
 #include "sinew/live/show.h"
 #include "sinew/run/controllers/columns.h"

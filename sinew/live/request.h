@@ -6,6 +6,12 @@
 //   {"do": "stop"}      a machine that keeps its own time, in place of pause, resume and pace
 #pragma once
 
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,5 +32,43 @@ inline constexpr std::size_t longest_request = 1024;  // [bytes]
 
 // Throws std::invalid_argument, which says what was found and what was expected, for anything else.
 Request read_request(std::string_view text, const std::vector<gait::Setting>& settings);
+
+// Numbers in the path of a request.
+
+// Returns the number behind `begin`, which is the whole rest of the path.
+inline std::optional<std::size_t> number_in(std::string_view path, std::string_view begin) {
+  if (!path.starts_with(begin)) return std::nullopt;
+  path.remove_prefix(begin.size());
+  std::size_t out = 0;
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), out);
+  if (error != std::errc{} || end != path.data() + path.size()) return std::nullopt;
+  return out;
+}
+
+// Returns the numbers of a list "3,5,8"; nothing where anything else stands in it.
+inline std::optional<std::vector<std::size_t>> numbers_in(std::string_view list) {
+  std::vector<std::size_t> out;
+  while (true) {
+    const std::size_t comma = list.find(',');
+    const auto number = number_in(list.substr(0, comma), "");
+    if (!number) return std::nullopt;
+    out.push_back(*number);
+    if (comma == list.npos) return out;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+// The text that replies are made of.
+
+// The type of a reply that is told in words.
+inline constexpr const char* plain = "text/plain; charset=utf-8";
+
+// Returns a file's text as it is, nothing where it cannot be read.
+inline std::string file_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
 
 }  // namespace sinew::live

@@ -1,17 +1,175 @@
 #include "sinew/live/served.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
+#include <chrono>
+#include <fstream>
 #include <memory>
 
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
 #include "sinew/config/diagnostics.h"
-#include "sinew/live/runs_pages.h"
+#include "sinew/config/node.h"
+#include "sinew/json/json.h"
+#include "sinew/live/request.h"
 #include "sinew/live/study_pages.h"
+#include "sinew/report/compare/comparison.h"
+#include "sinew/report/page/page.h"
+#include "sinew/report/page/picture.h"
+#include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/tune/page/study_view.h"
 
 namespace sinew::live {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> runs_below(const fs::path& folder) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> found;
+  std::error_code none;
+  for (const fs::directory_entry& e : fs::recursive_directory_iterator(
+           folder, fs::directory_options::skip_permission_denied, none))
+    if (e.path().filename() == run::log_name && e.is_regular_file() &&
+        e.path().parent_path().filename() != run::unfinished_name)
+      found.emplace_back(e.last_write_time(), e.path().parent_path());
+  std::ranges::sort(found, [](const auto& a, const auto& b) { return a > b; });
+  std::vector<fs::path> out;
+  for (auto& [time, run] : found) out.push_back(std::move(run));
+  return out;
+}
+
+namespace {
+
+constexpr std::size_t most_compared = 8;
+
+Reply not_found() { return {404, "Nothing is here; the runs are at runs.\n", plain}; }
+
+// The folder of a run that may be named by its log.
+fs::path folder_of(const fs::path& run) { return fs::is_directory(run) ? run : run.parent_path(); }
+
+// Returns it in the time of this computer: "2026-11-25 02:10".
+std::string date_of(fs::file_time_type written) {
+  const auto when = std::chrono::file_clock::to_sys(written);
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(when));
+  std::tm local{};
+  if (localtime_r(&seconds, &local) == nullptr) return "";
+  return fmt::format("{:%Y-%m-%d %H:%M}", local);
+}
+
+// The lines of a resolved.toml before its first table: its title and its robot, without the
+// thousand values behind them.
+std::string top_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::string out, line;
+  while (std::getline(in, line) && !line.starts_with('[')) out += line + '\n';
+  return out;
+}
+
+std::string text_at(const config::Node& node, std::string_view key) {
+  const config::Node* found = node.find(key);
+  if (found != nullptr && found->is_value_table()) found = found->find("value");
+  return found != nullptr ? config::written(*found) : "";
+}
+
+// Returns what summary.json says; nothing where the run was not finished.
+Json summary_in(const fs::path& folder) {
+  std::ifstream in(folder / run::summary_name);
+  Json out;
+  return in && Json::parse(in, out) && out.is_object() ? out : Json::object();
+}
+
+}  // namespace
+
+RunsPages::RunsPages(fs::path folder, std::vector<fs::path> runs, std::string machine)
+    : folder_(std::move(folder)), runs_(std::move(runs)), machine_(std::move(machine)) {}
+
+Reply RunsPages::get(std::string_view path) try {
+  if (path == "/") return list_first_ ? list() : page_of_run(0);
+  if (path == "/runs") return list();
+  constexpr std::string_view compare = "/compare/";
+  if (path.starts_with(compare)) return compared(path.substr(compare.size()));
+  if (const auto run = number_in(path, "/run/"); run && *run < runs_.size())
+    return page_of_run(*run);
+  if (const auto run = number_in(path, "/picture/"); run && *run < runs_.size())
+    return picture_of(*run);
+  return not_found();
+} catch (const std::exception& wrong) {
+  return {500, std::string(wrong.what()) + "\n", plain};
+}
+
+void RunsPages::look_again() {
+  if (folder_.empty()) return;
+  for (fs::path& found : runs_below(folder_))
+    if (std::ranges::find(runs_, found) == runs_.end()) runs_.push_back(std::move(found));
+}
+
+std::string RunsPages::told_of(std::size_t run) {
+  const fs::path folder = folder_of(runs_[run]);
+  std::error_code gone;
+  const fs::file_time_type written = fs::last_write_time(run::recorded_run(runs_[run]).log, gone);
+  Told& told = told_[run];
+  if (told.written == written && !told.json.empty()) return told.json;
+  const Json summary = summary_in(folder);
+  config::Node top;
+  try {
+    top = config::parse_text(top_of(folder / run::resolved_name), "resolved.toml");
+  } catch (const config::Error&) {
+    // The run's own page says what is wrong with the file; the list names the folder.
+  }
+  Json out = {{"run", run}, {"folder", runs_[run].string()}, {"date", date_of(written)}};
+  out["title"] = summary.string("title", text_at(top, "title"));
+  out["about"] = summary.string("reproduces", text_at(top, "reproduces"));
+  out["robot"] = text_at(top, "robot_name");
+  out["seed"] = text_at(top, "seed");
+  if (summary.contains("duration_s")) out["duration_s"] = summary["duration_s"];
+  told = {written, out.text()};
+  return told.json;
+}
+
+Reply RunsPages::list() {
+  report::require_page("the list of runs");
+  look_again();
+  std::string runs;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    if (!fs::exists(runs_[i])) continue;  // somebody has removed it since
+    runs += (runs.empty() ? "" : ",") + told_of(i);
+  }
+  report::Content content;
+  content.title = "Runs";
+  content.json = fmt::format(R"({{"folder":{},"most":{},"runs":[{}]}})",
+                             Json(folder_.string()).text(), most_compared, runs);
+  content.connect = " 'self'";  // the pictures come from here
+  return {200, report::fill(report::run_list_template(), content)};
+}
+
+Reply RunsPages::page_of_run(std::size_t run) const {
+  return {200, run::page_of(run::recorded_run(runs_[run]), machine_)};
+}
+
+Reply RunsPages::picture_of(std::size_t run) const {
+  const run::RecordedRun recorded = run::recorded_run(runs_[run]);
+  config::Node resolved;
+  try {
+    if (fs::exists(recorded.resolved)) resolved = config::parse_file(recorded.resolved.string());
+  } catch (const config::Error&) {
+    // The run's own page says what is wrong with the file; here it has no machine.
+  }
+  return {200, report::picture(resolved), "image/svg+xml"};
+}
+
+Reply RunsPages::compared(std::string_view numbers) const {
+  const auto chosen = numbers_in(numbers);
+  if (!chosen || chosen->size() < 2 || chosen->size() > most_compared) return not_found();
+  std::vector<std::string> folders;
+  for (const std::size_t run : *chosen) {
+    if (run >= runs_.size()) return not_found();
+    folders.push_back(runs_[run].string());
+  }
+  return {200, report::page(run::compare_runs(folders, report::Align::start))};
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,14 +1,107 @@
 #include "sinew/live/study_pages.h"
 
+#include <algorithm>
+#include <chrono>
+#include <set>
+
 #include <fmt/format.h>
 
 #include "sinew/json/json.h"
-#include "sinew/live/path_numbers.h"
-#include "sinew/live/text.h"
+#include "sinew/live/request.h"
 #include "sinew/report/page/page.h"
+#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/page.h"
 
 namespace sinew::live {
+
+namespace fs = std::filesystem;
+
+StudyFeed::StudyFeed(const fs::path& file)
+    : file_(file), seen_(stamp()), study_(tune::study_view(file)) {
+  for (std::size_t i = 0; i < study_.rows.size(); ++i) {
+    at_[study_.rows[i].number] = i;
+    changes_.push_back(study_.rows[i].number);
+  }
+}
+
+// Taken before the file is read: what is written while it is read is seen the next time.
+StudyFeed::Stamp StudyFeed::stamp() const {
+  Stamp out{};
+  std::size_t i = 0;
+  for (const fs::path& file : {file_, fs::path(file_.string() + "-wal")}) {
+    std::error_code none;
+    out[i++] = fs::last_write_time(file, none).time_since_epoch().count();
+    out[i++] = static_cast<long long>(fs::file_size(file, none));
+  }
+  return out;
+}
+
+void StudyFeed::look() {
+  const Stamp now = stamp();
+  if (now == seen_) return;
+  tune::StudyView next = tune::study_view(file_);
+  std::map<std::size_t, std::size_t> at;
+  for (std::size_t i = 0; i < next.rows.size(); ++i) {
+    const tune::StudyRow& row = next.rows[i];
+    at[row.number] = i;
+    const auto known = at_.find(row.number);
+    if (known == at_.end() || !(study_.rows[known->second] == row)) changes_.push_back(row.number);
+  }
+  at_ = std::move(at);
+  study_ = std::move(next);
+  seen_ = now;
+}
+
+std::vector<tune::StudyRow> StudyFeed::since(std::size_t known) const {
+  std::vector<tune::StudyRow> out;
+  std::set<std::size_t> told;
+  for (std::size_t i = known; i < changes_.size(); ++i) {
+    const auto found = at_.find(changes_[i]);
+    if (found != at_.end() && told.insert(changes_[i]).second)
+      out.push_back(study_.rows[found->second]);
+  }
+  return out;
+}
+
+namespace {
+
+constexpr auto moment = std::chrono::milliseconds(1500);
+constexpr std::ptrdiff_t most_at_once = 4;
+
+std::filesystem::path run_and_keep(const tune::StudyRun& run, const std::atomic<bool>& stop) {
+  const run::RunRequest request{.experiment = run.experiment,
+                                .folder = "",
+                                .sets = run.sets,
+                                .allow_unreachable = run.allow_unreachable};
+  run::KeptRun kept(request);
+  run::RunOptions options{.stop = &stop};
+  kept.apply(options);
+  return kept.keep(run::run(kept.experiment(), options)).folder;
+}
+
+bool goes(const std::shared_future<std::filesystem::path>& run) {
+  return run.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
+}  // namespace
+
+RowRuns::~RowRuns() { stop_ = true; }  // each future waits for its thread
+
+bool RowRuns::is_busy() {
+  return std::ranges::count_if(runs_, [](const auto& r) { return goes(r.second); }) >= most_at_once;
+}
+
+void RowRuns::begin(std::size_t row, const tune::StudyRun& run) {
+  runs_[row] =
+      std::async(std::launch::async, [this, run] { return run_and_keep(run, stop_); }).share();
+}
+
+std::optional<std::filesystem::path> RowRuns::folder(std::size_t row) {
+  const auto& run = runs_.at(row);
+  if (run.wait_for(moment) != std::future_status::ready) return std::nullopt;
+  return run.get();
+}
+
 namespace {
 
 // A page that asks again by itself.

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "sinew/json/json.h"
-#include "sinew/log/names.h"
+#include "sinew/log/file.h"
 
 namespace sinew::log {
 namespace {

@@ -10,7 +10,6 @@
 #include "sinew/log/file.h"
 #include "sinew/log/mcap.h"
 #include "sinew/log/message.h"
-#include "sinew/log/names.h"
 #include "sinew/log/steady.h"
 
 namespace sinew::log {

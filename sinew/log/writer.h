@@ -7,6 +7,7 @@
 // write a log of that name meanwhile.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +18,8 @@
 #include <vector>
 
 #include "sinew/log/error.h"
+#include "sinew/log/steady.h"
+#include "sinew/signals/ring.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::log {
@@ -60,5 +63,31 @@ class Writer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// What passes between the loop and the log's thread.
+
+inline constexpr std::size_t kMaxFields = 4;  // of a topic
+
+// Holds what the loop hands over: one message of a topic.
+struct Sample {
+  std::int64_t time_ns = 0;
+  std::uint16_t topic = 0;
+  std::array<double, kMaxFields> values{};
+};
+
+using Ring = signals::Ring<Sample>;
+
+// Turns a finished row of messages into an indexed file, in which a viewer can jump.
+
+class Output;
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+// Writes an indexed copy of `row` beside the file, syncs it and renames it over the file, so that
+// at any instant one of the two stands there whole. Throws Error; the file then is as it was: also
+// where another file has taken the place of `row`. `run`: what was run, in place of what the file
+// says of it; empty: that. Of `steady` topics only the first message is kept.
+void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run = {},
+                  const SteadyTopics& steady = {});
 
 }  // namespace sinew::log

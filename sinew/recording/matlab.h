@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/recording/clock_settings.h"
+#include "sinew/recording/clock.h"
 #include "sinew/recording/recorded.h"
 
 namespace sinew::recording {

@@ -216,6 +216,30 @@ double muscle_length(const Joint& joint, Muscle::Role role, double mount_length,
   return mount_length - pull(role) * joint.sign() * joint.moment_arm * (angle - joint.rest_angle);
 }
 
+namespace {
+
+// By the trapezoidal rule, which is exact for the straight pieces of a cam whose corners it meets.
+double cord_taken_up(const Muscle& muscle, const Joint& joint, double angle) {
+  constexpr int pieces = 32;
+  const double step = (angle - joint.rest_angle) / pieces;
+  double sum = 0;
+  for (int i = 0; i <= pieces; ++i) {
+    const double share = i == 0 || i == pieces ? 0.5 : 1.0;
+    sum += share * pull_at(muscle, joint, joint.rest_angle + i * step);
+  }
+  return sum * step;
+}
+
+}  // namespace
+
+double muscle_length(const Robot& robot, const Muscle& muscle, std::span<const double> angles) {
+  double length = muscle.mount_length;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (pull_at(muscle, robot.joints[j], angles[j]) != 0)
+      length -= cord_taken_up(muscle, robot.joints[j], angles[j]);
+  return length;
+}
+
 double believed_muscle_length(const Robot& robot, int muscle, double angle) {
   const Muscle& m = robot.muscles[static_cast<std::size_t>(muscle)];
   const Joint& joint = robot.joints[static_cast<std::size_t>(find_joint(robot, m.joint))];

@@ -144,6 +144,9 @@ double torque(const Joint&, double flexor_tension, double extensor_tension);
 // Length of a muscle by the cam  [m]; the flexor shortens where its joint flexes.
 double muscle_length(const Joint&, Muscle::Role, double mount_length, double angle);
 
+// Returns the length of a muscle by its cams of any shape, at these angles of all joints  [m].
+double muscle_length(const Robot&, const Muscle&, std::span<const double> angles);
+
 // The same as the low level believes: its own mount length, and B.1's exchange at the knee.
 double believed_muscle_length(const Robot&, int muscle, double angle);
 

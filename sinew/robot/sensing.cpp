@@ -1,6 +1,6 @@
 #include "sinew/robot/sensing.h"
 
-#include "sinew/units/mix.h"
+#include "sinew/units/hash.h"
 
 namespace sinew::robot {
 
@@ -30,6 +30,16 @@ std::uint16_t counts(const Sensor& sensor, const Converter& converter, double qu
   const double top = converter.top();
   const double bounded = value < 0 ? 0.0 : value > top ? top : value;
   return static_cast<std::uint16_t>(bounded + 0.5);
+}
+
+Line own_tension(const Sensor& sensor, const Converter& converter) {
+  return {.count_at_zero = sensor.assumed_at_rest,
+          .counts_per_unit = sensor.scale * converter.counts_per_volt()};
+}
+
+Line assumed_tension(const Sensor& sensor, const Converter& converter) {
+  return {.count_at_zero = sensor.assumed_at_rest,
+          .counts_per_unit = sensor.assumed_scale * converter.counts_per_volt()};
 }
 
 }  // namespace sinew::robot

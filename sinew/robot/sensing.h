@@ -1,4 +1,4 @@
-// robot/sensing.h - from a quantity to the converter's counts.
+// robot/sensing.h - from a quantity to the converter's counts, and back.
 #pragma once
 
 #include <cstdint>
@@ -17,5 +17,21 @@ double noise(std::uint64_t seed, int sensor, signals::Tick tick);
 // rounding to the nearest count, and its two ends (4.1, 4.4: tension clips at 29.4 lb).
 std::uint16_t counts(const Sensor& sensor, const Converter& converter, double quantity,
                      double noise);
+
+// A sensor's quantity and its counts, along a line.
+struct Line {
+  double at_zero = 0;  // the quantity where the counts are `count_at_zero`
+  double count_at_zero = 0;
+  double counts_per_unit = 0;
+
+  // Returns the counts of a quantity, and the quantity of counts.
+  double counts(double value) const { return count_at_zero + (value - at_zero) * counts_per_unit; }
+  double value(double count) const { return at_zero + (count - count_at_zero) / counts_per_unit; }
+};
+
+// Returns the line of a muscle's transducer: by its own scale, as logs have it; and by the scale
+// that the controller assumes for all of them  [N].
+Line own_tension(const Sensor&, const Converter&);
+Line assumed_tension(const Sensor&, const Converter&);
 
 }  // namespace sinew::robot

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/tune/largest.h"
+#include "sinew/tune/sweep.h"
 
 namespace sinew::tune::figure_test {
 namespace {

@@ -1,5 +1,4 @@
 // Why a row is what it is: one wording for each reason, by runs that have it.
-#include "sinew/tune/notes.h"
 
 #include <gtest/gtest.h>
 

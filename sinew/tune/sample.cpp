@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/units/mix.h"
+#include "sinew/units/hash.h"
 
 namespace sinew::tune {
 namespace {

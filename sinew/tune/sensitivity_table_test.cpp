@@ -1,5 +1,5 @@
 // A sensitivity study of real runs: its points are single runs, its words are refused in order.
-#include "sinew/tune/sensitivity_table.h"
+#include "sinew/tune/sensitivity.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/study.fields.h"
+#include "sinew/tune/sweep.h"
 
 namespace sinew::tune {
 
@@ -118,6 +123,133 @@ Sweep sweep_of(const Study& study) {
   const experiment::Experiment e = run::buildable(out.experiment, out.sets);
   out.report = reported_figures(e.reported, e.air.atmosphere);
   return out;
+}
+
+// What an axis asks of the experiment: everything that can be refused before the first run.
+
+namespace {
+
+const std::string& first_text(const Axis& axis) { return axis.values.front().text; }
+
+[[noreturn]] void unknown_key(const Axis& axis, const config::Origins& origins) {
+  std::vector<std::string_view> known;
+  for (const config::Origin& origin : origins) known.push_back(origin.path);
+  config::fail({axis.key, 0, 0}, "", "an unknown key", "one that sinew show lists",
+               config::closest_in_quotes(axis.key, known));
+}
+
+// Whole numbers: the least and the greatest are read, each alone. What else is wrong with the
+// experiment then may be mended by another axis.
+void check_whole_numbers(const Sweep& s, const Axis& axis) {
+  const auto [least, greatest] = std::ranges::minmax_element(
+      axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
+  for (const Value* value : {&*least, &*greatest}) {
+    if (!value->number) continue;
+    std::vector<std::string> sets = s.sets;
+    sets.push_back(axis.set(*value));
+    try {
+      (void)run::buildable(s.experiment, sets);
+    } catch (const config::Error& e) {
+      for (const config::Problem& problem : e.problems())
+        if (problem.key == axis.key) throw config::Error(problem);
+    }
+  }
+}
+
+void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin,
+                  double atmosphere) {
+  if (origin.unit.empty()) return check_whole_numbers(s, axis);
+  for (const Value& value : axis.values) {
+    const auto mistake =
+        config::parse_quantity(value.text, origin.unit, atmosphere, origin.text).mistake;
+    if (mistake)
+      config::fail({axis.key, 0, 0}, "", mistake->found, mistake->expected, mistake->try_this);
+  }
+}
+
+// An element of a list has no origin of its own: the reader says what is wrong with its first and
+// last value.
+void check_element(const Sweep& s, const Axis& axis) {
+  for (const Value* value : {&axis.values.front(), &axis.values.back()}) {
+    std::vector<std::string> sets = s.sets;
+    sets.push_back(axis.set(*value));
+    (void)run::buildable(s.experiment, sets);
+  }
+}
+
+void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
+                double atmosphere) {
+  if (axis.key == "robot") return;
+  if (axis.key.ends_with(']')) return check_element(s, axis);
+  if (axis.key == "experiment") {
+    for (const Value& value : axis.values) run::buildable(beside(s, value.text), s.sets);
+    return;
+  }
+  if (const config::Origin* origin = config::find_origin(origins, axis.key))
+    return check_values(s, axis, *origin, atmosphere);
+
+  // It may be a key that is there only once it is set. If not, the reader says what it is.
+  std::vector<std::string> sets = s.sets;
+  sets.push_back(axis.key + "=" + first_text(axis));
+  if (axis.key.find('.') == axis.key.npos) unknown_key(axis, origins);
+  const experiment::Experiment e = run::buildable(s.experiment, sets);
+  const config::Origin* origin = config::find_origin(e.origins, axis.key);
+  if (!origin) unknown_key(axis, e.origins);
+  check_values(s, axis, *origin, atmosphere);
+}
+
+// A key that takes whole numbers is found out by a value between the ends.
+void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
+                 double atmosphere) {
+  if (range.axis.key == "robot" || range.axis.key == "experiment")
+    config::fail({range.axis.key, 0, 0}, "", "a range", "a list of files, in vary",
+                 "vary=\"" + range.axis.key + "=a.toml,b.toml\"");
+  check_axis(s, range.axis, origins, atmosphere);
+  const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}};
+  check_axis(s, between, origins, atmosphere);
+}
+
+// Throws what the case's experiment is refused with.
+void check_case(const Sweep& s, const Case& one) {
+  std::vector<std::string> sets = s.sets;
+  sets.insert(sets.end(), one.sets.begin(), one.sets.end());
+  (void)run::buildable(one.experiment.empty() ? s.experiment : one.experiment, sets);
+}
+
+// Before they are in memory, and before their number is too large for one.
+void refuse_too_many(const Sweep& s) {
+  double all = 1;
+  std::string product;
+  const auto times = [&](std::size_t count) {
+    all *= static_cast<double>(count);
+    product += fmt::format("{}{}", product.empty() ? "" : " x ", count);
+  };
+  if (s.sample) times(s.sample->points);
+  if (!s.cases.empty()) times(s.cases.size());
+  for (const Axis& axis : s.axes) times(axis.values.size());
+  if (all <= static_cast<double>(most_points)) return;
+  config::fail({"vary", 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
+               fmt::format("at most {}", most_points),
+               "fewer values, or one sweep after the other");
+}
+
+}  // namespace
+
+void check(const Sweep& s) {
+  refuse_too_many(s);
+  const config::Node root = config::compose(s.experiment, s.sets);
+  const double atmosphere = config::atmosphere_of(root);
+  const config::Origins origins = run::buildable(root, s.experiment).origins;
+  if (s.sample)
+    for (const Range& range : s.sample->ranges) check_range(s, range, origins, atmosphere);
+  for (const Case& one : s.cases) check_case(s, one);
+  for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
+  if (!s.largest) return;
+  check_axis(s, s.largest->axis, origins, atmosphere);
+  for (const Value& value : s.largest->axis.values)
+    if (!value.number)
+      config::fail({s.largest->axis.key, 0, 0}, "", config::in_quotes(value.text),
+                   "numbers, to be halved between");
 }
 
 }  // namespace sinew::tune

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,10 +25,34 @@
 
 #include "sinew/tune/axis.h"
 #include "sinew/tune/figure.h"
-#include "sinew/tune/notes.h"
 #include "sinew/tune/sample.h"
 
 namespace sinew::tune {
+
+// Why a row's figures are what they are. The same words stand in a table's status,
+// and in a study's file.
+
+struct Ran;
+
+struct Notes {
+  std::vector<std::string> lacks;    // keys that the summary of its run does not have
+  std::vector<std::string> differs;  // keys whose value differs from what a source reports
+  bool stop_reached = false;         // by the trolley: distance and mean speed are up to there
+  bool no_air = false;               // no muscle took any, whatever the plan commanded
+  bool out_of_reach = false;         // the foot was: the nearest point was aimed at
+
+  bool operator==(const Notes&) const = default;
+};
+
+// The keys that are missing, or differ, are some of `keys`. A run without figures has no notes.
+Notes notes_of(const Ran& ran, const std::vector<std::string>& keys);
+
+// "without foot.extension_time_s; reaches the end of the track; uses no air; aims out of reach;
+// differs in trolley.distance_m": what applies of it, empty where nothing does.
+std::string to_text(const Notes& notes);
+
+// Returns `status`, or the notes in place of an "ok", or both.
+std::string status_with(const Notes& notes, std::string_view status);
 
 // Instead of a run per point: the largest value of one more key for which all conditions hold.
 struct Search {
@@ -149,5 +174,38 @@ struct Ran {
 // figures.
 Ran run_once(const std::string& file, const std::vector<std::string>& sets,
              bool allow_unreachable = false);
+
+// The largest value for which something holds, from below.
+//
+// Goes up along the given values to the first that does not hold, then halves the interval between
+// it and the one before. What holds again further up is not looked for, so of something that is not
+// monotone this is the end of the lowest part, as finely as the values see it.
+
+struct Largest {
+  enum class Is { never, between, to_the_end };  // not even the first; found; even the last holds
+
+  Is is = Is::never;
+  double value = 0;  // the largest that held; of no meaning for `never`
+  double fails = 0;  // the smallest above it that did not; of no meaning for `to_the_end`
+};
+
+// `values` in the order in which they are tried. `holds(double) -> bool` is asked at most
+// values.size() + halvings times.
+template <class Holds>
+Largest largest(const std::vector<double>& values, int halvings, Holds holds) {
+  std::size_t n = 0;
+  while (n < values.size() && holds(values[n])) ++n;
+  if (n == 0) return {};
+  Largest out{Largest::Is::to_the_end, values[n - 1], 0};
+  if (n == values.size()) return out;
+
+  out.is = Largest::Is::between;
+  out.fails = values[n];
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (out.value + out.fails);
+    (holds(middle) ? out.value : out.fails) = middle;
+  }
+  return out;
+}
 
 }  // namespace sinew::tune

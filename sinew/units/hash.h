@@ -21,4 +21,16 @@ inline std::uint64_t hash(std::string_view text, std::uint64_t h = 0xcbf29ce4842
   return hash(std::as_bytes(std::span(text.data(), text.size())), h);
 }
 
+// Bits that look random, from a number: the same on every machine.
+
+// Returns a bijection of x with full avalanche: every input bit flips half of the output's.
+constexpr std::uint64_t mix(std::uint64_t x) {
+  x ^= x >> 32;
+  x *= 0xd6e8feb86659fd93ull;
+  x ^= x >> 32;
+  x *= 0xd6e8feb86659fd93ull;
+  x ^= x >> 32;
+  return x;
+}
+
 }  // namespace sinew::units

@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "sinew/units/shown_table.h"
-
 namespace sinew::units {
 namespace {
 

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <string>
 
-#include "sinew/units/shown_table.h"
 #include "tests/places.h"
 
 namespace sinew::units::shown_test {

@@ -69,7 +69,7 @@ class ChainLanes {
   const air::Failure& failure(int k) const noexcept {
     return failure_[static_cast<std::size_t>(k)];
   }
-  std::int64_t nodes(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
+  std::int64_t nodes(int k) const noexcept { return times_[static_cast<std::size_t>(k)].nodes; }
 
   // Returns machine k as it is.
   World& world(int k) noexcept;
@@ -110,8 +110,8 @@ class ChainLanes {
   typename Integrated::State state_;
 
   // As World::State's, of each machine.
-  Instants time_{}, step_{}, change_{};  // of the node; between nodes; when a valve moves next [s]
-  std::array<std::int64_t, lanes> multiple_{}, nodes_{};
+  std::array<NodeTimes, lanes> times_{};
+  Instants step_{}, change_{};  // between nodes; when a valve moves next [s]
   std::array<air::Failure, lanes> failure_{};
   std::array<bool, lanes> behind_{};  // the machine's World is
 
@@ -141,7 +141,7 @@ class ChainLanes<N, W>::Sensed {
     b_.glance(k_);
     const auto a = units::lane_of<GeneralizedVector<N>>(b_.glance_.acceleration, k_);
     GeneralizedState<N> motion = units::lane_of<GeneralizedState<N>>(b_.state_.now.motion, k_);
-    mechanism().glide(motion, t - b_.time_[l_], a);
+    mechanism().glide(motion, t - b_.times_[l_].time, a);
     return motion;
   }
   struct Glanced {
@@ -164,7 +164,7 @@ class ChainLanes<N, W>::Sensed {
     const auto& s = b_.state_;
     Peek p;
     b_.glance(k_);
-    if (!(t > b_.time_[l_]) || failure()) {
+    if (!(t > b_.times_[l_].time) || failure()) {
       p.look.air.tension[m] = s.first.air.tension[i][k_];
       p.look.air.pressure[m] = s.first.air.pressure[i][k_];
       return p;
@@ -173,7 +173,7 @@ class ChainLanes<N, W>::Sensed {
     typename ChainBody<N>::Arms no_arms;
     mechanism().route(t, peek_motion(t), ends, no_arms);
     const auto seen =
-        b_.nodes_of_all_.air().ahead(k_, i, ends.length[i], ends.rate[i], t - b_.time_[l_],
+        b_.nodes_of_all_.air().ahead(k_, i, ends.length[i], ends.rate[i], t - b_.times_[l_].time,
                                      s.now.air, s.valves, s.memory, s.first.air);
     p.look.air.tension[m] = seen.tension;
     p.look.air.pressure[m] = seen.pressure;
@@ -240,8 +240,7 @@ auto ChainLanes<N, W>::airs(const Worlds& worlds) -> typename Integrated::Air {
 template <int N, int W>
 double ChainLanes<N, W>::next_node(int k) const noexcept {
   const auto l = static_cast<std::size_t>(k);
-  const double multiple = static_cast<double>(multiple_[l] + 1) * step_[l];
-  return change_[l] < multiple ? change_[l] : multiple;
+  return times_[l].next(step_[l], 0, change_[l]);
 }
 
 template <int N, int W>
@@ -257,7 +256,7 @@ void ChainLanes<N, W>::follow(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
   if (behind_[l]) return;
   change_[l] = worlds_[l]->state().valves.next_change;
-  if (worlds_[l]->nodes() != nodes_[l]) take(k);
+  if (worlds_[l]->nodes() != times_[l].nodes) take(k);
 }
 
 template <int N, int W>
@@ -317,13 +316,11 @@ void ChainLanes<N, W>::commit(const Mask& goes) noexcept {
     if (!goes[k]) continue;
     const auto l = static_cast<std::size_t>(k);
     const double next = next_node(k);
-    const bool later = next > time_[l];
-    h.set(k, later ? next - time_[l] : 0.0);
+    const bool later = next > times_[l].time;
+    h.set(k, later ? next - times_[l].time : 0.0);
     steps.set(k, later);
     any = any || later;
-    if (next >= static_cast<double>(multiple_[l] + 1) * step_[l]) ++multiple_[l];
-    if (later) time_[l] = next;
-    ++nodes_[l];
+    times_[l].pass(next, step_[l]);
     behind_[l] = true;
     glanced_[l] = false;
   }
@@ -336,9 +333,9 @@ template <int N, int W>
 void ChainLanes<N, W>::move_valves(const Mask& goes) noexcept {
   for (int k = 0; k < W; ++k) {
     const auto l = static_cast<std::size_t>(k);
-    if (!goes[k] || change_[l] > time_[l]) continue;
+    if (!goes[k] || change_[l] > times_[l].time) continue;
     typename World::State& s = worlds_[l]->borrow();
-    worlds_[l]->air().move_valves(time_[l], s.first.air, s.valves);
+    worlds_[l]->air().move_valves(times_[l].time, s.first.air, s.valves);
     change_[l] = s.valves.next_change;
     nodes_of_all_.air().set_shares(k, s.valves, state_.valves);
   }
@@ -356,9 +353,9 @@ void ChainLanes<N, W>::look_for_failures(const Mask& goes,
       failure_[k] = {.of = air::Failure::Of::air,
                      .muscle = failed[k],
                      .length = state_.first.ends.length[failed[k]][lane],
-                     .time = time_[k]};
+                     .time = times_[k].time};
     else if (!air::is_place(places))
-      failure_[k] = {.of = air::Failure::Of::motion, .time = time_[k]};
+      failure_[k] = {.of = air::Failure::Of::motion, .time = times_[k].time};
   }
 }
 
@@ -385,7 +382,8 @@ signals::Status ChainLanes<N, W>::drive(int k, const signals::Edge& edge) noexce
   if (world.ended()) return signals::Status::ended;
   if (failure_[l]) return signals::Status::fault;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  if (edge.valve.index >= world.air().valves() || t < time_[l]) return signals::Status::invalid;
+  if (edge.valve.index >= world.air().valves() || t < times_[l].time)
+    return signals::Status::invalid;
   while (!failure_[l] && next_node(k) < t) commit(only(k));
   typename World::State& s = world.borrow();
   for (int i = 0; i < nodes_of_all_.air().muscles(); ++i)
@@ -452,11 +450,9 @@ void ChainLanes<N, W>::take(int k) noexcept {
     for (int i = 0; i < nodes_of_all_.air().muscles(); ++i) packed[i].set(k, one[i]);
   });
   nodes_of_all_.air().set_shares(k, s.valves, state_.valves);
-  time_[l] = s.time;
+  times_[l] = s.times;
   change_[l] = s.valves.next_change;
   step_[l] = worlds_[l]->body_step();
-  multiple_[l] = s.multiple;
-  nodes_[l] = s.nodes;
   failure_[l] = s.failure;
   behind_[l] = false;
   glanced_[l] = false;
@@ -474,9 +470,7 @@ void ChainLanes<N, W>::bring(int k) noexcept {
   each_number(state_, s, [&](const auto& packed, auto& one) {
     for (int i = 0; i < nodes_of_all_.air().muscles(); ++i) one[i] = packed[i][k];
   });
-  s.time = time_[l];
-  s.multiple = multiple_[l];
-  s.nodes = nodes_[l];
+  s.times = times_[l];
   s.failure = failure_[l];
   worlds_[l]->resume();
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sinew/air/network.h"
-#include "sinew/mechanism/planar/chain_mechanism.h"
+#include "sinew/mechanism/planar/chain_body.h"
 #include "sinew/world/kernel/world.h"
 
 namespace sinew::plant {

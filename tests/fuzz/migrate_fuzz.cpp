@@ -2,7 +2,6 @@
 // read, and to migrate it again changes nothing. What is refused is told in words.
 #include "sinew/config/migrate.h"
 
-#include "sinew/config/key_places.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "sinew/experiment/fault_parts.h"
+#include "sinew/experiment/faults.h"
 #include "tests/places.h"
 
 namespace sinew::run {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sinew/config/named.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/coil_current.h"
 #include "sinew/identify/sensor/sensor.h"

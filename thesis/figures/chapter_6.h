@@ -9,7 +9,7 @@ namespace sinew::thesis {
 void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out);
 
 // Largest amplitude of a joint's half swings in the swing of that step, the first is 0; 0 where it
-// does not turn twice (analysis/measures/oscillation.h)  [deg].
+// does not turn twice (analysis/measures/statistics.h)  [deg].
 double swing_amplitude(const LegRun& run, const std::string& joint, int step);
 
 }  // namespace sinew::thesis

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sinew/analysis/measures/laws.h"
-#include "sinew/analysis/measures/oscillation.h"
 #include "sinew/analysis/measures/statistics.h"
 #include "thesis/figures/chapter_6.h"
 

@@ -1,7 +1,6 @@
 #include <filesystem>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
 #include "thesis/figures/thesis.h"
 

@@ -1,4 +1,4 @@
-// The run's samples: base64 of zlib of columns, laid out as sinew/report/page/blob.h says.
+// The run's samples: base64 of zlib of columns, laid out as sinew/report/page/content.h says.
 
 const ticks_per_second = 10000;
 

@@ -1,5 +1,5 @@
 // The linearly implicit step: its order, its stability, and what it conserves.
-#include "sinew/air/stiff/rodas3.h"
+#include "sinew/air/stiff/quick.h"
 
 #include <gtest/gtest.h>
 

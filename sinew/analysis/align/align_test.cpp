@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "sinew/analysis/align/fft.h"
+#include "sinew/analysis/align/correlation.h"
 #include "sinew/analysis/align/test_motion.h"
 #include "sinew/config/diagnostics.h"
 

@@ -19,13 +19,71 @@
 //             shift, has S = 0
 #pragma once
 
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "sinew/analysis/align/event.h"
+#include "sinew/analysis/align/signal.h"
 
 namespace sinew::analysis {
+
+// The instant at which something happens in a recording: a channel crosses
+// a level, or begins to move.
+//
+//   crossing   first t with u(t) = level, u below before it and above after it (">"; "<":
+//   reversed),
+//              on the straight line between the two samples around
+//   motion     first t with |u(t) - u_0| = band that is followed by two more samples beyond it;
+//              u_0 is the median of the first five samples
+//   band       max(5 % of range, 8 sigma), the greater one of both recordings (signal.h)
+//   se(t)      max(sigma/|slope there|, step/sqrt(12)): how well a recording knows the instant
+//
+// Without a wish the channel is taken whose instants are the surest: least se_a^2 + se_b^2.
+
+// An instant and how sure it is; both in s.
+struct Instant {
+  double time = 0, uncertainty = 0;
+};
+
+// The first crossing of a level; nothing where there is none.
+std::optional<Instant> first_crossing(const Signal& signal, double level, bool upwards);
+
+// The first motion out of a band about where the signal begins; nothing where it stays, or where it
+// is on its way from the first samples on.
+std::optional<Instant> first_motion(const Signal& signal, double band);
+
+// A channel crosses a level, as people write it: "/joint/elbow/angle > 10 deg".
+struct Event {
+  std::string channel;
+  bool upwards = true;
+  std::string level;  // with its unit, "10 deg"
+};
+// Throws config::Error where the text is none.
+Event parse_event(const std::string& text);
+
+// One event in two recordings.
+struct EventPair {
+  Instant first, other;
+  std::string words;  // "/joint/elbow/angle moves by 0.05 rad"
+  // Returns by how much later the other one has it, and how sure that is  [s].
+  double shift() const { return other.time - first.time; }
+  double uncertainty() const;
+};
+
+// A channel of two recordings, by name and SI unit.
+struct Pair {
+  Signal first, other;
+  std::string unit;
+};
+
+// The surest first motion; nothing where no channel stands still and then moves in both.
+std::optional<EventPair> surest_motion(std::span<const Pair> pairs);
 
 // How the other recording's clock goes beside the first one's.
 struct Clock {
@@ -81,5 +139,35 @@ Peak refine(std::span<const Pair> pairs, Clock clock, double width,
 
 // The longest step between samples of any of them  [s].
 double longest_step(std::span<const Pair> pairs);
+
+// Discrete Fourier transform of a power of two of values (Cooley and Tukey
+// 1965), for correlations over all shifts at once.
+
+// X_k = sum x_i exp(-2 pi j i k/n), in place; backwards with the opposite sign, divided by n.
+inline void transform(std::vector<std::complex<double>>& x, bool backwards) {
+  const std::size_t n = x.size();
+
+  // Values go to where their place's bits, read backwards, point.
+  for (std::size_t i = 1, k = 0; i < n; ++i) {
+    std::size_t bit = n / 2;
+    for (; k & bit; bit /= 2) k ^= bit;
+    k ^= bit;
+    if (i < k) std::swap(x[i], x[k]);
+  }
+
+  // Transforms of twice the length from two of half of it.
+  const double turn = (backwards ? 2 : -2) * std::numbers::pi;
+  for (std::size_t length = 2; length <= n; length *= 2)
+    for (std::size_t k = 0; k < length / 2; ++k) {
+      const auto w = std::polar(1.0, turn * static_cast<double>(k) / static_cast<double>(length));
+      for (std::size_t at = k; at < n; at += length) {
+        const std::complex<double> even = x[at], odd = w * x[at + length / 2];
+        x[at] = even + odd;
+        x[at + length / 2] = even - odd;
+      }
+    }
+  if (backwards)
+    for (auto& value : x) value /= static_cast<double>(n);
+}
 
 }  // namespace sinew::analysis

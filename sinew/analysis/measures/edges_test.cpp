@@ -1,5 +1,5 @@
 // The place where two trains of edges part is found, be it a time, a direction or an edge too many.
-#include "sinew/analysis/measures/edges.h"
+#include "sinew/analysis/measures/valves.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sinew/analysis/measures/oscillation.h"
+#include "sinew/analysis/measures/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,128 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace sinew::analysis {
+
+namespace {
+
+std::string word(const signals::Series& s, std::size_t i) {
+  return s.columns[0][i] != 0 ? "opens" : "shuts";
+}
+
+// Edges up to `end`.
+std::size_t edges(const signals::Series& s, std::int64_t end) {
+  const auto it = std::ranges::upper_bound(s.time_ns, end);
+  return static_cast<std::size_t>(it - s.time_ns.begin());
+}
+
+// Finds the first edge at which two trains part.
+std::optional<EdgeDifference> difference(const signals::Series& recorded,
+                                         std::size_t recorded_edges,
+                                         const signals::Series& replayed,
+                                         std::size_t replayed_edges) {
+  for (std::size_t i = 0; i < std::max(recorded_edges, replayed_edges); ++i) {
+    const bool has_a = i < recorded_edges, has_b = i < replayed_edges;
+    const std::int64_t a = has_a ? recorded.time_ns[i] : INT64_MAX;
+    const std::int64_t b = has_b ? replayed.time_ns[i] : INT64_MAX;
+    if (a == b && recorded.columns[0][i] == replayed.columns[0][i]) continue;
+    return EdgeDifference{std::min(a, b), recorded.topic.name,
+                          a <= b ? word(recorded, i) : "nothing",
+                          b <= a ? word(replayed, i) : "nothing"};
+  }
+  return std::nullopt;
+}
+
+constexpr std::int64_t near_ns = 5'000'000;
+
+// An edge that has no equal on the other side.
+struct Lone {
+  std::int64_t time_ns;
+  bool opens;
+};
+
+// Holds what is left of both trains without the edges that are equal.
+void leave_out_equal(const signals::Series& a, std::size_t of_a, const signals::Series& b,
+                     std::size_t of_b, std::vector<Lone>& lone_a, std::vector<Lone>& lone_b) {
+  std::size_t i = 0, k = 0;
+  while (i < of_a || k < of_b) {
+    const std::int64_t ta = i < of_a ? a.time_ns[i] : INT64_MAX;
+    const std::int64_t tb = k < of_b ? b.time_ns[k] : INT64_MAX;
+    const bool equal = ta == tb && a.columns[0][i] == b.columns[0][k];
+    if (!equal && ta <= tb) lone_a.push_back({ta, a.columns[0][i] != 0});
+    if (!equal && tb <= ta) lone_b.push_back({tb, b.columns[0][k] != 0});
+    if (ta <= tb) ++i;
+    if (tb <= ta) ++k;
+  }
+}
+
+ValveEdges compared(const signals::Series& recorded, std::size_t of_recorded,
+                    const signals::Series& replayed, std::size_t of_replayed) {
+  ValveEdges out{recorded.topic.name, of_recorded, of_replayed};
+  std::vector<Lone> then, now;
+  leave_out_equal(recorded, of_recorded, replayed, of_replayed, then, now);
+  std::vector<bool> taken(now.size(), false);
+  std::size_t from = 0;
+  double sum = 0;
+  for (const Lone& edge : then) {
+    while (from < now.size() && now[from].time_ns < edge.time_ns - near_ns) ++from;
+    std::size_t best = now.size();
+    for (std::size_t k = from; k < now.size() && now[k].time_ns <= edge.time_ns + near_ns; ++k) {
+      if (taken[k] || now[k].opens != edge.opens) continue;
+      const auto apart = [&](std::size_t at) { return std::abs(now[at].time_ns - edge.time_ns); };
+      if (best == now.size() || apart(k) < apart(best)) best = k;
+    }
+    if (best == now.size()) {
+      ++out.only_recorded;
+      continue;
+    }
+    taken[best] = true;
+    ++out.moved;
+    const double move = 1e-9 * static_cast<double>(now[best].time_ns - edge.time_ns);
+    sum += move;
+    if (std::abs(move) > std::abs(out.largest_move)) out.largest_move = move;
+  }
+  out.only_replayed = now.size() - out.moved;
+  if (out.moved > 0) out.mean_move = sum / static_cast<double>(out.moved);
+  return out;
+}
+
+// A log that was cut off is compared as far as all of it was there.
+std::int64_t end_of(const signals::Table& table) {
+  std::int64_t end = INT64_MAX;
+  if (table.complete) return end;
+  for (const signals::Series& s : table.series)
+    if (s.topic.name.starts_with("/sensor/") && !s.time_ns.empty())
+      end = std::min(end, s.time_ns.back());
+  return end;
+}
+
+}  // namespace
+
+EdgeComparison compare_edges(const signals::Table& recorded, const signals::Table& replayed) {
+  const std::int64_t end = end_of(recorded);
+  std::string missing;
+  for (const signals::Series& now : replayed.series)
+    if (signals::is_of_valve(now.topic.name) && !recorded.find(now.topic.name))
+      missing += (missing.empty() ? "" : ", ") + now.topic.name;
+  if (!missing.empty())
+    throw std::invalid_argument("the log has no " + missing + " to compare with");
+
+  EdgeComparison out;
+  for (const signals::Series& now : replayed.series) {
+    if (!signals::is_of_valve(now.topic.name)) continue;
+    const signals::Series& then = *recorded.find(now.topic.name);
+    const std::size_t a = edges(then, end), b = edges(now, end);
+    out.recorded += a;
+    out.replayed += b;
+    out.valves.push_back(compared(then, a, now, b));
+    const auto found = difference(then, a, now, b);
+    if (found && (!out.first || found->time_ns < out.first->time_ns)) out.first = found;
+  }
+  return out;
+}
 
 constexpr double never = std::numeric_limits<double>::infinity();
 

@@ -7,6 +7,7 @@
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/analysis/verdict/reported.fields.h"
 #include "sinew/gas/delay.h"
+#include "sinew/gas/valve.fields.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.fields.h"
 #include "sinew/robot/stand.fields.h"
@@ -27,39 +28,6 @@ struct Named {
 template <class Visitor>
 void seconds(Visitor& v, std::string_view name, double& value) {
   v.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
-}
-
-template <class Visitor>
-void coil_fields(Visitor& v, gas::Coil& coil) {
-  v.number({.name = "power", .unit = "W", .min = 0, .optional = true}, coil.power);
-  v.number({.name = "boost_power", .unit = "W", .min = 0, .optional = true}, coil.boost_power);
-  seconds(v, "boost_time", coil.boost_time);
-}
-
-// Reads the part of a valve's table that says when it opens, and what its coil takes. Logs from
-// elsewhere need have no more, and no key that the laws of its flow ask for.
-template <class Visitor>
-void timing_fields(Visitor& v, gas::Valve& valve) {
-  using gas::Valve;
-  v.choice({.name = "kind", .optional = true, .doc = "what it joins"}, valve.kind,
-           {{"2-way", Valve::Kind::two_way},
-            {"3-way", Valve::Kind::three_way},
-            {"regulator", Valve::Kind::regulator}});
-  v.choice({.name = "profile", .optional = true, .doc = "of the shutter"}, valve.profile,
-           {{"ideal", Valve::Profile::ideal},
-            {"dead time", Valve::Profile::dead_time},
-            {"ramp", Valve::Profile::ramp}});
-  seconds(v, "opening_delay", valve.opening_delay);
-  seconds(v, "closing_delay", valve.closing_delay);
-  seconds(v, "opening_ramp", valve.opening_ramp);
-  seconds(v, "closing_ramp", valve.closing_ramp);
-  v.choice({.name = "drive", .optional = true, .doc = "of the coil"}, valve.drive,
-           {{"standard", Valve::Drive::standard}, {"speed-up", Valve::Drive::speed_up}});
-  v.group({.name = "speed_up", .optional = true}, [&](auto& g) {
-    seconds(g, "opening_delay", valve.speed_up.opening);
-    seconds(g, "closing_delay", valve.speed_up.closing);
-  });
-  v.group({.name = "coil", .optional = true}, [&](auto& g) { coil_fields(g, valve.coil); });
 }
 
 MachineValve what_matters(const gas::Valve& valve) {
@@ -88,9 +56,14 @@ void read_parts(config::Reader& reader, Machine& m) {
     robot::fields(reader, m.robot);
     actuator::fields(reader, m.actuators);
   }
+}
+
+// Reads when valves open and what their coils take. A log from elsewhere need not have more.
+void read_valves(const config::Node& root, Machine& m) {
+  config::Reader reader(root, {.atmosphere = m.atmosphere, .of_a_log = true});
   std::vector<gas::Valve> valves;
-  reader.each({.name = "valve", .optional = true}, valves,
-              [](auto& g, gas::Valve& valve) { timing_fields(g, valve); });
+  gas::fields(reader, valves);
+  reader.finish_part();
   for (const gas::Valve& valve : valves) m.valves.push_back(what_matters(valve));
 }
 
@@ -133,6 +106,7 @@ Machine read_machine(const config::Node& root) {
   read_parts(reader, m);
   read_run(reader, m);
   reader.finish_part();
+  read_valves(root, m);
   mark_changed(m.reported, root);
   return m;
 }

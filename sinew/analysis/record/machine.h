@@ -13,7 +13,6 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/analysis/measures/valves.h"
 #include "sinew/analysis/verdict/reported.h"
-#include "sinew/analysis/verdict/summary.h"
 #include "sinew/config/node.h"
 #include "sinew/config/reader.h"
 #include "sinew/robot/robot.h"

@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/analysis/verdict/summary.h"
+#include "sinew/analysis/verdict/reported.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::analysis {

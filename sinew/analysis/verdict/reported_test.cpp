@@ -5,7 +5,6 @@
 
 #include <numbers>
 
-#include "sinew/analysis/verdict/summary.h"
 #include "sinew/config/diagnostics.h"
 
 namespace sinew::analysis::reported_test {

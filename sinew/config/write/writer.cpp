@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "sinew/config/quantity.h"
-#include "sinew/config/short_quantity.h"
 #include "sinew/config/utf8.h"
-#include "sinew/config/write/toml_text.h"
 
 namespace sinew::config {
 

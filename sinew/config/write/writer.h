@@ -7,7 +7,7 @@
 //   file << writer.text();
 //
 // Quantities come out in SI with as many digits as bring back the same bits; with origins, which
-// people read, in the unit in which they are short (config/short_quantity.h). A number that is not
+// people read, in the unit in which they are short (config/quantity.h). A number that is not
 // finite means "not set" and is left out.
 #pragma once
 
@@ -93,5 +93,10 @@ class Writer {
 
 // A tree as TOML: values first, then tables under their headers.
 std::string to_toml(const Node& root);
+
+// A text as TOML writes one.
+
+// Returns the text between double quotes. TOML is UTF-8: what of the text is none is replaced.
+std::string toml_string(std::string_view text);
 
 }  // namespace sinew::config

@@ -12,7 +12,7 @@
 
 #include "sinew/control/setup/installation.h"
 #include "sinew/control/supervise/limits.h"
-#include "sinew/control/supervise/supervised.h"
+#include "sinew/control/supervise/supervisor.h"
 
 namespace sinew::control {
 

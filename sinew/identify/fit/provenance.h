@@ -44,7 +44,7 @@ double with_digits(double number, int digits);
 
 // Returns the actuator with ten digits of what an identification makes of it and four of how far
 // forces lie from it. No measurement tells more, and a file would show the rest in whatever unit
-// has a digit fewer (config/short_quantity.h).
+// has a digit fewer (config/quantity.h).
 actuator::Actuator without_idle_digits(actuator::Actuator actuator);
 
 // A file of format sinew.actuator/1; paths begin with "actuator.<name>.".

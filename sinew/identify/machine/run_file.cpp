@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "sinew/config/quantity.h"
-#include "sinew/config/short_quantity.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/json/json.h"

@@ -10,7 +10,6 @@
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/config/origin.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/refusal.h"

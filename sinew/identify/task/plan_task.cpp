@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"

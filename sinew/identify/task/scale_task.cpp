@@ -7,7 +7,6 @@
 #include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"

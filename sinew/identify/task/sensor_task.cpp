@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/named.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/robot_over.h"

@@ -26,13 +26,26 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
-#include "sinew/mechanism/planar/unroll.h"
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/math.h"
 
 namespace sinew::plant {
+
+// Loops over so few that each turn is written out: compilers leave
+// nested ones over matrices of three or four rows as loops, which cost more than what is in them.
+
+// Visits 0 ... Count - 1, each as a constant of its own type.
+template <std::size_t Count, class Visit>
+[[gnu::always_inline]] constexpr void unroll(Visit visit) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (visit(std::integral_constant<std::size_t, I>{}), ...);
+  }
+  (std::make_index_sequence<Count>{});
+}
 
 // One number per coordinate: x, y, then the links.
 template <int N>

@@ -3,9 +3,9 @@
 // feet of several discs.
 //
 //   body.h            equations of motion       friction_contacts.h  friction, discs on the ground
-//   muscle_routing.h  routes of the muscles     rollers.h            what the trolley rests on
+//   muscle_routing.h  routes of the muscles, what the trolley rests on
 //
-// One of the mechanisms of world/kernel/world.h; chain_mechanism.h is the same for the leg that
+// One of the mechanisms of world/kernel/world.h; chain_body.h is the same for the leg that
 // walks, faster. It is compiled for several sizes: N joints on feet of D discs (body.h,
 // friction_contacts.h), M muscles.
 #pragma once
@@ -22,9 +22,7 @@
 #include "sinew/mechanism/planar/friction_contacts.h"
 #include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/mechanism/planar/planar_mechanism.h"
-#include "sinew/mechanism/planar/rollers.h"
 #include "sinew/mechanism/planar/setup.h"
-#include "sinew/mechanism/planar/stops.h"
 #include "sinew/units/stages.h"
 
 namespace sinew::plant {

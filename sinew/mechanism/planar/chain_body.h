@@ -1,28 +1,229 @@
 // mechanism/planar/chain_body.h - how a chain of N links on a trolley or a fixed base moves, in
 // closed form: muscles across one joint each over round cams, one disc for a foot.
 //
-//   chain.h     equations of motion          contacts.h  friction at joints, trolley and foot
-//   layout.h    routes of the muscles        stops.h     ends of the joints' ranges
+//   chain.h     equations of motion
+//   layout.h    routes of the muscles        setup.h     ends of the joints' ranges
 //
 // S is a double; or a pack of them: machines side by side, of any numbers, whose muscles pull the
-// same joints. Each has the bits that it has alone. chain_mechanism.h makes a mechanism
-// for world/kernel/world.h of it; contract.h describes the members.
+// same joints. Each has the bits that it has alone. ChainMechanism makes a
+// mechanism for world/kernel/world.h of it; contract.h describes the members.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <type_traits>
 
 #include "sinew/air/lanes.h"
+#include "sinew/mechanism/friction/friction.h"
 #include "sinew/mechanism/planar/chain.h"
-#include "sinew/mechanism/planar/contacts.h"
 #include "sinew/mechanism/planar/layout.h"
-#include "sinew/mechanism/planar/stops.h"
+#include "sinew/mechanism/planar/muscle_routing.h"
+#include "sinew/mechanism/planar/planar_mechanism.h"
+#include "sinew/mechanism/planar/setup.h"
+#include "sinew/robot/robot.h"
 #include "sinew/units/pack.h"
 #include "sinew/units/stages.h"
 
 namespace sinew::plant {
+
+// Where a planar machine rubs: its joints, its trolley, its foot.
+//
+// Contact c slips with the velocity J_c v and carries the force f_c, whose generalised force is
+// J_c^T f_c. At a node everything that the friction of a step needs is made once (prepare); the
+// forces for a step of any length then follow from it (hold). See friction.h for the law.
+//
+// S is a double; or a pack of them, of machines side by side. What only some of those do is
+// calculated where one does it, and selected.
+
+// The ground and the foot on it, in numbers; where one is missing the ground is out of reach.
+template <class S>
+struct Footing {
+  S height = -std::numeric_limits<double>::infinity();  // of the ankle at contact [m]
+  S stiffness = 0, damping = 0;                         // of the ground [N/m], [N s/m]
+  S friction = 0, radius = 0;                           // of the foot [-], [m]
+};
+
+// Returns foot and ground of a robot; without either, one that touches nothing.
+inline Footing<double> footing_of(const robot::Robot& robot) {
+  Footing<double> f{.friction = robot.foot.friction, .radius = robot.foot.radius};
+  if (!robot.ground.present || !robot.foot.present) return f;
+  f.height = robot.ground.height;
+  f.stiffness = robot.ground.normal_stiffness;
+  f.damping = robot.ground.normal_damping;
+  return f;
+}
+
+template <int N, class S = double>
+class Contacts {
+ public:
+  static constexpr int count = N + 2;  // the joints, the trolley, the foot
+  static constexpr int trolley = N, foot = N + 1;
+  using Forces = std::array<S, count>;  // [N m] of the joints, [N] of the others
+
+  // Takes the constants, which outlive it.
+  Contacts(const ChainConstants<N, S>& chain, const Footing<S>& footing)
+      : k_(chain), footing_(footing) {}
+
+  // J^T f.
+  GeneralizedVector<N, S> generalised(const Chain<N, S>& chain, const Forces& f) const {
+    GeneralizedVector<N, S> out;
+    out.x = f[trolley] + f[foot];
+    for (int i = 0; i < N; ++i)
+      out.angle[i] = f[i] - (i + 1 < N ? f[i + 1] : S(0.0)) - f[foot] * k_.length[i] * chain.sin(i);
+    out.angle[N - 1] += f[foot] * footing_.radius;
+    return out;
+  }
+
+  // J v, or J a. The foot slips at its lowest point, a radius below the ankle.
+  Forces slips(const Chain<N, S>& chain, const GeneralizedVector<N, S>& v) const {
+    Forces s;
+    s[trolley] = v.x;
+    s[foot] = v.x + footing_.radius * v.angle[N - 1];
+    for (int i = 0; i < N; ++i) {
+      s[i] = v.angle[i] - (i > 0 ? v.angle[i - 1] : S(0.0));
+      s[foot] -= k_.length[i] * chain.sin(i) * v.angle[i];
+    }
+    return s;
+  }
+
+  // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s]: c w
+  // and sqrt(k w) with w, the acceleration per force of the joint or of the ankle.
+  double stiffest_rate(const Chain<N, S>& chain, const std::array<S, N>& damping,
+                       const std::array<S, N>& spring) const {
+    double fastest = 0;
+    const auto consider = [&](double w, double c, double k) {
+      fastest = std::max({fastest, c * w, std::sqrt(k * w)});
+    };
+    GeneralizedVector<N, S> up;
+    for (int i = 0; i < N; ++i) {
+      Forces unit{};
+      unit[i] = 1.0;
+      consider(slips(chain, chain.response(generalised(chain, unit)))[i], damping[i], spring[i]);
+      up.angle[i] = k_.length[i] * chain.cos(i);
+    }
+    if (std::isinf(footing_.height)) return fastest;
+    const GeneralizedVector<N, S> column = chain.response(up);
+    double w = 0;
+    for (int i = 0; i < N; ++i) w += up.angle[i] * column.angle[i];
+    consider(w, footing_.damping, footing_.stiffness);
+    return fastest;
+  }
+
+  // At a node: accelerations without friction, bounds, and the ground's force on the foot.
+  void prepare(const Chain<N, S>& chain, const GeneralizedState<N, S>& motion,
+               const GeneralizedVector<N, S>& acceleration, const Forces& bound, const S& normal) {
+    problem_.bound = bound;
+    for (int c = 0; c < count; ++c) {
+      Forces unit{};
+      unit[c] = 1.0;
+      column_[c] = {};
+      if (const auto rubs = bound[c] > 0.0; units::any(rubs))
+        column_[c] = select(rubs, chain.response(generalised(chain, unit)), column_[c]);
+      const Forces response = slips(chain, column_[c]);
+      for (int d = 0; d < count; ++d) problem_.response[d][c] = response[d];
+    }
+    problem_.slip = slips(chain, {.x = motion.x_rate, .angle = motion.rate});
+    slip_rate_ = slips(chain, acceleration);
+    // The foot's lever turns with the links: d/dt of J is part of the slip's rate.
+    for (int i = 0; i < N; ++i)
+      slip_rate_[foot] -= k_.length[i] * chain.cos(i) * motion.rate[i] * motion.rate[i];
+
+    normal_.force = normal;
+    if (units::any(normal > 0.0)) prepare_normal(chain, motion, acceleration);
+  }
+
+  // Dry friction of a step of length h; `last` is the last step's.
+  //
+  // The ground is stiff: its normal force changes within the step, by about
+  //
+  //   dF = -k (h/2 v_y + h/6 dv_y) - c/2 dv_y    the mean over the step for a linear v_y(t)
+  //
+  // and so do the slips. Solving for dF adds a rank-one term to W; without it the joints would slip
+  // a little where they should stick, and the walk would converge with the first order only.
+  Forces hold(const S& h, const Forces& last) const {
+    FrictionProblem<count, S> p = problem_;
+    for (int c = 0; c < count; ++c) {
+      p.slip[c] += h * slip_rate_[c];
+      for (int d = 0; d < count; ++d) p.response[c][d] *= h;
+    }
+    if (const auto stands = normal_.force > 0.0; units::any(stands)) add_normal(h, stands, p);
+    return solve_friction<count>(p, last);
+  }
+
+  // Accelerations under the friction f, given those without any.
+  GeneralizedVector<N, S> accelerations(const GeneralizedVector<N, S>& without,
+                                        const Forces& f) const {
+    GeneralizedVector<N, S> a = without;
+    for (int c = 0; c < count; ++c) {
+      a.x += column_[c].x * f[c];
+      for (int i = 0; i < N; ++i) a.angle[i] += column_[c].angle[i] * f[c];
+    }
+    return a;
+  }
+
+  // Returns the bound of a contact's dry friction, as hold() has last found it.
+  S bound(int c) const { return problem_.bound[c]; }
+
+ private:
+  // The ground's normal force as one more direction.
+  struct Normal {
+    S force = 0;                   // at the node [N]
+    S response = 0;                // upward acceleration of the ankle per force [1/kg]
+    S rate = 0, acceleration = 0;  // of the ankle, upwards [m/s], [m/s^2]
+    Forces along{};                // upward acceleration per friction force
+  };
+
+  // The ground's answer within the step, for those that stand on it.
+  template <class Mask>
+  void add_normal(const S& h, const Mask& stands, FrictionProblem<count, S>& p) const {
+    const S k = footing_.stiffness;
+    const S beta = h * (h / 6.0 * k + 0.5 * footing_.damping);
+    const S share = 1.0 / (1.0 + beta * normal_.response);
+    const S change = -(0.5 * h * k * normal_.rate + beta * normal_.acceleration) * share;
+    const S mean = normal_.force + change;
+    const auto stays = stands & (mean > 0.0);
+    p.bound[foot] = units::select(stands, units::select(mean > 0.0, footing_.friction * mean, 0.0),
+                                  p.bound[foot]);
+    if (!units::any(stays)) return;
+    for (int c = 0; c < count; ++c) {
+      const S slip = p.slip[c] + h * normal_.along[c] * change;
+      p.slip[c] = units::select(stays, slip, p.slip[c]);
+      for (int d = 0; d < count; ++d) {
+        const S response =
+            p.response[c][d] - h * beta * share * normal_.along[c] * normal_.along[d];
+        p.response[c][d] = units::select(stays, response, p.response[c][d]);
+      }
+    }
+  }
+
+  void prepare_normal(const Chain<N, S>& chain, const GeneralizedState<N, S>& motion,
+                      const GeneralizedVector<N, S>& acceleration) {
+    GeneralizedVector<N, S> up;
+    for (int i = 0; i < N; ++i) up.angle[i] = k_.length[i] * chain.cos(i);
+    const GeneralizedVector<N, S> column = chain.response(up);
+    normal_ = {.force = normal_.force};
+    for (int i = 0; i < N; ++i) {
+      const S rate = motion.rate[i];
+      normal_.response += up.angle[i] * column.angle[i];
+      normal_.rate += up.angle[i] * rate;
+      normal_.acceleration +=
+          up.angle[i] * acceleration.angle[i] - k_.length[i] * chain.sin(i) * rate * rate;
+      for (int c = 0; c < count; ++c) normal_.along[c] += up.angle[i] * column_[c].angle[i];
+    }
+  }
+
+  ChainConstants<N, S> k_;
+  Footing<S> footing_;
+
+  std::array<GeneralizedVector<N, S>, count> column_{};  // M^-1 J^T
+  FrictionProblem<count, S> problem_{};                  // slips at the node, responses per second
+  Forces slip_rate_{};                                   // of the slips, without friction
+  Normal normal_;
+};
 
 // The numbers of a chain. Of what is missing the bounds are out of reach and the forces nothing.
 template <int N, class S = double>
@@ -288,5 +489,113 @@ ChainBody<N, units::Pack<W>> side_by_side(const std::array<const ChainBody<N>*, 
   }
   return {units::side_by_side<ChainModel<N, units::Pack<W>>>(models), side_by_side(routes)};
 }
+
+// A chain of N links on a trolley or a fixed base: one of the mechanisms of world/kernel/world.h.
+// muscle_routing.h has what the trolley rests on.
+//
+// robot::is_chain says which robots it holds; body_mechanism.h holds all, and both agree where both
+// hold one.
+
+template <int N>
+class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N> {
+  using Equations = ChainBody<N>;
+  using Equations::model_;
+  using Equations::routes_;
+
+ public:
+  using typename Equations::Acceleration;
+  using typename Equations::Arms;
+  using typename Equations::Ends;
+  using typename Equations::Forces;
+  using typename Equations::Load;
+  using typename Equations::Motion;
+  using typename Equations::Pose;
+
+  // These are the body's own.
+  using Equations::joint_angle;
+  using Equations::joint_rate;
+
+  // Takes a machine that is such a chain (chain_body.h).
+  explicit ChainMechanism(const Setup& setup)
+      : Equations(chain_model_of<N>(setup), chain_routing_of(setup.robot)), robot_(setup.robot) {
+    double absolute = 0;
+    for (int j = 0; j < N; ++j)
+      start_.angle[j] = absolute += setup.start.joint_angle[static_cast<std::size_t>(j)];
+    start_.x = setup.start.trolley;
+  }
+
+  // Returns the constants, the motion at the start, and the joint of a muscle.
+  const ChainConstants<N>& constants() const noexcept { return model_.chain; }
+  const Motion& start() const noexcept { return start_; }
+  int joint(int muscle) const noexcept { return routes_.joint[static_cast<std::size_t>(muscle)]; }
+  double arm(const Arms&, int muscle) const noexcept { return routes_.moment_arm[muscle]; }  // [m]
+  // A chain has no lift: 0  [m].
+  double lift(const Motion&) const noexcept { return 0; }
+
+  // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
+  double node_step(const Setup& setup) const {
+    std::array<double, N> damping = model_.damping, spring = model_.spring;
+    for (int j = 0; j < N; ++j)
+      damping[j] += model_.stop[j].damping, spring[j] += model_.stop[j].stiffness;
+    return stable_step(setup.steps.body,
+                       this->contacts_.stiffest_rate(Pose(model_.chain, start_), damping, spring));
+  }
+
+  // Lets a motion have these rates of the joints [rad/s] and of the trolley [m/s].
+  void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
+                 double) const {
+    double absolute = 0;
+    for (std::size_t j = 0; j < N; ++j)
+      m.rate[j] = absolute += j < joint_rates.size() ? joint_rates.begin()[j] : 0.0;
+    m.x_rate = x_rate;
+  }
+
+  // Adds what a muscle's tension does to its joint  [N m].
+  void add_torque(const Arms&, int muscle, double tension,
+                  std::array<double, most_joints>& torque) const noexcept {
+    torque[static_cast<std::size_t>(joint(muscle))] += routes_.moment_arm[muscle] * tension;
+  }
+
+  // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
+  // already.
+  void tell(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
+            Truth& out) const noexcept {
+    out.x = pose.x;
+    out.x_rate = pose.x_rate;
+    for (std::size_t j = 0; j < N; ++j) {
+      out.angle[j] = joint_angle(pose, j);
+      out.rate[j] = joint_rate(pose, j);
+    }
+    Load at{};
+    const Chain<N> chain(model_.chain, pose);
+    this->ground(chain, pose, at);
+    out.foot[0].x = at.ankle_x;
+    out.foot[0].y = at.ankle_y;
+    out.foot[0].force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
+    out.foot[0].force_y = out.disc_force[0] = at.normal;
+    if (robot_.rollers.present) tell_rollers(chain, pose, a, held, out);
+  }
+
+ private:
+  // The force on what hangs from the trolley is what its momentum asks for, less the ground's.
+  void tell_rollers(const Chain<N>& chain, const Motion& pose, const Acceleration& a,
+                    const Forces& held, Truth& out) const noexcept {
+    const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;
+    Hanging h{.acceleration = a.x};
+    h.force_x = hung * a.x - out.foot[0].force_x;
+    h.force_y = hung * model_.chain.gravity - out.foot[0].force_y;
+    for (int i = 0; i < N; ++i)
+      h.add(model_.chain.first_moment[i], chain.sin(i), chain.cos(i), pose.rate[i], a.angle[i]);
+    h.torque = out.torque[0] - model_.damping[0] * pose.rate[0] -
+               model_.spring[0] * (pose.angle[0] - model_.spring_angle[0]) +
+               model_.stop[0].torque(pose.angle[0], pose.rate[0]) + held[0];
+    const RollerLoads loads = roller_loads(robot_, h);
+    out.roller_front = loads.front;
+    out.roller_rear = loads.rear;
+  }
+
+  robot::Robot robot_;
+  Motion start_{};
+};
 
 }  // namespace sinew::plant

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "sinew/mechanism/planar/chain_mechanism.h"
+#include "sinew/mechanism/planar/chain_body.h"
 #include "sinew/mechanism/planar/test_setups.h"
 
 namespace sinew::plant::chain_lanes_test {

@@ -1,5 +1,5 @@
 // mechanism/planar/friction_contacts.h - where a machine of any shape touches and rubs: joints,
-// trolley, lift and the discs of its feet. contacts.h with a list of discs in place of one and a
+// trolley, lift and the discs of its feet. chain_body.h with a list of discs in place of one and a
 // coordinate more.
 //
 // A disc's centre stands at (along, across) of its leg's last link; its lowest point slips and is

@@ -2,11 +2,126 @@
 // alike.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+
 #include "sinew/air/lanes.h"
-#include "sinew/mechanism/planar/senses.h"
 #include "sinew/mechanism/planar/setup.h"
+#include "sinew/robot/sensing.h"
+#include "sinew/signals/port.h"
 
 namespace sinew::plant {
+
+// The readings of a planar machine's sensors, and its true values,
+// from previews of world.h.
+
+class PlanarSenses {
+ public:
+  using Truth = plant::Truth;
+
+  // Finds what each sensor measures.
+  explicit PlanarSenses(const Setup& setup)
+      : robot_(setup.robot), atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
+    using Kind = robot::Sensor::Kind;
+    for (std::size_t s = 0; s < robot_.sensors.size() && s < source_.size(); ++s) {
+      const robot::Sensor& sensor = robot_.sensors[s];
+      const bool joint = sensor.kind == Kind::angle || sensor.kind == Kind::velocity;
+      source_[s] =
+          joint ? robot::find_joint(robot_, sensor.of) : robot::find_muscle(robot_, sensor.of);
+    }
+  }
+
+  // How many sensors there are.
+  std::size_t channels() const noexcept { return robot_.sensors.size(); }
+
+  // Returns the quantity that the sensor measures at t, in SI; of something that stands still, 0.
+  template <class World>
+  double quantity(World& world, std::size_t index, double t) const noexcept {
+    using Kind = robot::Sensor::Kind;
+    const Kind kind = robot_.sensors[index].kind;
+    const int of = source_[index];
+    if (kind == Kind::fixed || (of < 0 && kind != Kind::cylinder)) return 0;
+    world.advance(t);
+    const auto& mechanism = world.mechanism();
+    const auto j = static_cast<std::size_t>(of < 0 ? 0 : of);
+    if (kind == Kind::angle)
+      return mechanism.joint_angle(world.peek_motion(t), j) - robot_.joints[j].rest_angle;
+    if (kind == Kind::velocity) return mechanism.joint_rate(world.peek_motion(t), j);
+    if (kind == Kind::cylinder) return mechanism.lift(world.peek_motion(t));
+    const auto p = world.peek_muscle(t, of);
+    const double gauged = p.look.air.pressure[of] - atmosphere_;
+    if (kind == Kind::pressure || !std::isfinite(gauged)) return gauged;  // air that ran away too
+    return gauge(world, p, of);
+  }
+
+  // Returns what the converter makes of it.
+  std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
+    const robot::Sensor& sensor = robot_.sensors[index];
+    const auto channel = static_cast<std::uint8_t>(index);
+    const double added_noise = sensor.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
+    return robot::counts(sensor, robot_.converter, value, added_noise);
+  }
+
+  // Returns what only a simulation knows, at t.
+  template <class World>
+  Truth truth(World& world, double t) const noexcept {
+    const auto& mechanism = world.mechanism();
+    const auto& air = world.air();
+    const auto p = world.peek(t);
+
+    Truth out;
+    for (int i = 0; i < mechanism.muscles(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const auto account = air.account(p.state.air, i);
+      out.tension[k] = gauge(world, p, i);
+      out.pressure[k] = p.look.air.pressure[i];
+      out.length[k] = p.look.ends.length[i];
+      out.mass[k] = account.mass;
+      out.air_in[k] = account.in;
+      out.air_out[k] = account.out;
+      out.air_leaked[k] = account.leak;
+      mechanism.add_torque(p.look.arms, i, out.tension[k], out.torque);
+    }
+    const auto supply = air.supply_state(p.state.air, p.look.air);
+    out.supply_pressure = supply.line;
+    out.tank_pressure = supply.tank;
+    out.air_past_tank = supply.past_tank;
+    out.air_mass = air.total_mass(p.state.air, p.look.ends.travel);
+    for (int c = 0; c < 2; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      const auto account = air.cylinder_account(p.state.air, c);
+      out.cylinder_pressure[k] = air.cylinder_pressure(p.look.air, c);
+      out.cylinder_in[k] = account.in;
+      out.cylinder_out[k] = account.out;
+    }
+    const auto& g = world.glanced();
+    mechanism.tell(p.state.motion, g.acceleration, g.held, world.state().first.load, out);
+    return out;
+  }
+
+ private:
+  // Returns the force on a gauge in the cord [N]: the muscle's tension and its share of the mesh's
+  // friction at the joint that it belongs to.
+  template <class World, class Peek>
+  double gauge(const World& world, const Peek& p, int muscle) const noexcept {
+    const auto& mechanism = world.mechanism();
+    const auto j = static_cast<std::size_t>(mechanism.joint(muscle));
+    double f = p.look.air.tension[muscle];
+    const double friction_bound = world.friction_bound(muscle),
+                 bound = world.bound(static_cast<int>(j));
+    if (friction_bound > 0 && bound > 0) {
+      const double share = world.glanced().held[j] * friction_bound / bound;
+      f += mechanism.arm(world.arms(), muscle) > 0 ? share : -share;
+    }
+    return f < 0 ? 0.0 : f;  // not a number stays what it is
+  }
+
+  robot::Robot robot_;
+  double atmosphere_ = 0;  // [Pa]
+  std::uint64_t seed_ = 1;
+  std::array<int, 256> source_{};  // per channel, its joint or muscle
+};
 
 // For at most M muscles.
 template <int M>

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/host/beat.h"
+#include "sinew/host/realtime.h"
 #include "sinew/port/comedi/module/card.h"
 #include "sinew/signals/port.h"
 

@@ -5,7 +5,7 @@
 #include "sinew/json/json.h"
 #include "sinew/report/compare/comparison.h"
 #include "sinew/report/page/content.h"
-#include "sinew/report/page/page_template.h"
+#include "sinew/report/page/page.h"
 
 namespace sinew::report {
 namespace {

@@ -4,7 +4,7 @@
 //   Plot        two axes, curves, shaded spans of x
 //   Curve       a label, numbers, and what they are
 //
-// data() lays the numbers out as CSV files, figure_script.h draws those files: a picture and its
+// data() lays the numbers out as CSV files, gnuplot.h draws those files: a picture and its
 // numbers cannot differ.
 #pragma once
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "sinew/report/figures/figure_layout.h"
-#include "sinew/report/figures/figure_script.h"
+#include "sinew/report/figures/gnuplot.h"
 #include "sinew/report/figures/test_figure.h"
 
 namespace sinew::report::figure_test {

@@ -9,7 +9,6 @@
 #include <sstream>
 #include <string>
 
-#include "sinew/report/figures/figure_script.h"
 #include "sinew/report/figures/test_figure.h"
 
 namespace sinew::report::gnuplot_test {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sinew/report/figures/figure_script.h"
+#include "sinew/report/figures/gnuplot.h"
 
 namespace sinew::report::labels_test {
 namespace {

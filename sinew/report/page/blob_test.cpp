@@ -1,4 +1,4 @@
-#include "sinew/report/page/blob.h"
+#include "sinew/report/page/content.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "sinew/report/page/fit_page.h"
 
 #include "sinew/report/page/content.h"
-#include "sinew/report/page/page_template.h"
+#include "sinew/report/page/page.h"
 
 namespace sinew::report {
 

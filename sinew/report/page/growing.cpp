@@ -8,7 +8,7 @@
 #include "sinew/analysis/record/derived.h"
 #include "sinew/log/deflate.h"
 #include "sinew/report/page/content.h"
-#include "sinew/report/page/pose.h"
+#include "sinew/report/page/scene.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/legs.h"
 
@@ -62,7 +62,7 @@ class Prototype {
       if (topic.ends_with(robot::topic_of_joint(m.robot, j) + "/angle")) return poses_[row][j];
     for (const robot::Muscle& muscle : m.robot.muscles)
       if (topic == robot::logged_topic(m.robot, "/true/muscle/" + muscle.name + "/length"))
-        return std::min(length_by_cams(m.robot, muscle, poses_[row]),
+        return std::min(robot::muscle_length(m.robot, muscle, poses_[row]),
                         robot::actuator_of(muscle, m.actuators).braid.thread_length);
     return m.stand ? value_of_stand(topic, row, m) : 0;
   }

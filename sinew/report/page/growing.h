@@ -38,8 +38,8 @@ class Growing {
   Content content(const std::string& live) const;
 
   // What the table holds, as a JSON object {samples, data, phases}: a layout of the page's columns
-  // and their base64 (blob.h), and the phases of these rows. The table has rows of all topics that
-  // are no edges, or no rows at all.
+  // and their base64 (content.h), and the phases of these rows. The table has rows of all topics
+  // that are no edges, or no rows at all.
   std::string piece(const signals::Table& table) const;
 
  private:

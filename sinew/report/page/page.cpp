@@ -5,7 +5,6 @@
 
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/html.h"
-#include "sinew/report/page/page_template.h"
 
 namespace sinew::report {
 namespace {

@@ -33,7 +33,7 @@ void require_page(std::string_view file);
 // to do, where the program was built without its page.
 std::string page(const Run& run);
 
-// The run's part of the page: a JSON object and the samples (blob.h).
+// The run's part of the page: a JSON object and the samples (content.h).
 struct Content {
   std::string title;
   std::string json;
@@ -49,5 +49,17 @@ Content content(const Run& run);
 // somewhere has @connect@, too, at the end of its policy, and one that shows quantities @units@, in
 // a script element of type application/json.
 std::string fill(std::string_view page_template, const Content& content);
+
+// The pages that web/ is bundled into, by the build.
+
+// All are empty where the program was built without npm.
+std::string_view page_template();        // of one run
+std::string_view comparison_template();  // of several
+std::string_view fit_template();         // of an identification
+std::string_view study_template();       // of a sweep or a tuning, or of two
+std::string_view run_list_template();    // of the runs in a folder
+
+// Returns what makes a film of a run's page, to be run in it; empty as above.
+std::string_view film_script();
 
 }  // namespace sinew::report

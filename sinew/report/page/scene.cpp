@@ -6,11 +6,55 @@
 #include <span>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/report/page/pose.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
 #include "sinew/robot/legs.h"
 
 namespace sinew::report {
+
+namespace {
+
+using analysis::Column;
+using analysis::Record;
+
+Column constant(double value, const Record& record) {
+  Column out = record.new_column();
+  out.assign(record.rows(), value);
+  return out;
+}
+
+Column or_zeros(Column values, const Record& record) {
+  return values.empty() ? constant(0, record) : values;
+}
+
+Column first_of(const Record& record, std::initializer_list<const char*> topics) {
+  for (const char* topic : topics)
+    if (Column found = record.column(topic); !found.empty()) return found;
+  return {};
+}
+
+}  // namespace
+
+Poses poses(const analysis::Machine& machine, const Record& record) {
+  Poses out;
+  std::vector<Column> angle;
+  bool any = false;
+  for (const robot::Joint& joint : machine.robot.joints) {
+    const std::string measured = "/joint/" + joint.name + "/angle";
+    Column at = record.column("/true" + measured);
+    if (!at.empty()) out.is_true = true;
+    if (at.empty()) at = record.column(measured);
+    any = any || !at.empty();
+    if (at.empty()) at = constant(joint.rest_angle, record);
+    angle.push_back(std::move(at));
+  }
+  if (!any) return {};
+  out.angle = std::move(angle);
+  out.trolley = or_zeros(first_of(record, {"/true/trolley/position", "/trolley/position"}), record);
+  out.lift = or_zeros(first_of(record, {"/true/cylinder/position", "/cylinder/position"}), record);
+  return out;
+}
+
 namespace {
 
 using analysis::Column;
@@ -112,7 +156,7 @@ Column lengths(const Maker& m, const robot::Muscle& muscle) {
   if (!logged.empty()) return logged;
   Column out = m.record.new_column();
   for (std::size_t row = 0; row < m.record.rows(); ++row)
-    out.push_back(length_by_cams(m.robot(), muscle, m.angles_at(row)));
+    out.push_back(robot::muscle_length(m.robot(), muscle, m.angles_at(row)));
   return out;
 }
 

@@ -102,4 +102,20 @@ struct Scene {
 Scene scene(const Channels& channels, const analysis::Machine& machine,
             const analysis::Record& record, signals::Table& drawn);
 
+// How the machine stood at every row of a log: the part of the scene that
+// moves.
+
+struct Poses {
+  std::vector<analysis::Column> angle;  // of every joint [rad]; empty: not known
+  analysis::Column trolley, lift;       // of the body [m]; zeros where it does not move
+  bool is_true = false;                 // as simulated, not as measured
+
+  // Does the log say how the machine stood?
+  bool known() const { return !angle.empty(); }
+};
+
+// True angles where the log has them, else measured ones. A joint of which a log of hardware says
+// nothing stays at its rest angle, if another one is known.
+Poses poses(const analysis::Machine& machine, const analysis::Record& record);
+
 }  // namespace sinew::report

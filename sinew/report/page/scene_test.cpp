@@ -6,7 +6,6 @@
 #include <random>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/report/page/pose.h"
 #include "sinew/report/page/test_run.h"
 #include "sinew/robot/legs.h"
 
@@ -193,7 +192,7 @@ TEST(Pose, LengthOverARoundCamIsTheLaw) {
     const std::vector<double> angles = {angle(random), angle(random)};
     for (const robot::Muscle& m : robot.muscles) {
       const auto j = static_cast<std::size_t>(robot::find_joint(robot, m.joint));
-      EXPECT_NEAR(length_by_cams(robot, m, angles),
+      EXPECT_NEAR(robot::muscle_length(robot, m, angles),
                   robot::muscle_length(robot.joints[j], m.role, m.mount_length, angles[j]), 1e-12);
     }
   }
@@ -209,8 +208,8 @@ TEST(Pose, LengthOverACamOfAnyShapeChangesByItsRadius) {
     for (std::size_t j = 0; j < 2; ++j) {
       std::vector<double> less = {hip, 5.2}, more = less;
       less[j] -= h, more[j] += h;
-      const double slope = (length_by_cams(robot, robot.muscles[0], more) -
-                            length_by_cams(robot, robot.muscles[0], less)) /
+      const double slope = (robot::muscle_length(robot, robot.muscles[0], more) -
+                            robot::muscle_length(robot, robot.muscles[0], less)) /
                            (2 * h);
       const double pull = robot::pull_at(robot.muscles[0], robot.joints[j], j == 0 ? hip : 5.2);
       EXPECT_NEAR(slope, -pull, 0.02 * std::abs(pull)) << hip;  // the corner falls between points

@@ -9,7 +9,6 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/run/bring_up/progress.h"
 #include "sinew/run/bring_up/strokes.h"
 #include "sinew/run/bring_up/trial.h"
 #include "sinew/run/simulation/remote_boards.h"

@@ -12,7 +12,7 @@
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/host/temporary_folder.h"
-#include "sinew/run/bring_up/wiring_drawing.h"
+#include "sinew/run/bring_up/wires.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/setup/installation.h"
 

@@ -25,7 +25,7 @@ const FirmwareBoard& firmware_board(const std::string& name);
 // valves, several boards, telemetry that its line does not carry.
 void require_fits(const std::string& robot, const FirmwareBoard& board);
 
-// Returns which wire goes where on such a board, as a picture (wiring_drawing.h). Throws as
+// Returns which wire goes where on such a board, as a picture (wires.h). Throws as
 // require_fits() does.
 std::string wiring_on(const std::string& robot, const FirmwareBoard& board);
 

@@ -1,10 +1,90 @@
 #include "sinew/run/bring_up/wires.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "sinew/report/page/html.h"
 
 namespace sinew::run {
+
+namespace {
+
+constexpr int row = 30, top = 70, left_edge = 230, right_edge = 590, width = 860;
+
+std::string text(int x, int y, const std::string& anchor, const std::string& words,
+                 const std::string& style = "") {
+  return fmt::format(R"(<text x="{}" y="{}" text-anchor="{}"{}>{}</text>)"
+                     "\n",
+                     x, y, anchor, style.empty() ? "" : fmt::format(R"( class="{}")", style),
+                     report::escaped(words));
+}
+
+std::string drawn(const Wire& wire, int y, bool sensor) {
+  const int side = sensor ? left_edge : right_edge, outer = sensor ? side - 40 : side + 40;
+  const int inward = sensor ? 10 : -10;
+  std::string out = fmt::format(R"(<line x1="{}" y1="{}" x2="{}" y2="{}"/>)"
+                                "\n",
+                                side, y, outer, y);
+  out += fmt::format(R"(<circle cx="{}" cy="{}" r="4"/>)"
+                     "\n",
+                     side, y);
+  out += text(side + inward, y + 4, sensor ? "start" : "end", wire.at);
+  out += text(outer + (sensor ? -6 : 6), y, sensor ? "end" : "start", wire.name);
+  out += text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.elsewhere, "small");
+  return out;
+}
+
+}  // namespace
+
+std::string wiring_drawing(const experiment::Experiment& e, const control::Board& board,
+                           const Pins* pins) {
+  const std::vector<Wire> sensors = sensor_wires(e, board, pins);
+  std::vector<Wire> valves = valve_wires(e, board, pins);
+  std::erase_if(valves, [](const Wire& wire) { return !wire.driven; });
+  const int rows = static_cast<int>(std::max(sensors.size(), valves.size()));
+  const int bottom = top + row * rows, height = bottom + 100;
+  std::string out = fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">
+<style>text {{ font: 13px sans-serif; fill: #222; }} .small {{ font-size: 10px; fill: #666; }} .head {{ font-weight: bold; }}
+line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke: #555; }}</style>
+<rect x="0" y="0" width="{0}" height="{1}" style="fill: white; stroke: none"/>
+)",
+      width, height);
+  out += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" rx="6"/>)"
+                     "\n",
+                     left_edge, top - 45, right_edge - left_edge, bottom - top + 50);
+  out +=
+      text((left_edge + right_edge) / 2, top - 25, "middle",
+           pins ? fmt::format("{}, serial line {}", pins->board, pins->line) : "controller board",
+           "head");
+  out += text(left_edge - 46, top - 25, "end", "sensors", "head");
+  out += text(right_edge + 46, top - 25, "start", "valves, each behind a driver", "head");
+  int y = top;
+  for (const Wire& wire : sensors) out += drawn(wire, std::exchange(y, y + row), true);
+  y = top;
+  for (const Wire& wire : valves) out += drawn(wire, std::exchange(y, y + row), false);
+  out += fmt::format(R"(<rect x="{}" y="{}" width="260" height="46" rx="6"/>)"
+                     "\n",
+                     right_edge - 60, bottom + 40);
+  out += text(right_edge + 70, bottom + 59, "middle", "supply's dump valve");
+  out += text(right_edge + 70, bottom + 75, "middle",
+              "lets the air out when its coil has no current", "small");
+  out +=
+      fmt::format(R"(<polyline points="{0},{1} {0},{2} {3},{2}" style="fill: none; stroke: #555"/>)"
+                  "\n",
+                  right_edge - 120, bottom + 5, bottom + 63, right_edge - 60);
+  out += text(right_edge - 128, bottom + 59, "end",
+              fmt::format("supply output{}, in series with the emergency stop",
+                          pins ? fmt::format(" ({})", pins->supply) : ""));
+  if (e.wiring.present)
+    out += text(right_edge - 128, bottom + 75, "end",
+                fmt::format("a coil has current where its output is {}, the supply's too",
+                            e.wiring.polarity == robot::Wiring::Polarity::low_opens ? 0 : 1),
+                "small");
+  return out + "</svg>\n";
+}
 
 namespace {
 

@@ -27,4 +27,12 @@ std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::B
 std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board,
                               const Pins* pins);
 
+// Which wire goes where, as a picture.
+
+// Returns an SVG of a board with its sensors on the left, its valves on the right, the supply and
+// its dump valve below: channels and bits, the terminals' pins where the robot's [wiring] has them,
+// and the board's own where `pins` is not nullptr.
+std::string wiring_drawing(const experiment::Experiment& experiment, const control::Board& board,
+                           const Pins* pins);
+
 }  // namespace sinew::run

@@ -52,13 +52,11 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
 void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out) {
   const int s = robot::tension_sensor_of(robot, static_cast<int>(muscle));
   if (s < 0) return;
-  const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
-  const double per_volt = robot.converter.counts_per_volt();
-  const double believed = 1.0 / (sensor.assumed_scale * per_volt);
-  const double own = 1.0 / (sensor.scale * per_volt);
+  const auto channel = static_cast<std::size_t>(s);
+  const robot::Line line = robot::own_tension(robot.sensors[channel], robot.converter);
   out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
              "measured, by its own transducer's scale; clips",
-             [=](const Snapshot& m) { return m.measured->tension[muscle] / believed * own; });
+             [=](const Snapshot& m) { return line.value(m.seen->reading(channel).counts); });
 }
 
 // A valve's duty counts only while its joint is enabled and laws run.

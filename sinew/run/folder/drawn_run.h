@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sinew/analysis/align/align.h"
-#include "sinew/report/figures/paper.h"
+#include "sinew/report/figures/gnuplot.h"
 #include "sinew/report/figures/run_figures.h"
 #include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/notices.h"

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "sinew/report/figures/figure_script.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/verdict/reported.h"
+#include "sinew/report/figures/figure.h"
 #include "sinew/report/figures/gallery.h"
+#include "sinew/report/figures/gnuplot.h"
 #include "sinew/report/figures/labels.h"
 #include "sinew/run/folder/notices.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::run {
 
@@ -31,5 +35,24 @@ std::string write_figures(const std::filesystem::path& folder, report::Gallery g
 // Returns the files that the folder's index.json lists, and the index, which comes last; none where
 // there is no index of figures.
 std::vector<std::string> figures_in(const std::filesystem::path& folder);
+
+// What is told of a run of which nothing is reported.
+
+// Returns lines of text: times, the way, each joint's excursion, error and passiveness, air. No
+// paper gives the units here, so lengths are in millimetres.
+// Or in those that `shown` has, where there are some.
+std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine,
+                         const units::ShownUnits* shown = nullptr);
+
+// The characteristic of a muscle as figures: tension over length at
+// several pressures, by the law of its file.
+
+// Returns whether the path names a TOML file, which may hold muscles, and not a run.
+bool is_muscle_file(const std::filesystem::path& named);
+
+// Returns a figure for each actuator of the file, of a robot's or of one actuator, from its
+// shortest to its greatest length. Throws config::Error for a file without actuators.
+std::vector<report::Figure> muscle_figures(const std::filesystem::path& file,
+                                           const units::ShownUnits& units);
 
 }  // namespace sinew::run

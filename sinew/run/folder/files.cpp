@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "sinew/run/folder/refusal.h"
 #include "sinew/run/folder/run_folder.h"
 
 namespace sinew::run {

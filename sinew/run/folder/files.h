@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "sinew/config/diagnostics.h"
 #include "sinew/log/replacement.h"
 
 namespace sinew::run {
@@ -24,5 +26,16 @@ void require_folder_of(const std::filesystem::path& file);
 // older one stands.
 void write_file(const std::filesystem::path& file, std::string_view text,
                 log::Replacement::Sync sync = log::Replacement::Sync::now);
+
+// What the sources of this folder refuse a path with.
+//
+// A setting of the caller's is named as a key with its value: force=true.
+
+// Throws config::Error that begins with the path.
+[[noreturn]] inline void refuse(const std::filesystem::path& where, std::string found,
+                                std::string expected, std::string try_this = "") {
+  config::fail({where.string(), 0, 0}, "", std::move(found), std::move(expected),
+               std::move(try_this));
+}
 
 }  // namespace sinew::run

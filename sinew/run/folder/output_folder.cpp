@@ -9,7 +9,7 @@
 #include "sinew/log/file.h"
 #include "sinew/log/lock.h"
 #include "sinew/log/replacement.h"
-#include "sinew/run/folder/refusal.h"
+#include "sinew/run/folder/files.h"
 
 namespace sinew::run {
 

@@ -1,12 +1,17 @@
 #include "sinew/run/folder/replayed.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/json/json.h"
 #include "sinew/log/reader.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/setup/buildable.h"
@@ -14,6 +19,7 @@
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
+
 namespace {
 
 // Every sensor's counts: what a controller reads.
@@ -89,6 +95,157 @@ Replayed replay_run(const ReplayRequest& request, const Notices& notices) {
     out.folder =
         keep_table(outcome.table, e, {.folder = *request.folder, .force = request.force}, notices)
             .folder;
+  return out;
+}
+
+namespace {
+
+using report::TextTable;
+using Align = TextTable::Align;
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string channel_of(const analysis::Parting& p) {
+  return p.field == "value" ? p.topic : p.topic + "." + p.field;
+}
+
+// --- JSON ---
+
+Json json_of(const analysis::EdgeComparison& c) {
+  Json out{{"recorded_edges", c.recorded}, {"replayed_edges", c.replayed}, {"equal", !c.first}};
+  if (c.first)
+    out["first_difference"] = {{"time_s", 1e-9 * static_cast<double>(c.first->time_ns)},
+                               {"topic", c.first->topic},
+                               {"recorded", c.first->recorded},
+                               {"replayed", c.first->replayed}};
+  out["valves"] = Json::array();
+  for (const analysis::ValveEdges& v : c.valves)
+    out["valves"].push_back({{"topic", v.topic},
+                             {"recorded", v.recorded},
+                             {"replayed", v.replayed},
+                             {"moved", v.moved},
+                             {"only_recorded", v.only_recorded},
+                             {"only_replayed", v.only_replayed},
+                             {"mean_move_s", v.mean_move},
+                             {"largest_move_s", v.largest_move}});
+  return out;
+}
+
+Json json_of(const analysis::Parting& p) {
+  const analysis::Difference& d = p.difference;
+  Json growth = Json::array();
+  for (const double rms : p.growth) growth.push_back(number_or_null(rms));
+  return {{"topic", p.topic},
+          {"field", p.field},
+          {"unit", p.unit},
+          {"same", d.same},
+          {"parts_at_s", p.at ? Json(*p.at) : Json()},
+          {"band", p.band},
+          {"rms", number_or_null(d.rms)},
+          {"bias", number_or_null(d.bias)},
+          {"largest", number_or_null(d.largest)},
+          {"largest_at_s", number_or_null(d.at)},
+          {"span", d.span},
+          {"correlation", number_or_null(d.correlation)},
+          {"rms_by_tenth", std::move(growth)}};
+}
+
+// --- text ---
+
+// "▁▂▅█": rms of each tenth beside the greatest one.
+std::string bars_of(const std::array<double, 10>& growth) {
+  static constexpr const char* bars[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  double most = 0;
+  for (const double rms : growth)
+    if (rms > most) most = rms;
+  std::string out;
+  for (const double rms : growth)
+    out +=
+        std::isfinite(rms) && most > 0 ? bars[std::min(7, static_cast<int>(8 * rms / most))] : " ";
+  return out;
+}
+
+// A difference in the unit that is shown.
+std::string difference_text(double value, const std::string& unit, const units::ShownUnits& units,
+                            bool sign = false) {
+  if (!std::isfinite(value)) return "";
+  const units::ShownUnit shown = units.of_difference(unit, std::abs(value));
+  return fmt::format("{}{:.3g}{}{}", sign && value > 0 ? "+" : "", value * shown.scale,
+                     shown.name.empty() ? "" : " ", shown.name);
+}
+
+std::string plant_text(const Replayed& r, const units::ShownUnits& units, std::size_t width) {
+  std::size_t parted = 0, same = 0;
+  TextTable table({"", "parts at", "beyond", "rms", "of range", "at most", "at", "rms by tenths"},
+                  {Align::left, Align::right, Align::right, Align::right, Align::right,
+                   Align::right, Align::right, Align::left});
+  for (const analysis::Parting& p : r.partings) {
+    const analysis::Difference& d = p.difference;
+    parted += p.at.has_value();
+    same += d.same || d.equal();
+    if (d.same || d.equal()) continue;
+    table.add({channel_of(p), p.at ? fmt::format("{:.3f} s", *p.at) : "stays",
+               difference_text(p.band, p.unit, units), difference_text(d.rms, p.unit, units),
+               d.span > 0 ? fmt::format("{:.2g} %", 100 * d.share()) : "",
+               difference_text(d.largest, p.unit, units, true), fmt::format("{:.3f} s", d.at),
+               bars_of(p.growth)});
+  }
+  std::string out = fmt::format(
+      "recorded valves through today's plant, {:.2f} s: of {} channels {} with the same samples, "
+      "{} "
+      "part by more than {:.3g} % of their range or 4 sigma of noise\n",
+      r.duration, r.partings.size(), same, parted, 100 * r.band);
+  if (!r.rebuilt.empty())
+    out += fmt::format("edges of {} valves were made from their duties\n", r.rebuilt.size());
+  if (!table.empty()) out += table.text_within(width);
+  return out;
+}
+
+std::string controller_text(const Replayed& r, std::size_t width) {
+  const analysis::EdgeComparison& c = r.edges;
+  if (!c.first) return fmt::format("{} edges, all equal\n", c.recorded);
+  std::string out = fmt::format("{} edges recorded, {} replayed\n", c.recorded, c.replayed);
+  out += fmt::format("first difference at {:.4f} s: {} {} in the log, {} in the replay\n",
+                     1e-9 * static_cast<double>(c.first->time_ns), c.first->topic,
+                     c.first->recorded, c.first->replayed);
+  TextTable table({"", "edges", "differ", "moved", "on average", "at most", "only in the log",
+                   "only in the replay"},
+                  std::vector<Align>{Align::left, Align::right, Align::right, Align::right,
+                                     Align::right, Align::right, Align::right, Align::right});
+  for (const analysis::ValveEdges& v : c.valves) {
+    if (v.differing() == 0) continue;
+    const auto ms = [&](double s) { return v.moved > 0 ? fmt::format("{:+.2f} ms", 1e3 * s) : ""; };
+    table.add({v.topic, fmt::format("{}", v.recorded), fmt::format("{}", v.differing()),
+               fmt::format("{}", v.moved), ms(v.mean_move), ms(v.largest_move),
+               fmt::format("{}", v.only_recorded), fmt::format("{}", v.only_replayed)});
+  }
+  if (!table.empty()) out += table.text_within(width);
+  return out;
+}
+
+}  // namespace
+
+std::string to_json(const Replayed& r) {
+  Json out{{"format", "sinew.replay/1"},
+           {"of", r.of == ReplayOf::controller ? "controller" : "plant"},
+           {"duration_s", r.duration},
+           {"agrees", r.agrees()}};
+  if (r.of == ReplayOf::controller) out.update(json_of(r.edges));
+  if (r.of == ReplayOf::plant) {
+    out["band"] = r.band;
+    out["duties"] = r.rebuilt;
+    out["channels"] = Json::array();
+    for (const analysis::Parting& p : r.partings) out["channels"].push_back(json_of(p));
+  }
+  if (!r.cause.empty()) out["ended_early"] = r.cause;
+  if (r.folder) out["folder"] = r.folder->string();
+  return out.text(2) + "\n";
+}
+
+std::string text_of(const Replayed& r, const units::ShownUnits& units, std::size_t width) {
+  std::string out =
+      r.of == ReplayOf::controller ? controller_text(r, width) : plant_text(r, units, width);
+  if (!r.cause.empty()) out += "ended early: " + r.cause + "\n";
   return out;
 }
 

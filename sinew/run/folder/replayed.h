@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sinew/analysis/align/parting.h"
-#include "sinew/analysis/measures/edges.h"
+#include "sinew/analysis/measures/valves.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/units/shown.h"
 

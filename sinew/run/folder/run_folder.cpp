@@ -9,7 +9,6 @@
 
 #include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/run/folder/refusal.h"
 
 namespace sinew::run {
 

@@ -6,13 +6,16 @@
 //   air::DrivenMuscle pull(read.muscle, read.air, read.supply, read.length, read.pressure);
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
+#include "sinew/world/driven/driven_muscle.h"
 
 namespace sinew::run {
 
@@ -25,8 +28,9 @@ struct MuscleSetup {
   // say [m]. Pressure of its air there, absolute [Pa].
   double length = 0, pressure = 0;
 
-  std::string text;         // a file that says the same wherever it is, with every source
-  std::uint64_t model = 0;  // stands for the muscle's name and all values of the file: save.h
+  std::string text;  // a file that says the same wherever it is, with every source
+  std::uint64_t model =
+      0;  // stands for the muscle's name and all values of the file: muscle_setup.h
 };
 
 // Reads a muscle of a rig, robot or experiment file, with settings over it ("element.count=2"). An
@@ -38,5 +42,17 @@ MuscleSetup muscle_setup(const std::string& path, const std::string& name = "",
 // above.
 MuscleSetup muscle_setup_of(const std::string& text, const std::string& path,
                             const std::string& name = "");
+
+// A driven muscle as bytes, which go on in another process.
+//
+// A save is of one version of the library, on one kind of computer, and of one description: another
+// muscle's is refused. Any number of restores.
+
+// Returns everything that the muscle's future depends on.
+std::vector<std::byte> save(const air::DrivenMuscle& muscle, const MuscleSetup& setup);
+
+// Goes back, or on, to where it was saved, bit for bit. Throws std::invalid_argument, and changes
+// nothing, for what is no save, is cut off or spoilt, or is of another muscle or another version.
+void restore(air::DrivenMuscle& muscle, const MuscleSetup& setup, std::span<const std::byte> saved);
 
 }  // namespace sinew::run

@@ -7,7 +7,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/run/muscle/save.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/setup/stand_setup.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/experiment/fault_parts.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::run {

@@ -7,7 +7,7 @@
 
 #include "sinew/air/fault.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/fault_parts.h"
+#include "sinew/experiment/faults.h"
 
 namespace sinew::run {
 

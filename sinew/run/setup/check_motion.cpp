@@ -8,7 +8,6 @@
 #include "sinew/actuator/body.h"
 #include "sinew/air/network.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/short_quantity.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/run/setup/planar_setup.h"

@@ -38,4 +38,17 @@ struct Stance {
 // are whole turns apart the muscles' lengths are those of the one next to the joint's rest.
 Stance stance(const experiment::Experiment& experiment, const std::vector<double>& angles);
 
+// A stance for people and for programs.
+
+// The units in which people read it.
+struct StanceUnits {
+  std::string length = "m", angle = "deg", torque = "N m", jacobian = "m/rad";
+};
+
+// Returns lines of text: foot, joints, muscles, Jacobian, torques.
+std::string text_of(const robot::Robot& robot, const Stance& stance, const StanceUnits& units);
+
+// Returns an object of JSON, in SI.
+std::string json_of(const robot::Robot& robot, const Stance& stance);
+
 }  // namespace sinew::run

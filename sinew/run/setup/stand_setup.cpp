@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "sinew/experiment/fault_parts.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/run/setup/air_faults.h"
 #include "sinew/world/stand.h"
 

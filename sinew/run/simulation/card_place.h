@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/host/beat.h"
-#include "sinew/host/latency.h"
+#include "sinew/host/realtime.h"
 #include "sinew/port/comedi/comedi_port.h"
 
 namespace sinew::run {

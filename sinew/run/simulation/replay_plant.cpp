@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sinew/port/recorded/driven.h"
+#include "sinew/port/recorded/recorded.h"
 #include "sinew/run/controllers/high_level.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"

@@ -8,7 +8,7 @@
 
 #include "sinew/air/failure.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/host/beat.h"
+#include "sinew/host/realtime.h"
 #include "sinew/port/comedi/comedi_port.h"
 #include "sinew/port/hardware/remote_board.h"
 #include "sinew/run/controllers/controllers.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sinew/config/compose.h"
-#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
 #include "sinew/config/write/writer.h"
 
 namespace sinew::tune {

@@ -1,6 +1,6 @@
 // The methods on functions whose best points are known; their points depend on seed and costs
 // alone.
-#include "sinew/tune/optimizer/method.h"
+#include "sinew/tune/optimizer/tuning.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,11 @@
 // them as it did when they were new.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <vector>
 
+#include "sinew/run/folder/notices.h"
 #include "sinew/tune/optimizer/tuning.h"
 #include "sinew/tune/results/results.h"
 
@@ -51,5 +53,20 @@ Tuned optimize(const Tuning& tuning, const TuneOptions& options);
 // What the study's file is asked for, and what it keeps of a candidate.
 Asked asked_of(const Tuning& tuning);
 CandidateRow row_of(const Candidate& candidate);
+
+// A tuning whose study is kept in a file: each row as soon as its run is
+// done, each candidate as soon as its generation is.
+
+// How a tuning is run that is kept in a file.
+struct KeptOptions {
+  TuneOptions tune;                        // without known and done
+  std::function<void()> ask_to_stop = {};  // called where a row cannot be written
+  run::Notices notices = {};
+};
+
+// Goes on with what the file has, or makes it. Says a note for each generation. Throws what
+// optimize() and Results throw; what was done by then is in the file.
+Tuned optimize_kept(const Tuning& tuning, const std::filesystem::path& file,
+                    const KeptOptions& options);
 
 }  // namespace sinew::tune

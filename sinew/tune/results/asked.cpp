@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "sinew/run/folder/refusal.h"
+#include "sinew/run/folder/files.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/units/hash.h"
 

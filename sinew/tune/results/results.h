@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/run/folder/notices.h"
 #include "sinew/tune/results/asked.h"
 #include "sinew/tune/results/database.h"
 
@@ -92,5 +93,33 @@ struct HeldStudy {
 // Throws as Results does, and log::Error for values that are not those of their checksum. Changes
 // nothing; the file may be written meanwhile.
 HeldStudy read_results(const std::filesystem::path& file);
+
+// A sweep whose rows are kept as they come, and what is to be said of them.
+
+// Opens the study's file and takes the rows of the options' share that are there, which are not run
+// again. Says how many. Throws what Results throws.
+void open_results(const Sweep& sweep, const std::filesystem::path& file, Options& options,
+                  std::optional<Results>& results, const run::Notices& notices);
+
+// Warns of rows, and refuses what is no whole table of so many points. `kept` is the file with the
+// rows, empty where there is none; `goes_on` says that the same command runs the others. Throws
+// std::runtime_error, or config::Error where a figure has no row.
+void judge(const std::vector<Row>& rows, const Sweep& sweep, std::size_t points,
+           const std::string& kept, bool goes_on, const run::Notices& notices);
+
+// The files of one study's shares as one file.
+
+// Holds what came of putting files of one study together.
+struct Merged {
+  std::size_t points = 0;  // of the study
+  std::size_t there = 0;   // those with a row in `to`
+  std::size_t added = 0;
+};
+
+// Adds the rows of all files to `to`, which is made where it is missing: all of them, or none where
+// it throws. Throws config::Error for files of different studies, for a point of which two rows
+// differ in anything, and where `to` is one of the files; what Results and read_results() throw
+// besides.
+Merged merge(const std::vector<std::filesystem::path>& from, const std::filesystem::path& to);
 
 }  // namespace sinew::tune

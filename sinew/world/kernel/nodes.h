@@ -14,6 +14,24 @@
 
 namespace sinew::plant {
 
+// When a machine's nodes are: at the multiples of its body step, and where its valves really move.
+struct NodeTimes {
+  double time = 0;                       // of the last node [s]
+  std::int64_t multiple = 0, nodes = 0;  // of the body step that was passed last; so far
+
+  // Returns the next node: the multiple that is due after `skipped` others, or the next change [s].
+  double next(double step, std::int64_t skipped, double change) const noexcept {
+    const double due = static_cast<double>(multiple + 1 + skipped) * step;
+    return change < due ? change : due;
+  }
+  // The node at that time has been reached.
+  void pass(double at, double step) noexcept {
+    if (at > time) time = at;
+    while (at >= static_cast<double>(multiple + 1) * step) ++multiple;
+    ++nodes;
+  }
+};
+
 template <class M, class A>
 class Nodes {
  public:

@@ -68,11 +68,10 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
     Moving now;
     typename Air::Valves valves;
     typename Air::Memory memory;
-    Forces held;                   // friction of the last step
-    double trolley_bound;          // of the trolley's friction in the next [N]
-    Look first;                    // first stage at the node, without friction
-    double time;                   // of the node [s]
-    std::int64_t multiple, nodes;  // of the body step that was passed last; so far
+    Forces held;           // friction of the last step
+    double trolley_bound;  // of the trolley's friction in the next [N]
+    Look first;            // first stage at the node, without friction
+    NodeTimes times;
     bool ended;
     air::Failure failure;
   };
@@ -102,11 +101,11 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
     return air_.total_mass(state_.now.air, state_.first.ends.travel);
   }
-  double time() const noexcept { return state_.time; }
+  double time() const noexcept { return state_.times.time; }
   double shortest_step() const noexcept {  // of body and air, where it starts [s]
     return std::min(step_, longest_piece_of(state_.first));
   }
-  std::int64_t nodes() const noexcept { return state_.nodes; }
+  std::int64_t nodes() const noexcept { return state_.times.nodes; }
   const air::Failure& failure() const noexcept { return state_.failure; }
 
   // Returns everything that its future depends on.
@@ -116,13 +115,15 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   // Serve chain_lanes.h, which integrates in this world's place: the first gives out the state, to
   // be brought to another node; after the second the world continues from there.
   State& borrow() noexcept { return state_; }
-  void resume() noexcept { prepare_friction(mechanism_.pose(state_.time, state_.now.motion)); }
+  void resume() noexcept {
+    prepare_friction(mechanism_.pose(state_.times.time, state_.now.motion));
+  }
   double body_step() const noexcept { return step_; }  // between nodes [s]
 
   // For a loop outside of Sinew, at the last node: an edge of a valve; the motion from there on;
   // and a node at t [s], up to which all others are committed.
   void command(const signals::Edge& edge) noexcept {
-    air_.command(edge, state_.time, state_.first.air, state_.valves);
+    air_.command(edge, state_.times.time, state_.first.air, state_.valves);
     prepare();
   }
   void steer(const Motion& motion) noexcept {
@@ -131,7 +132,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   }
   void node_at(double t) noexcept {
     advance(t);
-    if (!state_.failure && t > state_.time) commit(t);
+    if (!state_.failure && t > state_.times.time) commit(t);
   }
 
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
@@ -162,7 +163,8 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   Motion peek_motion(double t) noexcept {
     const Glance& g = glance();
     Motion motion = state_.now.motion;
-    mechanism_.glide(motion, t - state_.time, RelaxesStages<Mechanism> ? g.mean : g.acceleration);
+    mechanism_.glide(motion, t - state_.times.time,
+                     RelaxesStages<Mechanism> ? g.mean : g.acceleration);
     return motion;
   }
   const Mechanism& mechanism() const noexcept { return mechanism_; }
@@ -200,8 +202,8 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   void look_for_failure() noexcept;
   // Does a step go from one multiple of the body step that is due to the next one?
   bool is_whole(double to) const noexcept {
-    return state_.time == static_cast<double>(state_.multiple) * step_ &&
-           to == static_cast<double>(state_.multiple + 1 + skipped_) * step_;
+    return state_.times.time == static_cast<double>(state_.times.multiple) * step_ &&
+           to == static_cast<double>(state_.times.multiple + 1 + skipped_) * step_;
   }
   double next_node() const noexcept;
   double whole_step() const noexcept {  // from one multiple to the next that is due [s]
@@ -275,16 +277,17 @@ World<M, A>::World(const Setup& setup)
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare() noexcept {
   Look& first = state_.first;
-  air_.move_valves(state_.time, state_.first.air, state_.valves);
-  if constexpr (PrescribesMotion<M>) mechanism_.begin(state_.time, state_.now.motion);
+  air_.move_valves(state_.times.time, state_.first.air, state_.valves);
+  if constexpr (PrescribesMotion<M>) mechanism_.begin(state_.times.time, state_.now.motion);
   if constexpr (CutsSteps<M>) {
-    begin_part(state_.time, state_.now, state_.memory, state_.held, first);
+    begin_part(state_.times.time, state_.now, state_.memory, state_.held, first);
     look_for_failure();
   } else {
-    evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead(state_.valves));
+    evaluate_air(state_.times.time, state_.now, state_.memory, first,
+                 air_.always_ahead(state_.valves));
     look_for_failure();
     state_.trolley_bound = mechanism_.trolley_bound(state_.held, state_.trolley_bound);
-    prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
+    prepare_friction(mechanism_.pose(state_.times.time, state_.now.motion));
   }
 }
 
@@ -293,8 +296,8 @@ template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept {
   glanced_ = false;
   if constexpr (SkipsNodes<M>)
-    skipped_ = mechanism_.next_multiple(state_.multiple, step_, pose, state_.now.motion) -
-               (state_.multiple + 1);
+    skipped_ = mechanism_.next_multiple(state_.times.multiple, step_, pose, state_.now.motion) -
+               (state_.times.multiple + 1);
   if constexpr (!CutsSteps<M>)  // of these each part has its own
     this->meet(pose, state_.now.motion, state_.trolley_bound, state_.first);
 }
@@ -312,11 +315,11 @@ void World<M, A>::look_for_failure() noexcept {
   if (state_.failure) return;
   if (of_air) {
     state_.failure = of_air;
-    state_.failure.time = state_.time;
+    state_.failure.time = state_.times.time;
     if (of_air.of == air::Failure::Of::air)
       state_.failure.length = state_.first.ends.length[of_air.muscle];
   } else if (!air::is_place(mechanism_.sum(state_.now.motion))) {
-    state_.failure = {.of = air::Failure::Of::motion, .time = state_.time};
+    state_.failure = {.of = air::Failure::Of::motion, .time = state_.times.time};
   }
 }
 
@@ -342,9 +345,9 @@ double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::step(double to) noexcept {
   if constexpr (CutsSteps<M>) {
-    go(state_.time, to, state_.now, state_.memory, state_.held, state_.first);
+    go(state_.times.time, to, state_.now, state_.memory, state_.held, state_.first);
   } else {
-    const double h = to - state_.time;
+    const double h = to - state_.times.time;
     Acceleration first;
     if (SkipsNodes<M> && is_whole(to)) {  // a peek goes by the same friction
       first = glance().acceleration;
@@ -355,7 +358,7 @@ void World<M, A>::step(double to) noexcept {
     }
     const double pieces = pieces_of(h, state_.first);
     for (double k = 0; k < pieces; ++k) {
-      const double from = state_.time + k * (h / pieces);
+      const double from = state_.times.time + k * (h / pieces);
       if (k > 0) {
         look_at(from, state_.now, state_.memory, state_.held, state_.first,
                 air_.always_ahead(state_.valves));
@@ -370,11 +373,10 @@ void World<M, A>::step(double to) noexcept {
 // The next multiple of the body step that is due, or the next change of a valve.
 template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::next_node() const noexcept {
-  const double multiple = static_cast<double>(state_.multiple + 1 + skipped_) * step_;
   double change = state_.valves.next_change;
   if constexpr (PrescribesMotion<M>)
-    change = std::min(change, mechanism_.corner_after(state_.time));
-  return change < multiple ? change : multiple;
+    change = std::min(change, mechanism_.corner_after(state_.times.time));
+  return state_.times.next(step_, skipped_, change);
 }
 
 template <IsMechanism M, IsAirOf<M> A>
@@ -384,10 +386,8 @@ void World<M, A>::advance(double t) noexcept {
 
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::commit(double next) noexcept {
-  if (next > state_.time) step(next);
-  state_.time = next > state_.time ? next : state_.time;
-  while (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
-  ++state_.nodes;
+  if (next > state_.times.time) step(next);
+  state_.times.pass(next, step_);
   prepare();
 }
 
@@ -417,12 +417,12 @@ auto World<M, A>::peek(double t) noexcept -> Peek {
   if constexpr (CutsSteps<M>) {
     Memory memory = state_.memory;
     glance_.held = state_.held;
-    if (!state_.failure) go(state_.time, t, p.state, memory, glance_.held, p.look);
+    if (!state_.failure) go(state_.times.time, t, p.state, memory, glance_.held, p.look);
     begin_part(t, p.state, memory, glance_.held, p.look);
     glance_.acceleration = p.look.acceleration;
   } else {
     (void)glance();
-    if (t > state_.time && !state_.failure) extrapolate(t, p);
+    if (t > state_.times.time && !state_.failure) extrapolate(t, p);
   }
   return p;
 }
@@ -430,10 +430,10 @@ auto World<M, A>::peek(double t) noexcept -> Peek {
 template <IsMechanism M, IsAirOf<M> A>
 template <WholeSteps>
 void World<M, A>::extrapolate(double t, Peek& p) noexcept {
-  const double dt = t - state_.time;
+  const double dt = t - state_.times.time;
   const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
   for (double k = 1; k <= pieces; ++k) {
-    const double to = k < pieces ? state_.time + k * h : t;
+    const double to = k < pieces ? state_.times.time + k * h : t;
     p.state.motion = peek_motion(to);
     if (air_.flowing(state_.valves)) {
       const typename A::State from = p.state.air;
@@ -462,7 +462,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   if (state_.ended) return signals::Status::ended;
   if (state_.failure) return signals::Status::fault;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  if (edge.valve.index >= air_.valves() || t < state_.time) return signals::Status::invalid;
+  if (edge.valve.index >= air_.valves() || t < state_.times.time) return signals::Status::invalid;
   // Later edges act at t or after: these nodes are final.
   for (double next; !state_.failure && (next = next_node()) < t;) commit(next);
   air_.command(edge, t, state_.first.air, state_.valves);
@@ -483,7 +483,7 @@ signals::Status World<M, A>::stop(signals::Tick) noexcept {
 template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::truth(double t) noexcept -> Truth {
   advance(t);
-  return senses_.truth(*this, std::max(t, state_.time));
+  return senses_.truth(*this, std::max(t, state_.times.time));
 }
 
 // A smooth part begins at t: what is prescribed goes into the state, and friction is decided by a
