@@ -126,13 +126,13 @@ class Checked:
 
     @property
     def checks(self) -> Sequence[Dict[str, str]]:
-        """The checks: each its name, light ("green", "yellow" or "red"), evidence and advice."""
+        """The checks: each its name, light ("green", "grey", "yellow" or "red"), evidence and advice."""
         return tuple(self.report["checks"])
 
     def lights(self) -> Dict[str, str]:
         """Return the light of each check by its name; of several with one name the worst."""
         out: Dict[str, str] = {}
-        for light in ("green", "yellow", "red"):
+        for light in ("green", "grey", "yellow", "red"):
             out.update({check["name"]: light for check in self.checks if check["light"] == light})
         return out
 

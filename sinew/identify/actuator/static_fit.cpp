@@ -10,6 +10,7 @@
 
 #include "sinew/actuator/hysteresis.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/least_squares.h"
@@ -24,12 +25,13 @@ namespace {
 
 // Scatter differs from point to point: a length that is 0.1 mm off matters most where force is
 // steepest. Each point's own residual says how much (White's errors, with HC3's factor for the pull
-// that a point has on its own fit). Intervals that this makes wider become so; none narrower.
+// that a point has on its own fit). Readings of one setting leave what the law leaves there, so
+// that they count together. Intervals that this makes wider become so; none narrower.
 //
-// The first `points` of `count` residuals are measurements, the others what is known beforehand. A
-// residual beyond `outlier` scatters counts as that many.
+// The first of `count` residuals are measurements, whose settings these are, the others what is
+// known beforehand. A residual beyond `outlier` scatters counts as that many.
 void widen(const Residuals& residuals, std::span<const Parameter> parameters, std::size_t count,
-           std::size_t points, double scatter, double outlier, Solution& solution) {
+           std::span<const int> settings, double scatter, double outlier, Solution& solution) {
   const std::size_t n = solution.values.size();
   if (n == 0) return;
   Matrix j(count, n);
@@ -45,16 +47,25 @@ void widen(const Residuals& residuals, std::span<const Parameter> parameters, st
     for (std::size_t r = 0; r < count; ++r) j(r, i) = (up[r] - down[r]) / 2e-5;  // per scale
   }
   const Matrix pull = product(j, inverse_where_seen(transposed_product(j, j)));
-  std::vector<double> variance(n);  // one per parameter, in its scale
+  const std::size_t points = settings.size();
+  const auto setting = [&](std::size_t r) {
+    return r < points ? static_cast<std::size_t>(settings[r]) : r;
+  };
+  std::vector<double> leverage(count);  // of each setting
+  for (std::size_t r = 0; r < points; ++r)
+    for (std::size_t i = 0; i < n; ++i) leverage[setting(r)] += pull(r, i) * j(r, i);
+  Matrix moved(count, n);  // what each setting's misses move a parameter by, in its scale
   for (std::size_t r = 0; r < count; ++r) {
-    const bool point = r < points;
-    double off = point ? solution.residuals[r] : scatter;
+    double off = r < points ? solution.residuals[r] : scatter;
     off = std::clamp(off, -outlier * scatter, outlier * scatter);
-    double leverage = 0;
-    for (std::size_t i = 0; point && i < n; ++i) leverage += pull(r, i) * j(r, i);
-    off /= std::max(0.2, 1 - leverage);
-    for (std::size_t i = 0; i < n; ++i) variance[i] += off * off * pull(r, i) * pull(r, i);
+    if (r < points) off /= std::max(0.2, 1 - leverage[setting(r)]);
+    for (std::size_t i = 0; i < n; ++i) moved(setting(r), i) += off * pull(r, i);
   }
+  std::vector<double> variance(n);  // one per parameter, in its scale
+  for (std::size_t r = 0; r < count; ++r)
+    for (std::size_t i = 0; i < n; ++i) variance[i] += moved(r, i) * moved(r, i);
+  const int distinct = settings.empty() ? 0 : *std::ranges::max_element(settings) + 1;
+  solution.freedom -= static_cast<int>(points) - distinct;
   const double t = t_quantile(std::max(1, solution.freedom));
   for (std::size_t i = 0; i < n; ++i) {
     Estimate& e = solution.estimates[i];
@@ -251,8 +262,13 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   StaticFit out{.knobs = knobs};
   Problem problem(out.knobs, points, scales);
   const std::size_t parameters = problem.parameters().size();
-  if (points.size() < parameters + 2)
-    throw Refusal("data", fmt::format("{} points", points.size()),
+  const std::vector<int> settings = setting_groups({points.begin(), points.end()});
+  const auto distinct = static_cast<std::size_t>(count_of(settings));
+  if (distinct < parameters + 2)
+    throw Refusal("data",
+                  distinct < points.size()
+                      ? fmt::format("{} points at {} settings", points.size(), distinct)
+                      : fmt::format("{} points", points.size()),
                   fmt::format("at least {} for {} parameters", parameters + 2, parameters),
                   "more measurements, or a simpler model");
   std::vector<Parameter> from = problem.parameters();
@@ -272,7 +288,7 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
                     {.outlier = outlier * out.scatter, .correlated = true, .tolerance = tolerance});
   out.setting = problem.setting(out.solution.values);
   if (!start)
-    widen(problem.residuals(out.scatter), problem.parameters(), problem.count(), points.size(),
+    widen(problem.residuals(out.scatter), problem.parameters(), problem.count(), settings,
           out.scatter, outlier, out.solution);
   out.solution.residuals.resize(points.size());
   for (const double r : out.solution.residuals) out.outliers += std::abs(r) > outlier * out.scatter;

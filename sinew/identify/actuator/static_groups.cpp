@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "sinew/actuator/prediction.h"
 #include "sinew/identify/data/quality.h"
@@ -64,6 +66,28 @@ std::vector<int> length_groups(const Points& points) {
 
 int count_of(const std::vector<int>& groups) {
   return static_cast<int>(std::set<int>(groups.begin(), groups.end()).size());
+}
+
+std::vector<int> setting_groups(const Points& points) {
+  constexpr double same_mount = 2e-3, same_pressure = 0.01;  // of the largest
+  std::vector<double> length, pressure;
+  for (const StaticPoint& p : points) {
+    length.push_back(p.length);
+    pressure.push_back(p.pressure);
+  }
+  const auto near = [](const std::vector<double>& values, double share) {
+    const double gap = share * largest(values);
+    return groups_of(values, 0.5 * gap, gap);
+  };
+  const std::vector<int> mount = near(length, same_mount), level = near(pressure, same_pressure);
+  std::map<std::tuple<double, Branch, int, int>, int> known;
+  std::vector<int> out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.push_back(known
+                      .try_emplace({points[i].rest_length, points[i].branch, mount[i], level[i]},
+                                   static_cast<int>(known.size()))
+                      .first->second);
+  return out;
 }
 
 std::vector<double> lengths_of(const Points& points, double rest_length) {

@@ -35,6 +35,11 @@ std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
 std::vector<int> length_groups(const std::vector<StaticPoint>& points);
 int count_of(const std::vector<int>& groups);
 
+// Returns the setting of each point, counted from 0: readings of one muscle and branch whose
+// lengths and pressures differ by what a mount and a gauge leave open. Together they are as much
+// evidence about a law as one of them, however many they are.
+std::vector<int> setting_groups(const std::vector<StaticPoint>& points);
+
 // Returns the lengths of a muscle's mounts in ascending order, each the mean of its readings, the
 // first and the last the shortest and the longest reading of all  [m]. Empty: it has no point.
 std::vector<double> lengths_of(const std::vector<StaticPoint>& points, double rest_length);

@@ -70,6 +70,33 @@ TEST(Static, WithoutNoiseTheLawComesBack) {
   EXPECT_LT(score(misses(fit.setting, scales_for(points), points), 540).max_percent, 0.1);
 }
 
+// A setting that is held while a logger reads it 30 times is one reading: the intervals are those
+// of the settings, within a fifth.
+TEST(Static, AHeldSettingIsOneReading) {
+  const std::vector<Knob> knobs = knobs_named("saturating-elastic");
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const std::vector<StaticPoint> once = measured(truth(), seed, real_noise(), many);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<StaticPoint> held;
+    for (const StaticPoint& point : once)
+      for (int k = 0; k < 30; ++k) {
+        held.push_back(point);
+        held.back().force += 0.02 * normal(random);
+        held.back().pressure += 20 * normal(random);
+        held.back().length += 1e-6 * normal(random);
+      }
+    const StaticFit few = fit_static(knobs, once, scales_for(once)),
+                    all = fit_static(knobs, held, scales_for(held));
+    for (std::size_t i = 0; i < knobs.size(); ++i) {
+      const Estimate &one = few.solution.estimates[i], &many_times = all.solution.estimates[i];
+      if (!one.identifiable || !many_times.identifiable) continue;
+      EXPECT_GT(many_times.high - many_times.low, 0.8 * (one.high - one.low)) << key_of(knobs[i]);
+      EXPECT_LT(many_times.high - many_times.low, 1.25 * (one.high - one.low)) << key_of(knobs[i]);
+    }
+  }
+}
+
 // Force 0.3 % of full scale, pressure 0.5 kPa, length 0.1 mm: 95 % intervals of what is
 // identifiable hold the truth in 90 to 99 % of 200 trials, and the mean is right within 1 %.
 TEST(Static, IntervalsCoverTheTruth) {

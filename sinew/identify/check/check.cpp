@@ -38,8 +38,11 @@ Check whole_numbers(const std::vector<CheckedTable>& tables) {
           return {"counts", Light::green, "The forces are no counts of a converter.", ""};
         seen.insert(f);
       }
+  if (seen.empty()) return {"counts", Light::green, "The forces are those of loads.", ""};
   if (seen.size() < 20 || *seen.rbegin() < 1000)
-    return {"counts", Light::green, "The forces are no counts of a converter.", ""};
+    return {"counts", Light::grey,
+            "Not checked: too few different forces to tell counts of a converter from newtons.",
+            "If they are counts, `sinew identify sensor` makes newtons of them."};
   return {"counts", Light::yellow,
           fmt::format("All forces are whole numbers, up to {:.5g}.", *seen.rbegin()),
           "If they are counts, `sinew identify sensor` makes newtons of them."};
@@ -87,7 +90,8 @@ std::vector<Check> check_static(const CheckInput& input) {
 }
 
 std::string_view word(Light light) {
-  return light == Light::green ? "green" : light == Light::yellow ? "yellow" : "red";
+  constexpr std::string_view words[] = {"green", "grey", "yellow", "red"};
+  return words[static_cast<std::size_t>(light)];
 }
 
 bool has_red(const std::vector<Check>& checks) {

@@ -26,16 +26,16 @@
 
 namespace sinew::identify {
 
-// Green: as it should be. Yellow: a suspicion, or less than a good fit needs. Red: a fit would be
-// wrong.
-enum class Light { green, yellow, red };
+// Green: it was checked and is as it should be. Grey: these data do not allow the check. Yellow: a
+// suspicion, or less than a good fit needs. Red: a fit would be wrong.
+enum class Light { green, grey, yellow, red };
 
 // One question that the data were asked.
 struct Check {
   std::string name;  // "pressure unit"
   Light light = Light::green;
   std::string evidence;  // a sentence
-  std::string advice;    // what to do; empty where it is green
+  std::string advice;    // what to do; may be empty where it is green or grey
 
   // A fit does not warn of it: its own report tells it, by its notes and intervals, or these data
   // give no reason to doubt.
@@ -69,7 +69,7 @@ struct CheckInput {
 // count where it is about how much was measured.
 std::vector<Check> check_static(const CheckInput& input);
 
-// Returns "green", "yellow" or "red".
+// Returns "green", "grey", "yellow" or "red".
 std::string_view word(Light light);
 
 // Returns true if one of them is red.

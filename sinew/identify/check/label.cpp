@@ -153,11 +153,18 @@ Check suspicion_of(const Doubt* own, const Doubt* make, const std::string& other
   return {"labels", Light::yellow, text + ".", advice};
 }
 
-// The mount that, with another length, goes with all others best; nothing where none does, or
-// several do alike. At the ends it is rather the law that is wrong.
-std::optional<Check> mount_off(const Believed& own) {
+// A muscle each of whose mounts can be asked about.
+bool mounts_can_be_asked(const Points& own) {
+  const std::size_t mounts = mounts_of_muscle(own).size();
+  return mounts >= 4 && mounts <= 12;
+}
+
+// The mount that, with another length, goes with all others best, and better than the doubted rest
+// length does, if there is one; nothing where none does, or several do alike. At the ends it is
+// rather the law that is wrong.
+std::optional<Check> mount_off(const Believed& own, const Doubt* rest) {
+  if (!mounts_can_be_asked(own.points) || own.rms < least_misfit) return {};
   const std::set<double> mounts = mounts_of_muscle(own.points);
-  if (mounts.size() < 4 || mounts.size() > 12 || own.rms < least_misfit) return {};
   std::vector<Doubt> doubts;
   for (const double mount : mounts)
     doubts.push_back(ask(own, {.rest_length = own.points.front().rest_length, .mount = mount}));
@@ -165,6 +172,7 @@ std::optional<Check> mount_off(const Believed& own) {
   const Doubt& best = doubts[0];
   const bool at_end = best.labelled() == *mounts.begin() || best.labelled() == *mounts.rbegin();
   if (at_end || !best.speaks(mount_explains) || best.doubted > 0.75 * doubts[1].doubted) return {};
+  if (rest && best.doubted > 0.75 * rest->doubted) return {};
   return Check{
       "labels", Light::yellow,
       fmt::format("The mount labelled {:.4g} mm behaves like {} beside the others of its "
@@ -208,22 +216,25 @@ void add_make(const std::vector<Doubt>& make, bool asked, std::vector<Check>& ou
     out.push_back(suspicion_of(nullptr, likely[0], ""));
   } else if (sure) {
     out.push_back(one_of_them(likely));
+  } else if (asked) {
+    out.push_back({"labels", Light::green, "The lengths of the mounts go with each other.", ""});
   } else {
-    out.push_back({"labels", Light::green,
-                   asked ? "The lengths of the mounts go with each other."
-                         : "Too few mounts, or none at rest, to ask whether a length is wrong.",
-                   ""});
+    out.push_back({"labels", Light::grey,
+                   "Not checked: fewer than four mounts, or none at rest, cannot show which length "
+                   "is wrong.",
+                   "Measure at least four mounts, one of them at rest."});
   }
 }
 
 }  // namespace
 
 void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out) try {
-  const Points points = few_points(data.points);
+  Points points = few_points(data.points);
   if (points.empty()) return;
-  if (!(points.front().rest_length > 0)) {
-    out.push_back({"labels", Light::green, "No rest length is given that could be wrong.", ""});
-    return;
+  const bool has_label = points.front().rest_length > 0;
+  if (!has_label) {  // the longest mount stands for it, as in a fit
+    const double longest = std::ranges::max(points, {}, &StaticPoint::length).length;
+    for (StaticPoint& p : points) p.rest_length = longest;
   }
   const std::vector<Doubt> make = doubts_of_make(points, atmosphere);
   std::set<double> muscles;
@@ -232,25 +243,31 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
   bool named = false;
   for (const double m : muscles) {
     const Points mine = of_muscle(points, m);
-    if (!can_be_asked(mine)) continue;
+    const bool ask_rest = has_label && can_be_asked(mine);
+    if (!ask_rest && !mounts_can_be_asked(mine)) continue;
     ++asked;
     const Believed own(mine, atmosphere);
-    const Doubt doubt = ask(own, {.rest_length = m});
-    if (!doubt.speaks(own_explains)) {
-      if (const auto mount = mount_off(own)) out.push_back(*mount), named = true;
+    std::optional<Doubt> doubt;
+    if (ask_rest) doubt = ask(own, {.rest_length = m});
+    const bool speaks = doubt && doubt->speaks(own_explains);
+    if (const auto mount = mount_off(own, speaks ? &*doubt : nullptr)) {
+      out.push_back(*mount);
+      named = true;
       continue;
     }
+    if (!speaks) continue;
     const auto same = std::ranges::find_if(make, [&](const Doubt& d) {
-      return d.label.rest_length == m && d.speaks(make_supports) && d.shift * doubt.shift > 0;
+      return d.label.rest_length == m && d.speaks(make_supports) && d.shift * doubt->shift > 0;
     });
-    out.push_back(suspicion_of(&doubt, same == make.end() ? nullptr : &*same,
-                               others_that_explain(own, doubt)));
+    out.push_back(suspicion_of(&*doubt, same == make.end() ? nullptr : &*same,
+                               others_that_explain(own, *doubt)));
     named = true;
   }
   if (named) return;
   add_make(make, asked > 0, out);
 } catch (const Refusal& refusal) {
-  out.push_back({"labels", Light::green, std::string("Not asked: ") + refusal.what(), ""});
+  out.push_back({"labels", Light::grey, std::string("Not checked: ") + refusal.what(),
+                 "Measure more mounts and pressures."});
 }
 
 }  // namespace sinew::identify

@@ -2,10 +2,14 @@
 // whichever law the muscle follows.
 #include "sinew/identify/check/label.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <set>
 
 #include "sinew/identify/check/label_fit.h"
 #include "sinew/identify/check/test_rig.h"
@@ -124,12 +128,38 @@ TEST(Label, RightOnesOfAMakeAreLeftInPeace) {
   }
 }
 
-TEST(Label, WhatCannotBeAskedIsGreen) {
+TEST(Label, WhatCannotBeAskedIsGrey) {
   std::vector<StaticPoint> points;
   add_rig({.contractions = {0, 0.1}}, points);
-  EXPECT_NE(only_check(points).evidence.find("Too few mounts"), std::string::npos);
+  EXPECT_EQ(only_check(points).light, Light::grey);
   for (StaticPoint& p : points) p.rest_length = 0;
-  EXPECT_NE(only_check(points).evidence.find("No rest length"), std::string::npos);
+  EXPECT_EQ(only_check(points).light, Light::grey);
+}
+
+// Whether a rest length is given or not, and whether a mount is at rest or not.
+TEST(Label, AMountThatIsOffAmongSixIsNamed) {
+  for (const double longest : {0.0, 0.04})
+    for (const bool labelled : {true, false})
+      for (unsigned seed = 1; seed <= 3; ++seed) {
+        std::vector<StaticPoint> points;
+        const double step = (0.24 - longest) / 5;
+        add_rig({.contractions = {longest, longest + step, longest + 2 * step, longest + 3 * step,
+                                  longest + 4 * step, 0.24},
+                 .seed = seed},
+                points);
+        std::set<double> mounts;
+        for (const StaticPoint& p : points) mounts.insert(std::round(1e4 * p.length) / 1e4);
+        const double off = *std::next(mounts.begin(), 3), by = 0.018 * *mounts.rbegin();
+        for (StaticPoint& p : points) {
+          if (std::abs(p.length - off) < 1e-3) p.length += by;
+          if (!labelled) p.rest_length = 0;
+        }
+        const Check one = only_check(points);
+        EXPECT_EQ(one.light, Light::yellow) << longest << labelled << seed << one.evidence;
+        EXPECT_NE(one.evidence.find(fmt::format("The mount labelled {:.4g}", 1e3 * (off + by))),
+                  std::string::npos)
+            << longest << labelled << seed << one.evidence;
+      }
 }
 
 // The bins of measured muscles; `as` gives one of them another label.

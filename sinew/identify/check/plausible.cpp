@@ -46,11 +46,15 @@ Between between(const ForceCurve& first, const ForceCurve& second, double least)
 // A muscle pulls less where it is shorter, at every pressure.
 Check mounts_in_order(const std::vector<ForceCurve>& curves) {
   const double least = 0.02 * strongest(curves);
-  Check worst{"mounts in order", Light::green, "At every pressure a longer mount pulls more.", ""};
+  Check worst{"mounts in order", Light::grey,
+              "Not checked: no two mounts of a muscle have pressures in common.",
+              "Measure every mount at the same pressures."};
   for (std::size_t i = 0; i + 1 < curves.size(); ++i) {
     const ForceCurve &a = curves[i], &b = curves[i + 1];
     if (a.rest_length != b.rest_length || a.branch != b.branch) continue;
     const Between d = between(a, b, least);
+    if (d.shared > 0 && worst.light == Light::grey)
+      worst = {"mounts in order", Light::green, "At every pressure a longer mount pulls more.", ""};
     if (d.below == 0) continue;
     const bool swapped = 2 * d.below > d.shared;
     if (worst.light == Light::red) continue;
@@ -113,6 +117,10 @@ Check branches(const std::vector<ForceCurve>& curves) {
   for (const ForceCurve& c : curves)
     for (std::size_t i = 0; i < c.gap.size(); ++i)
       if (c.gap[i] > 0 && c.force[i] > 0) gap += c.gap[i], force += c.force[i];
+  if (pairs == 0 && force == 0)
+    return {"branches", Light::grey,
+            "Not checked: no reading is repeated, and no length was measured on both branches.",
+            "Read some points twice, or measure on the way up and down."};
   // Where both branches are told, readings are apart by their noise alone.
   const double usual = pairs > 0 ? 0.15 : 0.03;
   if (gap > usual * force)
@@ -122,7 +130,10 @@ Check branches(const std::vector<ForceCurve>& curves) {
             pairs > 0
                 ? "Look whether all of them are of one muscle, and of the branch that is told."
                 : "Say in a column branch which rows are fill and which are vent."};
-  return {"branches", Light::green, "Readings of one branch agree.", ""};
+  return {
+      "branches", Light::green,
+      force > 0 ? "Readings of one branch agree." : "Rows called vent pull no less than others.",
+      ""};
 }
 
 Check curves_rise(const std::vector<ForceCurve>& curves) {
@@ -142,6 +153,10 @@ Check curves_rise(const std::vector<ForceCurve>& curves) {
                         "pressure rises.",
                         flat, told),
             "The sensor or its converter is at its end: leave those rows out."};
+  if (told == 0)
+    return {"clipped sensor", Light::grey,
+            "Not checked: no curve has four pressures and a fifth of the largest force.",
+            "Measure at least four pressures at the longest mount."};
   return {"clipped sensor", Light::green, "The force rises up to the highest pressure.", ""};
 }
 

@@ -69,6 +69,13 @@ Check gauge_or_absolute(const StaticData& data, const Reach& r) {
       threshold = std::max(threshold, *start);
       first = std::max(first, c.force.front());
     }
+  if (r.lowest >= 0.8 * ambient && threshold < 0 && first <= 0.02 * r.strongest)
+    return {
+        "gauge or absolute", Light::grey,
+        fmt::format("Not checked: the pressure never falls below {:.4g} kPa, and where the force "
+                    "begins is not to be seen.",
+                    r.lowest / 1e3),
+        "Read the force at the lowest pressures, too."};
   if (r.lowest < 0.8 * ambient || threshold < 0.85 * ambient || first > 0.02 * r.strongest)
     return {"gauge or absolute", Light::green,
             fmt::format("The lowest pressure is {:.4g} kPa, as of a gauge.", r.lowest / 1e3), ""};
@@ -104,7 +111,10 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   for (const StaticPoint& p : data.points)
     if (p.pressure < 0.03 * r.top) sum += p.force, n += 1;
   if (n == 0)
-    return {"zero of force", Light::green, "No point without pressure tells of a zero.", ""};
+    return {"zero of force", Light::grey,
+            "Not checked: no reading without pressure, and none of a slack muscle, shows what the "
+            "cell reads without force.",
+            "Read the force once with the muscle vented and slack."};
   const double zero = sum / n, share = std::abs(zero) / std::max(1e-9, r.strongest - r.weakest);
   const std::string text = fmt::format(
       "Without pressure the force is {:.4g} N, {:.2g} % of its "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "sinew/config/quantity.h"
@@ -115,6 +116,24 @@ void refuse_clipped(const Measured& data, std::string_view column, std::string_v
                             top ? c.at_top : c.at_bottom,
                             in_unit_of_file(data, column, top ? c.top : c.bottom, 5)),
                 "readings within its range", std::string(try_this));
+}
+
+Measured each_row_once(Measured m) {
+  if (m.has("time")) return m;
+  const auto values = [&](std::size_t row) {
+    std::vector<double> out;
+    for (const Column& c : m.columns) out.push_back(c.values[row]);
+    return out;
+  };
+  std::set<std::vector<double>> seen;
+  std::vector<std::size_t> first;
+  for (std::size_t row = 0; row < m.rows(); ++row)
+    if (seen.insert(values(row)).second) first.push_back(row);
+  const std::size_t repeated = m.rows() - first.size();
+  if (repeated == 0) return m;
+  m = m.subset(first);
+  m.notes.push_back(fmt::format("{} rows repeat earlier ones: each counts once", repeated));
+  return m;
 }
 
 }  // namespace sinew::identify

@@ -48,4 +48,9 @@ void refuse_constant(const Measured& data, std::string_view column, double toler
 // Throws Refusal if the column is clipped.
 void refuse_clipped(const Measured& data, std::string_view column, std::string_view try_this);
 
+// Returns a table whose rows each differ from those before them, with a note that counts the
+// others: a row that repeats an earlier one in every column is no new evidence. A recording, which
+// has a time, stays as it is.
+Measured each_row_once(Measured data);
+
 }  // namespace sinew::identify

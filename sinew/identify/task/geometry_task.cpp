@@ -7,6 +7,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
+#include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/report_json.h"
@@ -76,7 +77,8 @@ double thickness_of(const GeometrySettings& settings) {
 GeometryFound find_geometry(const std::vector<Source>& sources, const GeometrySettings& settings) {
   const Source& source = only_of(sources);
   const double thread = thickness_of(settings);
-  const GeometryResult found = identify_geometry(read_measured(source, geometry_columns()), thread);
+  const GeometryResult found =
+      identify_geometry(each_row_once(read_measured(source, geometry_columns())), thread);
   return {found.braid, found.report,
           braid_file(found.braid, settings.name, "sinew identify geometry " + source.path,
                      &found.report)};

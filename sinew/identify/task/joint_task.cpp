@@ -5,6 +5,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/fit/robot_over.h"
@@ -58,11 +59,11 @@ JointNames names_of(const JointSettings& settings) {
 
 // All tables as one, whose rows know theirs by a column `recording`; one table stays as it is.
 Measured joined(const std::vector<Source>& sources, bool moving) {
-  Measured out = read_measured(sources[0], joint_columns(moving));
+  Measured out = each_row_once(read_measured(sources[0], joint_columns(moving)));
   if (sources.size() == 1) return out;
   std::vector<double> recording(out.rows(), 0.0);
   for (std::size_t k = 1; k < sources.size(); ++k) {
-    const Measured more = read_measured(sources[k], joint_columns(moving));
+    const Measured more = each_row_once(read_measured(sources[k], joint_columns(moving)));
     for (Column& c : out.columns) {
       if (!more.has(c.name))
         throw Refusal(more.file, "no column " + c.name, "the columns of " + sources[0].path, "");

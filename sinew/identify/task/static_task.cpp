@@ -11,6 +11,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
+#include "sinew/identify/data/quality.h"
 #include "sinew/identify/task/further.h"
 #include "sinew/identify/task/tables.h"
 
@@ -54,7 +55,7 @@ enum class Unreadable { is_refused, is_red };
 
 void read_table(const StaticSettings& settings, const Source& source, bool fitted,
                 Unreadable unreadable, CheckInput& out) {
-  const Measured all = read_measured(source, static_columns());
+  const Measured all = each_row_once(read_measured(source, static_columns()));
   const std::size_t before = out.data.points.size();
   CheckedTable table{all, input_for(settings, source, fitted)};
   if (unreadable == Unreadable::is_red)
