@@ -26,6 +26,34 @@ std::size_t first_beyond(const Curve& c, double share) {
   return c.pressure.size();
 }
 
+// Returns what a rest up to the row `last`, followed by a straight rise or fall, leaves of the
+// first rows: the sum of its squares.
+double left_by_rest(const Curve& c, std::size_t rows, std::size_t last) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double since = std::max(0.0, c.time[i] - c.time[last]), p = c.pressure[i] - c.pressure[0];
+    n += 1;
+    x += since;
+    y += p;
+    xx += since * since;
+    xy += since * p;
+    yy += p * p;
+  }
+  const double across = xx - x * x / n, along = xy - x * y / n;
+  return std::max(0.0, yy - y * y / n - (across > 0 ? along * along / across : 0.0));
+}
+
+// Returns whether the record begins before the pressure moves: two rows or more at rest go with its
+// first tenth much better than a rise from the first row on does.
+bool rests_first(const Curve& c) {
+  const std::size_t moves = first_beyond(c, 0.03), rows = std::max(first_beyond(c, 0.1), moves + 2);
+  if (moves < 2 || rows > c.time.size()) return moves >= 2;
+  const double from_first = left_by_rest(c, rows, 0);
+  for (std::size_t last = 1; last < moves; ++last)
+    if (left_by_rest(c, rows, last) < 0.5 * from_first) return true;
+  return false;
+}
+
 void find_ends(const Measured& data, Curve& c) {
   const std::size_t n = c.pressure.size(), tail = std::max<std::size_t>(3, n / 20);
   c.end = median(std::span(c.pressure).last(std::min(tail, n)));
@@ -36,7 +64,7 @@ void find_ends(const Measured& data, Curve& c) {
                               pressure_text(c.end)),
                   "a chamber that fills or vents by more than 5 kPa", "the columns, and the valve");
   const std::size_t moves = first_beyond(c, 0.03);
-  c.opening_seen = moves >= 2;
+  c.opening_seen = rests_first(c);
   if (c.opening_seen)
     c.start = median(std::span(c.pressure).first(std::min<std::size_t>(moves, 9)));
 }

@@ -230,6 +230,25 @@ TEST(ValveFill, TheModelThatMadeTheDataIsChosen) {
   }
 }
 
+// A record that begins with the opening, or after it, holds no instant of it; one that rests before
+// does.
+TEST(ValveFill, TheOpeningIsAnInstantOnlyWhereTheRecordRestsBeforeIt) {
+  ValveOptions options;
+  options.volume = 2e-3;
+  options.exponent = 1;
+  const std::vector<double> t = at_steps(0.01, 160);
+  for (const double noise : {0.0, 200.0})
+    for (const double opening : {-0.05, 0.0, 0.103}) {
+      std::vector<double> p = pressures(filling(iso6358, 1), options.air, opening, t);
+      add_noise(p, noise, 7);
+      const Fit best = identified(t, p, options).report.best();
+      const auto at = std::ranges::find(best.parameters, "opening_instant", &Estimate::name);
+      ASSERT_EQ(at != best.parameters.end(), opening > 0) << noise << " " << opening;
+      if (opening < 0.1) continue;
+      EXPECT_NEAR(at->value, opening, 1e-3) << "a tenth of the time between rows";
+    }
+}
+
 // A known valve is a volume meter.
 TEST(ValveFill, WithTheConductanceTheVolumeIsFound) {
   ValveOptions options;
