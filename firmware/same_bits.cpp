@@ -32,7 +32,7 @@ using signals::Tick;
 
 constexpr Tick periods = 5000;  // per run
 
-void random_command(Random& random, Command& command) {
+void random_command(Random& random, Command& command, bool timed = false) {
   for (std::size_t j = 0; j < 3; ++j) {
     control::JointCommand& c = command.joint[j];
     c.angle = static_cast<std::int32_t>(random.below(4096));
@@ -42,6 +42,10 @@ void random_command(Random& random, Command& command) {
     c.open_loop = random.below(16) == 0;
     c.duties.flexor_inlet = static_cast<std::int32_t>(random.below(120));
     c.duties.extensor_exhaust = static_cast<std::int32_t>(random.below(120));
+    c.timed = timed && random.below(8) != 0;
+    if (!c.timed) continue;
+    const auto tick = [&] { return static_cast<std::uint16_t>(random.below(101)); };
+    c.openings = {.inlet = {tick(), tick()}, .exhaust = {tick(), tick()}};
   }
 }
 
@@ -52,7 +56,7 @@ void run(const JointControllerConfig& config, std::uint32_t seed, Hash& hash) {
   Command command = control::rest_command(config);
   for (Tick t = 0; t < periods * config.period; t = spine.next_event(t)) {
     if (spine.starts_period(t)) {
-      random_command(random, command);
+      random_command(random, command, is_timed(config.joint[control::hip].kind));
       spine.command(command);
     }
     for (const signals::Edge& e : spine.edges(t)) {
@@ -149,7 +153,8 @@ JointControllerConfig other_sensors(control::Estimator hip, control::Estimator k
   return config;
 }
 
-// 3-way valves at the hip, regulators at the knee; a muscle over both joints.
+// 3-way valves at the hip, regulators at the knee; a muscle over both joints; valves that a host
+// times.
 void other_machines(Hash& hash) {
   using enum control::Estimator;
   JointControllerConfig config = other_sensors(weighted_average, kalman);
@@ -165,6 +170,11 @@ void other_machines(Hash& hash) {
   config.joint[control::knee].kind = control::JointKind::regulated;
   config.joint[control::knee].regulator = {0.003f, 0.1f};
   run(config, 5, hash);
+  for (const auto kind : {control::JointKind::timed, control::JointKind::timed_three_way}) {
+    config.joint[control::hip].kind = kind;
+    config.joint[control::hip].extensor.present = false;
+    run(config, 6, hash);
+  }
 }
 
 }  // namespace

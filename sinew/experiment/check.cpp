@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
+#include <tuple>
 
 #include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
@@ -481,6 +483,23 @@ void check_faults_of_stand(const Experiment& e, Findings& out) {
   check_faults(e.faults, fault_parts(e), out.list());
 }
 
+// A period gives a valve one opening (control/joint/command.h).
+void check_pulses(const Stand::Drive& d, Findings& out) {
+  const auto ticks = [](double seconds) { return std::llround(seconds / signals::tick_seconds); };
+  std::set<std::tuple<bool, bool, std::int64_t>> edges;  // of which valve, opens, in which period
+  for (std::size_t i = 0; i < d.pulses.size(); ++i) {
+    const Stand::Drive::Pulse& p = d.pulses[i];
+    const std::int64_t from = ticks(p.at), until = from + ticks(p.open), period = ticks(d.period);
+    const bool begins = edges.insert({p.exhaust, true, from / period}).second;
+    const bool ends = edges.insert({p.exhaust, false, until / period}).second;
+    if (!begins || !ends)
+      out.add("drive.pulses[" + std::to_string(i) + "]",
+              std::string("a second pulse of the ") + (p.exhaust ? "exhaust" : "inlet") +
+                  " in one drive.period, " + config::format_number(d.period) + " s",
+              "at most one that begins and one that ends", "a shorter drive.period");
+  }
+}
+
 void check_drive(const Experiment& e, Findings& out) {
   const Stand::Drive& d = e.stand->drive;
   if (!whole_ticks(d.period)) out.add("drive.period", "no whole ticks", "a multiple of 0.1 ms");
@@ -496,8 +515,12 @@ void check_drive(const Experiment& e, Findings& out) {
     out.add("drive.pulses", "none", "at least one", "[[drive.pulses]]");
   for (const signals::Schedule::Point& p : d.duties)
     if (!(p.value >= 0 && p.value <= 1)) out.add("drive.duties", "no share", "0 to 100 %");
+  check_pulses(d, out);
   if (static_cast<double>(e.stand->sensors.size()) + 2 > d.period / signals::tick_seconds)
     out.add("sensor", std::to_string(e.stand->sensors.size()), "fewer than the period has ticks");
+  if (e.stand->sensors.size() > static_cast<std::size_t>(robot::board_channels))
+    out.add("sensor", std::to_string(e.stand->sensors.size()),
+            "at most " + std::to_string(robot::board_channels) + ", the channels of a board");
   check_law(e, out);
   if (!(e.stand->sweep.step > 0)) return;
   if (d.kind != DriveKind::pwm) out.add("sweep", "another drive", "drive.kind = \"pwm\"");

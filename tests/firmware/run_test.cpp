@@ -49,18 +49,19 @@ TEST_P(OnTheRealProgram, TheLogIsTheSimulationsBitForBit) {
 }
 
 // Test 1 is table 6-4's; the last one goes on for five minutes.
-INSTANTIATE_TEST_SUITE_P(LockStep, OnTheRealProgram,
-                         testing::Values(Script{"walk-test-1", {}}, Script{"walk-test-2", {}},
-                                         Script{"kick", {}}, Script{"cylinder-following", {}},
-                                         Script{"walk-with-ankle", {}},
-                                         Script{"feed-forward-cycling", {}},
-                                         Script{"faults/sensor-open", {}}, five_minutes),
-                         [](const auto& script) {
-                           std::string name = script.param.experiment;
-                           for (char& c : name)
-                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    LockStep, OnTheRealProgram,
+    testing::Values(Script{"walk-test-1", {}}, Script{"walk-test-2", {}}, Script{"kick", {}},
+                    Script{"cylinder-following", {}}, Script{"walk-with-ankle", {}},
+                    Script{"feed-forward-cycling", {}}, Script{"faults/sensor-open", {}},
+                    Script{"rig/feedback", {"log.period=400 ms"}},
+                    Script{"rig/isometric", {"log.period=40 ms", "duration=13 s"}}, five_minutes),
+    [](const auto& script) {
+      std::string name = script.param.experiment;
+      for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+      return name;
+    });
 
 TEST(LockStep, TheLongScriptIsFiveMinutes) {
   EXPECT_GE(

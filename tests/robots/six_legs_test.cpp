@@ -52,7 +52,7 @@ TEST_F(SixLegs, AreOnThreeBoardsWithTheSameNumbers) {
   const experiment::Experiment e = load();
   EXPECT_EQ(e.robot.joints.size(), 24u);
   EXPECT_EQ(e.robot.muscles.size(), 48u);
-  const std::vector<control::Board> boards = control::boards(run::installation(e));
+  const std::vector<control::Board> boards = run::boards_of(e);
   ASSERT_EQ(boards.size(), 3u);
   std::set<int> valves, channels;
   for (const control::Board& b : boards) {

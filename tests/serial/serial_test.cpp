@@ -95,6 +95,20 @@ TEST(Serial, AnExperimentRunsToItsEndAndTheBoardRests) {
       << "what only a simulation knows is absent";
 }
 
+TEST(Serial, ATestStandRunsAsARobotDoes) {
+  const std::vector<std::string> sets = {"log.period=400 ms", "duration=2 s"};
+  const Workspace w;
+  BoardOnPty board(
+      experiment::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml", sets));
+  Words words = run_at(board, "rig/feedback");
+  for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+  const Result r = w.sinew(words);
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 3));
+  EXPECT_EQ(board.open(), 0u);
+  EXPECT_THAT(read_text(w / "ran/measured.csv"), HasSubstr("\n1.6,")) << "what the board measured";
+}
+
 TEST(Serial, ABoardWhoseWatchdogHasBittenRunsOnlyAfterSomebodyHasSaidSo) {
   const Workspace w;
   BoardOnPty board(loaded("kick"), {.board = {'p', 't', 'y'}, .bitten = true, .active_low = true});

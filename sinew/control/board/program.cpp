@@ -114,6 +114,8 @@ void Program::obey_command() noexcept {
     ends = to_obey->ends;
   }
   if (to_obey != nullptr || changed_) safety_.command(held_, now_);
+  for (control::JointCommand& c : held_.joint)
+    if (c.timed) c.openings = {};
   changed_ = false;
   if (ends) safety_.finish(now_);
 }
@@ -366,6 +368,7 @@ Code Program::change(std::size_t joint, const link::SetGains* gains,
   if (duties != nullptr) {
     held_.joint[joint].duties = duties->duties;
     held_.joint[joint].open_loop = true;
+    held_.joint[joint].timed = false;
   }
   changed_ = true;
   return Code::done;

@@ -22,6 +22,19 @@ struct Duties {
   friend constexpr bool operator==(const Duties&, const Duties&) = default;
 };
 
+// Gives the part of a period in which a valve is open: from `from` on and before `until`. If
+// `until` is smaller, the valve is open before it and from `from` on; if both are equal, never.
+struct Opening {
+  std::uint16_t from, until;  // since the period's start, up to the period [ticks]
+
+  friend constexpr bool operator==(const Opening&, const Opening&) = default;
+};
+// Gives both openings of the one actuator of a timed joint for one period: where the next command
+// is late or lost, nothing opens.
+struct Openings {
+  Opening inlet, exhaust;
+};
+
 // Magnitudes below 1000; what is larger, or not a number, is clamped.
 struct Gains {
   float angle = 0;      // G_theta [%/count], of [59]
@@ -36,7 +49,11 @@ struct JointCommand {
   Gains gains;
   bool enabled = false;    // false: the law runs, its valves stay shut
   bool open_loop = false;  // true: `duties` in place of the law's
-  Duties duties;           // an exhaust shuts out its muscle's inlet
+  bool timed = false;      // true: `openings` are given and no duties, for timed joints
+  union {                  // one of both: the memory of a board is small
+    Duties duties{};       // an exhaust shuts out its muscle's inlet
+    Openings openings;
+  };
 };
 
 struct Command {

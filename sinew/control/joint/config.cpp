@@ -31,11 +31,6 @@ const char* problem_of_scan(const JointControllerConfig& config) noexcept {
 
 bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
 
-// Both may be open together only in a cylinder.
-bool has_exhaust(JointKind kind) noexcept {
-  return kind == JointKind::antagonist || kind == JointKind::cylinder;
-}
-
 const char* problem_of_muscle(const MuscleConfig& muscle, JointKind kind) noexcept {
   if (muscle.free_length < 0 || muscle.free_length > max_length) return "free_length out of range";
   if (muscle.thread_length_squared <= 0 || muscle.thread_length_squared > max_thread_length_squared)
@@ -44,7 +39,7 @@ const char* problem_of_muscle(const MuscleConfig& muscle, JointKind kind) noexce
   if (!within(muscle.other_travel, max_other_travel)) return "other_travel out of range";
   if (!within(muscle.tension_ratio, max_tension_ratio)) return "tension_ratio out of range";
   if (!within(muscle.pressure_factor, max_pressure_factor)) return "pressure_factor out of range";
-  if (muscle.exhaust_inverted && !has_exhaust(kind)) return "no exhaust that could be inverted";
+  if (muscle.exhaust_inverted && !has_exhausts(kind)) return "no exhaust that could be inverted";
   return nullptr;
 }
 
@@ -70,6 +65,10 @@ const char* problem_of_joint(const JointControllerConfig& config,
   if (joint.kind == JointKind::passive)
     return joint.flexor.present || joint.extensor.present ? "a passive joint has no muscles"
                                                           : nullptr;
+  if (is_timed(joint.kind)) {
+    if (!joint.flexor.present || joint.extensor.present) return "a timed joint has one actuator";
+    return problem_of_muscle(joint.flexor, joint.kind);
+  }
   if (joint.flexion != 1 && joint.flexion != -1) return "flexion must be +1 or -1";
   if (!read_at(config, joint.law_tick)) return "no conversion is read at a joint's law_tick";
   for (const signals::Channel c : readings_of(joint))
@@ -133,7 +132,7 @@ const char* problem_of_valves(const JointControllerConfig& config) noexcept {
         continue;
       }
       owners.add({m->inlet.index, number, 1, m->exhaust.index});
-      if (!has_exhaust(joint.kind)) continue;
+      if (!has_exhausts(joint.kind)) continue;
       if (owners.find(m->exhaust) != nullptr) return same_valve;
       owners.add({.valve = m->exhaust.index, .joint = number});
       if (m->exhaust_inverted && config.startup_vent == 0)
@@ -151,7 +150,7 @@ void need(Readings& readings, signals::Channel channel) noexcept {
 
 Readings readings_of(const JointConfig& joint) noexcept {
   Readings out;
-  if (joint.kind == JointKind::passive) return out;
+  if (joint.kind == JointKind::passive || is_timed(joint.kind)) return out;
   need(out, joint.angle);
   if (joint.kind == JointKind::cylinder) return out;
 

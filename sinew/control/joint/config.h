@@ -33,7 +33,19 @@ enum class JointKind : std::uint8_t {
   three_way,   // one valve per muscle, never sealed: its duty sets the pressure (Robot III, 5.1)
   regulated,   // a pressure regulator per muscle: regulator.h
   passive,     // an ankle without muscles and sensors: no law
+  timed,       // one actuator, the flexor, without a law: the host gives the ticks of its valves
+  timed_three_way,  // the same with one 3-way valve, which is an inlet
 };
+
+// Returns whether a host gives the ticks at which the joint's valves open.
+constexpr bool is_timed(JointKind kind) noexcept {
+  return kind == JointKind::timed || kind == JointKind::timed_three_way;
+}
+// Returns whether each muscle has an exhaust of its own. Only then do valves that are off hold the
+// air.
+constexpr bool has_exhausts(JointKind kind) noexcept {
+  return kind == JointKind::antagonist || kind == JointKind::cylinder || kind == JointKind::timed;
+}
 
 // Where K_act of [58] comes from.
 enum class StiffnessSource : std::uint8_t {
@@ -55,7 +67,7 @@ enum class Truncation : std::uint8_t {
 struct MuscleConfig {
   bool present = true;  // false: a spring or gravity pulls this way
   signals::Channel tension;
-  signals::Valve inlet, exhaust;  // no exhaust with three_way and regulated
+  signals::Valve inlet, exhaust;  // the kind of the joint says whether there is an exhaust
   bool exhaust_inverted = false;  // its coil shuts it, B.1's "(3-way)" lines
 
   std::int32_t free_length =

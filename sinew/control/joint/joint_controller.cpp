@@ -18,17 +18,13 @@ enum ValveOfJoint : std::size_t { flexor_inlet, flexor_exhaust, extensor_inlet, 
 
 constexpr std::uint32_t fault_vent = 10'000;  // [ticks] of a machine that has no shutdown_vent
 
-// Do valves that are off hold the air? (A joint without muscles has none to shut.)
-bool seals(JointKind kind) noexcept {
-  return kind == JointKind::antagonist || kind == JointKind::cylinder;
-}
-
 }  // namespace
 
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config), command_(rest_command(config)) {
   find_partners();
   find_next_edge();
+  for (std::size_t j = 0; j < config_.joints; ++j) timed_ |= is_timed(config_.joint[j].kind);
   if (config.startup_vent > 0)
     vent(0, config.startup_vent, Phase::startup, Phase::running);
   else
@@ -163,11 +159,31 @@ void JointController::schedule(std::size_t j, Tick t) noexcept {
     const bool flexes = side == flexor;
     cycle(flexes ? flexor_inlet : extensor_inlet,
           flexes ? seen.duties.flexor_inlet : seen.duties.extensor_inlet, enabled);
-    if (config_.joint[j].kind == JointKind::three_way) continue;
+    if (!has_exhausts(config_.joint[j].kind)) continue;
     cycle(flexes ? flexor_exhaust : extensor_exhaust,
           flexes ? seen.duties.flexor_exhaust : seen.duties.extensor_exhaust, enabled);
   }
   find_next_edge_of(j);
+  find_first_edge();
+}
+
+// The host's openings are for the period that begins at t; where its first tick was skipped, the
+// valves are shut until the next one.
+void JointController::schedule_openings(Tick t) noexcept {
+  if (period_start_ == opened_) return;
+  opened_ = period_start_;
+  for (std::size_t j = 0; j < config_.joints; ++j) {
+    if (!is_timed(config_.joint[j].kind)) continue;
+    JointCommand& command = command_.joint[j];
+    seen_.joint[j].enabled = config_.joint[j].enabled && command.enabled;
+    const bool opens = seen_.joint[j].enabled && command.timed && period_start_ == t;
+    const Openings openings = opens ? command.openings : Openings{};
+    valves_[j][flexor_inlet].open(t, config_.period, openings.inlet);
+    if (has_exhausts(config_.joint[j].kind))
+      valves_[j][flexor_exhaust].open(t, config_.period, openings.exhaust);
+    if (command.timed) command.openings = {};
+    find_next_edge_of(j);
+  }
   find_first_edge();
 }
 
@@ -200,7 +216,7 @@ void JointController::skip_to(Tick t) noexcept {
 
 void JointController::shut_inlets(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j) {
-    if (!seals(config_.joint[j].kind)) continue;
+    if (!has_exhausts(config_.joint[j].kind)) continue;
     valves_[j][flexor_inlet].shut(t);
     valves_[j][extensor_inlet].shut(t);
   }
@@ -208,7 +224,7 @@ void JointController::shut_inlets(Tick t) noexcept {
 }
 
 void JointController::shut_valves(std::size_t j, Tick t) noexcept {
-  if (!seals(config_.joint[j].kind)) return;
+  if (!has_exhausts(config_.joint[j].kind)) return;
   for (PulseTrain& train : valves_[j]) train.shut(t);
   find_next_edge();
 }
@@ -234,7 +250,7 @@ void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase a
       }
       JointValves& valves = valves_[j];
       valves[side == flexor ? flexor_inlet : extensor_inlet].shut(from);
-      if (kind != JointKind::three_way)
+      if (has_exhausts(kind))
         valves[side == flexor ? flexor_exhaust : extensor_exhaust].pulse(from, from + ticks);
     }
   seen_.phase = during;
@@ -246,6 +262,10 @@ void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase a
 // The first call of a tick: here the phase changes.
 std::span<const Edge> JointController::edges(Tick t) noexcept {
   if (t >= phase_end_) seen_.phase = next_phase_;
+  if (timed_ && seen_.phase == Phase::running) {
+    locate(t);
+    schedule_openings(t);
+  }
   out_count_ = 0;
   if (next_edge_ <= t) {
     hand_out(t);
@@ -332,7 +352,7 @@ constexpr float ticks_per_second = 10'000.0f;
 bool JointController::ready(std::size_t j, Tick t) const noexcept {
   const JointConfig& joint = config_.joint[j];
   const Tick last = seen_.joint[j].law_at;
-  if (joint.kind == JointKind::passive) return false;
+  if (joint.kind == JointKind::passive || is_timed(joint.kind)) return false;
   if (last >= 0 && t - last < config_.period) return false;
   for (const Channel c : readings_of(joint))
     if (!answered_[c.index]) return false;

@@ -133,6 +133,7 @@ class JointController {
   bool drives(std::size_t joint, Side side) const noexcept;
   void find_partners() noexcept;
   void schedule(std::size_t joint, signals::Tick t) noexcept;
+  void schedule_openings(signals::Tick t) noexcept;
   void schedule_level(std::size_t joint, Side side, signals::Tick t) noexcept;
   void vent(signals::Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept;
   void hand_out(signals::Tick t) noexcept;
@@ -158,8 +159,10 @@ class JointController {
   std::size_t cursor_ = 0;       // first conversion of the period not before the located tick
   signals::Tick phase_end_ = 0;  // of startup or venting
   Phase next_phase_ = Phase::running;
+  signals::Tick opened_ = -1;  // the period whose openings were scheduled last
 
   // Valves
+  bool timed_ = false;  // a joint is timed
   std::array<std::array<Partner, 2>, max_joints> partner_;
   std::array<JointValves, max_joints> valves_;
   std::array<std::array<PendingLevel, 2>, max_joints> levels_;

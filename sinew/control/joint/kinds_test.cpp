@@ -213,6 +213,49 @@ TEST(ThreeWay, NeverDrivesAnExhaustAndVentsByShutting) {
   EXPECT_GT(bench.edges.size(), 300u);
 }
 
+// --- timed joints -------------------------------------------------------------------------------
+
+JointControllerConfig timed_actuator() {
+  return leg_with([](JointControllerConfig& c) {
+    c.joints = 1;
+    c.joint[hip].kind = JointKind::timed;
+    c.joint[hip].extensor.present = false;
+  });
+}
+
+// Returns the edges in two periods of a controller that gets a command in the first one.
+std::vector<Edge> edges_of(JointController& spine, Tick first_visited) {
+  Command command = rest_command(spine.config());
+  command.joint[hip].enabled = command.joint[hip].timed = true;
+  command.joint[hip].openings = {.inlet = {20, 100}, .exhaust = {0, 10}};
+  spine.command(command);
+  std::vector<Edge> out;
+  for (Tick t = first_visited; t < 200; t = spine.next_event(t))
+    for (const Edge& e : spine.edges(t)) out.push_back(e);
+  return out;
+}
+
+TEST(Timed, ValvesOpenWhenTheHostHasItAndOnce) {
+  JointController spine(timed_actuator());
+  const std::vector<Edge> edges = edges_of(spine, 0);
+  ASSERT_EQ(edges.size(), 4u) << "nothing opens in the second period, which has no command";
+  const Edge expected[] = {{0, {1}, true}, {10, {1}, false}, {20, {0}, true}, {100, {0}, false}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(edges[i].at, expected[i].at);
+    EXPECT_EQ(edges[i].valve.index, expected[i].valve.index);
+    EXPECT_EQ(edges[i].open, expected[i].open);
+  }
+  spine.shut_down(199);
+  const auto vents = spine.edges(200);
+  ASSERT_EQ(vents.size(), 1u);
+  EXPECT_TRUE(vents[0].open && vents[0].valve.index == 1) << "the exhaust alone";
+}
+
+TEST(Timed, APeriodWhoseStartIsSkippedOpensNothing) {
+  JointController spine(timed_actuator());
+  EXPECT_TRUE(edges_of(spine, 3).empty());
+}
+
 // --- regulators ---------------------------------------------------------------------------------
 
 JointControllerConfig regulated_leg(float angle_integral) {

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "sinew/control/joint/command.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/tick.h"
 
@@ -56,6 +57,17 @@ class PulseTrain {
     toggle_at(until);
   }
 
+  // Turns the valve on in this opening of the period that starts now. All earlier edges were
+  // driven.
+  constexpr void open(signals::Tick start, std::int32_t period, const Opening& opening) noexcept {
+    const std::int32_t from = opening.from, until = opening.until;
+    const bool at_both_ends = until < from;
+    turn(start, at_both_ends ? until > 0 : from == 0 && until > 0);
+    if (at_both_ends) turn(start + until, false);
+    if (from != until && from < period) turn(start + from, true);
+    if (!at_both_ends && until < period) turn(start + until, false);
+  }
+
   // Off from `at` on.
   constexpr void shut(signals::Tick at) noexcept {
     forget();
@@ -80,6 +92,10 @@ class PulseTrain {
   constexpr void forget() noexcept {
     waiting_ = 0;
     on_ = driven_;
+  }
+
+  constexpr void turn(signals::Tick at, bool on) noexcept {
+    if (on_ != on) toggle_at(at);
   }
 
   constexpr void toggle_at(signals::Tick at) noexcept {

@@ -45,6 +45,31 @@ Tick open_ticks(const std::map<Tick, bool>& edges, Tick from, Tick until) {
   return sum + std::max<Tick>(0, until - opened);
 }
 
+// In each tick the valve is as its period's opening has it, whatever the one before was.
+TEST(PulseTrain, OpensAsAHostHasIt) {
+  constexpr int period = 6;
+  PulseTrain train;
+  Opening opening{};
+  bool open = false;
+  for (Tick t = 0; t < 10 * 49 * 49 * period; ++t) {
+    const auto at = static_cast<int>(t % period);
+    const auto n = static_cast<unsigned>(t / period * 4'567);  // pairs of openings in any order
+    if (at == 0) {
+      opening = {static_cast<std::uint16_t>(n % 7), static_cast<std::uint16_t>(n / 7 % 7)};
+      train.open(t, period, opening);
+    }
+    for (; train.next() <= t; train.drive()) {
+      ASSERT_EQ(train.next(), t);
+      ASSERT_NE(train.next_opens(), open) << "an edge that changes nothing";
+      open = train.next_opens();
+    }
+    const bool between = opening.from <= at && at < opening.until;
+    const bool at_the_ends =
+        opening.until < opening.from && (at < opening.until || at >= opening.from);
+    ASSERT_EQ(open, between || at_the_ends) << opening.from << ' ' << opening.until << ' ' << at;
+  }
+}
+
 constexpr signals::ValveTiming identity = signals::identity_timing();
 
 TEST(PulseTrain, MeanIsTheDuty) {

@@ -79,7 +79,7 @@ static_assert(members<control::JointConfig>() == 18);
 template <class Io, Is<control::JointConfig> M>
 constexpr void fields(Io& io, M& j) noexcept {
   flag(io, j.enabled);
-  choice(io, j.kind, control::JointKind::passive);
+  choice(io, j.kind, control::JointKind::timed_three_way);
   io.whole(j.angle.index);
   fields(io, j.flexor);
   fields(io, j.extensor);

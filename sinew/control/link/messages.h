@@ -198,20 +198,40 @@ constexpr void fields(Io& io, M& d) noexcept {
   number_as<std::uint8_t>(io, d.extensor_inlet, 0, signals::max_duty);
   number_as<std::uint8_t>(io, d.extensor_exhaust, 0, signals::max_duty);
 }
+template <class Io, Is<control::Opening> M>
+constexpr void fields(Io& io, M& o) noexcept {
+  io.whole(o.from);
+  io.whole(o.until);
+}
 template <class Io, Is<control::Gains> M>
 constexpr void fields(Io& io, M& g) noexcept {
   io.finite(g.angle);
   io.finite(g.stiffness);
   io.finite(g.velocity);
 }
+// A joint is driven by its law, by duties or, if it is timed, by openings. These use the bytes of
+// the angle (inlet) and of the duties (exhaust).
 template <class Io, Is<control::JointCommand> M>
 constexpr void fields(Io& io, M& c) noexcept {
-  io.whole(c.angle);
+  std::int32_t angle = c.angle;
+  if constexpr (!Io::reads)
+    if (c.timed) angle = c.openings.inlet.until << 16 | c.openings.inlet.from;
+  io.whole(angle);
   io.finite(c.stiffness);
   fields(io, c.gains);
   flag(io, c.enabled);
-  flag(io, c.open_loop);
-  fields(io, c.duties);
+  auto by = static_cast<std::uint8_t>(c.timed ? 2 : c.open_loop ? 1 : 0);
+  io.limited(by, std::uint8_t{0}, std::uint8_t{2});
+  if constexpr (Io::reads) {
+    c.timed = by == 2;
+    c.open_loop = by == 1;
+    const auto both = static_cast<std::uint32_t>(angle);
+    if (c.timed)
+      c.openings = {{static_cast<std::uint16_t>(both), static_cast<std::uint16_t>(both >> 16)}, {}};
+    else
+      c.angle = angle;
+  }
+  c.timed ? fields(io, c.openings.exhaust) : fields(io, c.duties);
 }
 
 template <class Io, class M>

@@ -1,5 +1,7 @@
 #include "sinew/control/setup/boards.h"
 
+#include <stdexcept>
+
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
 
@@ -39,6 +41,33 @@ std::vector<Board> boards(const Installation& in) {
     }
     out.push_back(std::move(board));
   }
+  return out;
+}
+
+Board stand_board(const robot::Stand& stand, bool three_way, std::uint16_t period) {
+  Board out;
+  out.spine.period = period;
+  out.spine.timing = signals::identity_timing(period);
+  if (stand.charge.mode == robot::Stand::Charge::Mode::valves) {
+    JointConfig& joint = out.spine.joint[out.spine.joints++];
+    joint.kind = three_way ? JointKind::timed_three_way : JointKind::timed;
+    joint.flexor.inlet = {0};
+    joint.flexor.exhaust = {1};
+    joint.extensor.present = false;
+    out.joint = {0};
+    out.valve = three_way ? numbers({0}) : numbers({0, 1});
+  }
+  const std::size_t sensors = stand.sensors.size();
+  if (sensors > max_conversions || sensors + 1 >= period)
+    throw std::invalid_argument("a board converts at most 32 transducers, one in a tick");
+  for (std::size_t i = 0; i < sensors; ++i) {
+    const auto read = static_cast<std::uint16_t>(period - (sensors - i));
+    const auto channel = static_cast<std::uint8_t>(i);
+    out.channel.push_back(channel);
+    out.spine.conversion[out.spine.conversions++] = {
+        {channel}, static_cast<std::uint16_t>(read - 1), read};
+  }
+  if (const char* wrong = problem(out.spine)) throw std::invalid_argument(wrong);
   return out;
 }
 

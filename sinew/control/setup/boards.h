@@ -8,6 +8,7 @@
 #include "sinew/control/joint/config.h"
 #include "sinew/control/setup/installation.h"
 #include "sinew/control/supervise/limits.h"
+#include "sinew/robot/stand.h"
 
 namespace sinew::control {
 
@@ -25,5 +26,11 @@ struct Board {
 // Returns the boards by their numbers, which count from 1. Throws std::invalid_argument where the
 // low level cannot be built so.
 std::vector<Board> boards(const Installation& installation);
+
+// Returns the board of a test stand. It has a timed joint if valves fill the stand's element, and
+// the transducers as channels in their order. They are converted in the last ticks of a period
+// [ticks], so that the host has the newest readings when the next period begins. Throws as boards()
+// does.
+Board stand_board(const robot::Stand& stand, bool three_way, std::uint16_t period);
 
 }  // namespace sinew::control

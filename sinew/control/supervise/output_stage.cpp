@@ -17,22 +17,18 @@ constexpr std::uint32_t count(OpenMask valves) noexcept {
   return out;
 }
 
-constexpr bool has_exhaust(JointKind kind) noexcept {
-  return kind == JointKind::antagonist || kind == JointKind::cylinder;
-}
-
 }  // namespace
 
 OutputStage::OutputStage(const JointControllerConfig& machine, std::uint32_t refractory) noexcept
     : refractory_(refractory) {
   for (std::size_t j = 0; j < machine.joints; ++j) {
     const JointConfig& joint = machine.joint[j];
-    if (!has_exhaust(joint.kind)) continue;
+    if (!has_exhausts(joint.kind)) continue;
     for (const MuscleConfig* m : {&joint.flexor, &joint.extensor}) {
       if (!m->present) continue;
       exhausts_ |= bit(m->exhaust);
       if (m->exhaust_inverted) inverted_ |= bit(m->exhaust);
-      if (joint.kind == JointKind::antagonist) pair_[pairs_++] = {bit(m->inlet), bit(m->exhaust)};
+      if (joint.kind != JointKind::cylinder) pair_[pairs_++] = {bit(m->inlet), bit(m->exhaust)};
     }
   }
 }

@@ -80,6 +80,18 @@ TEST(OutputStage, NeverBothSidesOfAMuscle) {
   EXPECT_TRUE(cylinder_both) << "its feed-forward may (appendix B)";
 }
 
+TEST(OutputStage, NorOfAnActuatorThatAHostTimes) {
+  JointControllerConfig config;
+  config.joints = 1;
+  config.joint[0].kind = JointKind::timed;
+  config.joint[0].flexor.inlet = {0};
+  config.joint[0].flexor.exhaust = {1};
+  config.joint[0].extensor.present = false;
+  OutputStage out(config, 0);
+  for (const int valve : {0, 1}) out.drive(edge(valve, true));
+  EXPECT_EQ(out.at(0), one(1));
+}
+
 TEST(OutputStage, AValveThatHasShutStaysShutForItsRefractoryTime) {
   for (const std::uint32_t refractory : {1u, 5u, 100u}) {
     std::mt19937 random(refractory);

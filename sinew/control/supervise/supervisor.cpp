@@ -250,7 +250,15 @@ bool Supervisor::possible(std::size_t j, const JointCommand& command) const noex
   if (!within(command.stiffness, limit.max_stiffness)) return false;
   for (const float gain : {command.gains.angle, command.gains.stiffness, command.gains.velocity})
     if (!within(gain, limit.max_gain)) return false;
+  if (command.timed) return possible(command.openings);
   return !command.open_loop || control::possible(command.duties);
+}
+
+bool Supervisor::possible(const Openings& openings) const noexcept {
+  const std::uint16_t period = config().period;
+  for (const Opening& o : {openings.inlet, openings.exhaust})
+    if (o.from > period || o.until > period) return false;
+  return true;
 }
 
 // Judges the commands of joints that have laws; the commands of passive joints are never read.

@@ -144,6 +144,7 @@ class Supervisor {
 
   // Commands
   bool possible(std::size_t joint, const JointCommand&) const noexcept;
+  bool possible(const Openings&) const noexcept;
   void reject_command(std::uint8_t joint) noexcept;
 
   JointController spine_;

@@ -9,6 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/robot/legs.h"
 #include "sinew/run/controllers/boards.h"
+#include "sinew/run/setup/installation.h"
 
 namespace sinew::identify {
 
@@ -169,7 +170,7 @@ double RunChannel::expected(double quantity) const {
 
 std::vector<RunChannel> run_channels(const Experiment& e, const signals::Table& recorded,
                                      bool imported, const std::string& name) {
-  const run::Boards boards(e);
+  const run::Boards boards(run::boards_of(e));
   const signals::Scan scan = boards.scan();
   std::vector<RunChannel> out;
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {

@@ -113,7 +113,7 @@ const FirmwareBoard& firmware_board(const std::string& name) {
 
 void require_fits(const std::string& robot, const FirmwareBoard& board) {
   const std::vector<control::Board> needed =
-      control::boards(installation(experiment::load_machine_file(robot).experiment));
+      boards_of(experiment::load_machine_file(robot).experiment);
   const auto refuse = [&](const std::string& key, const std::string& found,
                           const std::string& expected) {
     config::fail({robot, 0, 0}, key, found,
@@ -140,7 +140,7 @@ void require_fits(const std::string& robot, const FirmwareBoard& board) {
 std::string wiring_on(const std::string& robot, const FirmwareBoard& board) {
   require_fits(robot, board);
   const experiment::Experiment bench = experiment::load_machine_file(robot).experiment;
-  return wiring_drawing(bench, control::boards(installation(bench)).front(), pins_of(board.name));
+  return wiring_drawing(bench, boards_of(bench).front(), pins_of(board.name));
 }
 
 bool low_gives_current(const std::string& robot) {

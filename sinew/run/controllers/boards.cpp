@@ -1,5 +1,4 @@
 #include "sinew/run/controllers/boards.h"
-#include "sinew/run/setup/installation.h"
 
 #include <algorithm>
 #include <cstring>
@@ -103,15 +102,16 @@ bool MachineSeen::tripped() const noexcept {
 
 // --- the boards ---
 
-Boards::Boards(const experiment::Experiment& e)
-    : joint_(e.robot.joints.size() + 1), sensor_(e.robot.sensors.size()) {
-  for (const control::Board& board : control::boards(installation(e))) {
+Boards::Boards(std::span<const control::Board> boards) {
+  for (const control::Board& board : boards) {
     const auto b = static_cast<std::uint8_t>(boards_.size());
     const Board& added = boards_.emplace_back(board);
     for (std::size_t i = 0; i < board.joint.size(); ++i)
       joint_[board.joint[i]] = {b, static_cast<std::uint8_t>(i)};
-    for (std::size_t i = 0; i < board.channel.size(); ++i)
+    for (std::size_t i = 0; i < board.channel.size(); ++i) {
+      if (sensor_.size() <= board.channel[i]) sensor_.resize(board.channel[i] + 1u);
       sensor_[board.channel[i]] = {b, static_cast<std::uint8_t>(i)};
+    }
     conversion_.insert(conversion_.end(), added.conversions().begin(), added.conversions().end());
     period_ = board.spine.period;
   }

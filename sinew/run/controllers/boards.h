@@ -16,7 +16,6 @@
 
 #include "sinew/control/setup/boards.h"
 #include "sinew/control/supervise/supervisor.h"
-#include "sinew/experiment/experiment.h"
 #include "sinew/robot/robot.h"
 #include "sinew/signals/port.h"
 
@@ -63,7 +62,7 @@ class Board {
 };
 
 // A command says what is desired of every joint of the machine, in the robot's order, and of the
-// cylinder's behind them.
+// cylinder's behind them; for a test stand, of its element.
 using MachineCommand = std::array<control::JointCommand, robot::max_joints + 1>;
 
 class Boards;
@@ -111,8 +110,8 @@ struct SupervisedTotals {
 
 class Boards {
  public:
-  // Throws std::invalid_argument where the low level cannot be built so.
-  explicit Boards(const experiment::Experiment& experiment);
+  // Makes the controllers of these boards of one machine (run/setup/installation.h).
+  explicit Boards(std::span<const control::Board> boards);
 
   // --- for the loop ---
 
@@ -171,7 +170,8 @@ class Boards {
 
   std::vector<Board> boards_;
   std::vector<signals::Conversion> conversion_;
-  std::vector<Place> joint_, sensor_;
+  std::array<Place, robot::max_joints + 1> joint_;
+  std::vector<Place> sensor_;
   std::uint16_t period_ = 100;
   Ticks known_{0, std::numeric_limits<signals::Tick>::max()};
   State state_;

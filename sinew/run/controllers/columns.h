@@ -18,7 +18,8 @@
 
 namespace sinew::run {
 
-// Everything that can be recorded at one instant: of a robot or of a stand, nullptr of the other.
+// Everything that can be recorded at one instant. `drive` is nullptr for a robot, `measured` for a
+// stand.
 struct Snapshot {
   double time = 0;  // [s]
   const plant::Truths* true_of = nullptr;

@@ -1,5 +1,5 @@
-// run/controllers/controllers.h - what controls an experiment's machine, for the loop: boards and
-// high level of a robot, or drive and schedule of a test stand.
+// run/controllers/controllers.h - what controls an experiment's machine, for the loop: its boards,
+// and above them the high level of a robot or the drive of a test stand.
 #pragma once
 
 #include <cstddef>
@@ -17,36 +17,27 @@ namespace sinew::run {
 
 class Controllers {
  public:
-  // The two levels of a robot: its boards, and what gives them set points.
-  struct OfRobot {
-    Boards joint;
-    HighLevel gait;
-  };
-  // The two levels of a test stand: its drive, and the set points that it follows.
-  struct OfStand {
-    Drive joint;
-    DriveSchedule gait;
-  };
-
   // `steering` may be null and outlives this.
   Controllers(const experiment::Experiment& experiment, Steering* steering);
   Controllers(const Controllers&) = delete;
   Controllers& operator=(const Controllers&) = delete;
 
-  // Calls work(joint controller, gait controller), as the loop needs them.
+  // Calls work(high level) with that of the robot or of the stand.
   template <class Work>
   auto visit(const Work& work) {
-    return std::visit([&](auto& of) { return work(of.joint, of.gait); }, of_);
+    return std::visit(work, high_level_);
   }
-  // Return the part's own; nullptr of the other one.
-  OfRobot* robot() noexcept { return std::get_if<OfRobot>(&of_); }
-  const OfRobot* robot() const noexcept { return std::get_if<OfRobot>(&of_); }
-  const OfStand* stand() const noexcept { return std::get_if<OfStand>(&of_); }
+  // Returns the boards.
+  Boards& boards() noexcept { return boards_; }
+  // Return the high level of a robot, and that of a stand; nullptr if the machine is the other one.
+  HighLevel* gait() noexcept { return std::get_if<HighLevel>(&high_level_); }
+  const HighLevel* gait() const noexcept { return std::get_if<HighLevel>(&high_level_); }
+  const Drive* drive() const noexcept { return std::get_if<Drive>(&high_level_); }
 
   // Returns when which channel is converted, the phase, and whether tick t is what is seen.
-  signals::Scan scan() const noexcept;
-  control::Phase phase() const noexcept;
-  bool knows(signals::Tick t) const noexcept { return !robot() || robot()->joint.knows(t); }
+  signals::Scan scan() const noexcept { return boards_.scan(); }
+  control::Phase phase() const noexcept { return boards_.seen().phase; }
+  bool knows(signals::Tick t) const noexcept { return boards_.knows(t); }
   // Returns the tick of the first sample where one is taken every `period`: of a robot where the
   // last law of a period has run, if it is a period of its laws.
   signals::Tick first_sample(signals::Tick period) const noexcept;
@@ -56,20 +47,18 @@ class Controllers {
   // Calls use(snapshot) with what there is at a time [s]; `truths` may be null.
   template <class Use>
   void look(double time, const plant::Truths* truths, const Use& use) const {
-    if (const OfStand* of = stand())
-      return use(Snapshot{.time = time, .true_of = truths, .drive = &of->joint});
-    const MachineSeen seen = robot()->joint.seen();
-    const gait::MachineMeasured measured = robot()->gait.believe(seen);
-    use(Snapshot{.time = time,
-                 .true_of = truths,
-                 .seen = &seen,
-                 .measured = &measured,
-                 .desired = robot()->gait.desired()});
+    const MachineSeen seen = boards_.seen();
+    Snapshot snapshot{.time = time, .true_of = truths, .seen = &seen, .drive = drive()};
+    if (snapshot.drive != nullptr) return use(snapshot);
+    const gait::MachineMeasured measured = gait()->believe(seen);
+    snapshot.measured = &measured;
+    snapshot.desired = gait()->desired();
+    use(snapshot);
   }
 
   // Return the counters of all boards, and of what their supervisors rejected.
-  SeenTotals seen_totals() const;
-  SupervisedTotals supervised_totals() const;
+  SeenTotals seen_totals() const { return boards_.seen_totals(); }
+  SupervisedTotals supervised_totals() const { return boards_.supervised_totals(); }
 
   // Returns what can be changed on the way, by number; nothing of a stand.
   const std::vector<gait::Setting>& settings() const noexcept;
@@ -80,7 +69,8 @@ class Controllers {
   void restore(std::span<const std::byte> saved) noexcept;
 
  private:
-  std::variant<OfRobot, OfStand> of_;
+  Boards boards_;
+  std::variant<HighLevel, Drive> high_level_;
 };
 
 }  // namespace sinew::run

@@ -1,19 +1,17 @@
-// run/controllers/drive.h - the controller of a test stand, tick by tick, in the loop of
-// run/simulation/loop.h.
+// run/controllers/drive.h - the high level of a test stand: the law of its drive.
 //
-// At the start of each period it decides how long the valves are open in it (drive_laws.h); the
-// last ticks of a period belong to the conversions, one tick each, so that the next period's law
-// has the newest readings. It sees counts and ticks and never the stand.
+// At the start of each period it decides how long the valves are open in it (drive_laws.h), by the
+// setpoints of its schedules and the newest readings. The stand's board opens and shuts them
+// (control/setup/boards.h). It sees counts and ticks and never the stand.
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "sinew/actuator/bundle.h"
-#include "sinew/control/joint/seen.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/run/controllers/boards.h"
 #include "sinew/run/controllers/drive_laws.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/schedule.h"
@@ -26,99 +24,59 @@ struct DriveSetpoint {
   double duty = 0;    // of pwm [-]
 };
 
-// The stand's high level: setpoints by the schedules of its drive.
-class DriveSchedule {
+// Decides when the stand's valves open and shut.
+class Drive {
  public:
-  // Takes the schedules of the experiment's drive.
-  explicit DriveSchedule(const experiment::Experiment& experiment);
+  // Takes law and schedules of the experiment's drive.
+  explicit Drive(const experiment::Experiment& experiment);
 
-  // Returns the setpoint of the period that starts at t.
-  template <class Seen>
-  DriveSetpoint update(const Seen&, signals::Tick t) noexcept {
-    const double at = static_cast<double>(t) * signals::tick_seconds;
-    return {length_.at(at), duty_.at(at)};
-  }
+  // Returns the openings of the period that starts at t.
+  const MachineCommand& update(const MachineSeen& seen, signals::Tick t) noexcept;
   // Returns false: a run of the stand ends by its time.
   bool finished() const noexcept { return false; }
 
- private:
-  signals::Schedule length_, duty_;
-};
-
-// The values of the stand's controller at the end of a period.
-struct DriveSeen {
-  control::Phase phase = control::Phase::running;
-  DriveSetpoint setpoint;
-  DriveShares shares;  // of the period
-  signals::Status fault = signals::Status::ok;
-  signals::Channel fault_channel;
-};
-
-// Opens and shuts the stand's valves by the law of its drive.
-class Drive {
- public:
-  // `end` is the tick at which the run is over.
-  Drive(const experiment::Experiment& experiment, signals::Tick end);
-
-  // Returns which transducer is converted when, what was decided, and what a transducer read.
-  const signals::Scan& scan() const noexcept { return scan_; }
-  const DriveSeen& seen() const noexcept { return state_.seen; }
-  const signals::Reading& reading(std::size_t transducer) const noexcept {
-    return reading_[transducer];
-  }
+  // Return the setpoint of the period, and the shares of it that were decided.
+  const DriveSetpoint& setpoint() const noexcept { return state_.setpoint; }
+  const DriveShares& shares() const noexcept { return state_.shares; }
   // Returns how many edges of a valve it can decide before the tick `end`.
   std::size_t most_edges(signals::Tick end) const noexcept {
-    return 4 * static_cast<std::size_t>(end / scan_.period + 2) + planned_.size();
+    return 4 * static_cast<std::size_t>(end / period_ + 2) + planned_.size();
   }
 
-  // For the loop. A period's command decides its edges.
-  void command(const DriveSetpoint& setpoint) noexcept;
-  std::span<const signals::Edge> edges(signals::Tick t) noexcept;
-  const signals::Conversion* due(signals::Tick t) noexcept;
-  void take(const signals::Conversion& c, signals::Reading reading, signals::Tick t) noexcept;
-  signals::Tick next_event(signals::Tick t) const noexcept;
-  void missed(signals::Tick) noexcept {}
-  void shut_down(signals::Tick) noexcept {}
-
-  // Everything that its future depends on, copied like bytes: how many they are, and both ways.
-  std::size_t state_size() const noexcept;
-  void save(std::span<std::byte> out) const noexcept;
-  void restore(std::span<const std::byte> saved) noexcept;
+  // Everything that its future depends on, besides what it will see. Copied like bytes.
+  struct State {
+    DriveSetpoint setpoint;
+    DriveShares shares;
+    bool first = true;                       // nothing is measured yet
+    double assumed_air = 0;                  // feed-forward by doses [kg]
+    std::size_t next = 0;                    // the first planned edge of periods to come
+    std::array<bool, 2> open{false, false};  // by the planned edges before it
+  };
+  const State& state() const noexcept { return state_; }
+  void restore(const State& state) noexcept { state_ = state; }
 
  private:
-  DriveShares decide(const DriveSetpoint& setpoint) noexcept;
+  DriveShares decide(const MachineSeen& seen) noexcept;
   DriveShares feed_forward(double length) noexcept;
-  DriveShares feedback(double length) noexcept;
+  DriveShares feedback(double length, const MachineSeen& seen) const noexcept;
   double hold(double length) const noexcept;
-  void set(std::uint8_t valve, signals::Tick at, bool open) noexcept;
-  void pulse(std::uint8_t valve, double share) noexcept;
-  // Returns the edges that are decided and not yet given out, ascending.
-  std::span<const signals::Edge> waiting() const noexcept;
+  control::Opening opening(double share) const noexcept;
+  void plan_openings(signals::Tick t) noexcept;
 
   experiment::Stand::Drive drive_;
+  signals::Schedule length_, duty_;
   actuator::Bundle bundle_;
   gas::Valve inlet_, exhaust_;
   gas::Air air_;
   double supply_ = 0;
   bool three_way_ = false;
   robot::Transducer length_sensor_;
-  int sensor_ = -1;
-
-  signals::Scan scan_;
-  std::vector<signals::Conversion> conversions_;
+  std::size_t sensor_ = 0;
+  signals::Tick period_ = 0;
   std::vector<signals::Edge> planned_;  // single pulses, ascending
 
-  struct State {
-    DriveSeen seen;
-    signals::Tick period_start = 0;
-    bool first = true;
-    double assumed_air = 0;                  // feed-forward by doses [kg]
-    std::size_t next = 0, pending = 0;       // first edge that waits; edges of this period
-    std::array<signals::Edge, 4> of_period;  // ascending
-    std::array<bool, 2> open{false, false};  // last commanded
-  };
   State state_;
-  std::vector<signals::Reading> reading_;  // of each transducer
+  MachineCommand command_;
 };
 
 }  // namespace sinew::run

@@ -23,21 +23,20 @@ void measured_columns(const Stand& stand, Columns& out) {
   for (std::size_t s = 0; s < stand.sensors.size(); ++s) {
     const robot::Transducer& t = stand.sensors[s];
     out.scalar("/sensor/" + t.name + "/count", "count", "as converted",
-               [s](const Snapshot& m) { return double(m.drive->reading(s).counts); });
-    out.scalar(
-        "/sensor/" + t.name + "/value", unit_of(t.of), "by its own scale; pressure is gauge",
-        [s, t](const Snapshot& m) { return robot::quantity(t, m.drive->reading(s).counts); });
+               [s](const Snapshot& m) { return double(m.seen->reading(s).counts); });
+    out.scalar("/sensor/" + t.name + "/value", unit_of(t.of), "by its own scale; pressure is gauge",
+               [s, t](const Snapshot& m) { return robot::quantity(t, m.seen->reading(s).counts); });
   }
   if (has_law(stand))
     out.scalar("/desired/length", "m", "of the element",
-               [](const Snapshot& m) { return m.drive->seen().setpoint.length; });
+               [](const Snapshot& m) { return m.drive->setpoint().length; });
   if (!has_law(stand) && stand.drive.kind != Stand::Drive::Kind::pwm) return;
   const std::string at = "/muscle/" + stand.element.name;
   out.scalar(at + "/inlet_duty", "1", "commanded share of the period",
-             [](const Snapshot& m) { return m.drive->seen().shares.inlet; });
+             [](const Snapshot& m) { return m.drive->shares().inlet; });
   if (!stand.element.exhaust.empty())
     out.scalar(at + "/exhaust_duty", "1", "commanded share of the period",
-               [](const Snapshot& m) { return m.drive->seen().shares.exhaust; });
+               [](const Snapshot& m) { return m.drive->shares().exhaust; });
 }
 
 void true_stand_columns(const experiment::Experiment& e, Columns& out) {

@@ -73,7 +73,7 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
   }
   ASSERT_TRUE(robot::contradictions(e.robot).empty());
 
-  const std::vector<control::Board> boards = control::boards(installation(e));
+  const std::vector<control::Board> boards = boards_of(e);
   ASSERT_EQ(boards.size(), 2u);
   EXPECT_EQ(boards[1].joint, (std::vector<std::uint8_t>{2, 3}));
   EXPECT_EQ(boards[1].valve, (std::vector<std::uint8_t>{8, 9, 10, 11, 12, 13, 14, 15}));
@@ -101,7 +101,7 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
 // The scan of all boards together: each conversion once, ascending, with the machine's channels.
 TEST(Boards, OneScanOfAll) {
   const experiment::Experiment e = load("walk-test-1", split);
-  const Boards boards(e);
+  const Boards boards(boards_of(e));
   const signals::Scan scan = boards.scan();
   ASSERT_EQ(scan.conversions.size(), e.robot.sensors.size());
   std::vector<int> seen;
@@ -148,7 +148,7 @@ TEST(Boards, OneThatTripsEndsAll) {
 // A command that is bad for one board's joint holds and then vents that board, and with it all.
 TEST(Boards, BadCommandsNameTheirJoint) {
   const experiment::Experiment e = load("walk-test-1", split);
-  Boards boards(e);
+  Boards boards(boards_of(e));
   MachineCommand command{};
   command[1].angle = 1'000'000;
   Tick t = 0;

@@ -6,6 +6,7 @@
 #include "sinew/control/setup/supervision.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/run/setup/failure.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -35,16 +36,15 @@ std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
     return in_words(outcome.failure, "muscle " + muscle.name,
                     robot::actuator_of(muscle, e.actuators), "plant_steps.body");
   }
+  const robot::Robot parts = named_parts(e);
   const std::string tripped =
-      control::to_text(outcome.supervised.trip, e.robot, outcome.supervised.board);
+      control::to_text(outcome.supervised.trip, parts, outcome.supervised.board);
   if (!tripped.empty()) return tripped;
   if (!outcome.line.empty()) return outcome.line + fmt::format(" at {:.4f} s", outcome.duration);
   const bool by_sensor = seen.fault != signals::Status::ok;
   std::string text(word(by_sensor ? seen.fault : outcome.status));
-  if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
-    text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
-  if (by_sensor && e.stand && seen.fault_channel.index < e.stand->sensors.size())
-    text += " of sensor " + e.stand->sensors[seen.fault_channel.index].name;
+  if (by_sensor && seen.fault_channel.index < parts.sensors.size())
+    text += " of sensor " + parts.sensors[seen.fault_channel.index].name;
   return text + fmt::format(" at {:.4f} s", outcome.duration);
 }
 

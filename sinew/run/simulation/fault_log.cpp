@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "sinew/control/link/words.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/remote_boards.h"
 
 namespace sinew::run {
@@ -54,7 +55,7 @@ std::string line(const link::Telemetry& t, const control::Board& board) {
 
 std::string fault_log_csv(std::span<const link::Telemetry> log, const experiment::Experiment& e) {
   const control::Board board = only_board(e);
-  std::string out = head(board, e.robot);
+  std::string out = head(board, named_parts(e));
   for (const link::Telemetry& t : log) out += line(t, board);
   return out;
 }

@@ -35,7 +35,7 @@ auto each_board(JointController& spine) noexcept {
 // JointController   scan(), seen().phase, command(command), edges(t), due(t), take(conversion,
 // reading, t),
 //         next_event(t), missed(t), shut_down(t): control::Supervisor, control::JointController
-//         alone, a stand's drive; or Boards, of which each() has edges(t), due(t) and take()
+//         alone; or Boards, of which each() has edges(t), due(t) and take()
 // GaitController   update(seen, t) -> Command, finished()
 // Clock   wait_until(t) -> false when late
 // Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have

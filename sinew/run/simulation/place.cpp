@@ -42,6 +42,8 @@ std::string text_of(const link::Name& name) {
           static_cast<std::size_t>(std::find(name.begin(), name.end(), '\0') - name.begin())};
 }
 
+using Pulse = experiment::Stand::Drive::Pulse;
+
 [[noreturn]] void refuse(const experiment::Experiment& e, const std::string& place,
                          const std::string& key, const std::string& found,
                          const std::string& expected) {
@@ -54,16 +56,43 @@ void refuse_faults(const experiment::Experiment& e, const std::string& place) {
            "none: only a simulated machine is broken by a word");
 }
 
+bool overlap(const Pulse& a, const Pulse& b) {
+  return a.at < b.at + b.open && b.at < a.at + a.open;
+}
+
+void refuse_what_no_board_of_a_stand_can(const experiment::Experiment& e,
+                                         const std::string& place) {
+  constexpr double longest = 0.5;  // a board is given up after 1.5 s without a report [s]
+  const experiment::Stand& stand = *e.stand;
+  if (stand.charge.mode == robot::Stand::Charge::Mode::regulated)
+    refuse(e, place, "charge.mode", "\"regulated\"",
+           "\"valves\" or \"sealed\": no output of a board sets a pressure");
+  if (stand.sweep.step > 0)
+    refuse(e, place, "sweep", "many runs", "none: one duty in each run, by drive.duty");
+  if (stand.sensors.empty())
+    refuse(e, place, "sensor", "none", "at least one: a board without sensors is refused");
+  if (stand.drive.period > longest)
+    refuse(e, place, "drive.period", fmt::format("{:g} s", stand.drive.period),
+           fmt::format("at most {:g} s, as a board reports once in a period", longest));
+  for (std::size_t i = 0; i < stand.drive.pulses.size(); ++i)
+    for (const Pulse& other : stand.drive.pulses)
+      if (const Pulse& pulse = stand.drive.pulses[i];
+          pulse.exhaust && !other.exhaust && overlap(pulse, other))
+        refuse(
+            e, place, fmt::format("drive.pulses[{}]", i), "an inlet that is open meanwhile",
+            "one open valve at a time, as a board keeps an inlet shut while its exhaust is open");
+}
+
 void refuse_what_no_board_can(const experiment::Experiment& e, const std::string& place) {
-  const std::vector<control::Board> boards = control::boards(installation(e));
+  if (e.stand) refuse_what_no_board_of_a_stand_can(e, place);
+  const std::vector<control::Board> boards = boards_of(e);
   if (boards.size() != 1)
     refuse(e, place, "board", fmt::format("{} boards", boards.size()), "one: a line leads to one");
   const double period = signals::tick_seconds * boards.front().spine.period;
   const double samples = e.log.period / period;
   if (samples < 0.999 || std::abs(samples - std::round(samples)) > 1e-9)
     refuse(e, place, "log.period", fmt::format("{:g} s", e.log.period),
-           fmt::format("a multiple of {:g} s, the period in which a board tells what it knows",
-                       period));
+           fmt::format("a multiple of {:g} s, the period in which a board reports", period));
   if (!place.starts_with(serial)) return;
   refuse_faults(e, place);
   const control::JointControllerConfig& spine = boards.front().spine;
@@ -135,9 +164,10 @@ Place::Place(const std::string& place, const experiment::Experiment& experiment)
   if (const std::string wrong = problem_of_place(place); !wrong.empty())
     throw std::invalid_argument(wrong);
   if (!is_elsewhere(place)) return;
-  if (experiment.stand)
-    refuse(experiment, place, "", "an experiment on a test stand", "one of a robot");
   if (place.starts_with(comedi)) {
+    if (experiment.stand)
+      refuse(experiment, place, "", "an experiment on a test stand",
+             "one of a robot, whose wiring names the card's terminals");
     open_card(place.substr(comedi.size()), experiment, place);
     return;
   }

@@ -51,6 +51,25 @@ TEST(Place, WhatNoBoardCanRunIsRefusedBeforeAnythingIsOpened) {
             std::string::npos);
 }
 
+TEST(Place, WhatNoBoardOfAStandCanDoIsRefusedByItsKey) {
+  const std::string device = "serial:/dev/no-such-board";
+  const auto expect = [&](const std::string& name, std::vector<std::string> sets,
+                          const std::string& what) {
+    const std::string said = refusal("rig/" + name, std::move(sets), device);
+    EXPECT_NE(said.find(what), std::string::npos) << said;
+  };
+  const std::string at_once =
+      R"(drive.pulses=[{at="1 s",open="9 ms"},{at="1.005 s",open="9 ms",exhaust=true}])";
+  expect("feedback", {}, "log.period: found 0.001 s; expected a multiple of 0.4 s");
+  expect("feedback", {"log.period=400 ms"}, "No such file");
+  expect("feedback", {"drive.period=600 ms"}, "drive.period: found 0.6 s; expected at most 0.5 s");
+  expect("pwm-25hz-5lb", {}, "sensor: found none; expected at least one");
+  expect("duty-sweep", {}, "sweep: found many runs; expected none");
+  expect("isometric", {at_once}, "drive.pulses[1]: found an inlet that is open meanwhile");
+  EXPECT_NE(refusal("rig/feedback", {}, "comedi:/dev/no-such-card").find("on a test stand"),
+            std::string::npos);
+}
+
 TEST(Place, WhatNoCardCanDriveIsRefusedBeforeItIsOpened) {
   const std::string device = "comedi:/dev/no-such-card";
   EXPECT_NE(refusal("faults/valve-stuck-open", {}, device).find("fault: found 1 of them"),

@@ -48,9 +48,9 @@ Outcome RecordedRun::finish() {
   out.seen = controllers.seen_totals();
   out.supervised = controllers.supervised_totals();
   out.duration = static_cast<double>(simulation_.last()) * signals::tick_seconds;
-  if (const auto* robot = controllers.robot()) {
-    out.changes = robot->gait.changes().all();
-    out.unreachable_periods = robot->gait.legs().unreachable_periods();
+  if (const HighLevel* gait = controllers.gait()) {
+    out.changes = gait->changes().all();
+    out.unreachable_periods = gait->legs().unreachable_periods();
   } else {
     out.duration = simulation_.experiment().stand->duration;
   }

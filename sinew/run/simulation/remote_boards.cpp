@@ -30,7 +30,7 @@ constexpr Tick farthest = 10 * 60 * 10'000;
 }  // namespace
 
 control::Board only_board(const experiment::Experiment& e) {
-  const std::vector<control::Board> boards = control::boards(installation(e));
+  const std::vector<control::Board> boards = boards_of(e);
   if (boards.size() != 1)
     throw std::invalid_argument(fmt::format(
         "the robot is driven by {} boards; expected one: a line leads to one board, and the clocks "
@@ -41,7 +41,10 @@ control::Board only_board(const experiment::Experiment& e) {
 
 link::Configuration configuration_of(const experiment::Experiment& e) {
   const control::Board board = only_board(e);
-  return {board.spine, board.limits, {}};
+  link::Configuration out{board.spine, board.limits, {}};
+  out.safety.host_hold = std::max<std::uint32_t>(out.safety.host_hold, 3u * board.spine.period);
+  out.safety.host_vent = std::max(out.safety.host_vent, out.safety.host_hold);
+  return out;
 }
 
 namespace {
@@ -62,6 +65,15 @@ std::uint16_t empty_count(const robot::Sensor& s, const robot::Converter& conver
   return count >= 1 && count < converter.top() ? static_cast<std::uint16_t>(count) : 0;
 }
 
+std::uint16_t empty_count(const robot::Transducer& t) {
+  robot::Transducer assumed = t;
+  assumed.scale = 1;
+  assumed.offset = 0;
+  const std::uint16_t count = std::max(robot::counts(t, empty_pressure, noise_bound),
+                                       robot::counts(assumed, empty_pressure, noise_bound));
+  return count < signals::max_counts ? count : 0;
+}
+
 // Muscles that valves open and shut: what a regulator holds is no air that is left.
 bool has_valves(const experiment::Experiment& e, const control::Board& board,
                 const std::string& muscle) {
@@ -77,6 +89,12 @@ bool has_valves(const experiment::Experiment& e, const control::Board& board,
 void watch_pressures(const experiment::Experiment& e, control::SafetyConfig& out) {
   const control::Board board = only_board(e);
   for (std::size_t i = 0; i < board.channel.size() && i < out.empty_at.size(); ++i) {
+    if (e.stand) {
+      const robot::Transducer& t = e.stand->sensors[board.channel[i]];
+      if (t.of == robot::Transducer::Of::pressure && !board.valve.empty())
+        out.empty_at[i] = empty_count(t);
+      continue;
+    }
     const robot::Sensor& s = e.robot.sensors[board.channel[i]];
     if (s.kind == Kind::pressure && has_valves(e, board, s.of))
       out.empty_at[i] = empty_count(s, e.robot.converter);
@@ -138,7 +156,8 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
   }
   lost_ += static_cast<std::uint32_t>((told->tick - t) / period_) - 1;
   next_ = told->tick;
-  shown_->show(told->seen, told->supervised, {next_ - period_ + last_read_, next_});
+  // Nothing is converted at the tick at which a period begins.
+  shown_->show(told->seen, told->supervised, {next_ - period_ + last_read_, next_ + 1});
   return next_;
 }
 
@@ -159,6 +178,11 @@ std::span<const Edge> RemoteBoards::edges() noexcept {
   if (handed_on_) return {};
   handed_on_ = true;
   return edges_;
+}
+
+std::span<const Edge> RemoteBoards::last_edges(Tick end) noexcept {
+  std::erase_if(edges_, [&](const Edge& edge) { return edge.at >= end; });
+  return edges();
 }
 
 Status RemoteBoards::stop(Tick) noexcept {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "sinew/experiment/experiment.h"
 #include "sinew/port/hardware/remote_board.h"
 #include "sinew/run/controllers/boards.h"
 
@@ -25,7 +26,8 @@ namespace sinew::run {
 // are several.
 control::Board only_board(const experiment::Experiment& experiment);
 
-// Returns what that board needs to know of the machine.
+// Returns what that board needs to know of the machine. The board waits for three periods, at
+// least, until it takes the host for lost.
 link::Configuration configuration_of(const experiment::Experiment& experiment);
 
 // As before, for a board at a machine: where the robot bears any number of readings that do not
@@ -69,6 +71,9 @@ class RemoteBoards final : public signals::Port {
   signals::Reading read(signals::Channel, signals::Tick) noexcept override { return {}; }
   // Vents the board where it still runs.
   signals::Status stop(signals::Tick) noexcept override;
+
+  // Returns the edges before the tick `end`, at which the run is over, that the loop did not visit.
+  std::span<const signals::Edge> last_edges(signals::Tick end) noexcept;
 
   // --- for whoever looks ---
 

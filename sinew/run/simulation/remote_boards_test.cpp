@@ -25,7 +25,10 @@ experiment::Experiment loaded(const std::string& name, std::vector<std::string> 
 // A board at the wires of a simulated body, ready to run.
 struct Bench {
   explicit Bench(const experiment::Experiment& e)
-      : experiment(e), body(e), board(body.wires()), remote(board.line(), 1, 100) {}
+      : experiment(e),
+        body(e),
+        board(body.wires()),
+        remote(board.line(), 1, only_board(e).spine.period) {}
 
   Outcome run() {
     remote.prepare(configuration_of(experiment));
@@ -46,10 +49,27 @@ struct Bench {
   int first = -1;  // period of the run, by the board's count
 };
 
+// The stands have every kind of drive: feedback, the model, pulses of a 3-way valve and of two
+// 2-way valves, single pulses, and none. A board reports once in a period, so the log has its
+// period.
 TEST(RemoteBoards, ABoardsProgramHasTheSimulationsLogBitForBit) {
-  for (const char* name : {"kick", "one-joint", "walk-test-1"}) {
+  const std::string length = "sensor={length={of=\"length\",low=\"2 in\",high=\"4.5 in\"}}";
+  const std::string every_20_ms = "log.period=20 ms", every_40_ms = "log.period=40 ms";
+  const std::pair<const char*, std::vector<std::string>> runs[] = {
+      {"kick", {}},
+      {"one-joint", {}},
+      {"walk-test-1", {}},
+      {"rig/feedback", {"log.period=400 ms"}},
+      {"rig/feedback-on-off", {every_20_ms}},
+      {"rig/feed-forward", {every_20_ms, length}},
+      {"rig/pwm-25hz-5lb", {every_40_ms, length}},
+      {"rig/pwm-25hz-5lb", {every_40_ms, length, "element.inlet=inlet", "element.exhaust=exhaust"}},
+      {"rig/isometric", {every_40_ms, "duration=15.03 s"}},
+      {"rig/creep", {every_40_ms, "duration=1 s"}},
+  };
+  for (const auto& [name, sets] : runs) {
     SCOPED_TRACE(name);
-    experiment::Experiment e = loaded(name);
+    experiment::Experiment e = loaded(name, sets);
     Bench bench(e);
     const Outcome simulated = run(e), far = bench.run();
     EXPECT_EQ(far.line, "");

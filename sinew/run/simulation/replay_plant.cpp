@@ -86,7 +86,7 @@ PlantReplay replay_plant(const experiment::Experiment& e, const signals::Table& 
   DrivenWatch watch{{&recorder, &machine}, &driven};
   SimulatedClock clock;
   out.outcome.status = controllers.visit(
-      [&](auto& joint, auto& gait) { return loop(joint, gait, body, clock, watch, end); });
+      [&](auto& level) { return loop(controllers.boards(), level, body, clock, watch, end); });
   out.outcome.failure = machine.failure();
   out.outcome.seen = controllers.seen_totals();
   out.outcome.supervised = controllers.supervised_totals();

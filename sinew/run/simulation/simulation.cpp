@@ -94,7 +94,7 @@ Simulation::Simulation(const experiment::Experiment& experiment, plant::RemoteBo
     : experiment_(experiment),
       controllers_(experiment_, steering),
       last_(experiment::last_tick(experiment_)) {
-  port_ = &remote_.emplace(controllers_.robot()->joint, board, lead);
+  port_ = &remote_.emplace(controllers_.boards(), board, lead);
   list_channels();
 }
 
@@ -202,7 +202,7 @@ void Simulation::wish(std::size_t setting, double value, int leg) {
   if (!(value >= 0 && value <= gait::Setting::most))
     refuse(settings()[setting].key + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
            std::string(settings()[setting].unit));
-  (void)controllers_.robot()->gait.wish({setting, value, false, leg});
+  (void)controllers_.gait()->wish({setting, value, false, leg});
 }
 
 void Simulation::change(std::string_view key, double value, std::string_view leg) {
@@ -213,7 +213,7 @@ void Simulation::change(std::size_t setting, double value) { wish(setting, value
 
 void Simulation::release(std::string_view key, std::string_view leg) {
   const std::size_t setting = find_setting(key);
-  (void)controllers_.robot()->gait.wish({setting, 0, true, leg_number(leg)});
+  (void)controllers_.gait()->wish({setting, 0, true, leg_number(leg)});
 }
 
 // --- saving ---

@@ -78,13 +78,15 @@ class Simulation {
   void advance(signals::Tick until, Clock& clock, Watch& watch) noexcept {
     if (tick_ < last_ && until > tick_) {
       until = until < last_ ? until : last_;
-      if (remote_)
-        run::advance(loop_, *remote_, controllers_.robot()->gait, port(), clock, watch, until);
-      else
-        controllers_.visit([&](auto& joint, auto& gait) {
-          run::advance(loop_, joint, gait, port(), clock, watch, until);
-        });
+      controllers_.visit([&](auto& high_level) {
+        if (remote_)
+          run::advance(loop_, *remote_, high_level, port(), clock, watch, until);
+        else
+          run::advance(loop_, controllers_.boards(), high_level, port(), clock, watch, until);
+      });
       tick_ = loop_.at < until ? loop_.at : until;
+      if (remote_ && tick_ == last_)
+        for (const signals::Edge& edge : remote_->last_edges(last_)) watch.edge(edge);
     }
   }
   // Leaves the body safe; answers the first status of the whole run that was not ok. Once, when no
@@ -130,7 +132,7 @@ class Simulation {
   // Returns what a setting, by its number, is at now, the plan's or what was set in its place; of
   // the first leg  [its SI unit].
   double value_of(std::size_t setting) const noexcept {
-    return gait::value_of(settings()[setting], controllers_.robot()->gait.desired().front());
+    return gait::value_of(settings()[setting], controllers_.gait()->desired().front());
   }
   // Returns the number of a setting by its key; throws as change() does.
   std::size_t find_setting(std::string_view key) const;

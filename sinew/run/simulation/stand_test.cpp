@@ -251,6 +251,9 @@ TEST(RigFiles, SayWhatIsWrongWithThem) {
   says({"drive.period=20.03 ms"}, "drive.period: found no whole ticks");
   says({"drive.kind=feedback"}, "drive.desired: found none");
   says({"drive.gain=1 1/in"}, "drive.gain: found a key of kind = \"feedback\"");
+  says({R"(drive.pulses=[{at="1 s",open="1 ms"},{at="1.02 s",open="1 ms"}])"},
+       "drive.pulses[1]: found a second pulse of the inlet in one drive.period, 0.04 s",
+       "isometric.toml");
   says({"drive.lenghts=1"}, "drive.lenghts");
   says({"drive.sensor=force"}, "drive.sensor: found \"force\"; expected length", "feedback.toml");
   says({"sensor.length.high=1 in"}, "sensor.length.high: found no range", "feedback.toml");

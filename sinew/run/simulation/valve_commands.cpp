@@ -137,7 +137,7 @@ std::vector<std::string> duty_topics(const experiment::Experiment& e) {
 ValveCommands valve_commands(const experiment::Experiment& e, const signals::Table& recorded,
                              const std::string& name) {
   const std::vector<std::string> edges = edge_topics(e), duties = duty_topics(e);
-  const std::vector<control::Board> boards = control::boards(installation(e));
+  const std::vector<control::Board> boards = boards_of(e);
   const std::vector<Switched> valves = switched_valves(boards, duties.size());
   ValveCommands out{.end = end_of(recorded)};
   std::vector<std::string> missing;

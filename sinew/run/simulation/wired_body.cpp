@@ -12,9 +12,9 @@ using signals::Tick;
 WiredBody::WiredBody(const experiment::Experiment& experiment)
     : experiment_(experiment),
       board_(only_board(experiment)),
-      scan_(experiment),
+      scan_(std::span(&board_, 1)),
       inverted_(control::OutputStage(board_.spine, 0).inverted()),
-      machine_(planar_setup(experiment)),
+      machine_(machine_setup(experiment)),
       port_(&machine_.port()),
       last_(at_rest()) {
   if (!experiment_.faults.empty()) port_ = &faulty_.emplace(experiment_, *port_);
@@ -22,7 +22,7 @@ WiredBody::WiredBody(const experiment::Experiment& experiment)
 
 // One scan of a machine that nobody drives: sensors stand still before a run.
 std::vector<Reading> WiredBody::at_rest() const {
-  plant::Machine machine(planar_setup(experiment_));
+  plant::Machine machine(machine_setup(experiment_));
   std::vector<Reading> out(board_.channel.size());
   if (machine.port().start(scan_.scan()) != signals::Status::ok) return out;
   for (std::size_t i = 0; i < board_.spine.conversions; ++i) {
