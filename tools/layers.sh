@@ -45,7 +45,7 @@ layers='
     identify/actuator  identify/data
     identify/check  identify/actuator
     identify/plan   identify/actuator
-    identify/motion identify/data
+    identify/motion identify/data world
     identify/joint  identify/data robot
     identify/pair   identify/data
     identify/valve  identify/data gas signals
@@ -82,7 +82,6 @@ layers='
 # Tests of any folder may include config, to read a file of robots/ or experiments/.
 test_layers='
     *               config
-    identify/motion world
     mechanism/planar  world
 '
 
