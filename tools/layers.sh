@@ -46,7 +46,7 @@ layers='
     identify/check  identify/actuator
     identify/plan   identify/actuator
     identify/motion identify/data world
-    identify/joint  identify/data robot
+    identify/joint  identify/data
     identify/pair   identify/data
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
