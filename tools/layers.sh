@@ -45,8 +45,8 @@ layers='
     identify/actuator  identify/data
     identify/check  identify/actuator
     identify/plan   identify/actuator
-    identify/motion identify/data
-    identify/joint  identify/data robot
+    identify/motion identify/data world
+    identify/joint  identify/data
     identify/pair   identify/data
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
@@ -82,7 +82,6 @@ layers='
 # Tests of any folder may include config, to read a file of robots/ or experiments/.
 test_layers='
     *               config
-    identify/motion world
     mechanism/planar  world
 '
 

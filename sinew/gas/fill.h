@@ -28,6 +28,7 @@
 #include "sinew/gas/heat.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/gas/valve.h"
+#include "sinew/units/stages.h"
 
 namespace sinew::gas {
 
@@ -150,11 +151,11 @@ inline double warm_transfer_time(const Flow& flow, const Air& air, double volume
     return WarmAir{x.density + h * r.density, x.pressure + h * r.pressure};
   };
   const auto after = [&](const WarmAir& x, double h) {
-    const WarmAir a = rates(x), b = rates(along(x, 0.5 * h, a)), c = rates(along(x, 0.5 * h, b));
-    const WarmAir d = rates(along(x, h, c));
-    const WarmAir mean{(a.density + 2 * (b.density + c.density) + d.density) / 6,
-                       (a.pressure + 2 * (b.pressure + c.pressure) + d.pressure) / 6};
-    return along(x, h, mean);
+    WarmAir r[4] = {rates(x)};
+    for (int i = 1; i < 4; ++i) r[i] = rates(along(x, i < 3 ? 0.5 * h : h, r[i - 1]));
+    const units::StageMean mean(h);
+    return WarmAir{x.density + mean([&](int i) { return r[i].density; }),
+                   x.pressure + mean([&](int i) { return r[i].pressure; })};
   };
   const double up = to > from ? 1.0 : -1.0;
   double time = 0;
@@ -175,19 +176,6 @@ inline double warm_transfer_time(const Flow& flow, const Air& air, double volume
     time += h;
   }
   return std::numeric_limits<double>::infinity();
-}
-
-// From the supply  [s].
-inline double fill_time(const Flow& flow, const Air& air, double volume, double supply, double from,
-                        double to) {
-  return to >= from ? transfer_time(flow, air, volume, supply, from, to)
-                    : std::numeric_limits<double>::infinity();
-}
-
-// To the atmosphere  [s].
-inline double vent_time(const Flow& flow, const Air& air, double volume, double from, double to) {
-  return to <= from ? transfer_time(flow, air, volume, air.atmosphere, from, to)
-                    : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace sinew::gas

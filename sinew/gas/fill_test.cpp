@@ -29,7 +29,7 @@ TEST(Fill, ChokedAtConstantFlow) {
       const double to = 0.34 * supply;  // choked for both
       const double exact = volume * (density(air, to) - density(air, air.atmosphere)) /
                            (choked_gain(flow, air) * supply);
-      EXPECT_NEAR(fill_time(flow, air, volume, supply, air.atmosphere, to) / exact, 1, 1e-9);
+      EXPECT_NEAR(transfer_time(flow, air, volume, supply, air.atmosphere, to) / exact, 1, 1e-9);
     }
   }
 }
@@ -39,7 +39,7 @@ TEST(Fill, VentingChokedIsothermalAirIsExponential) {
   const double from = 8e5, to = 3e5;
   const double exact = volume / (choked_gain(orifice(), air) * air.gas_constant * air.temperature) *
                        std::log(from / to);
-  EXPECT_NEAR(vent_time(orifice(), air, volume, from, to) / exact, 1, 1e-9);
+  EXPECT_NEAR(transfer_time(orifice(), air, volume, air.atmosphere, from, to) / exact, 1, 1e-9);
 }
 
 TEST(Fill, VentingChokedPolytropicAirInClosedForm) {
@@ -48,7 +48,7 @@ TEST(Fill, VentingChokedPolytropicAirInClosedForm) {
   const double exact =
       volume * density_at_atmosphere(air) / (choked_gain(orifice(), air) * air.atmosphere * 0.4) *
       (std::pow(to / air.atmosphere, power) - std::pow(from / air.atmosphere, power));
-  EXPECT_NEAR(vent_time(orifice(), air, volume, from, to) / exact, 1, 1e-9);
+  EXPECT_NEAR(transfer_time(orifice(), air, volume, air.atmosphere, from, to) / exact, 1, 1e-9);
 }
 
 TEST(Fill, LastPartIsExponential) {
@@ -57,8 +57,9 @@ TEST(Fill, LastPartIsExponential) {
   const double from = supply * (1 - 0.9 * flow.linear_below);
   const double gain = mass_flow(flow, air, supply, from) / (supply - from);
   const double exact = volume / (gain * air.gas_constant * air.temperature) * std::log(1e3);
-  EXPECT_NEAR(fill_time(flow, air, volume, supply, from, supply - (supply - from) * 1e-3) / exact,
-              1, 1e-9);
+  EXPECT_NEAR(
+      transfer_time(flow, air, volume, supply, from, supply - (supply - from) * 1e-3) / exact, 1,
+      1e-9);
 }
 
 TEST(Fill, IsTheSumOfItsParts) {
@@ -66,15 +67,15 @@ TEST(Fill, IsTheSumOfItsParts) {
   std::uniform_real_distribution<> inside(1.02e5, 7.89e5);
   const Air air{.polytropic_exponent = 1.1};
   for (const Flow& flow : {orifice(), iso()}) {
-    const double whole = fill_time(flow, air, volume, supply, 1.01e5, 7.899e5);
-    const double back = vent_time(flow, air, volume, 7.899e5, 1.02e5);
+    const double whole = transfer_time(flow, air, volume, supply, 1.01e5, 7.899e5);
+    const double back = transfer_time(flow, air, volume, air.atmosphere, 7.899e5, 1.02e5);
     for (int i = 0; i < 50; ++i) {
       const double p = inside(random);
-      const double parts = fill_time(flow, air, volume, supply, 1.01e5, p) +
-                           fill_time(flow, air, volume, supply, p, 7.899e5);
+      const double parts = transfer_time(flow, air, volume, supply, 1.01e5, p) +
+                           transfer_time(flow, air, volume, supply, p, 7.899e5);
       EXPECT_NEAR(parts / whole, 1, 1e-9);
-      const double back_parts =
-          vent_time(flow, air, volume, 7.899e5, p) + vent_time(flow, air, volume, p, 1.02e5);
+      const double back_parts = transfer_time(flow, air, volume, air.atmosphere, 7.899e5, p) +
+                                transfer_time(flow, air, volume, air.atmosphere, p, 1.02e5);
       EXPECT_NEAR(back_parts / back, 1, 1e-9);
     }
   }
@@ -100,36 +101,36 @@ TEST(Fill, AgreesWithASimulation) {
     mass += step;
     time += h;
   }
-  EXPECT_NEAR(fill_time(flow, air, volume, supply, air.atmosphere, to), time, 1e-6 * time);
+  EXPECT_NEAR(transfer_time(flow, air, volume, supply, air.atmosphere, to), time, 1e-6 * time);
 }
 
 TEST(Fill, GoesWithVolumeAndAgainstArea) {
   const Air air;
   Flow wide = orifice();
   wide.area *= 4;
-  const double one = fill_time(orifice(), air, volume, supply, 1.1e5, 7e5);
-  EXPECT_NEAR(fill_time(orifice(), air, 3 * volume, supply, 1.1e5, 7e5), 3 * one, 1e-12);
-  EXPECT_NEAR(fill_time(wide, air, volume, supply, 1.1e5, 7e5), one / 4, 1e-12);
+  const double one = transfer_time(orifice(), air, volume, supply, 1.1e5, 7e5);
+  EXPECT_NEAR(transfer_time(orifice(), air, 3 * volume, supply, 1.1e5, 7e5), 3 * one, 1e-12);
+  EXPECT_NEAR(transfer_time(wide, air, volume, supply, 1.1e5, 7e5), one / 4, 1e-12);
 }
 
 TEST(Fill, KnowsWhatCannotBe) {
   const Air air;
   const double never = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 1e5, supply), never);
-  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 1e5, 9e5), never);
-  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 3e5, 2e5), never);
-  EXPECT_EQ(vent_time(orifice(), air, volume, 3e5, air.atmosphere), never);
-  EXPECT_EQ(vent_time(orifice(), air, volume, 2e5, 3e5), never);
-  EXPECT_EQ(fill_time(Flow{}, air, volume, supply, 2e5, 3e5), never);
-  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 2e5, 2e5), 0);
+  EXPECT_EQ(transfer_time(orifice(), air, volume, supply, 1e5, supply), never);
+  EXPECT_EQ(transfer_time(orifice(), air, volume, supply, 1e5, 9e5), never);
+  EXPECT_EQ(transfer_time(orifice(), air, volume, supply, 3e5, 2e5), never);
+  EXPECT_EQ(transfer_time(orifice(), air, volume, air.atmosphere, 3e5, air.atmosphere), never);
+  EXPECT_EQ(transfer_time(orifice(), air, volume, air.atmosphere, 2e5, 3e5), never);
+  EXPECT_EQ(transfer_time(Flow{}, air, volume, supply, 2e5, 3e5), never);
+  EXPECT_EQ(transfer_time(orifice(), air, volume, supply, 2e5, 2e5), 0);
 }
 
 TEST(Fill, DoesWithoutALinearPart) {
   Flow flow = orifice();
   flow.linear_below = 0;
   const Air air;
-  const double with = fill_time(orifice(), air, volume, supply, 1.1e5, 0.99 * supply);
-  EXPECT_NEAR(fill_time(flow, air, volume, supply, 1.1e5, 0.99 * supply) / with, 1, 1e-9);
+  const double with = transfer_time(orifice(), air, volume, supply, 1.1e5, 0.99 * supply);
+  EXPECT_NEAR(transfer_time(flow, air, volume, supply, 1.1e5, 0.99 * supply) / with, 1, 1e-9);
 }
 
 }  // namespace

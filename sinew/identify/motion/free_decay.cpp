@@ -4,113 +4,35 @@
 #include <numbers>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
-#include "sinew/units/stages.h"
+#include "sinew/world/stand.h"
 
 namespace sinew::identify {
 
 namespace {
 
-using actuator::Loss;
+using Motion = plant::Stand::Motion;
 
-struct State {
-  double length = 0, velocity = 0;
-};
+// Returns the stand on which it swings. Its steps are a share of the period at rest; the limit by
+// its accuracy is wider, so that their number does not change with a parameter.
+plant::StandSetup stand_of(const Hanging& h, double rest, double frequency, int steps_per_period) {
+  const double turn = 2 * std::numbers::pi / steps_per_period;
+  plant::StandSetup s;
+  s.muscle.actuator = h.actuator;
+  s.muscle.actuator.loss.stick = true;
+  s.muscle.external_volume = h.external_volume;
+  s.air = {.atmosphere = h.atmosphere, .polytropic_exponent = h.polytropic_exponent};
+  s.load.mass = h.mass;
+  s.load.gravity = h.gravity;
+  s.start = {.pressure = h.pressure, .length = rest};
+  s.step = turn / frequency;
+  s.accuracy = std::pow(1.5 * turn, 4) / 120;
+  return s;
+}
 
-class Motion {
- public:
-  Motion(const Hanging& h, double rest) : h_(h) {
-    const double volume = actuator::volume(h.actuator.braid, rest) + h.external_volume;
-    air_ = h.pressure * std::pow(volume, h.polytropic_exponent);
-  }
-
-  double pressure(double length) const {
-    const double volume = actuator::volume(h_.actuator.braid, length) + h_.external_volume;
-    return air_ / std::pow(volume, h_.polytropic_exponent);
-  }
-
-  // What moves the mass if nothing rubs  [N].
-  double drive(const State& s, double gauge) const {
-    return h_.mass * h_.gravity -
-           actuator::clamped_tension(h_.actuator, s.length, s.velocity, gauge, h_.atmosphere);
-  }
-
-  double bound(double length, double pressure) const {
-    const bool sealed = h_.actuator.loss.coulomb_scale == Loss::Scale::sealed;
-    const double stiffness =
-        sealed ? actuator::stiffness_sealed(h_.actuator, length, pressure, h_.atmosphere,
-                                            h_.external_volume, h_.polytropic_exponent)
-               : 0;
-    return actuator::coulomb_bound(h_.actuator, length, pressure - h_.atmosphere, h_.atmosphere,
-                                   stiffness);
-  }
-
-  // Friction acts against `direction`, +1 or -1  [m/s^2].
-  double acceleration(const State& s, double direction) const {
-    const double p = pressure(s.length);
-    return (drive(s, p - h_.atmosphere) - direction * bound(s.length, p)) / h_.mass;
-  }
-
-  // Where a mass at rest goes: +1, -1, or 0 if the friction holds it.
-  double way(double length) const {
-    const double p = pressure(length);
-    const double force = drive({length, 0}, p - h_.atmosphere);
-    if (std::abs(force) <= bound(length, p)) return 0;
-    return force > 0 ? 1 : -1;
-  }
-
-  bool inside(const State& s) const {
-    return s.length > 0 && s.length < h_.actuator.braid.thread_length && std::isfinite(s.velocity);
-  }
-
-  State step(const State& s, double direction, double dt) const {
-    const auto slope = [&](const State& at) {
-      return State{at.velocity, acceleration(at, direction)};
-    };
-    const auto moved = [&](const State& by, double t) {
-      return State{s.length + t * by.length, s.velocity + t * by.velocity};
-    };
-    State k[4] = {slope(s)};
-    for (int i = 1; i < 4; ++i) k[i] = slope(moved(k[i - 1], i < 3 ? dt / 2 : dt));
-    const units::StageMean mean(dt);
-    return {s.length + mean([&](int i) { return k[i].length; }),
-            s.velocity + mean([&](int i) { return k[i].velocity; })};
-  }
-
-  // The part of dt after which the speed is zero: between `s` and `next` it changes sides. By false
-  // position with halved ends, which brackets.
-  double standstill(const State& s, double direction, double dt, const State& next) const {
-    double low = 0, at_low = s.velocity, high = dt, at_high = next.velocity;
-    if (at_low == 0) return dt;
-    double last_side = 0;
-    for (int i = 0; i < 60 && high - low > 1e-12 * dt; ++i) {
-      const double middle = (low * at_high - high * at_low) / (at_high - at_low);
-      const double v = step(s, direction, middle).velocity;
-      if (std::abs(v) < 1e-14) return middle;
-      if (v * direction > 0) {
-        low = middle;
-        at_low = v;
-        if (last_side > 0) at_high /= 2;
-        last_side = 1;
-      } else {
-        high = middle;
-        at_high = v;
-        if (last_side < 0) at_low /= 2;
-        last_side = -1;
-      }
-    }
-    return high;
-  }
-
- private:
-  const Hanging& h_;
-  double air_ = 0;  // P V^n
-};
-
-// Cubic through lengths and speeds at both ends of a step.
-double between(const State& a, const State& b, double dt, double t) {
+// Cubic through lengths and speeds at both ends of a piece of `dt`, after `t`.
+double between(const Motion& a, const Motion& b, double dt, double t) {
   const double u = t / dt;
   const double rise = b.length - a.length;
   return a.length + u * (dt * a.velocity + u * (3 * rise - dt * (2 * a.velocity + b.velocity) +
@@ -148,32 +70,20 @@ bool free_decay(const Hanging& h, double length, double velocity, std::span<cons
   if (!rest || times.empty()) return rest.has_value();
   const double frequency = sealed_frequency(h, *rest);
   if (!(frequency > 0)) return false;
-  const double longest = 2 * std::numbers::pi / frequency / steps_per_period;
 
-  const Motion motion(h, *rest);
-  State s{length, velocity};
-  double t = times[0];
-  double direction = velocity > 0 ? 1 : velocity < 0 ? -1 : motion.way(length);
+  const plant::StandSetup setup = stand_of(h, *rest, frequency, steps_per_period);
+  plant::Stand stand(setup);
+  stand.steer({length, velocity});
   std::size_t next = 0;
-  while (next < times.size()) {
-    if (!motion.inside(s)) return false;
-    if (direction == 0) {
-      for (; next < times.size(); ++next) lengths[next] = s.length;
-      break;
-    }
-    double dt = longest;
-    State after = motion.step(s, direction, dt);
-    const bool turns = after.velocity * direction <= 0;
-    if (turns) {
-      dt = motion.standstill(s, direction, dt, after);
-      after = motion.step(s, direction, dt);
-      after.velocity = 0;
-    }
-    for (; next < times.size() && times[next] <= t + dt; ++next)
-      lengths[next] = between(s, after, dt, times[next] - t);
-    t += dt;
-    s = after;
-    if (turns) direction = motion.way(s.length);
+  const auto fill_in = [&](double from, const Motion& a, double to, const Motion& b) {
+    for (; next < times.size() && times[next] - times[0] <= to; ++next)
+      lengths[next] = between(a, b, to - from, times[next] - times[0] - from);
+  };
+  for (int step = 1; next < times.size(); ++step) {
+    const Motion& m = stand.motion();
+    if (stand.failure() || !(m.length > 0 && m.length < h.actuator.braid.thread_length))
+      return false;
+    stand.advance(step * setup.step, fill_in);
   }
   return true;
 }

@@ -7,11 +7,11 @@
 //   L  length of the muscle, grows downwards [m]      F  actuator/tension.h, c L' in it [N]
 //   F_dry  at most coulomb_bound (actuator/loss.h) [N]
 //
-// The air was shut in at `pressure` where the mass hung at rest. Classical Runge-Kutta; a step ends
-// where the speed is zero, so that the friction changes sides between steps: then the error keeps
-// its fourth order, and the trajectory is smooth in its parameters. Between steps a cubic through
-// lengths and speeds. Valid inside the braid, 0 < L < b; of actuators in parallel one, with its
-// share of mass and volume.
+// The air was shut in at `pressure` where the mass hung at rest. It is the test stand's world
+// (world/stand.h): a step is cut where the speed is zero, so that the friction changes sides
+// between smooth pieces, the error keeps its fourth order, and the trajectory is smooth in its
+// parameters. Within a piece a cubic through lengths and speeds. Valid inside the braid, 0 < L < b;
+// of actuators in parallel one, with its share of mass and volume.
 #pragma once
 
 #include <optional>

@@ -129,10 +129,11 @@ class SlideMechanism {
     out.mass = at.mass;
   }
 
-  // In motion friction is at its bound; what stands holds, or sets off.
+  // In motion friction is at its bound; a mass at rest is held, or begins to move.
   Way hold(const Motion& m, const Load& load, Way last) const noexcept {
     if (driven_) return m.velocity > 0 ? Way::down : m.velocity < 0 ? Way::up : last;
     if (!rubs_ || last != Way::rests) return last;
+    if (m.velocity != 0) return m.velocity > 0 ? Way::down : Way::up;  // let go in motion
     if (!(std::fabs(load.asks) > load.bound)) return Way::rests;
     return load.asks > 0 ? Way::down : Way::up;
   }

@@ -54,6 +54,9 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   using Acceleration = typename Mechanism::Acceleration;
   using Forces = typename Mechanism::Forces;
   using Memory = typename Air::Memory;
+  struct Unseen {
+    void operator()(const auto&...) const noexcept {}
+  };
 
  public:
   using Body = Mechanism;
@@ -90,8 +93,10 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   // the last node. Commits what is due, peeks the rest.
   Truth truth(double t) noexcept;
 
-  // Commits every node up to t.
-  void advance(double t) noexcept;
+  // Commits every node up to t. Where a mechanism cuts its steps, visit(from, before, to, after) is
+  // called with the times [s] and the motions at both ends of each smooth piece.
+  template <class Visit = Unseen>
+  void advance(double t, const Visit& visit = {}) noexcept;
 
   // Returns where the machine is at the last node; its constants; the air in it [kg]; the node's
   // time [s]; the shortest step of body and air [s]; how many nodes there were; and what of it is
@@ -132,7 +137,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   }
   void node_at(double t) noexcept {
     advance(t);
-    if (!state_.failure && t > state_.times.time) commit(t);
+    if (!state_.failure && t > state_.times.time) commit(t, Unseen());
   }
 
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
@@ -209,16 +214,19 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   double whole_step() const noexcept {  // from one multiple to the next that is due [s]
     return static_cast<double>(1 + skipped_) * step_;
   }
-  void commit(double next) noexcept;
-  void step(double to) noexcept;
+  template <class Visit>
+  void commit(double next, const Visit& visit) noexcept;
+  template <class Visit>
+  void step(double to, const Visit& visit) noexcept;
   double longest_piece_of(const Look& look) const noexcept;  // infinite where nothing is quick [s]
   double pieces_of(double h, const Look& look) const noexcept;
 
   // These serve mechanisms that cut their steps.
   template <CutsSteps = Mechanism>
   void begin_part(double t, Moving& s, const Memory& memory, Forces& held, Look& look) noexcept;
-  template <CutsSteps = Mechanism>
-  void go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first) noexcept;
+  template <class Visit>
+  void go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first,
+          const Visit& visit) noexcept requires CutsSteps<Mechanism>;
   template <CutsSteps = Mechanism>
   double gap(double t, const Moving& before, const Moving& after, const Memory& memory,
              const Forces& held) const noexcept;
@@ -343,9 +351,10 @@ double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
 // Hoses, walls and lags can be quicker than the body: a step is then made of several pieces, under
 // the friction of the whole.
 template <IsMechanism M, IsAirOf<M> A>
-void World<M, A>::step(double to) noexcept {
+template <class Visit>
+void World<M, A>::step(double to, const Visit& visit) noexcept {
   if constexpr (CutsSteps<M>) {
-    go(state_.times.time, to, state_.now, state_.memory, state_.held, state_.first);
+    go(state_.times.time, to, state_.now, state_.memory, state_.held, state_.first, visit);
   } else {
     const double h = to - state_.times.time;
     Acceleration first;
@@ -380,13 +389,15 @@ double World<M, A>::next_node() const noexcept {
 }
 
 template <IsMechanism M, IsAirOf<M> A>
-void World<M, A>::advance(double t) noexcept {
-  for (double next; !state_.failure && (next = next_node()) <= t;) commit(next);
+template <class Visit>
+void World<M, A>::advance(double t, const Visit& visit) noexcept {
+  for (double next; !state_.failure && (next = next_node()) <= t;) commit(next, visit);
 }
 
 template <IsMechanism M, IsAirOf<M> A>
-void World<M, A>::commit(double next) noexcept {
-  if (next > state_.times.time) step(next);
+template <class Visit>
+void World<M, A>::commit(double next, const Visit& visit) noexcept {
+  if (next > state_.times.time) step(next, visit);
   state_.times.pass(next, step_);
   prepare();
 }
@@ -417,7 +428,7 @@ auto World<M, A>::peek(double t) noexcept -> Peek {
   if constexpr (CutsSteps<M>) {
     Memory memory = state_.memory;
     glance_.held = state_.held;
-    if (!state_.failure) go(state_.times.time, t, p.state, memory, glance_.held, p.look);
+    if (!state_.failure) go(state_.times.time, t, p.state, memory, glance_.held, p.look, Unseen());
     begin_part(t, p.state, memory, glance_.held, p.look);
     glance_.acceleration = p.look.acceleration;
   } else {
@@ -464,7 +475,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
   if (edge.valve.index >= air_.valves() || t < state_.times.time) return signals::Status::invalid;
   // Later edges act at t or after: these nodes are final.
-  for (double next; !state_.failure && (next = next_node()) < t;) commit(next);
+  for (double next; !state_.failure && (next = next_node()) < t;) commit(next, Unseen());
   air_.command(edge, t, state_.first.air, state_.valves);
   return signals::Status::ok;
 }
@@ -507,9 +518,9 @@ void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& 
 // Integrates from one instant to another. `first` is the look at the state there, and in the end
 // that at the beginning of the last piece.
 template <IsMechanism M, IsAirOf<M> A>
-template <CutsSteps>
-void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held,
-                     Look& first) noexcept {
+template <class Visit>
+void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first,
+                     const Visit& visit) noexcept requires CutsSteps<M> {
   constexpr double shortest = 1e-7;  // of a piece, unless it is cut [s]
   Moving others[2];
   Moving *now = &s, *after = &others[0], *spare = &others[1];
@@ -544,6 +555,7 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
       reached = t + h;
       mechanism_.stop(after->motion, held);
     }
+    visit(t, now->motion, reached, after->motion);
     std::swap(now, after);
     t = reached;
   }
