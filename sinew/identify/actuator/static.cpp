@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -268,8 +269,7 @@ void tell_labels(const StaticFit& fit, Fit& out) {
     else if (std::abs(r.error) > 0.5 * (e->high - e->low))
       out.notes.push_back(
           muscle + fmt::format(" pulls as one of {:.4g} +- {:.2g} mm beside the others, for its "
-                               "label or for a law that is not quite theirs: its file has that "
-                               "length",
+                               "label or for a law that is not quite theirs",
                                1e3 * (r.labelled + r.error), 500 * (e->high - e->low)));
   }
   if (rest_length_estimate(fit, fit.setting.rest_lengths.back().labelled))
@@ -431,13 +431,41 @@ StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, 
   return out;
 }
 
+// Takes the law of the rest length, between the label and what the fit has beside the other
+// muscles, that misses the muscle's rows least as their lengths are labelled: those are what a user
+// of its file has. In the fit an error of the label moves the mount at rest as well.
+void set_file(const StaticFit& fit, const StaticScales& scales, const Points& points,
+              StaticMuscle& muscle) {
+  constexpr int steps = 20;
+  const double whole = rest_length_of(fit.setting, muscle.rest_length) - muscle.rest_length;
+  muscle.rms = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= (whole != 0 ? steps : 0); ++k) {
+    StaticSetting setting = fit.setting;
+    const double error = whole * k / steps;
+    for (RestLengthError& label : setting.rest_lengths)
+      if (label.labelled == muscle.rest_length) label.error = error;
+    const actuator::Actuator a = scaled(setting, scales, muscle.rest_length);
+    std::vector<double> off;
+    for (const StaticPoint& p : points)
+      if (p.rest_length == muscle.rest_length)
+        off.push_back(std::max(0.0, law_force(a, p.length, p, scales.atmosphere)) - p.force);
+    const double rms = score(off, 1).rmse;
+    if (!(rms < muscle.rms)) continue;
+    muscle.rms = rms;
+    muscle.actuator = a;
+    muscle.file_length = muscle.rest_length + error;
+    if (whole == 0) continue;
+    muscle.half_68 = half_width_of(off, 0.68);
+    muscle.half_95 = half_width_of(off, 0.95);
+  }
+}
+
 std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& scales,
                                      const Points& points) {
   std::vector<StaticMuscle> out;
   for (const StaticPoint& p : points) {
     if (out.empty() || out.back().rest_length != p.rest_length) {
-      out.push_back({.actuator = scaled(fit.setting, scales, p.rest_length),
-                     .rest_length = p.rest_length,
+      out.push_back({.rest_length = p.rest_length,
                      .lengths = lengths_of(points, p.rest_length),
                      .lowest = p.pressure,
                      .highest = p.pressure});
@@ -446,8 +474,27 @@ std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& s
     m.lowest = std::min(m.lowest, p.pressure);
     m.highest = std::max(m.highest, p.pressure);
   }
+  for (StaticMuscle& m : out) set_file(fit, scales, points, m);
   std::reverse(out.begin(), out.end());
   return out;
+}
+
+// Notes which files miss their own rows by more than the fit does, which has another length for the
+// mount at rest.
+void note_files(const StaticResult& found, Report& report) {
+  constexpr double more = 1.25;
+  for (const StaticMuscle& m : found.muscles) {
+    Points own;
+    for (const StaticPoint& p : found.points)
+      if (p.rest_length == m.rest_length) own.push_back(p);
+    const double full = std::ranges::max(own, {}, &StaticPoint::force).force;
+    const Score fit = score(misses(found.fit.setting, found.scales, own), full);
+    if (!(100 * m.rms / full > more * fit.rmse_percent)) continue;
+    report.notes.push_back(fmt::format(
+        "the file of the muscle labelled {:.4g} mm has a rest length of {:.4g} mm and misses its "
+        "own rows, at the lengths as labelled, by {:.2f} % rmse of its largest force",
+        1e3 * m.rest_length, 1e3 * m.file_length, 100 * m.rms / full));
+  }
 }
 
 // What the chosen one makes of the points it was not for: the other branch.
@@ -523,6 +570,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   out.muscles = muscles_of(out.fit, out.scales, s.fitted);
   out.points = s.fitted;
   note_muscles(out.fit, out.scales, points, report);
+  note_files(out, report);
   show_static(s, left_out, out);
   return out;
 }

@@ -41,7 +41,9 @@ struct StaticOptions {
 // One muscle's actuator, as a file would have it.
 struct StaticMuscle {
   actuator::Actuator actuator;
-  double rest_length = 0;          // as labelled [m]
+  double rest_length = 0;  // as labelled [m]
+  double file_length = 0;  // rest length with which the law misses its own rows least [m]
+  double rms = 0, half_68 = 0, half_95 = 0;  // of what it misses them by [N]
   std::vector<double> lengths;     // that were fitted, as labelled, in ascending order [m]
   double lowest = 0, highest = 0;  // gauge pressures that were fitted [Pa]
 };

@@ -88,8 +88,7 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
     provenance.given(path + "effectiveness.scale", source + "; the rest length's effect");
 
   // Outside what was measured the laws are held.
-  const double shortest = fitted_length(result, muscle, muscle.lengths.front());
-  const double longest = fitted_length(result, muscle, muscle.lengths.back());
+  const double shortest = muscle.lengths.front(), longest = muscle.lengths.back();
   a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
   a.effectiveness.valid_to = muscle.highest;
   a.bladder.valid_from =  // the braid is shorter than the muscle where ends give way
@@ -100,8 +99,7 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   if (!(a.bladder.saturating_tension > 0)) a.bladder.saturation_length = 0;
   if (!actuator::tapers(a.taper)) a.taper = {};
   if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
-  add_ends(std::max(longest, fitted_length(result, muscle, muscle.rest_length)), path, a,
-           provenance);
+  add_ends(std::max(longest, muscle.file_length), path, a, provenance);
   a.prediction = prediction_of(result, muscle);
   add_rest_length(result, muscle, path, source, provenance);
   for (const char* key : {"lengths", "pressures"})

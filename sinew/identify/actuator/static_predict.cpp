@@ -95,14 +95,10 @@ StaticMuscle muscle_of(const StaticResult& result, double rest_length) {
   StaticMuscle out = result.muscles.front();
   const double ratio = rest_length / out.rest_length;
   out.actuator = scaled(result.fit.setting, result.scales, rest_length);
-  out.rest_length = rest_length;
+  out.rest_length = out.file_length = rest_length;
+  out.half_68 = out.half_95 = 0;
   for (double& length : out.lengths) length *= ratio;
   return out;
-}
-
-double fitted_length(const StaticResult& result, const StaticMuscle& muscle, double length) {
-  return fitted_length(result.fit.setting,
-                       StaticPoint{.length = length, .rest_length = muscle.rest_length});
 }
 
 StaticForce predict(const StaticResult& result, const StaticPoint& point) {
@@ -133,13 +129,11 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
 
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& m) {
   const Places places = places_of(m);
-  actuator::Prediction out{.rest_length = fitted_length(result, m, m.rest_length),
-                           .lengths = m.lengths,
-                           .lowest = m.lowest,
-                           .highest = m.highest};
-  for (double& length : out.lengths) length = fitted_length(result, m, length);
-  std::ranges::sort(out.lengths);  // a label's error moves the mount at rest alone
-  write_widths(mean_widths(result, places.inside), {0, 0}, out.inside_68, out.inside_95);
+  actuator::Prediction out{
+      .rest_length = m.file_length, .lengths = m.lengths, .lowest = m.lowest, .highest = m.highest};
+  // What it misses the rows by that it was made from is the least that it misses others by.
+  write_widths(mean_widths(result, places.inside), {m.half_68, m.half_95}, out.inside_68,
+               out.inside_95);
   const std::array<double, 2> least{out.inside_68, out.inside_95};
   write_widths(mean_widths(result, places.between), least, out.between_68, out.between_95);
   write_widths(mean_widths(result, places.beyond), least, out.beyond_68, out.beyond_95);

@@ -33,10 +33,6 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point);
 // in the same proportion  [m].
 StaticMuscle muscle_of(const StaticResult& result, double rest_length);
 
-// Returns a length of a muscle as its file has it: that of the mount at rest with the label's
-// error, every other one as it is  [m].
-double fitted_length(const StaticResult& result, const StaticMuscle& muscle, double length);
-
 // Returns what a file tells of how far measured forces lie from the muscle's law: root mean squares
 // of the half-widths at its lengths (nine of them at most), halfway in the widest gap between two,
 // and a fifth of their ranges beyond the lengths and the pressures.
