@@ -663,7 +663,14 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
     report.notes.insert(report.notes.end(), r.notes.begin(), r.notes.end());
   std::vector<Fitted> fitted;
   for (const PairLaw* law : laws) fitted.push_back(pair.fit(*law));
-  for (const Fitted& f : fitted) report.fits.push_back(f.fit);
+  for (Fitted& f : fitted) {
+    // What is 0 is not there, and a bristle may be bent all the way at the start.
+    std::vector<std::string_view> allowed;
+    for (const Estimate& e : f.fit.parameters)
+      if (e.value == 0 || e.name.starts_with("start")) allowed.push_back(e.name);
+    keep_off_bounds(f.fit, allowed);
+    report.fits.push_back(f.fit);
+  }
   report.rows = pair.rows();
   choose(report);
 
