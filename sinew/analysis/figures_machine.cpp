@@ -1,5 +1,5 @@
-// rollers.*, cylinder.*, supply.*, sensors.*: the parts of a whole machine beside its joints and
-// muscles.
+// rollers.*, cylinder.*, supply.*, sensors.*, muscles.*, passiveness, air, valves: the parts of a
+// machine but its joints, what they do and what they cost.
 
 #include <algorithm>
 #include <cmath>

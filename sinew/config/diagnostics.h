@@ -1,4 +1,5 @@
-// config/diagnostics.h - what is wrong with a file, all of it at once.
+// config/diagnostics.h - what is wrong with a file, all of it at once; and one of a list by its
+// name.
 //
 // A problem reads `file:line:col: key: found …; expected …; try …`, one line each.
 #pragma once

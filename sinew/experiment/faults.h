@@ -14,8 +14,8 @@
 
 namespace sinew::experiment {
 
-// The parts of a machine that can break, and the words of the list
-// [[fault]] for what can happen to each.
+// The parts of a machine that can break, and the words of the list [[fault]] for what can happen to
+// each.
 
 struct FaultPart {
   // transducer: a sensor of the test stand, which none of the words is for

@@ -1,4 +1,5 @@
-// gas/hose.h - flow through a hose, in series with a muscle's valves. Source of the need: 3.4 puts
+// gas/hose.h - flow through a hose, in series with a muscle's valves, and the pressure between two
+// restrictions in series. Source of the need: 3.4 puts
 // the efficiency of 85 % and the missing damping down to the hoses.
 //
 //   iso6358   C, b_crit as for a valve: what makers give for a hose with its fittings

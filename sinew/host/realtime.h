@@ -1,4 +1,7 @@
-// host/realtime.h - for as long as it lives the calling thread comes before all others and its
+// host/realtime.h - time on this computer: a thread that comes before all others, a beat that it
+// keeps, and how late it wakes.
+//
+// For as long as a Realtime lives the calling thread comes before all others and its
 // memory stays where it is, as far as this user may ask for that.
 #pragma once
 

@@ -1,4 +1,5 @@
-// log/file.h - the two ways this folder touches a file: reading it as a view, and appending to it.
+// log/file.h - a file read as a view, or appended to; and the words that a log's writer and
+// reader share.
 #pragma once
 
 #include <cstdint>

@@ -32,12 +32,12 @@ std::uint16_t counts(const Sensor& sensor, const Converter& converter, double qu
   return static_cast<std::uint16_t>(bounded + 0.5);
 }
 
-Line own_tension(const Sensor& sensor, const Converter& converter) {
+SensorLine own_tension(const Sensor& sensor, const Converter& converter) {
   return {.count_at_zero = sensor.assumed_at_rest,
           .counts_per_unit = sensor.scale * converter.counts_per_volt()};
 }
 
-Line assumed_tension(const Sensor& sensor, const Converter& converter) {
+SensorLine assumed_tension(const Sensor& sensor, const Converter& converter) {
   return {.count_at_zero = sensor.assumed_at_rest,
           .counts_per_unit = sensor.assumed_scale * converter.counts_per_volt()};
 }

@@ -19,7 +19,7 @@ std::uint16_t counts(const Sensor& sensor, const Converter& converter, double qu
                      double noise);
 
 // A sensor's quantity and its counts, along a line.
-struct Line {
+struct SensorLine {
   double at_zero = 0;  // the quantity where the counts are `count_at_zero`
   double count_at_zero = 0;
   double counts_per_unit = 0;
@@ -31,7 +31,7 @@ struct Line {
 
 // Returns the line of a muscle's transducer: by its own scale, as logs have it; and by the scale
 // that the controller assumes for all of them  [N].
-Line own_tension(const Sensor&, const Converter&);
-Line assumed_tension(const Sensor&, const Converter&);
+SensorLine own_tension(const Sensor&, const Converter&);
+SensorLine assumed_tension(const Sensor&, const Converter&);
 
 }  // namespace sinew::robot

@@ -83,7 +83,7 @@ class ChainLanes {
   using Mask = units::PackMask<W>;
   using Worlds = std::array<std::unique_ptr<World>, lanes>;
 
-  // Machine k as its senses evaluate it (planar/senses.h): as a World, from its lane.
+  // Machine k as its senses evaluate it (planar/planar_mechanism.h): as a World, from its lane.
   class Sensed;
 
   [[noreturn]] static void refuse() {
@@ -111,7 +111,7 @@ class ChainLanes {
 
   // As World::State's, of each machine.
   std::array<NodeTimes, lanes> times_{};
-  Instants step_{}, change_{};  // between nodes; when a valve moves next [s]
+  Instants step_{}, change_{};  // of the body; the instant at which a valve moves next [s]
   std::array<air::Failure, lanes> failure_{};
   std::array<bool, lanes> behind_{};  // the machine's World is
 

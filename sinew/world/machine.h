@@ -1,5 +1,5 @@
 // world/machine.h - a machine in simulation: the mechanism and the air that suit its
-// description, under one interface. Robots that a chain holds use chain_mechanism.h, all others the
+// description, under one interface. Robots that a chain holds use chain_body.h, all others the
 // first size of body_mechanism.h that has room for them, a test stand slide_mechanism.h.
 #pragma once
 

@@ -1,4 +1,5 @@
-// analysis/measures/statistics.h - means over time of samples that may be missing.
+// analysis/measures/statistics.h - means over time of samples that may be missing, and what is left
+// without a moving mean.
 //
 // Sample i holds for seconds[i]; 0 leaves it out. Samples that are not a number are left out too.
 // With no sample left the result is not a number, and a summary leaves its key out.

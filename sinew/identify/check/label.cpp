@@ -24,6 +24,7 @@ constexpr double make_supports = 0.25;  // the same among muscles, where the mus
 constexpr double make_explains = 0.5;   // where it does not
 constexpr double mount_explains = 0.6;  // where one mount among four or more is doubted
 constexpr double least_misfit = 0.002;  // of the largest force: less is left by right labels
+constexpr std::size_t fewest_points = 15, most_mounts = 12;  // of a muscle that can be asked
 
 // Beside branches and what several muscles need.
 const std::vector<Knob> label_laws[] = {
@@ -119,7 +120,8 @@ std::set<double> mounts_of_muscle(const Points& points) {
 bool can_be_asked(const Points& own) {
   const std::set<double> mounts = mounts_of_muscle(own);
   const double rest = own.front().rest_length;
-  return rest > 0 && mounts.size() >= 3 && own.size() >= 15 && at_rest(*mounts.rbegin(), rest);
+  return rest > 0 && mounts.size() >= 3 && own.size() >= fewest_points &&
+         at_rest(*mounts.rbegin(), rest);
 }
 
 // Which other mount, if it were off alone, would explain as much.
@@ -153,10 +155,11 @@ Check suspicion_of(const Doubt* own, const Doubt* make, const std::string& other
   return {"labels", Light::yellow, text + ".", advice};
 }
 
-// A muscle each of whose mounts can be asked about.
+// A muscle each of whose mounts can be asked about: as many points as a law needs, and not so many
+// mounts that one of them hardly counts.
 bool mounts_can_be_asked(const Points& own) {
   const std::size_t mounts = mounts_of_muscle(own).size();
-  return mounts >= 4 && mounts <= 12;
+  return mounts >= 4 && mounts <= most_mounts && own.size() >= fewest_points;
 }
 
 // The mount that, with another length, goes with all others best, and better than the doubted rest
@@ -219,10 +222,11 @@ void add_make(const std::vector<Doubt>& make, bool asked, std::vector<Check>& ou
   } else if (asked) {
     out.push_back({"labels", Light::green, "The lengths of the mounts go with each other.", ""});
   } else {
-    out.push_back({"labels", Light::grey,
-                   "Not checked: fewer than four mounts, or none at rest, cannot show which length "
-                   "is wrong.",
-                   "Measure at least four mounts, one of them at rest."});
+    out.push_back(
+        {"labels", Light::grey,
+         "Not checked: it takes four to twelve mounts, and 15 readings, to show which length is "
+         "wrong.",
+         "Measure more mounts or pressures; of a sweep, give some of its lengths."});
   }
 }
 
@@ -245,7 +249,7 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
     const Points mine = of_muscle(points, m);
     const bool ask_rest = has_label && can_be_asked(mine);
     if (!ask_rest && !mounts_can_be_asked(mine)) continue;
-    ++asked;
+    asked += mounts_can_be_asked(mine) ? 1 : 0;
     const Believed own(mine, atmosphere);
     std::optional<Doubt> doubt;
     if (ask_rest) doubt = ask(own, {.rest_length = m});

@@ -112,7 +112,10 @@ ForceNoise force_noise(const CheckInput& input) {
   const bool records = recorded.freedom > 0;
   const Squares squares = records ? recorded : of_tables(input.data.points);
   ForceNoise out;
-  if (!(squares.freedom >= 3) || !(strongest > 0)) return out;
+  // Readings that differ by the last digits of a number alone are copies.
+  if (!(squares.freedom >= 3) || !(strongest > 0) ||
+      !(std::sqrt(squares.sum / squares.freedom) > 1e-9 * strongest))
+    return out;
   out.deviation = std::sqrt(squares.sum / squares.freedom);
   out.share = out.deviation / strongest;
   out.readings = squares.readings;

@@ -78,7 +78,11 @@ Check gauge_or_absolute(const StaticData& data, const Reach& r) {
         "Read the force at the lowest pressures, too."};
   if (r.lowest < 0.8 * ambient || threshold < 0.85 * ambient || first > 0.02 * r.strongest)
     return {"gauge or absolute", Light::green,
-            fmt::format("The lowest pressure is {:.4g} kPa, as of a gauge.", r.lowest / 1e3), ""};
+            r.lowest < 0.8 * ambient
+                ? fmt::format("The lowest pressure is {:.4g} kPa, as of a gauge.", r.lowest / 1e3)
+                : std::string(
+                      "The force begins below the pressure of the atmosphere, as with a gauge."),
+            ""};
   const bool sure = std::abs(r.lowest - ambient) < 5e3 && rest > 0 && longest > 0.98 * rest;
   return {"gauge or absolute", sure ? Light::red : Light::yellow,
           fmt::format("The pressure never falls below {:.4g} kPa, and the force begins at {:.4g} "

@@ -118,10 +118,10 @@ void refuse_clipped(const Measured& data, std::string_view column, std::string_v
                 "readings within its range", std::string(try_this));
 }
 
-Measured each_row_once(Measured m) {
+Measured each_row_once(Measured m, std::vector<bool>& kinds) {
   if (m.has("time")) return m;
   const auto values = [&](std::size_t row) {
-    std::vector<double> out;
+    std::vector<double> out{kinds.empty() || kinds[row] ? 1.0 : 0.0};
     for (const Column& c : m.columns) out.push_back(c.values[row]);
     return out;
   };
@@ -132,8 +132,17 @@ Measured each_row_once(Measured m) {
   const std::size_t repeated = m.rows() - first.size();
   if (repeated == 0) return m;
   m = m.subset(first);
+  std::vector<bool> left;
+  for (const std::size_t row : first)
+    if (!kinds.empty()) left.push_back(kinds[row]);
+  kinds = std::move(left);
   m.notes.push_back(fmt::format("{} rows repeat earlier ones: each counts once", repeated));
   return m;
+}
+
+Measured each_row_once(Measured m) {
+  std::vector<bool> of_one_kind;
+  return each_row_once(std::move(m), of_one_kind);
 }
 
 }  // namespace sinew::identify

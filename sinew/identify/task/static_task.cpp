@@ -55,16 +55,18 @@ enum class Unreadable { is_refused, is_red };
 
 void read_table(const StaticSettings& settings, const Source& source, bool fitted,
                 Unreadable unreadable, CheckInput& out) {
-  const Measured all = each_row_once(read_measured(source, static_columns()));
+  Measured all = read_measured(source, static_columns());
+  std::vector<bool>
+      named;  // what is fitted; a row repeats another only where both are or neither is
+  if (fitted && !settings.fit_where.empty()) named = named_rows(settings, source, all);
+  all = each_row_once(std::move(all), named);
   const std::size_t before = out.data.points.size();
   CheckedTable table{all, input_for(settings, source, fitted)};
   if (unreadable == Unreadable::is_red)
     out.add_or_tell(std::move(table));
   else
     out.add(std::move(table));
-  if (settings.fit_where.empty() || !fitted) return;
-  const std::vector<bool> named = named_rows(settings, source, all);
-  for (std::size_t i = 0; before + i < out.data.points.size(); ++i)
+  for (std::size_t i = 0; i < named.size() && before + i < out.data.points.size(); ++i)
     out.data.points[before + i].fitted = named[i];
 }
 

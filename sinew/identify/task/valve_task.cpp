@@ -10,6 +10,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
@@ -83,7 +84,7 @@ std::vector<AddedFill> fills_by_setting(const std::vector<Source>& sources,
 // nothing, and a column `time` that runs backwards is left out. Throws config::Error.
 Measured read_valve(const Source& source) {
   try {
-    return read_measured(source, valve_columns());
+    return each_row_once(read_measured(source, valve_columns()));
   } catch (const config::Error&) {
     // Of a chart the time tells nothing; of anything else it is what is wrong.
     std::vector<Wanted> timeless;
@@ -92,7 +93,7 @@ Measured read_valve(const Source& source) {
     Source without = source;
     without.names.erase("time");
     try {
-      Measured data = read_measured(without, timeless);
+      Measured data = each_row_once(read_measured(without, timeless));
       const ValveData kind = valve_data(data);
       if (kind == ValveData::chart || kind == ValveData::duty) {
         data.notes.emplace_back("its times are out of order, which means nothing here");

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "sinew/config/quantity.h"
 #include "sinew/identify/data/quality.h"
@@ -26,11 +28,11 @@ std::size_t first_beyond(const Curve& c, double share) {
   return c.pressure.size();
 }
 
-// Returns what a rest up to the row `last`, followed by a straight rise or fall, leaves of the
-// first rows: the sum of its squares.
-double left_by_rest(const Curve& c, std::size_t rows, std::size_t last) {
+// Returns what a rest up to the row `last`, followed by a straight rise or fall, leaves of these
+// rows: the sum of its squares.
+double left_by_rest(const Curve& c, std::span<const std::size_t> rows, std::size_t last) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (const std::size_t i : rows) {
     const double since = std::max(0.0, c.time[i] - c.time[last]), p = c.pressure[i] - c.pressure[0];
     n += 1;
     x += since;
@@ -44,12 +46,15 @@ double left_by_rest(const Curve& c, std::size_t rows, std::size_t last) {
 }
 
 // Returns whether the record begins before the pressure moves: two rows or more at rest go with its
-// first tenth much better than a rise from the first row on does.
+// first tenth much better than a rise from the first row on does. Of many rows some are asked.
 bool rests_first(const Curve& c) {
-  const std::size_t moves = first_beyond(c, 0.03), rows = std::max(first_beyond(c, 0.1), moves + 2);
-  if (moves < 2 || rows > c.time.size()) return moves >= 2;
+  constexpr std::size_t enough = 200;
+  const std::size_t moves = first_beyond(c, 0.03), end = std::max(first_beyond(c, 0.1), moves + 2);
+  if (moves < 2 || end > c.time.size()) return moves >= 2;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < end; i += 1 + end / enough) rows.push_back(i);
   const double from_first = left_by_rest(c, rows, 0);
-  for (std::size_t last = 1; last < moves; ++last)
+  for (std::size_t last = 1; last < moves; last += 1 + moves / enough)
     if (left_by_rest(c, rows, last) < 0.5 * from_first) return true;
   return false;
 }

@@ -35,8 +35,8 @@
 
 namespace sinew::plant {
 
-// Loops over so few that each turn is written out: compilers leave
-// nested ones over matrices of three or four rows as loops, which cost more than what is in them.
+// Loops over so few that each turn is written out: compilers leave nested ones over matrices of
+// three or four rows as loops, which cost more than what is in them.
 
 // Visits 0 ... Count - 1, each as a constant of its own type.
 template <std::size_t Count, class Visit>

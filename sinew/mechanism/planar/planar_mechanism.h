@@ -13,8 +13,7 @@
 
 namespace sinew::plant {
 
-// The readings of a planar machine's sensors, and its true values,
-// from previews of world.h.
+// The readings of a planar machine's sensors, and its true values, from previews of world.h.
 
 class PlanarSenses {
  public:

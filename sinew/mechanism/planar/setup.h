@@ -1,4 +1,5 @@
-// mechanism/planar/setup.h - everything a planar world is made from.
+// mechanism/planar/setup.h - everything a planar world is made from, and the law of a joint's
+// end stops.
 #pragma once
 
 #include <array>

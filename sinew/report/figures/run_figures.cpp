@@ -23,8 +23,8 @@
 
 namespace sinew::report {
 
-// What the figures of one run have in common: its samples in shown
-// units, what is shaded, and what captions say of it.
+// What the figures of one run have in common: its samples in shown units, what is shaded, and what
+// captions say of it.
 
 // Holds what captions and curves say of a run.
 struct RunWords {

@@ -1,4 +1,5 @@
-// report/page/content.h - the parts of a page's JSON, and the columns that they refer to.
+// report/page/content.h - the parts of a page's JSON, the columns that they refer to, and the
+// bytes that hold the columns' samples.
 #pragma once
 
 #include <cstddef>

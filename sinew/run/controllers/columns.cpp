@@ -53,7 +53,7 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
   const int s = robot::tension_sensor_of(robot, static_cast<int>(muscle));
   if (s < 0) return;
   const auto channel = static_cast<std::size_t>(s);
-  const robot::Line line = robot::own_tension(robot.sensors[channel], robot.converter);
+  const robot::SensorLine line = robot::own_tension(robot.sensors[channel], robot.converter);
   out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
              "measured, by its own transducer's scale; clips",
              [=](const Snapshot& m) { return line.value(m.seen->reading(channel).counts); });

@@ -44,8 +44,8 @@ std::vector<std::string> figures_in(const std::filesystem::path& folder);
 std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine,
                          const units::ShownUnits* shown = nullptr);
 
-// The characteristic of a muscle as figures: tension over length at
-// several pressures, by the law of its file.
+// The characteristic of a muscle as figures: tension over length at several pressures, by the law
+// of its file.
 
 // Returns whether the path names a TOML file, which may hold muscles, and not a run.
 bool is_muscle_file(const std::filesystem::path& named);

@@ -1,5 +1,5 @@
 // run/folder/files.h - files that are written whole or not at all, and never in the place of what
-// is not theirs.
+// is not theirs; and how a path is refused.
 #pragma once
 
 #include <filesystem>

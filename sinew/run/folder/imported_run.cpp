@@ -27,15 +27,15 @@ namespace {
 using Kind = robot::Sensor::Kind;
 
 // A sensor's quantity: its topic, and the line between its values and counts.
-struct Line : robot::Line {
+struct ChannelLine : robot::SensorLine {
   std::string topic, unit;
 };
 
-Line line_of(const robot::Robot& robot, const robot::Sensor& sensor, double atmosphere) {
+ChannelLine line_of(const robot::Robot& robot, const robot::Sensor& sensor, double atmosphere) {
   const double per_volt = robot.converter.counts_per_volt();
   const int joint = robot::find_joint(robot, sensor.of);
   const int muscle = robot::find_muscle(robot, sensor.of);
-  Line out;
+  ChannelLine out;
   out.count_at_zero = sensor.assumed_at_rest;
   out.counts_per_unit = sensor.assumed_scale;
   if (sensor.kind == Kind::angle && joint >= 0) {
@@ -45,7 +45,7 @@ Line line_of(const robot::Robot& robot, const robot::Sensor& sensor, double atmo
   } else if (sensor.kind == Kind::tension && muscle >= 0) {
     out.topic = robot::topic_of_muscle(robot, static_cast<std::size_t>(muscle)) + "/tension";
     out.unit = "N";
-    static_cast<robot::Line&>(out) = robot::own_tension(sensor, robot.converter);
+    static_cast<robot::SensorLine&>(out) = robot::own_tension(sensor, robot.converter);
   } else if (sensor.kind == Kind::pressure && muscle >= 0) {
     out.topic = robot::topic_of_muscle(robot, static_cast<std::size_t>(muscle)) + "/pressure";
     out.unit = "Pa";
@@ -66,7 +66,7 @@ class Filler {
  public:
   Filler(signals::Table& table, const robot::Robot& robot) : table_(table), robot_(robot) {}
 
-  void counts_of(const robot::Sensor& sensor, const Line& line) {
+  void counts_of(const robot::Sensor& sensor, const ChannelLine& line) {
     const signals::Series from = *table_.find(line.topic);  // copies share their samples
     const double top = robot_.converter.top();
     std::size_t beyond = 0;
@@ -84,7 +84,7 @@ class Filler {
           line.topic, beyond, from.time_ns.size()));
   }
 
-  void quantity_of(const robot::Sensor& sensor, const Line& line) {
+  void quantity_of(const robot::Sensor& sensor, const ChannelLine& line) {
     add(line.topic, line.unit, fmt::format("from {} by the sensor's scale", name_of(sensor)),
         signals::Series(*table_.find(name_of(sensor))),
         [&](double count) { return line.value(count); });
@@ -149,7 +149,7 @@ std::vector<std::string> fill_channels(signals::Table& table, const robot::Robot
   Filler filler(table, robot);
   for (const robot::Sensor& sensor : robot.sensors) {
     const bool counts = table.find(Filler::name_of(sensor)) != nullptr;
-    const Line line = line_of(robot, sensor, atmosphere);
+    const ChannelLine line = line_of(robot, sensor, atmosphere);
     if (line.topic.empty() || line.counts_per_unit == 0) continue;
     const bool quantity = table.find(line.topic) != nullptr;
     const bool wanted = std::ranges::count(logged, line.topic, &signals::Topic::name) > 0;

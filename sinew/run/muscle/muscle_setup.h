@@ -28,9 +28,8 @@ struct MuscleSetup {
   // say [m]. Pressure of its air there, absolute [Pa].
   double length = 0, pressure = 0;
 
-  std::string text;  // a file that says the same wherever it is, with every source
-  std::uint64_t model =
-      0;  // stands for the muscle's name and all values of the file: muscle_setup.h
+  std::string text;         // a file that says the same wherever it is, with every source
+  std::uint64_t model = 0;  // a hash of the muscle's name and all values of the file
 };
 
 // Reads a muscle of a rig, robot or experiment file, with settings over it ("element.count=2"). An

@@ -54,8 +54,8 @@ Tuned optimize(const Tuning& tuning, const TuneOptions& options);
 Asked asked_of(const Tuning& tuning);
 CandidateRow row_of(const Candidate& candidate);
 
-// A tuning whose study is kept in a file: each row as soon as its run is
-// done, each candidate as soon as its generation is.
+// A tuning whose study is kept in a file: each row as soon as its run is done, each candidate as
+// soon as its generation is.
 
 // How a tuning is run that is kept in a file.
 struct KeptOptions {

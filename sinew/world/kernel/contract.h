@@ -1,6 +1,6 @@
 // world/kernel/contract.h - what a world needs of its mechanism and of its air.
 //
-// A mechanism (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
+// A mechanism (planar/chain_body.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
 //
 //   Scalar         a double, or a pack of them: mechanisms side by side
 //   Motion         the generalized state: coordinates, rates      Acceleration   d(rates)/dt

@@ -23,7 +23,8 @@
 //
 // Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts; contract.h
 //            says what it has to have, and what the air
-// Senses     of the mechanism: what its sensors read and what a simulation tells (planar/senses.h,
+// Senses     of the mechanism: what its sensors read and what a simulation tells
+// (planar/planar_mechanism.h,
 //            slide/senses.h)
 // Air        what fills the muscles: valves, masses, pressures, tensions (air/network.h,
 //            slide/stand_air.h)
