@@ -345,12 +345,12 @@ Code Program::arm(const link::ArmSecond& m) noexcept {
   return Code::done;
 }
 
-// An armed board takes the one that its run begins with, no other.
+// An armed board takes the one that its run begins with before any other.
 Code Program::command(const link::CommandFor& m) noexcept {
   const bool armed = safety_.state() == BoardState::armed;
   if (!armed && safety_.state() != BoardState::running && safety_.state() != BoardState::hold)
     return Code::state;
-  if (armed && m.from != 0) return Code::period;
+  if (armed && !starts_ && m.from != 0) return Code::period;
   if (m.joints > telemetry_.joints) return Code::value;
   quiet_ = true;
   const Tick begun = armed ? -Tick{safety_.machine().period} : command_begun_;

@@ -98,6 +98,9 @@ TEST(Program, NothingMovesBeforeTwoDifferentFramesHaveArmedIt) {
   b.configure(leg_configuration());
   EXPECT_EQ(b.last(), Code::state) << "armed";
   b.send(command_of(command, 0));
+  const std::size_t answers = b.answers.size();
+  b.send(command_of(command, 100));
+  EXPECT_EQ(b.answers.size(), answers) << "the next one may come before the run has begun";
   b.run(1);
   EXPECT_EQ(b.program.safety().state(), BoardState::running);
 }

@@ -250,7 +250,7 @@ bool Supervisor::possible(std::size_t j, const JointCommand& command) const noex
   if (!within(command.stiffness, limit.max_stiffness)) return false;
   for (const float gain : {command.gains.angle, command.gains.stiffness, command.gains.velocity})
     if (!within(gain, limit.max_gain)) return false;
-  if (command.timed) return possible(command.openings);
+  if (command.timed) return is_timed(config().joint[j].kind) && possible(command.openings);
   return !command.open_loop || control::possible(command.duties);
 }
 

@@ -27,6 +27,10 @@ TEST(Supervisor, ImpossibleCommandsAreRejected) {
       [](JointCommand& c) { c.angle = 40'000; },
       [](JointCommand& c) { c.duties.flexor_inlet = 101; },
       [](JointCommand& c) { c.duties.extensor_exhaust = -1; },
+      [](JointCommand& c) {  // this joint has a law
+        c.timed = true;
+        c.openings = {};
+      },
   };
   for (const auto& spoil : wrong) {
     Stand stand;
@@ -40,6 +44,24 @@ TEST(Supervisor, ImpossibleCommandsAreRejected) {
     stand.run(2);
     EXPECT_EQ(stand.supervised().rejected_commands, 2u);
     EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  }
+}
+
+TEST(Supervisor, OpeningsOfATimedJointEndWithItsPeriod) {
+  JointControllerConfig leg = test_leg();
+  leg.joint[hip].kind = JointKind::timed;
+  leg.joint[hip].extensor.present = false;
+  for (const Openings& openings : {Openings{{101, 0}, {}}, Openings{{0, 101}, {}},
+                                   Openings{{}, {101, 0}}, Openings{{}, {0, 101}}}) {
+    Stand stand(limits(), leg);
+    JointCommand& command = stand.command.joint[hip];
+    command.timed = true;
+    command.openings = {{0, 50}, {100, 100}};
+    stand.run(2);
+    EXPECT_EQ(stand.supervised().rejected_commands, 0u);
+    command.openings = openings;
+    stand.run(2);
+    EXPECT_EQ(stand.supervised().rejected_commands, 2u);
   }
 }
 

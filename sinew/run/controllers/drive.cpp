@@ -48,12 +48,14 @@ Drive::Drive(const experiment::Experiment& e)
   const Tick end = experiment::last_tick(e);
   for (const experiment::Stand::Drive::Pulse& p : drive_.pulses) {
     const std::uint8_t valve = p.exhaust ? 1 : 0;
-    const Tick at = whole_ticks(p.at);
-    if (at >= end) continue;
+    const Tick at = whole_ticks(p.at), open = whole_ticks(p.open);
+    if (at >= end || open == 0) continue;
     planned_.push_back({.at = at, .valve = {valve}, .open = true});
-    planned_.push_back({.at = at + whole_ticks(p.open), .valve = {valve}, .open = false});
+    planned_.push_back({.at = at + open, .valve = {valve}, .open = false});
   }
-  std::ranges::stable_sort(planned_, {}, &signals::Edge::at);
+  // Where a valve shuts and opens at one tick, it opens last.
+  std::ranges::stable_sort(planned_, {},
+                           [](const signals::Edge& edge) { return std::pair(edge.at, edge.open); });
   if (bundle_.actuator.braid.turns > 0 && e.stand->start_length > 0)
     state_.assumed_air = air_at(bundle_, air_, e.stand->start_length, e.stand->start_pressure);
   command_[0].enabled = command_[0].timed = true;
@@ -119,7 +121,9 @@ control::Opening Drive::opening(double share) const noexcept {
   return {0, static_cast<std::uint16_t>(std::clamp<Tick>(open, 0, period_))};
 }
 
-// A valve opens at most once in a period and shuts at most once (experiment/check_stand.cpp).
+// A valve opens at most once in a period and shuts at most once (experiment/check.cpp);
+// where it shuts and opens at one tick it stays open. Edges before t are of periods whose telemetry
+// was lost.
 void Drive::plan_openings(Tick t) noexcept {
   const auto period = static_cast<std::uint16_t>(period_);
   std::array<control::Opening, 2> out{};
@@ -129,11 +133,14 @@ void Drive::plan_openings(Tick t) noexcept {
     const signals::Edge& edge = planned_[state_.next];
     control::Opening& opening = out[edge.valve.index];
     if (std::exchange(state_.open[edge.valve.index], edge.open) == edge.open) continue;
-    const auto at = static_cast<std::uint16_t>(edge.at - t);
+    const auto at = static_cast<std::uint16_t>(std::max<Tick>(edge.at - t, 0));
     if (!edge.open)
       opening.until = at;
+    else if (opening.from == opening.until)
+      opening = {at, period};
     else
-      opening = {at, opening.from == opening.until ? period : opening.until};
+      opening = opening.until == at ? control::Opening{opening.from, period}
+                                    : control::Opening{at, opening.until};
   }
   command_[0].openings = {out[0], out[1]};
 }

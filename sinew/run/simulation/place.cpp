@@ -56,8 +56,14 @@ void refuse_faults(const experiment::Experiment& e, const std::string& place) {
            "none: only a simulated machine is broken by a word");
 }
 
+// In ticks, as a pulse may begin at the instant at which another one ends.
 bool overlap(const Pulse& a, const Pulse& b) {
-  return a.at < b.at + b.open && b.at < a.at + a.open;
+  const auto ticks = [](double seconds) { return std::llround(seconds / signals::tick_seconds); };
+  const auto begins_within = [&](const Pulse& one, const Pulse& other) {
+    const signals::Tick since = ticks(one.at) - ticks(other.at);
+    return since >= 0 && since < ticks(other.open);
+  };
+  return begins_within(a, b) || begins_within(b, a);
 }
 
 void refuse_what_no_board_of_a_stand_can(const experiment::Experiment& e,

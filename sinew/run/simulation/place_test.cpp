@@ -66,6 +66,9 @@ TEST(Place, WhatNoBoardOfAStandCanDoIsRefusedByItsKey) {
   expect("pwm-25hz-5lb", {}, "sensor: found none; expected at least one");
   expect("duty-sweep", {}, "sweep: found many runs; expected none");
   expect("isometric", {at_once}, "drive.pulses[1]: found an inlet that is open meanwhile");
+  const std::string one_after_another =
+      R"(drive.pulses=[{at="0.1 s",open="200 ms"},{at="0.3 s",open="9 ms",exhaust=true}])";
+  expect("isometric", {one_after_another, "log.period=40 ms"}, "No such file");
   EXPECT_NE(refusal("rig/feedback", {}, "comedi:/dev/no-such-card").find("on a test stand"),
             std::string::npos);
 }

@@ -124,6 +124,8 @@ RemoteBoards::RemoteBoards(Boards& shown, plant::RemoteBoard& board, int lead)
 
 void RemoteBoards::command(const MachineCommand& command) noexcept { command_ = command; }
 
+// A law goes on with its last command, so that period 0 has the plan's first one. Openings are for
+// one period: where commands are sent ahead, period 0 has none, and all others come as much later.
 bool RemoteBoards::send(Tick t) noexcept {
   if (end_sent_) return true;
   link::CommandFor out{.from = t == 0 ? 0 : t + lead_ * period_,
@@ -132,6 +134,13 @@ bool RemoteBoards::send(Tick t) noexcept {
                        .joints = static_cast<std::uint8_t>(joint_.size())};
   for (std::size_t j = 0; j < joint_.size(); ++j) out.joint[j] = command_[joint_[j]];
   end_sent_ = out.ends;
+  if (t == 0 && lead_ > 0 && std::ranges::any_of(out.joint, &control::JointCommand::timed)) {
+    link::CommandFor first = out;
+    for (control::JointCommand& c : first.joint)
+      if (c.timed) c.openings = {};
+    if (!board_->command(first)) return false;
+    out.from = lead_ * period_;
+  }
   return board_->command(out);
 }
 

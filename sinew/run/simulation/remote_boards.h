@@ -7,7 +7,8 @@
 //   down        command        command        command      for `lead` periods later
 //
 // Over a real line a command is on its way while its period begins, so it is sent one period ahead
-// (lead 1: the plan comes 10 ms later than in a simulation). Where the board waits for the host
+// (lead 1: the plan comes one period later than in a simulation: 10 ms, or a test stand's
+// drive.period). Where the board waits for the host
 // (lead 0, an emulator in lock step) it is the simulation's, bit for bit.
 #pragma once
 

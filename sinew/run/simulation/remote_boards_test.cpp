@@ -27,13 +27,22 @@ struct Bench {
   explicit Bench(const experiment::Experiment& e)
       : experiment(e),
         body(e),
-        board(body.wires()),
+        board(watched(body.wires())),
         remote(board.line(), 1, only_board(e).spine.period) {}
 
-  Outcome run() {
+  Outcome run(int lead = 0) {
     remote.prepare(configuration_of(experiment));
     first = board.periods;
-    return run::run(experiment, {.board = &remote, .lead = 0});
+    return run::run(experiment, {.board = &remote, .lead = lead});
+  }
+  plant::Wires watched(plant::Wires wires) {
+    const auto valves = wires.valves;
+    const signals::Tick end = experiment::last_tick(experiment);
+    wires.valves = [=, this](signals::Tick tick, std::uint32_t open, bool current) {
+      if (tick >= 0 && tick < end) opened.emplace_back(tick, open);
+      valves(tick, open, current);
+    };
+    return wires;
   }
   // `what` happens in a period of the run, before the host hears what the board said in it.
   void in_period(int which, std::function<void(std::vector<std::uint8_t>&)> what) {
@@ -42,8 +51,11 @@ struct Bench {
     };
   }
 
+  using Opened = std::vector<std::pair<signals::Tick, std::uint32_t>>;
+
   experiment::Experiment experiment;
   WiredBody body;
+  Opened opened;  // valves before the run's end, bit by bit, from which tick on
   BoardInThread board;
   plant::RemoteBoard remote;
   int first = -1;  // period of the run, by the board's count
@@ -78,6 +90,36 @@ TEST(RemoteBoards, ABoardsProgramHasTheSimulationsLogBitForBit) {
     EXPECT_EQ(simulated.duration, far.duration);
     ASSERT_NO_FATAL_FAILURE(expect_same_log(simulated.table, far.table));
   }
+}
+
+experiment::Experiment pulsed(const std::string& pulses) {
+  return loaded("rig/isometric", {"duration=1 s", "drive.period=40 ms", "log.period=80 ms",
+                                  "drive.pulses=[" + pulses + "]"});
+}
+
+// Openings are for one period each: none gets lost on the way, from the first period on.
+TEST(RemoteBoards, CommandsThatAreSentAheadOpenAStandsValvesOnePeriodLater) {
+  Bench bench(pulsed(R"({at="10 ms",open="100 ms"},{at="0.2 s",open="8 ms",exhaust=true})"));
+  const Outcome far = bench.run(1);
+  EXPECT_EQ(far.line, "");
+  EXPECT_FALSE(far.ended_early());
+  const signals::Tick later = 400;
+  const Bench::Opened expected = {
+      {later + 100, 1}, {later + 1'100, 0}, {later + 2'000, 2}, {later + 2'080, 0}};
+  EXPECT_EQ(bench.opened, expected);
+}
+
+TEST(RemoteBoards, AStandsValvesGoOnAsPlannedAfterTelemetryThatIsLost) {
+  Bench bench(pulsed(R"({at="10 ms",open="130 ms"},{at="0.15 s",open="58 ms",exhaust=true})"));
+  const int lost = 3;  // from 120 ms on nothing opens
+  bench.in_period(lost, [&](auto& bytes) {
+    if (bench.board.periods - bench.first == lost) bytes.clear();
+  });
+  const Outcome far = bench.run();
+  EXPECT_EQ(far.lost, 1u);
+  EXPECT_EQ(far.supervised.rejected_commands, 0u);
+  const Bench::Opened expected = {{100, 1}, {1'200, 0}, {1'600, 2}, {2'080, 0}};
+  EXPECT_EQ(bench.opened, expected);
 }
 
 // A line that loses one frame of a start-up: the n-th that the host sends, or the n-th identity or

@@ -154,6 +154,23 @@ TEST(RigRun, CommandedDutyThroughDelaysIsTheDeliveredOne) {
 }
 
 // Feedback sees counts: noise and a load that it does not know move the muscle back all the same.
+TEST(RigRun, PulsesThatFollowEachOtherAreOneLongPulse) {
+  const auto table = [](const std::string& pulses) {
+    return run(experiment::load(
+                   sinew::test::source_dir() + "/experiments/rig/isometric.toml",
+                   {"duration=1 s", "drive.period=40 ms", "drive.pulses=[" + pulses + "]"}))
+        .table;
+  };
+  const signals::Table one = table(R"({at="30 ms",open="60 ms"})");
+  for (const char* pulses : {R"({at="30 ms",open="20 ms"},{at="50 ms",open="40 ms"})",
+                             R"({at="50 ms",open="40 ms"},{at="30 ms",open="20 ms"})",
+                             R"({at="30 ms",open="10 ms"},{at="40 ms",open="50 ms"})",
+                             R"({at="30 ms",open="60 ms"},{at="0.5 s",open="0.01 ms"})"}) {
+    SCOPED_TRACE(pulses);
+    ASSERT_NO_FATAL_FAILURE(expect_same(one, table(pulses)));
+  }
+}
+
 TEST(RigRun, FeedbackGoesBackAfterATug) {
   const Experiment e = experiment::load(folder + "feedback.toml");
   const signals::Table table = run(e).table;
