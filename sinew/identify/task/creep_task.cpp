@@ -8,8 +8,8 @@
 
 namespace sinew::identify {
 
-CreepResult find_creep(const std::vector<Source>& sources, host::Tally* tried) {
-  return identify_creep(read_measured(only_of(sources), creep_columns()), tried);
+CreepResult find_creep(const std::vector<Source>& sources, const CreepSettings& settings) {
+  return identify_creep(read_measured(only_of(sources), creep_columns()), settings.tried);
 }
 
 Json to_json(const CreepResult& found) {

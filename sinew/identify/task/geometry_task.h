@@ -7,16 +7,35 @@
 #include <vector>
 
 #include "sinew/identify/actuator/geometry.h"
-#include "sinew/json/json.h"
+#include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
 
+// Settings, as texts; fields() describes them.
 struct GeometrySettings {
-  std::string name = "bpa";               // of the actuator
-  std::string thread_thickness = "0 mm";  // taken off diameters
-  std::string trapezoids;                 // "37,16": counted lengthwise and around
-  std::string side;                       // of one trapezoid
+  std::string trapezoids, side, thread_thickness = "0 mm", name = "bpa";
 };
+
+template <class Visitor>
+void fields(Visitor& v, GeometrySettings& s) {
+  v.method({.name = "geometry",
+            .doc = "thread length and turns, from counted trapezoids or from lengths and diameters",
+            .tables = Tables::optional});
+  v.text({.name = "trapezoids",
+          .doc = "LENGTHWISE,AROUND counted on the opened mesh, instead of data"},
+         s.trapezoids);
+  v.quantity({.name = "side",
+              .unit = "m",
+              .range = config::above_zero(1, "of one trapezoid between two threads"),
+              .doc = "of one trapezoid"},
+             s.side);
+  v.quantity({.name = "thread_thickness",
+              .unit = "m",
+              .range = config::from_zero(0.1, "of one thread"),
+              .doc = "taken off diameters that were measured outside the threads"},
+             s.thread_thickness);
+  v.text({.name = "name", .doc = "of the actuator"}, s.name);
+}
 
 // Holds what was found, with the actuator's file.
 struct GeometryFound {
@@ -25,9 +44,9 @@ struct GeometryFound {
   std::string file;              // the actuator's
 };
 
-// Throw config::Error and Refusal. The first asks tables, the second what was counted.
+// Reads one table; without a table it takes the counted trapezoids. Throws config::Error and
+// Refusal.
 GeometryFound find_geometry(const std::vector<Source>& sources, const GeometrySettings& settings);
-GeometryFound count_geometry(const GeometrySettings& settings);
 
 // Returns the report, if there is one, with the braid, as `--json` prints it.
 Json to_json(const GeometryFound& found);

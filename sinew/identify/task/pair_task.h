@@ -6,23 +6,48 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/wish.h"
 #include "sinew/identify/pair/pair.h"
-#include "sinew/json/json.h"
+#include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
 
-// What is asked.
+// Settings, as texts; fields() describes them.
 struct PairSettings {
-  std::string rigs;              // of each table, between commas; empty: all are of one
-  std::string hold_out;          // "7 s..14 s", "7 s..": of each table; empty: none
-  std::vector<Source> held_out;  // tables that score the laws; may be among those that are given
-  std::string window = "20 ms";  // of the parabolas that give rates
-  WishTexts wishes;              // frozen, tied, prior
-  std::string model;             // this law alone; empty: all
-  std::string joint = "joint";   // its name in a robot's file
-  std::string base;              // the robot's file whose joint it is; empty: none
+  std::string rigs;
+  HeldOut hold_out;
+  std::string window = "20 ms", model;
+  WishTexts wishes;
+  std::string joint = "joint", base;
 };
+
+template <class Visitor>
+void fields(Visitor& v, PairSettings& s) {
+  v.method({.name = "pair",
+            .doc = "stiffness, dry friction, losses and trapped air of an antagonistic pair that "
+                   "is sealed and moved by hand or motor"});
+  v.text({.name = "rigs",
+          .doc = "A,A,B: the rig of each file; recordings of one have its sensors in common",
+          .at_commas = true},
+         s.rigs);
+  v.hold_out({.name = "hold_out",
+              .doc = "\"7 s..14 s\" or \"7 s..\": times of each file, or a FILE, that score the "
+                     "laws and are not fitted",
+              .repeats = true},
+             s.hold_out);
+  v.quantity({.name = "window",
+              .unit = "s",
+              .range = config::above_zero(10, "of a few samples"),
+              .doc = "of the parabolas that give velocity and acceleration"},
+             s.window);
+  v.choice({.name = "model", .doc = "only this law", .words = pair_models()}, s.model);
+  fields(v, s.wishes);
+  v.text({.name = "joint",
+          .doc = "its name in the robot's file that is written",
+          .keyword = "joint_name"},
+         s.joint);
+  v.file({.name = "base", .doc = "robot whose joint it is, named in the file that is written"},
+         s.base);
+}
 
 // Holds what was found, with the robot's file.
 struct PairFound {
@@ -33,10 +58,10 @@ struct PairFound {
   std::string file(const std::string& out) const;
 };
 
-// Is the text a range of times, "7 s..14 s", rather than a file's name?
+// Returns whether the text is a range of times, "7 s..14 s", rather than a file's name.
 bool is_time_range(std::string_view text);
 
-// Throws config::Error and Refusal; std::invalid_argument for a model that there is not.
+// Throws config::Error and Refusal.
 PairFound find_pair(const std::vector<Source>& sources, const PairSettings& settings);
 
 // Returns the report with stiffness, sensors and trapped air, as `--json` prints it.

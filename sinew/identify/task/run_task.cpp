@@ -77,8 +77,8 @@ std::vector<std::string> frozen_keys(const std::vector<std::string>& texts,
   return out;
 }
 
-double share_of(const std::string& text) {
-  const double share = config::quantity_setting("hold_out", text, "1");
+// Returns the share of the run that is held out, which `text` gave.
+double share_of(const std::string& text, double share) {
   if (share >= 0 && share < most_held_out) return share;
   config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
                fmt::format("a share of the run, from 0 to below {:g} %", 100 * most_held_out),
@@ -91,9 +91,9 @@ RunFitOptions options_of(const RunFitSettings& settings, experiment::Experiment&
   RunFitOptions out{
       .fit = settings.fit, .threads = settings.threads, .progress = settings.progress};
   out.frozen = frozen_keys(settings.freeze, settings.fit, e);
-  out.hold_out = share_of(settings.hold_out);
-  out.from = config::quantity_setting("from", settings.from, "s", units::atmosphere,
-                                      config::from_zero(1e6, "a time of the run"));
+  const SettingValues values(settings);
+  out.hold_out = share_of(settings.hold_out, values.of(settings.hold_out));
+  out.from = values.of(settings.from);
   for (const std::string& prior : settings.priors) out.priors.push_back(prior_of(prior, e));
   return out;
 }

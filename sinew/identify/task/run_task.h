@@ -7,24 +7,65 @@
 #include <vector>
 
 #include "sinew/identify/machine/run_fit.h"
-#include "sinew/json/json.h"
+#include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
 
-// The settings of `sinew identify run`, as texts.
+// Settings, as texts; fields() describes them.
 struct RunFitSettings {
-  std::string run;                  // its folder, or its log
-  std::string machine;              // what was run, in place of the folder's
-  std::vector<std::string> sets;    // "key=value": where the search begins, and what is known
-  std::vector<std::string> fit;     // keys and groups; empty: all groups
-  std::vector<std::string> priors;  // "joint.hip.damping=0.2 N m s/rad +- 0.05 N m s/rad"
-  std::vector<std::string> freeze;  // "key=value": what is known and not searched
-  std::string hold_out = "20 %";    // of the run, at its end
-  std::string from = "0 s";         // what is before is not compared
-  int threads = 0;                  // 0: one for each processor
-  std::string base;                 // the robot's file that the found one adds to; empty: none
-  std::function<void(const std::string&)> progress;
+  std::string run;
+  std::vector<std::string> fit;
+  std::string machine;
+  std::vector<std::string> sets, priors, freeze;
+  std::string hold_out = "20 %", from = "0 s";
+  int threads = 0;
+  std::string base;
+  std::function<void(const std::string&)> progress;  // is given a line now and then; empty: nothing
 };
+
+template <class Visitor>
+void fields(Visitor& v, RunFitSettings& s) {
+  v.method({.name = "run",
+            .doc = "friction, damping, dead times, volumes, leaks from a run of a robot itself",
+            .tables = Tables::none});
+  v.file({.name = "run",
+          .doc = "a run's folder, or a log file; an imported recording's too",
+          .option = "RUN",
+          .required = true},
+         s.run);
+  v.texts({.name = "fit",
+           .doc = "keys, and groups of them: friction, damping, dead-time, volume, leak; absent: "
+                  "all groups",
+           .at_commas = true},
+          s.fit);
+  v.file({.name = "machine", .doc = "what was run, in place of the folder's"}, s.machine);
+  v.texts({.name = "sets",
+           .doc = "KEY=VALUE: where the search begins, or what is known",
+           .option = "start,set"},
+          s.sets);
+  v.texts({.name = "priors",
+           .doc = "\"KEY=VALUE +- DEVIATION\": what is known of a fitted number",
+           .option = "prior"},
+          s.priors);
+  v.texts({.name = "freeze", .doc = "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
+  v.quantity(
+      {.name = "hold_out", .unit = "1", .doc = "of the run, at its end: scores and is not fitted"},
+      s.hold_out);
+  v.quantity({.name = "from",
+              .unit = "s",
+              .range = config::from_zero(1e6, "a time of the run"),
+              .doc = "what is before is not compared",
+              .keyword = "begin"},
+             s.from);
+  v.integer({.name = "threads",
+             .range = {0, 1024, "simulations"},
+             .doc = "simulations at once; 0: one for each processor"},
+            s.threads);
+  v.file({.name = "base",
+          .doc = "the robot's file, named in the one that is written",
+          .of_file = true},
+         s.base);
+}
 
 // Holds what was found, with the robot's file.
 struct RunFitFound {

@@ -70,8 +70,7 @@ ScaleFound find_scaled(const ScaleSettings& s) {
   const auto file = experiment::load_machine_file(s.file);
   const actuator::Actuator old =
       config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
-  const double rest_length =
-      config::quantity_setting("rest_length", s.rest_length, "m", atmosphere, new_length);
+  const double rest_length = SettingValues(s, atmosphere).of(s.rest_length);
   ScaleFound out{.actuator = with_rest_length(old, rest_length, atmosphere),
                  .from = old.prediction.rest_length,
                  .file = {}};

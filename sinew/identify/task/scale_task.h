@@ -5,20 +5,38 @@
 #include <string>
 
 #include "sinew/actuator/actuator.h"
-#include "sinew/json/json.h"
+#include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
 
-// The settings of `sinew identify scale`, as texts.
+// Settings, as texts; fields() describes them.
 struct ScaleSettings {
-  std::string file;         // with the actuator that was identified
-  std::string actuator;     // its name; empty: the only one
-  std::string rest_length;  // of the new muscle, "120 mm"
-
-  std::string reading;  // of the new muscle at rest, "115 mm, 4 bar gauge, 210 N"; empty: none
-  std::string name;     // of the new actuator; empty: as in the file
-  std::string atmosphere = "14.7 psi";
+  std::string file, rest_length, actuator, reading, name, atmosphere = "14.7 psi";
 };
+
+template <class Visitor>
+void fields(Visitor& v, ScaleSettings& s) {
+  v.method({.name = "scale",
+            .doc = "a muscle of another rest length than those that were measured",
+            .tables = Tables::none});
+  v.file({.name = "file",
+          .doc = "an actuator that `identify static` wrote",
+          .option = "FILE",
+          .required = true},
+         s.file);
+  v.quantity({.name = "rest_length",
+              .unit = "m",
+              .range = config::above_zero(1000, "of a muscle"),
+              .doc = "of the new muscle, without pressure and load",
+              .required = true},
+             s.rest_length);
+  v.text({.name = "actuator", .doc = "which one, where the file has several"}, s.actuator);
+  v.text({.name = "reading",
+          .doc = "one of the new muscle at rest, to correct the law: \"LENGTH, PRESSURE, FORCE\""},
+         s.reading);
+  v.text({.name = "name", .doc = "of the new actuator; as in the file"}, s.name);
+  v.text({.name = "atmosphere", .doc = "the pressure of the room"}, s.atmosphere);
+}
 
 // The new muscle.
 struct ScaleFound {
@@ -29,11 +47,11 @@ struct ScaleFound {
   std::string file;         // sinew.actuator/1
 };
 
-// Throws config::Error for a file or a value that is none, Refusal where the file does not tell
+// Throws config::Error for a file or a value that is none, Refusal where the file does not have
 // the muscle's rest length or the reading is of something else.
 ScaleFound find_scaled(const ScaleSettings& settings);
 
-// Returns it as `--json` prints it, in SI; null where nobody knows.
+// Returns it as `--json` prints it, in SI; null where it is unknown.
 Json to_json(const ScaleFound& found);
 
 }  // namespace sinew::identify

@@ -13,11 +13,12 @@ namespace sinew::identify {
 
 namespace {
 
-CountScale converter_of(const SensorSettings& settings) {
-  (void)config::number_setting("bits", settings.bits, {1, 16, "of a converter"});
-  return {settings.bits,
-          config::quantity_setting("full_scale", settings.full_scale, "V", units::atmosphere,
-                                   config::above_zero(1000, "of a converter"))};
+// Returns the known value at rest [SI], which is text in the unit of what was set, or "0.1 SI".
+double rest_of(const std::string& text, std::string_view unit) {
+  if (text.empty()) return 0;
+  if (text.ends_with(" SI"))
+    return config::quantity_setting("rest", text.substr(0, text.size() - 3), "1");
+  return config::quantity_setting("rest", text, unit);
 }
 
 // The base must have these sensors, of this kind.
@@ -45,14 +46,13 @@ void warn_below_zero(Calibration& c) {
 
 SensorFound find_sensors(const std::vector<Source>& sources, const SensorSettings& settings) {
   const Source& source = only_of(sources);
-  const CountScale converter = converter_of(settings);
+  const CountScale converter{settings.bits, SettingValues(settings).of(settings.full_scale)};
   const SensorData data = read_sensor_data(source, converter, settings.known, settings.sensors);
-  const double rest = settings.rest.empty() ? settings.rest_value.value_or(0)
-                                            : config::quantity_setting("rest", settings.rest,
-                                                                       facts_of(data.kind).unit);
+  const double rest = rest_of(settings.rest, facts_of(data.kind).unit);
+  constexpr std::string_view level[] = {"level"};
   std::optional<SensorData> other;
-  if (settings.held_out)
-    other = read_sensor_data(*settings.held_out, converter, settings.known, settings.sensors);
+  for (const Source& table : held_out_tables(settings.hold_out, sources, level))
+    other = read_sensor_data(table, converter, settings.known, settings.sensors);
   Calibration c = identify_sensors(data, converter, rest, other ? &*other : nullptr);
   check_base(settings.base, c);
   warn_below_zero(c);

@@ -2,25 +2,59 @@
 // file.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/sensor/sensor.h"
+#include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
 
+// Settings, as texts; fields() describes them.
 struct SensorSettings {
-  std::string known;                 // the column that was set; empty: the only one
-  std::vector<std::string> sensors;  // columns to calibrate; empty: all in volts or counts
-  std::string rest;                  // the known value at rest; empty: 0, or …
-  std::optional<double> rest_value;  // … the same in SI
-  int bits = 12;                     // of the converter
-  std::string full_scale = "5 V";    // of the converter
-  std::optional<Source> held_out;    // another calibration; else each known value by the others
-  bool average = false;              // the controller believes in one scale for all of them
-  std::string base;                  // the robot's file whose sensors these are; empty: none
+  std::string known;
+  std::vector<std::string> sensors;
+  std::string rest;
+  int bits = 12;
+  std::string full_scale = "5 V";
+  HeldOut hold_out;
+  bool average = false;
+  std::string base;
 };
+
+template <class Visitor>
+void fields(Visitor& v, SensorSettings& s) {
+  v.method({.name = "sensor",
+            .doc = "scale, offset, linearity, hysteresis and noise of calibrated sensors"});
+  v.text({.name = "known",
+          .doc = "load, force, tension, angle, length, position, pressure or velocity: what was "
+                 "set, where the file has several"},
+         s.known);
+  v.texts({.name = "sensors",
+           .doc = "columns to calibrate; absent: all in volts or counts",
+           .at_commas = true},
+          s.sensors);
+  v.quantity({.name = "rest", .doc = "the known value at the joint's rest angle; absent: 0"},
+             s.rest);
+  v.integer({.name = "bits", .range = {1, 16, "of a converter"}, .doc = "of the converter"},
+            s.bits);
+  v.quantity({.name = "full_scale",
+              .unit = "V",
+              .range = config::above_zero(1000, "of a converter"),
+              .doc = "of the converter"},
+             s.full_scale);
+  v.hold_out({.name = "hold_out",
+              .doc = "level: every known value is predicted from the others; or another "
+                     "calibration; absent: level"},
+             s.hold_out);
+  v.flag({.name = "average",
+          .doc = "the controller assumes one scale for all of them, as the thesis's did"},
+         s.average);
+  v.file({.name = "base",
+          .doc = "the robot whose sensors these are: the parameter file is then a robot",
+          .of_file = true},
+         s.base);
+}
 
 // Holds what was found, and the robot's file that is written with it.
 struct SensorFound {

@@ -1,38 +1,91 @@
-// identify/task/static_task.h - `sinew identify static`: the static law of an actuator from force,
-// length and pressure.
+// identify/task/static_task.h - `sinew identify static` and `check`: the static law of an actuator
+// from force, length and pressure, and what is wrong with such tables.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/check/checkup.h"
+#include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
 
+// Settings of `static`, as texts; fields() describes them.
 struct StaticSettings {
-  std::string name = "bpa";            // of the actuator
-  std::string model;                   // this one alone; empty: the data choose
-  std::string rest_length;             // without pressure and load; empty: the longest length
-  std::string actuator;                // a file whose braid is taken as known; empty: none
-  std::string branch = "both";         // fill, vent or both
-  std::vector<std::string> fit_where;  // "NAME=VALUE,...": only such rows are fitted
-  std::string hold_out;                // pressure, length, muscle or another file
-  std::optional<Source> held_out;      // another table in place of a file
-  std::string diameter;              // without pressure, "10 mm", to compare its force with; empty:
-                                     // not known
-  bool anyway = false;               // fit where a check is red, too
-  std::vector<std::string> predict;  // rest lengths nobody measured: "rest_length=120 mm"
-  host::Tally* tried = nullptr;      // counts laws that have been tried; null: nothing
+  std::string rest_length, actuator, branch = "both";
+  std::vector<std::string> fit_where;
+  HeldOut hold_out;
+  std::string diameter;
+  bool anyway = false;
+  std::vector<std::string> predict;
+  std::string model, name = "bpa";
+  host::Tally* tried = nullptr;  // counts laws that have been tried; null: nothing
 };
+
+// Settings of `check`: those of `static` which concern the tables.
+struct CheckSettings {
+  StaticSettings how;
+};
+
+constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
+
+template <class Visitor>
+void table_fields(Visitor& v, StaticSettings& s) {
+  v.quantity({.name = "rest_length",
+              .unit = "m",
+              .range = actuator_length,
+              .doc = "of the muscle without pressure and load; without it the longest length"},
+             s.rest_length);
+  v.file({.name = "actuator", .doc = "a file whose braid is taken as known"}, s.actuator);
+  v.choice({.name = "branch",
+            .doc = "the points that are fitted: of filling, of venting, or both",
+            .words = {"fill", "vent", "both"}},
+           s.branch);
+  v.texts({.name = "fit_where",
+           .doc = "NAME=VALUE,...: only such rows are fitted, the others held out"},
+          s.fit_where);
+  v.hold_out({.name = "hold_out",
+              .doc = "pressure (every second), length or muscle (each once) or another FILE, to "
+                     "score what was not seen"},
+             s.hold_out);
+  v.quantity({.name = "diameter",
+              .unit = "m",
+              .range = config::above_zero(1, "of a muscle"),
+              .doc = "of the muscle without pressure and load, to compare its force with"},
+             s.diameter);
+}
+
+template <class Visitor>
+void fields(Visitor& v, StaticSettings& s) {
+  v.method({.name = "static",
+            .doc = "the static law of an actuator from force, length and pressure",
+            .laws = static_models().size()});
+  table_fields(v, s);
+  v.flag({.name = "anyway", .doc = "fit where a check is red, too; see `sinew identify check`"},
+         s.anyway);
+  v.texts({.name = "predict",
+           .unit = "m",
+           .doc = "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own"},
+          s.predict);
+  v.text({.name = "model", .doc = "this one alone"}, s.model);
+  v.text({.name = "name", .doc = "of the actuator"}, s.name);
+}
+
+template <class Visitor>
+void fields(Visitor& v, CheckSettings& s) {
+  v.method({.name = "check",
+            .doc = "are measurements plausible, and what can `identify static` find in them",
+            .has_file = false});
+  table_fields(v, s.how);
+}
 
 // Holds what was found, with the actuators' files.
 struct StaticFound {
   StaticResult result;
   std::vector<std::string> files;  // the actuator's, of each muscle; the longest first
 
-  // Muscles of the rest lengths that `predict` asked for, and their files.
+  // Muscles of the rest lengths that `predict` named, and their files.
   std::vector<StaticMuscle> predicted;
   std::vector<std::string> predicted_files;
 };
@@ -45,7 +98,7 @@ StaticData read_static(const std::vector<Source>& sources, const StaticSettings&
 // fitted anyway, suspicions become warnings of the report. Throws config::Error and Refusal.
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
-// Asks the tables what a fit would not, and tells what it could find: see identify/check/checkup.h.
+// Returns what a fit would not report, and what it could find: see identify/check/checkup.h.
 // Throws config::Error for settings that are none.
 Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings);
 

@@ -34,15 +34,6 @@ void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    "another file than those that are fitted");
 }
 
-Source beside(const std::vector<Source>& sources, std::string_view setting,
-              const std::string& file) {
-  refuse_fitted(sources, setting, file);
-  Source out = sources.front();
-  out.path = file;
-  out.text.reset();
-  return out;
-}
-
 std::vector<std::string> words_of(const std::vector<Source>& sources) {
   std::vector<std::string> out;
   for (const Source& source : sources) out.push_back(source.path);

@@ -6,19 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/task/creep_task.h"
-#include "sinew/identify/task/dynamic_task.h"
-#include "sinew/identify/task/geometry_task.h"
-#include "sinew/identify/task/joint_task.h"
-#include "sinew/identify/task/pair_task.h"
-#include "sinew/identify/task/sensor_task.h"
-#include "sinew/identify/task/static_task.h"
+#include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
-#include "sinew/identify/task/valve_task.h"
 #include "sinew/json/json.h"
 #include "tests/places.h"
 
@@ -86,12 +80,12 @@ TEST(Task, FindsTheBraidOfATable) {
 }
 
 TEST(Task, CountsTrapezoidsWithoutATable) {
-  const GeometryFound found = count_geometry({.trapezoids = "37,16", .side = "0.057 in"});
+  const GeometryFound found = find_geometry({}, {.trapezoids = "37,16", .side = "0.057 in"});
   EXPECT_FALSE(found.report.has_value());
   EXPECT_FALSE(to_json(found).contains("format"));
-  expect_begins(refusal([] { count_geometry({.trapezoids = "37", .side = "1 mm"}); }),
+  expect_begins(refusal([] { find_geometry({}, {.trapezoids = "37", .side = "1 mm"}); }),
                 "trapezoids: found \"37\"");
-  expect_begins(refusal([] { count_geometry({.trapezoids = "37,16", .side = "2 m"}); }),
+  expect_begins(refusal([] { find_geometry({}, {.trapezoids = "37,16", .side = "2 m"}); }),
                 "side: found \"2 m\"");
 }
 
@@ -102,6 +96,26 @@ TEST(Task, WantsItsTables) {
   expect_begins(refusal([] { refuse_fitted({{.path = actuator}}, "hold_out", actuator); }),
                 "hold_out: found ");
   expect_begins(refusal([] { atmosphere_setting("14.7 in"); }), "atmosphere: found ");
+}
+
+// The names of a method's settings are its own, each has its line, and the defaults are in order.
+TEST(Task, DescribesEachSettingOnce) {
+  std::size_t methods = 0;
+  for_each_method([&](const auto& settings) {
+    const SettingList list(settings);
+    EXPECT_FALSE(list.row().doc.empty()) << list.row().name;
+    std::set<std::string> names;
+    for (const Json& row : list.settings()) {
+      EXPECT_TRUE(names.insert(row["name"].string()).second) << row.text();
+      EXPECT_TRUE(names.insert("as " + row["keyword"].string()).second) << row.text();
+      EXPECT_GT(row["doc"].string().size(), 5u) << row.text();
+    }
+    const std::string wrong = refusal([&] { (void)SettingValues(settings); });
+    EXPECT_TRUE(wrong == "nothing" || wrong.find(": found nothing; expected") != wrong.npos)
+        << wrong;
+    ++methods;
+  });
+  EXPECT_EQ(methods, 12u);
 }
 
 // Records a joint with a spring of 12 N m/rad and 0.8 N m of dry friction, moved by hand.
@@ -119,9 +133,9 @@ std::vector<Source> moved_pair(const std::string& name = "pair.csv") {
 }
 
 TEST(Task, FindsAPairAndWritesItsJoint) {
-  const PairFound found = find_pair(moved_pair(), {.hold_out = "4 s..",
-                                                   .wishes = {.freeze = {"delay=0 s"}},
+  const PairFound found = find_pair(moved_pair(), {.hold_out = {{"4 s.."}, {}},
                                                    .model = "spring_bristle",
+                                                   .wishes = {.freeze = {"delay=0 s"}},
                                                    .joint = "knee"});
   EXPECT_NEAR(found.result.values.stiffness, 12, 0.1);
   EXPECT_NEAR(found.result.values.friction, 0.8, 0.03);
@@ -142,8 +156,9 @@ TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
     return refusal([&] { (void)find_pair(moved_pair(), s); });
   };
   expect_begins(asked({.rigs = "a,b"}), "rigs: found 2 names; expected 1");
-  expect_begins(asked({.hold_out = "9 s..4 s"}), "hold_out: found \"9 s..4 s\"; expected a time");
-  expect_begins(asked({.hold_out = "late"}), "hold_out: found \"late\"; expected times");
+  expect_begins(asked({.hold_out = {{"9 s..4 s"}, {}}}),
+                "hold_out: found \"9 s..4 s\"; expected a time");
+  expect_begins(asked({.hold_out = {{"late"}, {}}}), "hold_out: found \"late\"; expected times");
   expect_begins(asked({.window = "0 s"}), "window: found");
   expect_begins(asked({.wishes = {.freeze = {"delay=1 m"}}}), "freeze: found \"1 m\"");
   EXPECT_TRUE(is_time_range("7 s..") && is_time_range("..3 s") && is_time_range("1 s..2 s"));
@@ -172,7 +187,9 @@ TEST(Task, TellsASettingByItsName) {
   expect_begins(refusal([&] { find_sensors(any, {.bits = 40}); }), "bits: found 40");
   expect_begins(refusal([] { find_geometry(mesh(), {.thread_thickness = "1 m"}); }),
                 "thread_thickness: found");
-  expect_begins(refusal([&] { find_static(any, {.branch = "up"}); }), "numbers");
+  expect_begins(refusal([&] { find_static(any, {}); }), "numbers");
+  expect_begins(refusal([&] { find_static(any, {.branch = "up"}); }), "branch: found \"up\"");
+  expect_begins(refusal([&] { find_dynamic(any, {.actuator = actuator}); }), "mass: found nothing");
 }
 
 }  // namespace
