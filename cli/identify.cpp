@@ -96,72 +96,55 @@ constexpr Example examples[] = {
 
 // --- the options of a line ---
 
+using Row = identify::Setting;
+
 // Adds the options of a method's settings. A visitor of identify/task/settings.h.
-class SettingOptions {
+class SettingOptions : public identify::RowVisitor<SettingOptions> {
  public:
-  using Row = identify::Setting;
   explicit SettingOptions(Command sub) : sub_(sub) {}
 
-  void method(const identify::MethodRow& row) { (void)row; }
-  void quantity(const Row& row, std::string& value) { (void)add(row, value); }
-  void quantities(const Row& row, std::string& value) { (void)add(row, value); }
-  void text(const Row& row, std::string& value) { (void)add(row, value); }
-  void file(const Row& row, std::string& value) { (void)add(row, value); }
-  void choice(const Row& row, std::string& value) { add(row, value).is_one_of(row.words); }
-  void integer(const Row& row, int& value) {
+  void row(const Row& row, std::string& value) {
+    Option option = sub_.add_option(names_of(row), value, std::string(row.doc));
+    if (row.is_required) option.required();
+    if (!row.words.empty()) option.is_one_of(row.words);
+    if (!value.empty()) option.show_default();
+  }
+  void row(const Row& row, int& value) {
     sub_.add_option(names_of(row), value, std::string(row.doc)).show_default();
   }
-  void flag(const Row& row, bool& value) {
+  void row(const Row& row, bool& value) {
     sub_.add_flag(names_of(row), value, std::string(row.doc));
   }
-  void texts(const Row& row, std::vector<std::string>& value) {
+  void row(const Row& row, std::vector<std::string>& value) {
     Option option = sub_.add_option(names_of(row), value, std::string(row.doc)).takes_one();
-    if (row.at_commas) option.split_at(',');
+    if (row.is_at_commas) option.split_at(',');
   }
-  void hold_out(const Row& row, identify::HeldOut& value) {
+  void row(const Row& row, identify::HeldOut& value) {
     Option option = sub_.add_option(names_of(row), value.texts, std::string(row.doc));
-    row.repeats ? option.takes_one() : option.once();
+    row.is_repeated ? option.takes_one() : option.once();
   }
 
  private:
   static std::string names_of(const Row& row) {
-    const std::string names(row.option.empty() ? row.name : row.option);
-    if (std::isupper(static_cast<unsigned char>(names[0]))) return names;
+    if (std::isupper(static_cast<unsigned char>(row.option[0]))) return std::string(row.option);
     std::string out;
-    for (const std::string& name : config::at_commas(names))
+    for (const std::string& name : config::at_commas(std::string(row.option)))
       out += (out.empty() ? "--" : ",--") + name;
     std::ranges::replace(out, '_', '-');
     return out;
-  }
-  Option add(const Row& row, std::string& value) {
-    Option option = sub_.add_option(names_of(row), value, std::string(row.doc));
-    if (row.required) option.required();
-    if (!value.empty()) option.show_default();
-    return option;
   }
 
   Command sub_;
 };
 
 // Refuses what concerns the parameter file alone where none is written. A visitor.
-struct NeedsOut {
-  using Row = identify::Setting;
-  bool has_out;
-
-  void file(const Row& row, const std::string& value) const {
-    if (row.of_file && !value.empty() && !has_out)
+struct NeedsOut : identify::RowVisitor<NeedsOut> {
+  void row(const Row& row, const std::string& value) const {
+    if (row.is_of_file && !value.empty())
       config::fail({"--" + std::string(row.name), 0, 0}, "", "no --out",
                    "a file in which to name the base");
   }
-  void method(const identify::MethodRow& row) const { (void)row; }
-  void quantity(const Row& row, const std::string&) const { (void)row; }
-  void quantities(const Row& row, const std::string&) const { (void)row; }
-  void text(const Row& row, const std::string&) const { (void)row; }
-  void choice(const Row& row, const std::string&) const { (void)row; }
-  void integer(const Row& row, int) const { (void)row; }
-  void flag(const Row& row, bool) const { (void)row; }
-  void texts(const Row& row, const std::vector<std::string>&) const { (void)row; }
-  void hold_out(const Row& row, const identify::HeldOut&) const { (void)row; }
+  void row(const Row& row, const auto&) const { (void)row; }
 };
 
 void add_data_options(Command sub, identify::Tables tables, DataOptions& options) {
@@ -523,8 +506,8 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
   check_outputs(options.result, plan ? plan_file : parameter_file,
                 plan ? options.data.files : std::vector<std::string>());
   Settings settings = options.settings;
-  NeedsOut needs{!options.result.out.empty()};
-  fields(needs, settings);
+  NeedsOut needs;
+  if (options.result.out.empty()) fields(needs, settings);
   check_beside(options);
 
   using Found = decltype(find(options, row));
@@ -549,7 +532,7 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
 template <class Settings>
 void add_method(Command identify, Action& action) {
   auto options = std::make_shared<Options<Settings>>();
-  const identify::MethodRow row = identify::SettingList(options->settings).row();
+  const identify::MethodRow row = identify::SettingList(options->settings).of;
   const std::string example(std::ranges::find(examples, row.name, &Example::method)->line);
   Command sub = identify.subcommand(std::string(row.name), std::string(row.doc), example);
   add_data_options(sub, row.tables, options->data);

@@ -38,28 +38,27 @@ py::object loaded(const std::string& json) {
 }
 
 // Fills in the settings of a method by Python's keywords. A visitor of identify/task/settings.h.
-class Keywords {
+class Keywords : public identify::RowVisitor<Keywords> {
  public:
   using Row = identify::Setting;
   explicit Keywords(const py::dict& given) : given_(given), left_(given.attr("copy")()) {}
 
-  void method(const identify::MethodRow& row) { (void)row; }
-  void quantity(const Row& row, std::string& out) { given_.quantity(name(row), row.unit, out); }
-  void quantities(const Row& row, std::string& out) { given_.quantities(name(row), row.unit, out); }
-  void integer(const Row& row, int& out) { given_.integer(name(row), out); }
-  void flag(const Row& row, bool& out) { given_.flag(name(row), out); }
-  void choice(const Row& row, std::string& out) { given_.text(name(row), out); }
-  void text(const Row& row, std::string& out) {
-    if (!row.at_commas) return given_.text(name(row), out);
+  void row(const Row& row, std::string& out) {
+    const char* keyword = name(row);
+    if (row.kind == Kind::quantity) return given_.quantity(keyword, row.unit, out);
+    if (row.kind == Kind::quantities) return given_.quantities(keyword, row.unit, out);
+    if (row.kind == Kind::file) return given_.path(keyword, out);
+    if (!row.is_at_commas) return given_.text(keyword, out);
     std::vector<std::string> all;
-    given_.texts(name(row), row.unit, all);
+    given_.texts(keyword, row.unit, all);
     if (!all.empty()) out = fmt::format("{}", fmt::join(all, ","));
   }
-  void file(const Row& row, std::string& out) { given_.path(name(row), out); }
-  void texts(const Row& row, std::vector<std::string>& out) {
+  void row(const Row& row, int& out) { given_.integer(name(row), out); }
+  void row(const Row& row, bool& out) { given_.flag(name(row), out); }
+  void row(const Row& row, std::vector<std::string>& out) {
     given_.texts(name(row), row.unit, out);
   }
-  void hold_out(const Row& row, identify::HeldOut& out) {
+  void row(const Row& row, identify::HeldOut& out) {
     const py::object every = given_.at(name(row));
     if (every.is_none()) return;
     for (const py::handle one : every) {
@@ -79,7 +78,7 @@ class Keywords {
 
  private:
   const char* name(const Row& row) {
-    name_ = row.keyword.empty() ? row.name : row.keyword;
+    name_ = row.keyword;
     left_.attr("pop")(name_, py::none());
     return name_.c_str();
   }
@@ -121,7 +120,7 @@ template <class Use>
 void with_method(const std::string& name, const Use& use) {
   bool known = false;
   identify::for_each_method([&](const auto& settings) {
-    if (identify::SettingList(settings).row().name != name) return;
+    if (identify::SettingList(settings).of.name != name) return;
     known = true;
     use(settings);
   });
@@ -143,7 +142,7 @@ Identified identify_tables(const std::string& method, const py::list& tables,
 py::object identify_settings(const std::string& method) {
   std::string rows;
   with_method(method, [&](const auto& settings) {
-    rows = identify::SettingList(settings).settings().text();
+    rows = identify::SettingList(settings).rows.text();
   });
   return loaded(rows);
 }

@@ -16,11 +16,10 @@ struct CreepSettings {
 
 template <class Visitor>
 void fields(Visitor& v, CreepSettings&) {
-  v.method({.name = "creep",
-            .doc = "creep and dry friction from force at one length while the muscle is filled, "
-                   "held and vented; they belong into an actuator's [creep] and [hysteresis]",
-            .has_file = false,
-            .laws = creep_models().size()});
+  v.method({"creep",
+            "creep and dry friction from force at one length while the muscle is filled, held and "
+            "vented; they belong into an actuator's [creep] and [hysteresis]",
+            Tables::needed, false, creep_models().size()});
 }
 
 // Throws config::Error and Refusal.

@@ -23,42 +23,31 @@ constexpr config::Range parallel_actuators = {1, 100, "actuators in parallel"};
 
 template <class Visitor>
 void fields(Visitor& v, DynamicSettings& s) {
-  v.method({.name = "dynamic",
-            .doc = "viscous loss and dry friction from a mass that swings on trapped air"});
-  v.file(
-      {.name = "actuator", .doc = "file with braid, tension and ends; a start", .required = true},
-      s.actuator);
-  v.text({.name = "name", .doc = "which actuator, where the file has several"}, s.name);
-  v.quantities({.name = "mass",
-                .unit = "kg",
-                .range = config::above_zero(1e6, "hangs on the muscle"),
-                .doc = "that moves; one, or one per file with commas",
-                .required = true},
+  v.method({"dynamic", "viscous loss and dry friction from a mass that swings on trapped air"});
+  v.file(Setting{"actuator", "file with braid, tension and ends; a start"}.required(), s.actuator);
+  v.text({"name", "which actuator, where the file has several"}, s.name);
+  v.quantities(Setting{"mass", "that moves; one, or one per file with commas", "kg",
+                       config::above_zero(1e6, "hangs on the muscle")}
+                   .required(),
                s.mass);
   v.quantities(
-      {.name = "pressure",
-       .unit = "Pa abs",
-       .range = config::air_pressure,
-       .doc = "of the air as the mass hangs; one, or one per file; absent: the measured one"},
+      {"pressure", "of the air as the mass hangs; one, or one per file; absent: the measured one",
+       "Pa abs", config::air_pressure},
       s.pressure);
-  v.quantities({.name = "external_volume",
-                .unit = "m3",
-                .range = config::air_volume,
-                .doc = "of hose and fittings up to the shut valve; one, or one per file"},
-               s.external_volume);
-  v.quantity({.name = "exponent",
-              .unit = "1",
-              .range = config::polytropic,
-              .doc = "of the trapped air; absent: from the measured pressure, else 1.4 [39]"},
+  v.quantities(
+      {"external_volume", "of hose and fittings up to the shut valve; one, or one per file", "m3",
+       config::air_volume},
+      s.external_volume);
+  v.quantity({"exponent", "of the trapped air; absent: from the measured pressure, else 1.4 [39]",
+              "1", config::polytropic},
              s.exponent);
-  v.integer({.name = "count", .range = parallel_actuators, .doc = "actuators in parallel"},
-            s.count);
-  v.hold_out({.name = "hold_out",
-              .doc = "a file that scores the laws and is not fitted; absent: each file in turn, or "
-                     "the last third of the only one",
-              .repeats = true},
+  v.integer({"count", "actuators in parallel", "", parallel_actuators}, s.count);
+  v.hold_out(Setting{"hold_out",
+                     "a file that scores the laws and is not fitted; absent: each file in turn, or "
+                     "the last third of the only one"}
+                 .repeated(),
              s.hold_out);
-  v.choice({.name = "model", .doc = "only this law", .words = dynamic_models()}, s.model);
+  v.choice({"model", "only this law"}, s.model, dynamic_models());
   fields(v, s.wishes);
 }
 

@@ -18,23 +18,18 @@ struct GeometrySettings {
 
 template <class Visitor>
 void fields(Visitor& v, GeometrySettings& s) {
-  v.method({.name = "geometry",
-            .doc = "thread length and turns, from counted trapezoids or from lengths and diameters",
-            .tables = Tables::optional});
-  v.text({.name = "trapezoids",
-          .doc = "LENGTHWISE,AROUND counted on the opened mesh, instead of data"},
+  v.method({"geometry",
+            "thread length and turns, from counted trapezoids or from lengths and diameters",
+            Tables::optional});
+  v.text({"trapezoids", "LENGTHWISE,AROUND counted on the opened mesh, instead of data"},
          s.trapezoids);
-  v.quantity({.name = "side",
-              .unit = "m",
-              .range = config::above_zero(1, "of one trapezoid between two threads"),
-              .doc = "of one trapezoid"},
+  v.quantity({"side", "of one trapezoid", "m",
+              config::above_zero(1, "of one trapezoid between two threads")},
              s.side);
-  v.quantity({.name = "thread_thickness",
-              .unit = "m",
-              .range = config::from_zero(0.1, "of one thread"),
-              .doc = "taken off diameters that were measured outside the threads"},
+  v.quantity({"thread_thickness", "taken off diameters that were measured outside the threads", "m",
+              config::from_zero(0.1, "of one thread")},
              s.thread_thickness);
-  v.text({.name = "name", .doc = "of the actuator"}, s.name);
+  v.text({"name", "of the actuator"}, s.name);
 }
 
 // Holds what was found, with the actuator's file.

@@ -35,29 +35,14 @@ void load_fields(Visitor& v, JointSettings& s) {
   constexpr config::Range angle{-turns, turns, "two turns; a joint makes less than one"};
   constexpr config::Range mass = config::from_zero(1e6, "of what hangs on a joint");
   constexpr config::Range lever = config::from_zero(1000, "from the joint's axis");
-  v.quantity({.name = "rest_angle",
-              .unit = "rad",
-              .range = angle,
-              .doc = "of the joint, at which the muscles' lengths are given"},
+  v.quantity({"rest_angle", "of the joint, at which the muscles' lengths are given", "rad", angle},
              s.rest_angle);
-  v.quantity({.name = "load",
-              .unit = "kg",
-              .range = mass,
-              .doc = "mass at the lever, where no column torque or load has it"},
+  v.quantity({"load", "mass at the lever, where no column torque or load has it", "kg", mass},
              s.load);
-  v.quantity({.name = "lever", .unit = "m", .range = lever, .doc = "from the joint to the load"},
-             s.lever);
-  v.quantity({.name = "down",
-              .unit = "rad",
-              .range = angle,
-              .doc = "angle at which the lever points straight down"},
-             s.down);
-  v.quantity({.name = "limb", .unit = "kg", .range = mass, .doc = "mass of the limb itself"},
-             s.limb);
-  v.quantity({.name = "limb_lever",
-              .unit = "m",
-              .range = lever,
-              .doc = "from the joint to the limb's center of mass"},
+  v.quantity({"lever", "from the joint to the load", "m", lever}, s.lever);
+  v.quantity({"down", "angle at which the lever points straight down", "rad", angle}, s.down);
+  v.quantity({"limb", "mass of the limb itself", "kg", mass}, s.limb);
+  v.quantity({"limb_lever", "from the joint to the limb's center of mass", "m", lever},
              s.limb_lever);
 }
 
@@ -66,54 +51,41 @@ template <class Visitor>
 void known_fields(Visitor& v, JointSettings& s) {
   constexpr config::Range size = config::above_zero(1000, "of a robot");
   const std::string_view known = "is known, at the rest angle";
-  v.quantity({.name = "moment_arm", .unit = "m", .range = size, .doc = known}, s.moment_arm);
-  v.quantity({.name = "flexor_length", .unit = "m", .range = size, .doc = known}, s.flexor_length);
-  v.quantity({.name = "extensor_length", .unit = "m", .range = size, .doc = known},
-             s.extensor_length);
-  v.flag({.name = "keep_force", .doc = "the effectiveness of the actuator's file is right"},
-         s.keep_force);
-  v.flag({.name = "torque_bias",
-          .doc = "the torque of each file has a zero of its own, which is to be found"},
+  v.quantity({"moment_arm", known, "m", size}, s.moment_arm);
+  v.quantity({"flexor_length", known, "m", size}, s.flexor_length);
+  v.quantity({"extensor_length", known, "m", size}, s.extensor_length);
+  v.flag({"keep_force", "the effectiveness of the actuator's file is right"}, s.keep_force);
+  v.flag({"torque_bias", "the torque of each file has a zero of its own, which is to be found"},
          s.torque_bias);
-  v.flag({.name = "torque_gain",
-          .doc = "and a gain in that of the first file; where the force is kept the first has one, "
-                 "too"},
+  v.flag({"torque_gain",
+          "and a gain in that of the first file; where the force is kept the first has one, too"},
          s.torque_gain);
-  v.flag({.name = "moving",
-          .doc = "the joint moves, over a column time: its dry friction and damping, and how far "
-                 "the torque comes behind"},
+  v.flag({"moving",
+          "the joint moves, over a column time: its dry friction and damping, and how far the "
+          "torque comes behind"},
          s.moving);
 }
 
 template <class Visitor>
 void fields(Visitor& v, JointSettings& s) {
-  v.method({.name = "joint",
-            .doc = "force law and moment arm from joint angle, pressures and a known load",
-            .laws = joint_models().size()});
-  v.file({.name = "actuator", .doc = "file with the braid; a start", .required = true}, s.actuator);
-  v.text({.name = "name", .doc = "which actuator, where the file has several"}, s.name);
-  v.integer({.name = "count",
-             .range = {1, 100, "actuators in parallel"},
-             .doc = "actuators in parallel in a muscle"},
+  v.method({"joint", "force law and moment arm from joint angle, pressures and a known load",
+            Tables::needed, true, joint_models().size()});
+  v.file(Setting{"actuator", "file with the braid; a start"}.required(), s.actuator);
+  v.text({"name", "which actuator, where the file has several"}, s.name);
+  v.integer({"count", "actuators in parallel in a muscle", "", {1, 100, "actuators in parallel"}},
             s.count);
-  v.choice({.name = "flexion",
-            .doc = "what a shorter flexor does to the angle",
-            .words = {"raises angle", "lowers angle"}},
-           s.names.flexion);
+  v.choice({"flexion", "what a shorter flexor does to the angle"}, s.names.flexion,
+           {"raises angle", "lowers angle"});
   load_fields(v, s);
   known_fields(v, s);
-  v.hold_out({.name = "hold_out",
-              .doc = "a file that scores the models and is not fitted; absent: every third row"},
-             s.hold_out);
-  v.choice({.name = "model", .doc = "only this one", .words = joint_models()}, s.model);
-  v.text({.name = "joint", .doc = "its name in the robot's file", .keyword = "joint_name"},
-         s.names.joint);
-  v.text({.name = "flexor", .doc = "the muscle's name; absent: <joint>_flexor"}, s.names.flexor);
-  v.text({.name = "extensor", .doc = "the muscle's name; absent: <joint>_extensor"},
-         s.names.extensor);
-  v.file({.name = "base",
-          .doc = "robot whose joint it is, named in the file that is written",
-          .of_file = true},
+  v.hold_out(
+      {"hold_out", "a file that scores the models and is not fitted; absent: every third row"},
+      s.hold_out);
+  v.choice({"model", "only this one"}, s.model, joint_models());
+  v.text(Setting{"joint", "its name in the robot's file"}.in_python("joint_name"), s.names.joint);
+  v.text({"flexor", "the muscle's name; absent: <joint>_flexor"}, s.names.flexor);
+  v.text({"extensor", "the muscle's name; absent: <joint>_extensor"}, s.names.extensor);
+  v.file(Setting{"base", "robot whose joint it is, named in the file that is written"}.of_file(),
          s.base);
   fields(v, s.wishes);
 }

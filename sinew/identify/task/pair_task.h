@@ -22,31 +22,26 @@ struct PairSettings {
 
 template <class Visitor>
 void fields(Visitor& v, PairSettings& s) {
-  v.method({.name = "pair",
-            .doc = "stiffness, dry friction, losses and trapped air of an antagonistic pair that "
-                   "is sealed and moved by hand or motor"});
-  v.text({.name = "rigs",
-          .doc = "A,A,B: the rig of each file; recordings of one have its sensors in common",
-          .at_commas = true},
-         s.rigs);
-  v.hold_out({.name = "hold_out",
-              .doc = "\"7 s..14 s\" or \"7 s..\": times of each file, or a FILE, that score the "
-                     "laws and are not fitted",
-              .repeats = true},
+  v.method({"pair",
+            "stiffness, dry friction, losses and trapped air of an antagonistic pair that is "
+            "sealed and moved by hand or motor"});
+  v.text(
+      Setting{"rigs", "A,A,B: the rig of each file; recordings of one have its sensors in common"}
+          .at_commas(),
+      s.rigs);
+  v.hold_out(Setting{"hold_out",
+                     "\"7 s..14 s\" or \"7 s..\": times of each file, or a FILE, that score the "
+                     "laws and are not fitted"}
+                 .repeated(),
              s.hold_out);
-  v.quantity({.name = "window",
-              .unit = "s",
-              .range = config::above_zero(10, "of a few samples"),
-              .doc = "of the parabolas that give velocity and acceleration"},
+  v.quantity({"window", "of the parabolas that give velocity and acceleration", "s",
+              config::above_zero(10, "of a few samples")},
              s.window);
-  v.choice({.name = "model", .doc = "only this law", .words = pair_models()}, s.model);
+  v.choice({"model", "only this law"}, s.model, pair_models());
   fields(v, s.wishes);
-  v.text({.name = "joint",
-          .doc = "its name in the robot's file that is written",
-          .keyword = "joint_name"},
+  v.text(Setting{"joint", "its name in the robot's file that is written"}.in_python("joint_name"),
          s.joint);
-  v.file({.name = "base", .doc = "robot whose joint it is, named in the file that is written"},
-         s.base);
+  v.file({"base", "robot whose joint it is, named in the file that is written"}, s.base);
 }
 
 // Holds what was found, with the robot's file.

@@ -23,38 +23,26 @@ struct PlanSettings {
 template <class Visitor>
 void measurement_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range length = config::above_zero(1000, "of an actuator");
-  v.quantity({.name = "rest_length",
-              .unit = "m",
-              .range = length,
-              .doc = "of the muscle without pressure and load; without it the longest length"},
-             s.rest_length);
-  v.choice(
-      {.name = "branch", .doc = "of DATA: fill, vent or both", .words = {"fill", "vent", "both"}},
-      s.branch);
-  v.quantity({.name = "diameter",
-              .unit = "m",
-              .range = config::above_zero(1, "of a muscle"),
-              .doc = "of the mesh without pressure and load"},
+  v.quantity(
+      {"rest_length", "of the muscle without pressure and load; without it the longest length", "m",
+       length},
+      s.rest_length);
+  v.choice({"branch", "of DATA: fill, vent or both"}, s.branch, {"fill", "vent", "both"});
+  v.quantity({"diameter", "of the mesh without pressure and load", "m",
+              config::above_zero(1, "of a muscle")},
              s.diameter);
-  v.file({.name = "actuator",
-          .doc = "a file with a muscle like it, in place of the diameter; with DATA: whose braid "
-                 "is known"},
-         s.actuator);
-  v.quantity({.name = "pressure",
-              .unit = "Pa gauge",
-              .range = config::above_zero(5e6, "above the room's, in a muscle"),
-              .doc = "the highest that will be measured"},
+  v.file(
+      {"actuator",
+       "a file with a muscle like it, in place of the diameter; with DATA: whose braid is known"},
+      s.actuator);
+  v.quantity({"pressure", "the highest that will be measured", "Pa gauge",
+              config::above_zero(5e6, "above the room's, in a muscle")},
              s.pressure);
-  v.quantity({.name = "noise",
-              .unit = "N",
-              .range = config::above_zero(1e4, "of a force"),
-              .doc = "of one reading of force, a standard deviation; absent: 2 N, or what DATA "
-                     "scatter"},
-             s.noise);
-  v.quantity({.name = "length_error",
-              .unit = "m",
-              .range = config::from_zero(0.1, "of a mount"),
-              .doc = "of a mount's length"},
+  v.quantity(
+      {"noise", "of one reading of force, a standard deviation; absent: 2 N, or what DATA scatter",
+       "N", config::above_zero(1e4, "of a force")},
+      s.noise);
+  v.quantity({"length_error", "of a mount's length", "m", config::from_zero(0.1, "of a mount")},
              s.length_error);
 }
 
@@ -63,56 +51,31 @@ template <class Visitor>
 void aim_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range time = config::from_zero(86400, "more than a day for one step");
   constexpr config::Range length = config::above_zero(1000, "of an actuator");
-  v.quantity({.name = "law_error",
-              .unit = "1",
-              .range = config::from_zero(0.5, "of the largest force"),
-              .doc = "that the law itself is off by, of the largest force; no measurement lowers "
-                     "it"},
-             s.law_error);
-  v.quantity({.name = "error",
-              .unit = "1",
-              .range = config::above_zero(0.5, "of the largest force"),
-              .doc = "wanted, of the largest force"},
+  v.quantity(
+      {"law_error", "that the law itself is off by, of the largest force; no measurement lowers it",
+       "1", config::from_zero(0.5, "of the largest force")},
+      s.law_error);
+  v.quantity({"error", "wanted, of the largest force", "1",
+              config::above_zero(0.5, "of the largest force")},
              s.error);
-  v.choice({.name = "criterion",
-            .doc = "mean: the error is a root mean square over the region; worst: half of the 95 % "
-                   "interval at its worst place",
-            .words = {"mean", "worst"}},
-           s.criterion);
-  v.quantity({.name = "mount_time", .unit = "s", .range = time, .doc = "to change the length"},
-             s.mount_time);
-  v.quantity({.name = "step_time",
-              .unit = "s",
-              .range = time,
-              .doc = "to change the pressure, wait and read"},
-             s.step_time);
-  v.quantity({.name = "shortest",
-              .unit = "m",
-              .range = length,
-              .doc = "length at which the law is wanted"},
-             s.shortest);
-  v.quantity({.name = "longest",
-              .unit = "m",
-              .range = length,
-              .doc = "length at which it is; absent: the rest length"},
-             s.longest);
-  v.quantity({.name = "lowest",
-              .unit = "Pa gauge",
-              .range = config::above_zero(5e6, "above the room's, in a muscle"),
-              .doc = "pressure at which it is"},
+  v.choice({"criterion",
+            "mean: the error is a root mean square over the region; worst: half of the 95 % "
+            "interval at its worst place"},
+           s.criterion, {"mean", "worst"});
+  v.quantity({"mount_time", "to change the length", "s", time}, s.mount_time);
+  v.quantity({"step_time", "to change the pressure, wait and read", "s", time}, s.step_time);
+  v.quantity({"shortest", "length at which the law is wanted", "m", length}, s.shortest);
+  v.quantity({"longest", "length at which it is; absent: the rest length", "m", length}, s.longest);
+  v.quantity({"lowest", "pressure at which it is", "Pa gauge",
+              config::above_zero(5e6, "above the room's, in a muscle")},
              s.lowest);
-  v.integer({.name = "most",
-             .range = {3, 100, "mounts; fewer cannot try a law"},
-             .doc = "mounts at most"},
-            s.most);
+  v.integer({"most", "mounts at most", "", {3, 100, "mounts; fewer cannot try a law"}}, s.most);
 }
 
 template <class Visitor>
 void fields(Visitor& v, PlanSettings& s) {
-  v.method({.name = "plan",
-            .doc = "which lengths and pressures to measure for an error, and in how many minutes",
-            .tables = Tables::optional,
-            .has_file = false});
+  v.method({"plan", "which lengths and pressures to measure for an error, and in how many minutes",
+            Tables::optional, false});
   measurement_fields(v, s);
   aim_fields(v, s);
 }

@@ -25,46 +25,34 @@ struct RunFitSettings {
 
 template <class Visitor>
 void fields(Visitor& v, RunFitSettings& s) {
-  v.method({.name = "run",
-            .doc = "friction, damping, dead times, volumes, leaks from a run of a robot itself",
-            .tables = Tables::none});
-  v.file({.name = "run",
-          .doc = "a run's folder, or a log file; an imported recording's too",
-          .option = "RUN",
-          .required = true},
+  v.method({"run", "friction, damping, dead times, volumes, leaks from a run of a robot itself",
+            Tables::none});
+  v.file(Setting{"run", "a run's folder, or a log file; an imported recording's too"}
+             .required()
+             .called("RUN"),
          s.run);
-  v.texts({.name = "fit",
-           .doc = "keys, and groups of them: friction, damping, dead-time, volume, leak; absent: "
-                  "all groups",
-           .at_commas = true},
+  v.texts(Setting{"fit",
+                  "keys, and groups of them: friction, damping, dead-time, volume, leak; absent: "
+                  "all groups"}
+              .at_commas(),
           s.fit);
-  v.file({.name = "machine", .doc = "what was run, in place of the folder's"}, s.machine);
-  v.texts({.name = "sets",
-           .doc = "KEY=VALUE: where the search begins, or what is known",
-           .option = "start,set"},
-          s.sets);
-  v.texts({.name = "priors",
-           .doc = "\"KEY=VALUE +- DEVIATION\": what is known of a fitted number",
-           .option = "prior"},
+  v.file({"machine", "what was run, in place of the folder's"}, s.machine);
+  v.texts(
+      Setting{"sets", "KEY=VALUE: where the search begins, or what is known"}.called("start,set"),
+      s.sets);
+  v.texts(Setting{"priors", "\"KEY=VALUE +- DEVIATION\": what is known of a fitted number"}.called(
+              "prior"),
           s.priors);
-  v.texts({.name = "freeze", .doc = "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
-  v.quantity(
-      {.name = "hold_out", .unit = "1", .doc = "of the run, at its end: scores and is not fitted"},
-      s.hold_out);
-  v.quantity({.name = "from",
-              .unit = "s",
-              .range = config::from_zero(1e6, "a time of the run"),
-              .doc = "what is before is not compared",
-              .keyword = "begin"},
+  v.texts({"freeze", "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
+  v.quantity({"hold_out", "of the run, at its end: scores and is not fitted", "1"}, s.hold_out);
+  v.quantity(Setting{"from", "what is before is not compared", "s",
+                     config::from_zero(1e6, "a time of the run")}
+                 .in_python("begin"),
              s.from);
-  v.integer({.name = "threads",
-             .range = {0, 1024, "simulations"},
-             .doc = "simulations at once; 0: one for each processor"},
-            s.threads);
-  v.file({.name = "base",
-          .doc = "the robot's file, named in the one that is written",
-          .of_file = true},
-         s.base);
+  v.integer(
+      {"threads", "simulations at once; 0: one for each processor", "", {0, 1024, "simulations"}},
+      s.threads);
+  v.file(Setting{"base", "the robot's file, named in the one that is written"}.of_file(), s.base);
 }
 
 // Holds what was found, with the robot's file.

@@ -16,26 +16,20 @@ struct ScaleSettings {
 
 template <class Visitor>
 void fields(Visitor& v, ScaleSettings& s) {
-  v.method({.name = "scale",
-            .doc = "a muscle of another rest length than those that were measured",
-            .tables = Tables::none});
-  v.file({.name = "file",
-          .doc = "an actuator that `identify static` wrote",
-          .option = "FILE",
-          .required = true},
+  v.method(
+      {"scale", "a muscle of another rest length than those that were measured", Tables::none});
+  v.file(Setting{"file", "an actuator that `identify static` wrote"}.required().called("FILE"),
          s.file);
-  v.quantity({.name = "rest_length",
-              .unit = "m",
-              .range = config::above_zero(1000, "of a muscle"),
-              .doc = "of the new muscle, without pressure and load",
-              .required = true},
+  v.quantity(Setting{"rest_length", "of the new muscle, without pressure and load", "m",
+                     config::above_zero(1000, "of a muscle")}
+                 .required(),
              s.rest_length);
-  v.text({.name = "actuator", .doc = "which one, where the file has several"}, s.actuator);
-  v.text({.name = "reading",
-          .doc = "one of the new muscle at rest, to correct the law: \"LENGTH, PRESSURE, FORCE\""},
-         s.reading);
-  v.text({.name = "name", .doc = "of the new actuator; as in the file"}, s.name);
-  v.text({.name = "atmosphere", .doc = "the pressure of the room"}, s.atmosphere);
+  v.text({"actuator", "which one, where the file has several"}, s.actuator);
+  v.text(
+      {"reading", "one of the new muscle at rest, to correct the law: \"LENGTH, PRESSURE, FORCE\""},
+      s.reading);
+  v.text({"name", "of the new actuator; as in the file"}, s.name);
+  v.text({"atmosphere", "the pressure of the room"}, s.atmosphere);
 }
 
 // The new muscle.

@@ -24,35 +24,25 @@ struct SensorSettings {
 
 template <class Visitor>
 void fields(Visitor& v, SensorSettings& s) {
-  v.method({.name = "sensor",
-            .doc = "scale, offset, linearity, hysteresis and noise of calibrated sensors"});
-  v.text({.name = "known",
-          .doc = "load, force, tension, angle, length, position, pressure or velocity: what was "
-                 "set, where the file has several"},
+  v.method({"sensor", "scale, offset, linearity, hysteresis and noise of calibrated sensors"});
+  v.text({"known",
+          "load, force, tension, angle, length, position, pressure or velocity: what was set, "
+          "where the file has several"},
          s.known);
-  v.texts({.name = "sensors",
-           .doc = "columns to calibrate; absent: all in volts or counts",
-           .at_commas = true},
+  v.texts(Setting{"sensors", "columns to calibrate; absent: all in volts or counts"}.at_commas(),
           s.sensors);
-  v.quantity({.name = "rest", .doc = "the known value at the joint's rest angle; absent: 0"},
-             s.rest);
-  v.integer({.name = "bits", .range = {1, 16, "of a converter"}, .doc = "of the converter"},
-            s.bits);
-  v.quantity({.name = "full_scale",
-              .unit = "V",
-              .range = config::above_zero(1000, "of a converter"),
-              .doc = "of the converter"},
+  v.quantity({"rest", "the known value at the joint's rest angle; absent: 0"}, s.rest);
+  v.integer({"bits", "of the converter", "", {1, 16, "of a converter"}}, s.bits);
+  v.quantity({"full_scale", "of the converter", "V", config::above_zero(1000, "of a converter")},
              s.full_scale);
-  v.hold_out({.name = "hold_out",
-              .doc = "level: every known value is predicted from the others; or another "
-                     "calibration; absent: level"},
+  v.hold_out({"hold_out",
+              "level: every known value is predicted from the others; or another calibration; "
+              "absent: level"},
              s.hold_out);
-  v.flag({.name = "average",
-          .doc = "the controller assumes one scale for all of them, as the thesis's did"},
+  v.flag({"average", "the controller assumes one scale for all of them, as the thesis's did"},
          s.average);
-  v.file({.name = "base",
-          .doc = "the robot whose sensors these are: the parameter file is then a robot",
-          .of_file = true},
+  v.file(Setting{"base", "the robot whose sensors these are: the parameter file is then a robot"}
+             .of_file(),
          s.base);
 }
 

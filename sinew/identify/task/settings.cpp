@@ -32,36 +32,26 @@ std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<S
   return out;
 }
 
-void SettingValues::quantity(const Setting& row, const std::string& value) {
+void SettingValues::row(const Setting& row, const std::string& value) {
+  if (row.is_required && value.empty()) refuse(row.name, "nothing", std::string(row.doc));
+  if (row.kind == Kind::choice && !value.empty() &&
+      std::ranges::find(row.words, value) == row.words.end()) {
+    const std::vector<std::string_view> words(row.words.begin(), row.words.end());
+    config::fail({std::string(row.name), 0, 0}, "", config::in_quotes(value), config::either(words),
+                 config::closest_in_quotes(value, words));
+  }
+  if (row.unit.empty()) return;
   quantities_.emplace_back(&value, row);
-  if (row.required) text(row, value);
-  if (!row.unit.empty()) (void)of(value);
-}
-
-void SettingValues::quantities(const Setting& row, const std::string& value) {
-  quantities_.emplace_back(&value, row);
-  if (row.required) text(row, value);
   (void)each(value, config::at_commas(value).size());
 }
 
-void SettingValues::integer(const Setting& row, int value) {
+void SettingValues::row(const Setting& row, int value) {
   (void)config::number_setting(row.name, value, row.range);
 }
 
-void SettingValues::choice(const Setting& row, const std::string& value) {
-  if (value.empty() || std::ranges::find(row.words, value) != row.words.end()) return;
-  const std::vector<std::string_view> words(row.words.begin(), row.words.end());
-  config::fail({std::string(row.name), 0, 0}, "", config::in_quotes(value), config::either(words),
-               config::closest_in_quotes(value, words));
-}
-
-void SettingValues::text(const Setting& row, const std::string& value) {
-  if (row.required && value.empty()) refuse(row.name, "nothing", std::string(row.doc));
-}
-
-void SettingValues::hold_out(const Setting& row, const HeldOut& value) {
+void SettingValues::row(const Setting& row, const HeldOut& value) {
   const std::size_t count = value.texts.size() + value.tables.size();
-  if (!row.repeats && count > 1) refuse(row.name, fmt::format("{} of them", count), "one");
+  if (!row.is_repeated && count > 1) refuse(row.name, fmt::format("{} of them", count), "one");
 }
 
 const Setting& SettingValues::row_of(const std::string& member) const {
@@ -94,14 +84,12 @@ std::vector<double> SettingValues::each(const std::string& member, std::size_t t
   return out;
 }
 
-void SettingList::add(const Setting& row, const std::string& value) {
-  Json one{{"name", row.name},
-           {"keyword", row.keyword.empty() ? row.name : row.keyword},
-           {"doc", row.doc}};
+void SettingList::row(const Setting& row, const std::string& value) {
+  Json one{{"name", row.name}, {"keyword", row.keyword}, {"doc", row.doc}};
   if (!row.unit.empty() && row.unit != "1") one["unit"] = row.unit;
   if (!row.words.empty()) one["words"] = row.words;
   if (!value.empty()) one["default"] = value;
-  list_.push_back(one);
+  rows.push_back(one);
 }
 
 }  // namespace sinew::identify

@@ -4,8 +4,8 @@
 //
 //   template <class Visitor>
 //   void fields(Visitor& v, GeometrySettings& s) {
-//     v.method({.name = "geometry", .doc = "thread length and turns …"});
-//     v.quantity({.name = "side", .unit = "m", .doc = "of one trapezoid"}, s.side);
+//     v.method({"geometry", "thread length and turns of a braid"});
+//     v.quantity({"side", "of one trapezoid", "m"}, s.side);
 //   }
 //
 // The options of `sinew identify` with their help, the keywords of Python with their docstrings and
@@ -17,7 +17,7 @@
 //   v.quantities(Setting, std::string&)           one, or one for each table with commas between
 //   v.integer(Setting, int&)
 //   v.flag(Setting, bool&)
-//   v.choice(Setting, std::string&)               one of the row's words, or empty
+//   v.choice(Setting, std::string&, words)        one of these words, or empty
 //   v.text(Setting, std::string&)
 //   v.file(Setting, std::string&)                 the path of a file
 //   v.texts(Setting, std::vector<std::string>&)   one more each time that it is named
@@ -42,10 +42,17 @@ namespace sinew::identify {
 // Whether a method reads tables of measurements.
 enum class Tables { needed, optional, none };
 
+// What is not fitted and scores the laws.
+struct HeldOut {
+  std::vector<std::string> texts;  // a rule of the method, such as "pressure", or files
+  std::vector<Source> tables;      // in place of files
+
+  bool empty() const { return texts.empty() && tables.empty(); }
+};
+
 // A method's name and what it is for.
 struct MethodRow {
-  std::string_view name;
-  std::string_view doc;  // one line
+  std::string_view name, doc;  // one line
   Tables tables = Tables::needed;
   bool has_file = true;  // it makes a parameter file
   std::size_t laws = 0;  // that it tries, for a bar of progress; 0: unknown
@@ -53,26 +60,55 @@ struct MethodRow {
 
 // One setting.
 struct Setting {
+  enum class Kind { quantity, quantities, integer, flag, choice, text, file, texts, hold_out };
+
   std::string_view name;       // in messages; the option has hyphens
+  std::string_view doc;        // one line
   std::string_view unit = "";  // of a quantity: SI, as in units/field.h; empty: known with the data
   config::Range range = {};    // of a quantity or an integer
-  std::string_view doc;        // one line
-  std::vector<std::string> words = {};  // of a choice
-  // Names on the command line, where they are others: "start,set"; "RUN" for a word without one.
-  std::string_view option = "";
-  std::string_view keyword = "";  // name in Python, where it is another
-  bool required = false;
-  bool repeats = false;    // what is held out may be named several times
-  bool at_commas = false;  // texts may stand in one, with commas between
-  bool of_file = false;    // concerns the parameter file alone, so that one has to be written
+
+  // What the visitor's function gives, and what the functions below change.
+  Kind kind = Kind::text;
+  std::vector<std::string> words = {};
+  std::string_view option = name, keyword = name;
+  bool is_required = false, is_repeated = false, is_at_commas = false, is_of_file = false;
+
+  // Return the row with other names: "start,set" on the command line, "RUN" for a word without an
+  // option; and a name in Python.
+  Setting called(std::string_view names) && { return option = names, std::move(*this); }
+  Setting in_python(std::string_view other) && { return keyword = other, std::move(*this); }
+  // Return the row of a setting that is always needed; that may be named several times; whose texts
+  // may be in one, with commas between; and that concerns the parameter file alone.
+  Setting required() && { return is_required = true, std::move(*this); }
+  Setting repeated() && { return is_repeated = true, std::move(*this); }
+  Setting at_commas() && { return is_at_commas = true, std::move(*this); }
+  Setting of_file() && { return is_of_file = true, std::move(*this); }
 };
 
-// What is not fitted and scores the laws.
-struct HeldOut {
-  std::vector<std::string> texts;  // a rule of the method, such as "pressure", or files
-  std::vector<Source> tables;      // in place of files
+// Base of a visitor that has overloads of row(Setting, value) for the types of values alone.
+template <class Visitor>
+class RowVisitor {
+ public:
+  using Kind = Setting::Kind;
+  void method(const MethodRow& row) { (void)row; }
+  void quantity(Setting row, std::string& value) { visit(Kind::quantity, row, value); }
+  void quantities(Setting row, std::string& value) { visit(Kind::quantities, row, value); }
+  void integer(Setting row, int& value) { visit(Kind::integer, row, value); }
+  void flag(Setting row, bool& value) { visit(Kind::flag, row, value); }
+  void text(Setting row, std::string& value) { visit(Kind::text, row, value); }
+  void file(Setting row, std::string& value) { visit(Kind::file, row, value); }
+  void texts(Setting row, std::vector<std::string>& value) { visit(Kind::texts, row, value); }
+  void hold_out(Setting row, HeldOut& value) { visit(Kind::hold_out, row, value); }
+  void choice(Setting row, std::string& value, std::vector<std::string> words) {
+    row.words = std::move(words);
+    visit(Kind::choice, row, value);
+  }
 
-  bool empty() const { return texts.empty() && tables.empty(); }
+ private:
+  void visit(Kind kind, Setting& row, auto& value) {
+    row.kind = kind;
+    static_cast<Visitor&>(*this).row(row, value);
+  }
 };
 
 // Returns the tables that are held out: those of `hold_out`, and its texts as files that are read
@@ -85,18 +121,16 @@ std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<S
 // The rows of what is known of parameters, the same for each method.
 template <class Visitor>
 void fields(Visitor& v, WishTexts& wishes) {
-  v.texts({.name = "freeze", .doc = "NAME=VALUE: a parameter that is known and not fitted"},
-          wishes.freeze);
-  v.texts(
-      {.name = "prior", .doc = "NAME=VALUE±DEVIATION: what is known of a parameter, and how well"},
-      wishes.prior);
-  v.texts({.name = "tie", .doc = "NAME=OTHER: two parameters that are one"}, wishes.tie);
+  v.texts({"freeze", "NAME=VALUE: a parameter that is known and not fitted"}, wishes.freeze);
+  v.texts({"prior", "NAME=VALUE±DEVIATION: what is known of a parameter, and how well"},
+          wishes.prior);
+  v.texts({"tie", "NAME=OTHER: two parameters that are one"}, wishes.tie);
 }
 
-// The settings of a method in SI. The constructor is a visitor that checks each row: it throws
-// config::Error, which begins with the setting's name, for a quantity or a number that is outside
-// its range, a word that is not among those of its choice, and for what is needed and missing.
-class SettingValues {
+// The settings of a method in SI. The constructor checks each row: it throws config::Error, which
+// begins with the setting's name, for a quantity or a number outside its range, a word that is not
+// among those of its choice, and for what is needed and missing.
+class SettingValues : public RowVisitor<SettingValues> {
  public:
   // `atmosphere` [Pa] is the pressure that gauges read against. `settings` has to outlive this.
   template <class Settings>
@@ -114,16 +148,11 @@ class SettingValues {
   std::vector<double> each(const std::string& member, std::size_t tables) const;
 
   // The visitor's part.
-  void method(const MethodRow& row) { (void)row; }
-  void quantity(const Setting& row, const std::string& value);
-  void quantities(const Setting& row, const std::string& value);
-  void integer(const Setting& row, int value);
-  void flag(const Setting& row, bool value) { (void)row, (void)value; }
-  void choice(const Setting& row, const std::string& value);
-  void text(const Setting& row, const std::string& value);
-  void file(const Setting& row, const std::string& value) { text(row, value); }
-  void texts(const Setting& row, const std::vector<std::string>& value) { (void)row, (void)value; }
-  void hold_out(const Setting& row, const HeldOut& value);
+  void row(const Setting& row, const std::string& value);
+  void row(const Setting& row, int value);
+  void row(const Setting& row, const HeldOut& value);
+  void row(const Setting& row, bool) { (void)row; }
+  void row(const Setting& row, const std::vector<std::string>&) { (void)row; }
 
  private:
   const Setting& row_of(const std::string& member) const;
@@ -132,34 +161,22 @@ class SettingValues {
   std::vector<std::pair<const std::string*, Setting>> quantities_;
 };
 
-// Rows as JSON, for programs that list them: name, keyword, doc, unit, words, default. A visitor.
-class SettingList {
+// The rows of a method as JSON: name, keyword, doc, unit, words and default of each setting.
+class SettingList : public RowVisitor<SettingList> {
  public:
   template <class Settings>
   explicit SettingList(Settings settings) {
     fields(*this, settings);
   }
 
-  const MethodRow& row() const { return method_; }
-  const Json& settings() const { return list_; }
+  MethodRow of;
+  Json rows = Json::array();
 
   // The visitor's part.
-  void method(const MethodRow& row) { method_ = row; }
-  void quantity(const Setting& row, const std::string& value) { add(row, value); }
-  void quantities(const Setting& row, const std::string& value) { add(row, value); }
-  void integer(const Setting& row, int value) { add(row, std::to_string(value)); }
-  void flag(const Setting& row, bool) { add(row, ""); }
-  void choice(const Setting& row, const std::string& value) { add(row, value); }
-  void text(const Setting& row, const std::string& value) { add(row, value); }
-  void file(const Setting& row, const std::string& value) { add(row, value); }
-  void texts(const Setting& row, const std::vector<std::string>&) { add(row, ""); }
-  void hold_out(const Setting& row, const HeldOut&) { add(row, ""); }
-
- private:
-  void add(const Setting& row, const std::string& value);
-
-  MethodRow method_;
-  Json list_ = Json::array();
+  void method(const MethodRow& row) { of = row; }
+  void row(const Setting& row, const std::string& value);
+  void row(const Setting& row, int value) { this->row(row, std::to_string(value)); }
+  void row(const Setting& row, const auto&) { this->row(row, std::string()); }
 };
 
 }  // namespace sinew::identify

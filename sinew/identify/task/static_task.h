@@ -32,51 +32,41 @@ constexpr config::Range actuator_length = config::above_zero(1000, "of an actuat
 
 template <class Visitor>
 void table_fields(Visitor& v, StaticSettings& s) {
-  v.quantity({.name = "rest_length",
-              .unit = "m",
-              .range = actuator_length,
-              .doc = "of the muscle without pressure and load; without it the longest length"},
-             s.rest_length);
-  v.file({.name = "actuator", .doc = "a file whose braid is taken as known"}, s.actuator);
-  v.choice({.name = "branch",
-            .doc = "the points that are fitted: of filling, of venting, or both",
-            .words = {"fill", "vent", "both"}},
-           s.branch);
-  v.texts({.name = "fit_where",
-           .doc = "NAME=VALUE,...: only such rows are fitted, the others held out"},
+  v.quantity(
+      {"rest_length", "of the muscle without pressure and load; without it the longest length", "m",
+       actuator_length},
+      s.rest_length);
+  v.file({"actuator", "a file whose braid is taken as known"}, s.actuator);
+  v.choice({"branch", "the points that are fitted: of filling, of venting, or both"}, s.branch,
+           {"fill", "vent", "both"});
+  v.texts({"fit_where", "NAME=VALUE,...: only such rows are fitted, the others held out"},
           s.fit_where);
-  v.hold_out({.name = "hold_out",
-              .doc = "pressure (every second), length or muscle (each once) or another FILE, to "
-                     "score what was not seen"},
+  v.hold_out({"hold_out",
+              "pressure (every second), length or muscle (each once) or another FILE, to score "
+              "what was not seen"},
              s.hold_out);
-  v.quantity({.name = "diameter",
-              .unit = "m",
-              .range = config::above_zero(1, "of a muscle"),
-              .doc = "of the muscle without pressure and load, to compare its force with"},
+  v.quantity({"diameter", "of the muscle without pressure and load, to compare its force with", "m",
+              config::above_zero(1, "of a muscle")},
              s.diameter);
 }
 
 template <class Visitor>
 void fields(Visitor& v, StaticSettings& s) {
-  v.method({.name = "static",
-            .doc = "the static law of an actuator from force, length and pressure",
-            .laws = static_models().size()});
+  v.method({"static", "the static law of an actuator from force, length and pressure",
+            Tables::needed, true, static_models().size()});
   table_fields(v, s);
-  v.flag({.name = "anyway", .doc = "fit where a check is red, too; see `sinew identify check`"},
-         s.anyway);
-  v.texts({.name = "predict",
-           .unit = "m",
-           .doc = "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own"},
+  v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
+  v.texts({"predict",
+           "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own", "m"},
           s.predict);
-  v.text({.name = "model", .doc = "this one alone"}, s.model);
-  v.text({.name = "name", .doc = "of the actuator"}, s.name);
+  v.text({"model", "this one alone"}, s.model);
+  v.text({"name", "of the actuator"}, s.name);
 }
 
 template <class Visitor>
 void fields(Visitor& v, CheckSettings& s) {
-  v.method({.name = "check",
-            .doc = "are measurements plausible, and what can `identify static` find in them",
-            .has_file = false});
+  v.method({"check", "are measurements plausible, and what can `identify static` find in them",
+            Tables::needed, false});
   table_fields(v, s.how);
 }
 

@@ -103,9 +103,9 @@ TEST(Task, DescribesEachSettingOnce) {
   std::size_t methods = 0;
   for_each_method([&](const auto& settings) {
     const SettingList list(settings);
-    EXPECT_FALSE(list.row().doc.empty()) << list.row().name;
+    EXPECT_FALSE(list.of.doc.empty()) << list.of.name;
     std::set<std::string> names;
-    for (const Json& row : list.settings()) {
+    for (const Json& row : list.rows) {
       EXPECT_TRUE(names.insert(row["name"].string()).second) << row.text();
       EXPECT_TRUE(names.insert("as " + row["keyword"].string()).second) << row.text();
       EXPECT_GT(row["doc"].string().size(), 5u) << row.text();

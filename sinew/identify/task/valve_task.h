@@ -21,59 +21,42 @@ struct ValveSettings {
 
 template <class Visitor>
 void fields(Visitor& v, ValveSettings& s) {
-  v.method({.name = "valve",
-            .doc = "flow and delays, from a chart, a filling, pulses, a coil's current or a map of "
-                   "duties"});
-  v.choice({.name = "kind",
-            .doc = "what was measured; absent: by the columns",
-            .words = {"chart", "fill", "pulses", "coil", "duty"}},
-           s.kind);
-  v.quantity({.name = "volume",
-              .unit = "m3",
-              .range = config::above_zero(config::air_volume.high, config::air_volume.why),
-              .doc = "fill, pulses: of the chamber, hoses included"},
+  v.method(
+      {"valve",
+       "flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties"});
+  v.choice({"kind", "what was measured; absent: by the columns"}, s.kind,
+           {"chart", "fill", "pulses", "coil", "duty"});
+  v.quantity({"volume", "fill, pulses: of the chamber, hoses included", "m3",
+              config::above_zero(config::air_volume.high, config::air_volume.why)},
              s.volume);
-  v.quantity({.name = "conductance",
-              .unit = "m3/(s Pa)",
-              .range = config::above_zero(1, "a valve of this size fills a hall"),
-              .doc = "fill, pulses: of the valve, for the volume instead"},
+  v.quantity({"conductance", "fill, pulses: of the valve, for the volume instead", "m3/(s Pa)",
+              config::above_zero(1, "a valve of this size fills a hall")},
              s.conductance);
-  v.quantities({.name = "added_volume",
-                .unit = "m3",
-                .range = config::air_volume,
-                .doc = "fill: joined to the chamber, of each file: \"0 L,0.5 L\"; two fillings "
-                       "give conductance and volume apart"},
+  v.quantities({"added_volume",
+                "fill: joined to the chamber, of each file: \"0 L,0.5 L\"; two fillings give "
+                "conductance and volume apart",
+                "m3", config::air_volume},
                s.added_volume);
-  v.flag({.name = "per_volume", .doc = "fill, pulses: C/V is enough"}, s.per_volume);
-  v.quantity({.name = "port",
-              .unit = "Pa abs",
-              .range = config::air_pressure,
-              .doc = "pressure on the valve's other side, the room's when venting; fitted without",
-              .option = "supply,port"},
-             s.port);
+  v.flag({"per_volume", "fill, pulses: C/V is enough"}, s.per_volume);
   v.quantity(
-      {.name = "exponent",
-       .unit = "1",
-       .range = config::polytropic,
-       .doc = "fill: polytropic, of the chamber: 1 isothermal, 1.4 adiabatic; tried without"},
+      Setting{"port", "pressure on the valve's other side, the room's when venting; fitted without",
+              "Pa abs", config::air_pressure}
+          .called("supply,port"),
+      s.port);
+  v.quantity(
+      {"exponent", "fill: polytropic, of the chamber: 1 isothermal, 1.4 adiabatic; tried without",
+       "1", config::polytropic},
       s.exponent);
-  v.quantity({.name = "temperature",
-              .unit = "K",
-              .range = {200, 400, "of air in a laboratory"},
-              .doc = "of the air"},
+  v.quantity({"temperature", "of the air", "K", {200, 400, "of air in a laboratory"}},
              s.temperature);
-  v.hold_out({.name = "hold_out", .doc = "OTHER.csv that scores the model of a filling"},
-             s.hold_out);
-  v.text({.name = "name", .doc = "of the valve"}, s.name);
+  v.hold_out({"hold_out", "OTHER.csv that scores the model of a filling"}, s.hold_out);
+  v.text({"name", "of the valve"}, s.name);
   v.file(
-      {.name = "base",
-       .doc = "VALVES.toml with a valve of that name: what is not identified is kept from there"},
+      {"base", "VALVES.toml with a valve of that name: what is not identified is kept from there"},
       s.base);
-  v.quantity({.name = "frequency",
-              .unit = "Hz",
-              .range = config::pulses,
-              .doc = "of the pulses: of a map of duties without such a column, and of the duties' "
-                     "timing"},
+  v.quantity({"frequency",
+              "of the pulses: of a map of duties without such a column, and of the duties' timing",
+              "Hz", config::pulses},
              s.frequency);
 }
 
