@@ -62,34 +62,64 @@ struct Options {
   Settings settings;
 };
 
-// The example that ends the help of a method.
-struct Example {
-  std::string_view method, line;
+// The help of a method's outputs; without a text it has no such option.
+struct OutputHelp {
+  std::string_view out, force, json, quiet, units;
+  bool page = true;
 };
-constexpr Example examples[] = {
-    {"geometry", "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\""},
-    {"sensor", "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml"},
-    {"dynamic",
+constexpr std::string_view units_help = "of what is printed, else SI; --json and files are in SI";
+constexpr OutputHelp usual_help{
+    "the parameter file to write", "replace the parameter file and the page",
+    "print the report as JSON", "only the report and errors", units_help};
+constexpr OutputHelp creep_help{"", "replace the page", "print the report as JSON",
+                                "only the report and errors", units_help};
+constexpr OutputHelp check_help{"", "", "print all of it as JSON", "", "", false};
+constexpr OutputHelp scale_help{"the new actuator's file",
+                                "replace an old file",
+                                "print it as JSON, in SI",
+                                "only the result and errors",
+                                "",
+                                false};
+constexpr OutputHelp plan_help{"FILE.csv: a row for each reading, to fill in",
+                               "replace it",
+                               "print the plan as JSON",
+                               "only the plan and errors",
+                               "of what is printed, else mm and kPa; --json is in SI",
+                               false};
+
+// What the help of a method has besides its settings.
+struct MethodHelp {
+  std::string_view method;
+  OutputHelp outputs;
+  std::string_view example;
+};
+constexpr MethodHelp methods[] = {
+    {"geometry", usual_help, "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\""},
+    {"sensor", usual_help,
+     "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml"},
+    {"dynamic", usual_help,
      "sinew identify dynamic a.csv b.csv --actuator robots/leg/actuator.toml --mass \"6 lb,11 lb\" "
      "--pressure \"60 psi gauge,80 psi gauge\" --external-volume \"0.114 in3\" -o bpa.toml"},
-    {"joint",
+    {"joint", usual_help,
      "sinew identify joint knee.csv --actuator robots/leg/actuator.toml --load \"5 lb\" --lever "
      "\"6 in\" --rest-angle \"310 deg\" --joint knee --base robots/leg/robot.toml -o mine.toml"},
-    {"pair", "sinew identify pair moved.csv --hold-out \"7 s..\" --freeze \"delay=0 s\""},
-    {"valve", "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml"},
-    {"static",
+    {"pair", usual_help,
+     "sinew identify pair moved.csv --hold-out \"7 s..\" --freeze \"delay=0 s\""},
+    {"valve", usual_help, "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml"},
+    {"static", usual_help,
      "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
      "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\" -o my-actuator.toml"},
-    {"creep", "sinew identify creep hold.csv"},
-    {"check",
+    {"creep", creep_help, "sinew identify creep hold.csv"},
+    {"check", check_help,
      "sinew identify check map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
      "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\""},
-    {"scale", "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml"},
-    {"run",
+    {"scale", scale_help,
+     "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml"},
+    {"run", usual_help,
      "sinew run experiments/one-joint.toml -o runs/bench\n  sinew identify run runs/bench --base "
      "robots/one-joint/robot.toml -o mine.toml\n  sinew identify run runs/bench --fit "
      "friction,valve.inlet.closing_delay --hold-out \"30 %\""},
-    {"plan",
+    {"plan", plan_help,
      "sinew identify plan --rest-length \"250 mm\" --diameter \"10 mm\" --pressure \"600 kPa "
      "gauge\" --error \"2 %\" -o plan.csv\n  sinew identify plan forces.csv --error \"1.5 %\""},
 };
@@ -158,51 +188,22 @@ void add_data_options(Command sub, identify::Tables tables, DataOptions& options
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
 }
 
-void add_page_options(Command sub, ResultOptions& options) {
-  Option page =
-      sub.add_option("--report", options.report,
-                     "FILE.html: a page with the data beside the models; absent: beside --out");
-  sub.add_flag("--no-report", options.no_report, "no page").excludes(page);
-  add_units(sub, options.units, "of what is printed, else SI; --json and files are in SI");
-}
-
-// Adds what is done with a result, as most methods have it.
-template <class Settings>
-void add_result_options(Command sub, const identify::MethodRow& row, Options<Settings>& options) {
-  ResultOptions& result = options.result;
-  if (row.has_file) sub.add_option("-o,--out", result.out, "the parameter file to write");
-  sub.add_flag("--force", result.force,
-               row.has_file ? "replace the parameter file and the page" : "replace the page");
-  sub.add_flag("--json", result.json, "print the report as JSON");
-  sub.add_flag("--quiet", result.quiet, "only the report and errors");
-  add_page_options(sub, result);
-}
-
-void add_result_options(Command sub, const identify::MethodRow&,
-                        Options<identify::CheckSettings>& options) {
-  options.result.no_report = true;
-  sub.add_flag("--json", options.result.json, "print all of it as JSON");
-}
-
-void add_result_options(Command sub, const identify::MethodRow&,
-                        Options<identify::ScaleSettings>& options) {
-  ResultOptions& result = options.result;
-  result.no_report = true;
-  sub.add_option("-o,--out", result.out, "the new actuator's file");
-  sub.add_flag("--force", result.force, "replace an old file");
-  sub.add_flag("--json", result.json, "print it as JSON, in SI");
-  sub.add_flag("--quiet", result.quiet, "only the result and errors");
-}
-
-void add_result_options(Command sub, const identify::MethodRow&,
-                        Options<identify::PlanSettings>& options) {
-  ResultOptions& result = options.result;
-  result.no_report = true;
-  sub.add_option("-o,--out", result.out, "FILE.csv: a row for each reading, to fill in");
-  add_units(sub, result.units, "of what is printed, else mm and kPa; --json is in SI");
-  sub.add_flag("--force", result.force, "replace it");
-  sub.add_flag("--json", result.json, "print the plan as JSON");
-  sub.add_flag("--quiet", result.quiet, "only the plan and errors");
+void add_outputs(Command sub, const OutputHelp& help, ResultOptions& result) {
+  const auto flag = [&](const char* name, bool& value, std::string_view text) {
+    if (!text.empty()) sub.add_flag(name, value, std::string(text));
+  };
+  if (!help.out.empty()) sub.add_option("-o,--out", result.out, std::string(help.out));
+  flag("--force", result.force, help.force);
+  flag("--json", result.json, help.json);
+  flag("--quiet", result.quiet, help.quiet);
+  result.no_report = !help.page;
+  if (help.page) {
+    Option page =
+        sub.add_option("--report", result.report,
+                       "FILE.html: a page with the data beside the models; absent: beside --out");
+    sub.add_flag("--no-report", result.no_report, "no page").excludes(page);
+  }
+  if (!help.units.empty()) add_units(sub, result.units, std::string(help.units));
 }
 
 // Adds a second file that a method writes.
@@ -430,6 +431,15 @@ bool is_ok(const Found&) {
 // So that a script stops.
 bool is_ok(const identify::Checkup& found) { return !identify::has_red(found.checks); }
 
+// Prints the report, if there is one, and what the method adds. Of several sensors it is a table.
+template <class Found>
+void print(const Found& found, const PrintOptions& how) {
+  const std::vector<const identify::Report*> reports = identify::reports_of(found);
+  const bool several = std::is_same_v<Found, identify::SensorFound> && reports.size() > 1;
+  if (!reports.empty() && !several) print_report(*reports[0], how);
+  print_more(found, how);
+}
+
 // --- a method from its options to its files ---
 
 // Calls `find` with a counter of laws that have been tried, and shows it on a terminal.
@@ -533,13 +543,14 @@ template <class Settings>
 void add_method(Command identify, Action& action) {
   auto options = std::make_shared<Options<Settings>>();
   const identify::MethodRow row = identify::SettingList(options->settings).of;
-  const std::string example(std::ranges::find(examples, row.name, &Example::method)->line);
-  Command sub = identify.subcommand(std::string(row.name), std::string(row.doc), example);
+  const MethodHelp& help = *std::ranges::find(methods, row.name, &MethodHelp::method);
+  Command sub =
+      identify.subcommand(std::string(row.name), std::string(row.doc), std::string(help.example));
   add_data_options(sub, row.tables, options->data);
   SettingOptions rows(sub);
   fields(rows, options->settings);
   add_beside(sub, *options);
-  add_result_options(sub, row, *options);
+  add_outputs(sub, help.outputs, options->result);
   sub.callback([options, row, &action] {
     refuse_together(*options);
     action = [options, row] { return run_method(*options, row); };

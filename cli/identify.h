@@ -32,18 +32,19 @@ struct PrintOptions {
   double atmosphere = 0;  // that gauges read against [Pa]
 };
 
-// Print what a method found on stdout.
-void print(const identify::GeometryFound& found, const PrintOptions& how);
-void print(const identify::SensorFound& found, const PrintOptions& how);
-void print(const identify::DynamicFound& found, const PrintOptions& how);
-void print(const identify::JointFound& found, const PrintOptions& how);
-void print(const identify::PairFound& found, const PrintOptions& how);
-void print(const identify::ValveFound& found, const PrintOptions& how);
-void print(const identify::StaticFound& found, const PrintOptions& how);
-void print(const identify::CreepResult& found, const PrintOptions& how);
-void print(const identify::Checkup& found, const PrintOptions& how);
-void print(const identify::ScaleFound& found, const PrintOptions& how);
-void print(const identify::RunFitFound& found, const PrintOptions& how);
-void print(const identify::PlanFound& found, const PrintOptions& how);
+// Prints a report on stdout: its laws, and the parameters of the chosen one.
+void print_report(const identify::Report& report, const PrintOptions& how);
+
+// Print what a method has besides a report.
+template <class Found>
+void print_more(const Found&, const PrintOptions&) {}
+void print_more(const identify::GeometryFound& found, const PrintOptions& how);
+void print_more(const identify::SensorFound& found, const PrintOptions& how);
+void print_more(const identify::DynamicFound& found, const PrintOptions& how);
+void print_more(const identify::JointFound& found, const PrintOptions& how);
+void print_more(const identify::PairFound& found, const PrintOptions& how);
+void print_more(const identify::Checkup& found, const PrintOptions& how);
+void print_more(const identify::ScaleFound& found, const PrintOptions& how);
+void print_more(const identify::PlanFound& found, const PrintOptions& how);
 
 }  // namespace sinew::cli

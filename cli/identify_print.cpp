@@ -90,29 +90,6 @@ void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked
   fmt::print("{}", table.text());
 }
 
-void print_report(const identify::Report& report, const PrintOptions& how) {
-  const config::UnitsToShow asked = si_or_asked(how);
-  const double room = how.atmosphere;
-  const Retold whole = retold(report.full_scale, report.unit, asked, room);
-  fmt::print("{}\n", report.subject);
-  const std::string of =
-      whole.unit == "1" ? "" : fmt::format(", {:.5g} {}", whole.number, whole.unit);
-  fmt::print("errors of the {} in % of {}{}\n\n", report.quantity, report.full_scale_is, of);
-  print_models(report);
-  if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
-  if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
-  fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
-  print_parameters(report.best(), asked, room);
-  if (const auto& band = report.best().band) {
-    const Retold most = retold(band->half_95, report.unit, asked, room);
-    const std::string unit = most.unit == "1" ? "" : " " + most.unit;
-    const std::string where = band->where.empty() ? "" : ", " + band->where;
-    fmt::print("68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
-               band->half_68 * most.scale, most.number, unit, where);
-  }
-  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
-}
-
 // --- what each method adds ---
 
 // Methods that know no muscle beside the trajectories.
@@ -367,41 +344,45 @@ void print_plan(const identify::PlanFound& found, const PlanUnits& units) {
 
 }  // namespace
 
-void print(const identify::StaticFound& found, const PrintOptions& how) {
-  print_report(found.result.report, how);
+void print_report(const identify::Report& report, const PrintOptions& how) {
+  const config::UnitsToShow asked = si_or_asked(how);
+  const double room = how.atmosphere;
+  const Retold whole = retold(report.full_scale, report.unit, asked, room);
+  fmt::print("{}\n", report.subject);
+  const std::string of =
+      whole.unit == "1" ? "" : fmt::format(", {:.5g} {}", whole.number, whole.unit);
+  fmt::print("errors of the {} in % of {}{}\n\n", report.quantity, report.full_scale_is, of);
+  print_models(report);
+  if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
+  if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
+  fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
+  print_parameters(report.best(), asked, room);
+  if (const auto& band = report.best().band) {
+    const Retold most = retold(band->half_95, report.unit, asked, room);
+    const std::string unit = most.unit == "1" ? "" : " " + most.unit;
+    const std::string where = band->where.empty() ? "" : ", " + band->where;
+    fmt::print("68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
+               band->half_68 * most.scale, most.number, unit, where);
+  }
+  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 
-void print(const identify::RunFitFound& found, const PrintOptions& how) {
-  print_report(found.result.report, how);
-}
-
-void print(const identify::ValveFound& found, const PrintOptions& how) {
-  print_report(found.result.report, how);
-}
-
-void print(const identify::CreepResult& found, const PrintOptions& how) {
-  print_report(found.report, how);
-}
-
-void print(const identify::DynamicFound& found, const PrintOptions& how) {
-  print_report(found.result.report, how);
+void print_more(const identify::DynamicFound& found, const PrintOptions& how) {
   print_methods(found.result, si_or_asked(how));
 }
 
-void print(const identify::JointFound& found, const PrintOptions& how) {
-  print_report(found.result.report, how);
+void print_more(const identify::JointFound& found, const PrintOptions&) {
   print_combinations(found.result);
 }
 
-void print(const identify::PairFound& found, const PrintOptions& how) {
-  print_report(found.result.report, how);
+void print_more(const identify::PairFound& found, const PrintOptions& how) {
   print_explained(found.result.report);
   print_stiffness(found.result, si_or_asked(how));
   print_air(found.result);
 }
 
-void print(const identify::GeometryFound& found, const PrintOptions& how) {
-  if (found.report) return print_report(*found.report, how);
+void print_more(const identify::GeometryFound& found, const PrintOptions& how) {
+  if (found.report) return;
   const config::UnitsToShow asked = si_or_asked(how);
   const std::string unit = asked.asked ? asked.units.of("m").name : "mm";
   fmt::print("thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
@@ -410,17 +391,13 @@ void print(const identify::GeometryFound& found, const PrintOptions& how) {
              config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
 }
 
-// One sensor's models in full; of several the table, the rest with --json.
-void print(const identify::SensorFound& found, const PrintOptions& how) {
+void print_more(const identify::SensorFound& found, const PrintOptions& how) {
   const identify::Calibration& c = found.calibration;
-  if (c.sensors.size() == 1) {
-    print_report(c.sensors[0].report, how);
-    fmt::print("\n");
-  }
+  if (c.sensors.size() == 1) fmt::print("\n");
   print_table(c, shown_scale(c, found.display, si_or_asked(how)));
 }
 
-void print(const identify::Checkup& found, const PrintOptions&) {
+void print_more(const identify::Checkup& found, const PrintOptions&) {
   print_files(found.recognised.files);
   print_mounts(found.recognised.mounts);
   print_noise(found.recognised.noise);
@@ -428,7 +405,7 @@ void print(const identify::Checkup& found, const PrintOptions&) {
   print_determined(found.determined);
 }
 
-void print(const identify::ScaleFound& found, const PrintOptions&) {
+void print_more(const identify::ScaleFound& found, const PrintOptions&) {
   const actuator::Prediction& p = found.actuator.prediction;
   fmt::print("a muscle of {:.4g} mm, like that of {:.4g} mm\n", 1e3 * p.rest_length,
              1e3 * found.from);
@@ -441,7 +418,7 @@ void print(const identify::ScaleFound& found, const PrintOptions&) {
                actuator::widest_inside_68(p), actuator::widest_inside_95(p));
 }
 
-void print(const identify::PlanFound& found, const PrintOptions& how) {
+void print_more(const identify::PlanFound& found, const PrintOptions& how) {
   print_plan(found, {units_asked(how.units, units::UnitSet::metric), how.atmosphere});
 }
 

@@ -141,9 +141,8 @@ Identified identify_tables(const std::string& method, const py::list& tables,
 // The rows of a method's settings, as SettingList has them.
 py::object identify_settings(const std::string& method) {
   std::string rows;
-  with_method(method, [&](const auto& settings) {
-    rows = identify::SettingList(settings).rows.text();
-  });
+  with_method(method,
+              [&](const auto& settings) { rows = identify::SettingList(settings).rows.text(); });
   return loaded(rows);
 }
 

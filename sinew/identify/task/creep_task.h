@@ -19,7 +19,7 @@ void fields(Visitor& v, CreepSettings&) {
   v.method({"creep",
             "creep and dry friction from force at one length while the muscle is filled, held and "
             "vented; they belong into an actuator's [creep] and [hysteresis]",
-            Tables::needed, false, creep_models().size()});
+            Tables::needed, creep_models().size()});
 }
 
 // Throws config::Error and Refusal.

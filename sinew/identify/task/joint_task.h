@@ -69,7 +69,7 @@ void known_fields(Visitor& v, JointSettings& s) {
 template <class Visitor>
 void fields(Visitor& v, JointSettings& s) {
   v.method({"joint", "force law and moment arm from joint angle, pressures and a known load",
-            Tables::needed, true, joint_models().size()});
+            Tables::needed, joint_models().size()});
   v.file(Setting{"actuator", "file with the braid; a start"}.required(), s.actuator);
   v.text({"name", "which actuator, where the file has several"}, s.name);
   v.integer({"count", "actuators in parallel in a muscle", "", {1, 100, "actuators in parallel"}},

@@ -75,7 +75,7 @@ void aim_fields(Visitor& v, PlanSettings& s) {
 template <class Visitor>
 void fields(Visitor& v, PlanSettings& s) {
   v.method({"plan", "which lengths and pressures to measure for an error, and in how many minutes",
-            Tables::optional, false});
+            Tables::optional});
   measurement_fields(v, s);
   aim_fields(v, s);
 }

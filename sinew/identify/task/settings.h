@@ -54,7 +54,6 @@ struct HeldOut {
 struct MethodRow {
   std::string_view name, doc;  // one line
   Tables tables = Tables::needed;
-  bool has_file = true;  // it makes a parameter file
   std::size_t laws = 0;  // that it tries, for a bar of progress; 0: unknown
 };
 

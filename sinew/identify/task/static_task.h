@@ -53,7 +53,7 @@ void table_fields(Visitor& v, StaticSettings& s) {
 template <class Visitor>
 void fields(Visitor& v, StaticSettings& s) {
   v.method({"static", "the static law of an actuator from force, length and pressure",
-            Tables::needed, true, static_models().size()});
+            Tables::needed, static_models().size()});
   table_fields(v, s);
   v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
   v.texts({"predict",
@@ -65,8 +65,7 @@ void fields(Visitor& v, StaticSettings& s) {
 
 template <class Visitor>
 void fields(Visitor& v, CheckSettings& s) {
-  v.method({"check", "are measurements plausible, and what can `identify static` find in them",
-            Tables::needed, false});
+  v.method({"check", "are measurements plausible, and what can `identify static` find in them"});
   table_fields(v, s.how);
 }
 
