@@ -7,17 +7,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
+#include "cli/setting_options.h"
 #include "cli/settings.h"
 #include "cli/table_options.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/setting.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/page/fit_page.h"
@@ -127,45 +126,6 @@ constexpr MethodHelp methods[] = {
 // --- the options of a line ---
 
 using Row = identify::Setting;
-
-// Adds the options of a method's settings. A visitor of identify/task/settings.h.
-class SettingOptions : public identify::RowVisitor<SettingOptions> {
- public:
-  explicit SettingOptions(Command sub) : sub_(sub) {}
-
-  void row(const Row& row, std::string& value) {
-    Option option = sub_.add_option(names_of(row), value, std::string(row.doc));
-    if (row.is_required) option.required();
-    if (!row.words.empty()) option.is_one_of(row.words);
-    if (!value.empty()) option.show_default();
-  }
-  void row(const Row& row, int& value) {
-    sub_.add_option(names_of(row), value, std::string(row.doc)).show_default();
-  }
-  void row(const Row& row, bool& value) {
-    sub_.add_flag(names_of(row), value, std::string(row.doc));
-  }
-  void row(const Row& row, std::vector<std::string>& value) {
-    Option option = sub_.add_option(names_of(row), value, std::string(row.doc)).takes_one();
-    if (row.is_at_commas) option.split_at(',');
-  }
-  void row(const Row& row, identify::HeldOut& value) {
-    Option option = sub_.add_option(names_of(row), value.texts, std::string(row.doc));
-    row.is_repeated ? option.takes_one() : option.once();
-  }
-
- private:
-  static std::string names_of(const Row& row) {
-    if (std::isupper(static_cast<unsigned char>(row.option[0]))) return std::string(row.option);
-    std::string out;
-    for (const std::string& name : config::at_commas(std::string(row.option)))
-      out += (out.empty() ? "--" : ",--") + name;
-    std::ranges::replace(out, '_', '-');
-    return out;
-  }
-
-  Command sub_;
-};
 
 // Refuses what concerns the parameter file alone where none is written. A visitor.
 struct NeedsOut : identify::RowVisitor<NeedsOut> {

@@ -10,6 +10,7 @@
 #include "python/binding/settings.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/page/fit_page.h"
+#include "sinew/identify/task/force_beam_task.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
@@ -53,6 +54,7 @@ class Keywords : public identify::RowVisitor<Keywords> {
     given_.texts(keyword, row.unit, all);
     if (!all.empty()) out = fmt::format("{}", fmt::join(all, ","));
   }
+  void row(const Row& row, double& out) { given_.number(name(row), out); }
   void row(const Row& row, int& out) { given_.integer(name(row), out); }
   void row(const Row& row, bool& out) { given_.flag(name(row), out); }
   void row(const Row& row, std::vector<std::string>& out) {
@@ -136,6 +138,14 @@ Identified identify_tables(const std::string& method, const py::list& tables,
   Identified out;
   with_method(method, [&](const auto& settings) { out = found_by(settings, sources, given); });
   return out;
+}
+
+// Returns what `sinew force-beam --json` prints.
+py::object force_beam(const py::dict& given) {
+  identify::TransducerSettings s;
+  Keywords keywords(given);
+  fields(keywords, s);
+  return loaded(identify::json_of(identify::transducer_of(s), identify::wanted_sensitivity(s)));
 }
 
 // The rows of a method's settings, as SettingList has them.
@@ -231,6 +241,7 @@ void bind_identify_tables(py::module_& m) {
            "Returns predict.dat of a valve, and by how much a duty is off at most.");
   m.def("identify_tables", &identify_tables, py::arg("method"), py::arg("tables"),
         py::arg("settings"));
+  m.def("force_beam", &force_beam, py::arg("settings"));
   m.def("identify_settings", &identify_settings, py::arg("method"));
   m.def("identify_columns", &identify_columns, py::arg("method"));
   m.def("identify_inputs", &identify_inputs, py::arg("method"));

@@ -1,4 +1,4 @@
-#include "sinew/identify/machine/run_file.h"
+#include "sinew/identify/machine/run_fit.h"
 
 #include <fmt/format.h>
 

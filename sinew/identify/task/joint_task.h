@@ -7,10 +7,15 @@
 #include <vector>
 
 #include "sinew/identify/joint/joint.h"
-#include "sinew/identify/joint/joint_file.h"
 #include "sinew/identify/task/settings.h"
 
 namespace sinew::identify {
+
+// Names of the joint and its muscles in the robot's file.
+struct JointNames {
+  std::string joint = "joint", flexor = "joint_flexor", extensor = "joint_extensor";
+  std::string flexion = "raises angle";  // or "lowers angle": what a shorter flexor does
+};
 
 // Settings, as texts; fields() describes them. Of empty quantities a column has the values, or they
 // are fitted.

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sinew/identify/fit/report_json.h"
-#include "sinew/identify/sensor/sensor_file.h"
 #include "sinew/identify/task/creep_task.h"
 #include "sinew/identify/task/dynamic_task.h"
 #include "sinew/identify/task/geometry_task.h"

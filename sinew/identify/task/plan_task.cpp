@@ -120,6 +120,42 @@ Json json_of_error(const PlanError& error) {
   return {{"rms_percent", 100 * error.rms}, {"half_width_95_percent", 100 * error.half_width}};
 }
 
+// An error just above the law's own: then mounts are added as long as there is room for them.
+constexpr double wanted = 1.05;  // times the law's error
+constexpr int mounts = 3;
+
+Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
+                   const std::optional<actuator::Braid>& braid) {
+  const FittedMuscle fitted = muscle_by_points(points, atmosphere, braid);
+  PlanOptions options{.noise = fitted.scatter, .most = mounts};
+  options.error = wanted * options.law_error;
+  const MeasurementPlan plan =
+      plan_measurements(fitted.muscle, region_of(fitted.muscle), options, mounts_of(points));
+  Further out{.of = "",
+              .readings = points.size(),
+              .rms = 100 * (plan.before.rms),
+              .half = 100 * (plan.before.half_width),
+              .mounts = {},
+              .note = ""};
+  double time = 0;
+  for (const PlannedMount& m : plan.mounts) {
+    time += m.time;
+    out.mounts.push_back({.length = m.length,
+                          .pressures = m.pressures,
+                          .readings = m.readings(),
+                          .time = time,
+                          .rms = 100 * (m.after.rms),
+                          .half = 100 * (m.after.half_width)});
+  }
+  out.note = fmt::format(
+      "Expected errors of the richest law, {:.2g} % of them the law's own, which no measurement "
+      "lowers. A reading is taken to scatter by {:.2g} N as these did, a mount's length to be off "
+      "by {:.1g} mm; a mount takes {:.0f} min, a reading {:.1g} min.",
+      100 * (options.law_error), options.noise, 1e3 * options.length_error, options.mount_time / 60,
+      options.step_time / 60);
+  return out;
+}
+
 // A plan for a muscle that nobody has measured.
 PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
   const PlanReader read(settings, atmosphere);
@@ -227,6 +263,24 @@ Json to_json(const PlanFound& found) {
   out["readings"] = plan.readings();
   out["time_s"] = plan.time();
   out["notes"] = found.notes;
+  return out;
+}
+
+std::vector<Further> further_measurements(const StaticResult& result, double atmosphere,
+                                          const std::optional<actuator::Braid>& braid) {
+  std::vector<Further> out;
+  for (const StaticMuscle& muscle : result.muscles) {
+    std::vector<StaticPoint> own;
+    for (const StaticPoint& p : result.points)
+      if (p.rest_length == muscle.rest_length) own.push_back(p);
+    try {
+      out.push_back(further_of(own, atmosphere, braid));
+    } catch (const Refusal&) {
+      continue;  // too few points for a plan: the models of the report say what is missing
+    }
+    if (result.muscles.size() > 1)
+      out.back().of = fmt::format("the muscle of {:.4g} mm", 1e3 * muscle.rest_length);
+  }
   return out;
 }
 

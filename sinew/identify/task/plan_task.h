@@ -2,9 +2,12 @@
 // a static law is known well enough, and how long that takes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/fit/evidence.h"
 #include "sinew/identify/plan/plan.h"
 #include "sinew/identify/task/settings.h"
 
@@ -98,6 +101,12 @@ struct PlanFound {
 // `atmosphere`, which gauges read against [Pa]. Throws config::Error and Refusal.
 PlanFound find_plan(const std::vector<Source>& sources, const PlanSettings& settings,
                     double atmosphere = units::atmosphere);
+
+// Returns the three mounts that lower the error most, with the errors that are expected before and
+// after each; none of a muscle whose points are too few for a plan. They are those of
+// `sinew identify plan DATA --error "1.05 %" --most 3`.
+std::vector<Further> further_measurements(const StaticResult& result, double atmosphere,
+                                          const std::optional<actuator::Braid>& braid);
 
 // Returns the plan as `--json` prints it.
 Json to_json(const PlanFound& found);

@@ -13,7 +13,6 @@
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/machine/machine_numbers.h"
-#include "sinew/identify/machine/run_file.h"
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"

@@ -61,4 +61,17 @@ struct SensorFound {
 // Throws config::Error and Refusal.
 SensorFound find_sensors(const std::vector<Source>& sources, const SensorSettings& settings);
 
+// Return the scale that a robot's file has for a sensitivity, its uncertainty and its SI unit:
+// potentiometers are given per volt, "rad/V", transducers in volts, "V/N".
+double scale_of(const Calibration& c, double sensitivity);
+double scale_uncertainty(const Calibration& c, const SensorResult& r);
+std::string scale_unit(const Calibration& c);
+
+// Returns that unit where the known values were in `display`: "V/lbf", "deg/V".
+std::string scale_unit_for(const Calibration& c, const std::string& display);
+
+// Returns format sinew.identification/1 of a calibration; what there is of a single sensor stands
+// where other methods have it.
+Json to_json(const Calibration& c);
+
 }  // namespace sinew::identify

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
 #include "sinew/identify/task/tables.h"
 
 namespace sinew::identify {
@@ -45,7 +46,7 @@ void SettingValues::row(const Setting& row, const std::string& value) {
   (void)each(value, config::at_commas(value).size());
 }
 
-void SettingValues::row(const Setting& row, int value) {
+void SettingValues::row(const Setting& row, double value) {
   (void)config::number_setting(row.name, value, row.range);
 }
 
@@ -82,6 +83,10 @@ std::vector<double> SettingValues::each(const std::string& member, std::size_t t
     refuse(row.name, fmt::format("{} values", out.size()),
            fmt::format("one, or {}: one for each file", tables));
   return out;
+}
+
+void SettingList::row(const Setting& row, double value) {
+  this->row(row, config::format_number(value));
 }
 
 void SettingList::row(const Setting& row, const std::string& value) {

@@ -15,7 +15,7 @@
 //   v.method(MethodRow)                           once, before the rows
 //   v.quantity(Setting, std::string&)             text with a unit; empty: not given
 //   v.quantities(Setting, std::string&)           one, or one for each table with commas between
-//   v.integer(Setting, int&)
+//   v.integer(Setting, int&), v.number(Setting, double&)
 //   v.flag(Setting, bool&)
 //   v.choice(Setting, std::string&, words)        one of these words, or empty
 //   v.text(Setting, std::string&)
@@ -59,7 +59,18 @@ struct MethodRow {
 
 // One setting.
 struct Setting {
-  enum class Kind { quantity, quantities, integer, flag, choice, text, file, texts, hold_out };
+  enum class Kind {
+    quantity,
+    quantities,
+    number,
+    integer,
+    flag,
+    choice,
+    text,
+    file,
+    texts,
+    hold_out
+  };
 
   std::string_view name;       // in messages; the option has hyphens
   std::string_view doc;        // one line
@@ -93,6 +104,7 @@ class RowVisitor {
   void quantity(Setting row, std::string& value) { visit(Kind::quantity, row, value); }
   void quantities(Setting row, std::string& value) { visit(Kind::quantities, row, value); }
   void integer(Setting row, int& value) { visit(Kind::integer, row, value); }
+  void number(Setting row, double& value) { visit(Kind::number, row, value); }
   void flag(Setting row, bool& value) { visit(Kind::flag, row, value); }
   void text(Setting row, std::string& value) { visit(Kind::text, row, value); }
   void file(Setting row, std::string& value) { visit(Kind::file, row, value); }
@@ -148,7 +160,8 @@ class SettingValues : public RowVisitor<SettingValues> {
 
   // The visitor's part.
   void row(const Setting& row, const std::string& value);
-  void row(const Setting& row, int value);
+  void row(const Setting& row, double value);
+  void row(const Setting& row, int value) { this->row(row, static_cast<double>(value)); }
   void row(const Setting& row, const HeldOut& value);
   void row(const Setting& row, bool) { (void)row; }
   void row(const Setting& row, const std::vector<std::string>&) { (void)row; }
@@ -174,6 +187,7 @@ class SettingList : public RowVisitor<SettingList> {
   // The visitor's part.
   void method(const MethodRow& row) { of = row; }
   void row(const Setting& row, const std::string& value);
+  void row(const Setting& row, double value);
   void row(const Setting& row, int value) { this->row(row, std::to_string(value)); }
   void row(const Setting& row, const auto&) { this->row(row, std::string()); }
 };

@@ -11,7 +11,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
-#include "sinew/identify/task/further.h"
+#include "sinew/identify/task/plan_task.h"
 #include "sinew/identify/task/tables.h"
 
 namespace sinew::identify {
