@@ -150,6 +150,8 @@ py::object force_beam(const py::dict& given) {
 
 // The rows of a method's settings, as SettingList has them.
 py::object identify_settings(const std::string& method) {
+  if (method == "force-beam")
+    return loaded(identify::SettingList(identify::TransducerSettings()).rows.text());
   std::string rows;
   with_method(method,
               [&](const auto& settings) { rows = identify::SettingList(settings).rows.text(); });

@@ -366,6 +366,7 @@ def valve(
     return Valve(_found("valve", locals()))
 
 
+@_of("force-beam")
 def force_beam(
     *, length: Optional[Quantity] = None, width: Optional[Quantity] = None, height: Optional[Quantity] = None,
     gages: Optional[Quantity] = None, modulus: Optional[Quantity] = None, poisson: Optional[float] = None,
@@ -376,9 +377,6 @@ def force_beam(
 ) -> Dict[str, Any]:  # fmt: skip
     """Return strain, safety and output of a beam with strain gages, as `sinew force-beam --json` prints.
 
-    length [m] from the load to the mount, width, height [m], gages [m]: from the load to their middle;
-    modulus and yield_stress [Pa], concentration of stress at the mount; bridge: "quarter", "half", "poisson"
-    or "bending"; excitation and full_scale [V]; load [N]; sensitivity [V/N] that is wanted gives where the
-    gages must be. None: the thesis's.
+    None: the thesis's.
     """
     return dict(_sinew.force_beam(dict(locals())))

@@ -38,8 +38,9 @@ class Documentation(unittest.TestCase):
         self.assertGreater(count, 100)
 
     def test_methods_of_identification_take_the_settings_of_the_library(self) -> None:
-        for method in "dynamic joint pair valve sensor creep check scale run plan static".split():
-            function = getattr(sinew.identify, "static_from" if method == "static" else method)
+        called = {"static": "static_from", "force-beam": "force_beam"}
+        for method in "dynamic joint pair valve sensor creep check scale run plan static force-beam".split():
+            function = getattr(sinew.identify, called.get(method, method))
             rows = {row["keyword"] for row in sinew._sinew.identify_settings(method)}
             self.assertEqual(set(inspect.signature(function).parameters) - {"data"}, rows, method)
             for keyword in rows:

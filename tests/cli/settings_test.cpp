@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 #include <string_view>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/identify/task/methods.h"
 #include "tests/cli/program.h"
 
 namespace sinew::test::settings_test {
@@ -24,6 +26,25 @@ TEST(Settings, AreToldAsOptions) {
             "try --map flexor_pressure=NAME (--known load)");
   EXPECT_EQ(as_options("run/1: align=sequence: found a run without phases"),
             "run/1: --align sequence: found a run without phases");
+}
+
+// Each that may be wrong, but for words without an option.
+struct IsOption : identify::RowVisitor<IsOption> {
+  void row(const identify::Setting& row, const std::string&) const { expect(row); }
+  void row(const identify::Setting& row, int) const { expect(row); }
+  void row(const identify::Setting&, const auto&) const {}
+  static void expect(const identify::Setting& row) {
+    if (std::isupper(static_cast<unsigned char>(row.option[0]))) return;
+    const std::string text = as_options(std::string(row.name) + ": found \"x\"");
+    EXPECT_TRUE(text.starts_with("--")) << text;
+  }
+};
+
+TEST(Settings, OfAMethodOfIdentificationAreItsOptions) {
+  identify::for_each_method([](auto settings) {
+    IsOption visitor;
+    fields(visitor, settings);
+  });
 }
 
 TEST(Settings, BeginAProblemOrDoNot) {

@@ -59,6 +59,7 @@ struct MethodRow {
 
 // One setting.
 struct Setting {
+  // How its text is taken; the visitor's functions above describe each.
   enum class Kind {
     quantity,
     quantities,
@@ -100,6 +101,7 @@ template <class Visitor>
 class RowVisitor {
  public:
   using Kind = Setting::Kind;
+  // Pass a row and its value on; the head of this file describes them.
   void method(const MethodRow& row) { (void)row; }
   void quantity(Setting row, std::string& value) { visit(Kind::quantity, row, value); }
   void quantities(Setting row, std::string& value) { visit(Kind::quantities, row, value); }
@@ -176,6 +178,7 @@ class SettingValues : public RowVisitor<SettingValues> {
 // The rows of a method as JSON: name, keyword, doc, unit, words and default of each setting.
 class SettingList : public RowVisitor<SettingList> {
  public:
+  // Takes the rows with the values of `settings` as defaults.
   template <class Settings>
   explicit SettingList(Settings settings) {
     fields(*this, settings);

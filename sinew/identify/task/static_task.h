@@ -30,6 +30,7 @@ struct CheckSettings {
 
 constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
 
+// What concerns the tables.
 template <class Visitor>
 void table_fields(Visitor& v, StaticSettings& s) {
   v.quantity(
