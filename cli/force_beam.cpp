@@ -8,7 +8,7 @@
 #include "cli/setting_options.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
-#include "sinew/identify/task/force_beam_task.h"
+#include "sinew/identify/task/methods.h"
 
 namespace sinew::cli {
 

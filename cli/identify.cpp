@@ -431,8 +431,8 @@ auto find(const Options<Settings>& options, const identify::MethodRow& row) {
 }
 
 auto find(const Options<identify::PlanSettings>& options, const identify::MethodRow&) {
-  return identify::find_plan(sources_of(options.data), options.settings,
-                             identify::atmosphere_setting(options.data.atmosphere));
+  return identify::find(sources_of(options.data), options.settings,
+                        identify::atmosphere_setting(options.data.atmosphere));
 }
 
 // Returns the text of a method's own file, as it would stand at `out`; empty: it makes none. The
@@ -489,7 +489,7 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
   const DataOptions data = read_by(options);
   leave_page(*found, file, data, options.result);
   if (options.result.json)
-    fmt::print("{}\n", identify::json_of(*found).text(2));
+    fmt::print("{}\n", identify::to_json(*found).text(2));
   else
     print(*found, {options.result.units, identify::atmosphere_setting(data.atmosphere)});
   if (const std::string why = identify::refused(*found); !why.empty()) {

@@ -39,12 +39,12 @@ constexpr std::string_view subjects =
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
-    " actuator added_volume align align_by atmosphere base bits branch bridge channels clock "
+    " added_volume align align_by atmosphere base bits branch bridge channels clock "
     "concentration conductance count criterion dates decimal diameter down encoding error "
-    "event excitation exponent extensor extensor_length external_volume fit "
+    "event excitation exponent extensor_length external_volume fit "
     "fit_where flexion "
-    "flexor flexor_length font fps frequency from full_scale gage_factor gages gain height "
-    "hold_out joint kind "
+    "flexor_length font fps frequency from full_scale gage_factor gages gain height "
+    "hold_out kind "
     "label law_error length length_error lever limb limb_lever load longest lowest machine mass "
     "modulus moment_arm most mount_time name noise output poisson predict "
     "port predict_dat pressure prior rate reading rest rest_angle rest_length sensitivity shortest "

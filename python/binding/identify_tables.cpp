@@ -10,7 +10,6 @@
 #include "python/binding/settings.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/page/fit_page.h"
-#include "sinew/identify/task/force_beam_task.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
@@ -102,7 +101,7 @@ Identified found_by(Method settings, const Sources& sources, const py::dict& giv
   do_interruptibly(unstoppable, [&] {
     found = std::make_shared<const Found>(identify::find(sources, settings));
   });
-  Identified out{.report = identify::json_of(*found).text(),
+  Identified out{.report = identify::to_json(*found).text(),
                  .files = identify::files_of(found),
                  .refused = identify::refused(*found),
                  .reports = [found] { return identify::reports_of(*found); },

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/creep_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace sinew::identify {
 
-CreepResult find_creep(const std::vector<Source>& sources, const CreepSettings& settings) {
+CreepResult find(const SourceList& sources, const CreepSettings& settings) {
   return identify_creep(read_measured(only_of(sources), creep_columns()), settings.tried);
 }
 

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/dynamic_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -117,7 +117,7 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
 
 }  // namespace
 
-DynamicFound find_dynamic(const std::vector<Source>& sources, const DynamicSettings& settings) {
+DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   const SettingValues values(settings, sources[0].atmosphere);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);

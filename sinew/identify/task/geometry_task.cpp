@@ -1,4 +1,4 @@
-#include "sinew/identify/task/geometry_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 #include <string>
@@ -84,7 +84,7 @@ GeometryFound count_geometry(const GeometrySettings& settings, double side) {
 
 }  // namespace
 
-GeometryFound find_geometry(const std::vector<Source>& sources, const GeometrySettings& settings) {
+GeometryFound find(const SourceList& sources, const GeometrySettings& settings) {
   const SettingValues values(settings);
   if (!settings.trapezoids.empty()) {
     if (!sources.empty())
@@ -107,6 +107,10 @@ Json to_json(const GeometryFound& found) {
   if (found.report) out = to_json(*found.report);
   out.update(describe(found.braid));
   return out;
+}
+
+Reports reports_of(const GeometryFound& found) {
+  return found.report ? Reports{&*found.report} : Reports{};
 }
 
 }  // namespace sinew::identify

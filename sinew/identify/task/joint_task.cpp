@@ -1,4 +1,4 @@
-#include "sinew/identify/task/joint_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -188,7 +188,7 @@ Measured joined(const std::vector<Source>& sources, bool moving) {
 
 }  // namespace
 
-JointFound find_joint(const std::vector<Source>& sources, const JointSettings& settings) {
+JointFound find(const SourceList& sources, const JointSettings& settings) {
   if (sources.empty()) (void)only_of(sources);
   (void)SettingValues(settings, sources[0].atmosphere);
   if (settings.keep_force && settings.model.ends_with("pressure"))

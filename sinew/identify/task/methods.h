@@ -1,27 +1,215 @@
-// identify/task/methods.h - every method of identification, for what treats them alike: the command
-// line and Python. A method is its settings with their rows (identify/task/settings.h), and how
-// tables and settings become what it found.
+// identify/task/methods.h - every method of identification: what it finds in tables by its settings
+// (settings.fields.h). All throw config::Error and Refusal. At the end is what treats the methods
+// alike: the command line and Python use that.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "sinew/actuator/actuator.h"
+#include "sinew/identify/actuator/creep.h"
+#include "sinew/identify/actuator/geometry.h"
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/check/checkup.h"
+#include "sinew/identify/fit/evidence.h"
 #include "sinew/identify/fit/report_json.h"
-#include "sinew/identify/task/creep_task.h"
-#include "sinew/identify/task/dynamic_task.h"
-#include "sinew/identify/task/geometry_task.h"
-#include "sinew/identify/task/joint_task.h"
-#include "sinew/identify/task/pair_task.h"
-#include "sinew/identify/task/plan_task.h"
-#include "sinew/identify/task/run_task.h"
-#include "sinew/identify/task/scale_task.h"
-#include "sinew/identify/task/sensor_task.h"
-#include "sinew/identify/task/static_task.h"
-#include "sinew/identify/task/valve_task.h"
+#include "sinew/identify/joint/joint.h"
+#include "sinew/identify/machine/run_fit.h"
+#include "sinew/identify/motion/dynamic.h"
+#include "sinew/identify/pair/pair.h"
+#include "sinew/identify/plan/plan.h"
+#include "sinew/identify/sensor/sensor.h"
+#include "sinew/identify/sensor/transducer.h"
+#include "sinew/identify/task/settings.fields.h"
+#include "sinew/identify/valve/valve.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::identify {
+
+// --- geometry ---
+
+// Holds what was found, with the actuator's file.
+struct GeometryFound {
+  actuator::Braid braid;
+  std::optional<Report> report;  // none: it was counted
+  std::string file;              // the actuator's
+};
+
+// --- sensor ---
+
+// Holds what was found, and the robot's file that is written with it.
+struct SensorFound {
+  Calibration calibration;
+  std::string display;  // unit of the known values, as they were given
+  CountScale converter;
+  bool average = false;
+  std::string base;
+
+  // The robot's file, as it would stand at `out`. Throws config::Error.
+  std::string file(const std::string& out) const;
+};
+
+// Return the scale that a robot's file has for a sensitivity, its uncertainty and its SI unit:
+// potentiometers are given per volt, "rad/V", transducers in volts, "V/N".
+double scale_of(const Calibration& c, double sensitivity);
+double scale_uncertainty(const Calibration& c, const SensorResult& r);
+std::string scale_unit(const Calibration& c);
+
+// Returns that unit where the known values were in `display`: "V/lbf", "deg/V".
+std::string scale_unit_for(const Calibration& c, const std::string& display);
+
+// --- dynamic ---
+
+// Holds what was found, with the actuator's file.
+struct DynamicFound {
+  DynamicResult result;
+  std::string file;  // the actuator's, with its loss
+};
+
+// --- joint ---
+
+// Holds what was found, with the files of robot and actuator.
+struct JointFound {
+  JointResult result;
+  JointSetup setup;
+  JointNames names;
+  std::string base, source;
+  std::string actuator_file;  // with the effectiveness
+
+  // The robot's file, as it would stand at `out`. Throws config::Error.
+  std::string file(const std::string& out) const;
+};
+
+// --- pair ---
+
+// Holds what was found, with the robot's file.
+struct PairFound {
+  PairResult result;
+  std::string joint, base, source;
+
+  // The robot's file, as it would stand at `out`. Throws config::Error, and Refusal for a slide.
+  std::string file(const std::string& out) const;
+};
+
+// Returns whether the text is a range of times, "7 s..14 s", rather than a file's name.
+bool is_time_range(std::string_view text);
+
+// --- valve ---
+
+// Holds what was found, and the valves file that is written with it.
+struct ValveFound {
+  ValveResult result;
+
+  // The valves file; `out` is what a refusal calls it. Throws Refusal for delays without a flow,
+  // which no simulation could use, and for what the data do not support.
+  std::string file(const std::string& out) const;
+};
+
+// predict.dat, compensated for the valve's delays.
+struct TimingFile {
+  std::string text;
+  double frequency = 0;  // of the pulses [Hz]
+  double worst = 0;      // the delivered duty differs from the commanded one by that at most [-]
+};
+
+// Throws Refusal where the delays are not known; empty `frequency` is 100 Hz.
+TimingFile timing_of(const ValveFound& found, const std::string& frequency);
+
+// --- static and check ---
+
+// Holds what was found, with the actuators' files.
+struct StaticFound {
+  StaticResult result;
+  std::vector<std::string> files;  // the actuator's, of each muscle; the longest first
+
+  // Muscles of the rest lengths that `predict` named, and their files.
+  std::vector<StaticMuscle> predicted;
+  std::vector<std::string> predicted_files;
+};
+
+// Returns the points of the tables, as a static law would be fitted to them. Throws config::Error
+// and Refusal.
+StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings);
+
+// --- scale ---
+
+// The new muscle.
+struct ScaleFound {
+  actuator::Actuator actuator;
+  double from = 0;          // rest length of the muscle in the file [m]
+  double largest = 0;       // force of the new one where the old one was measured [N]
+  double corrected_by = 1;  // what its reading made of the law [-]
+  std::string file;         // sinew.actuator/1
+};
+
+// --- run ---
+
+// Holds what was found, with the robot's file.
+struct RunFitFound {
+  RunFitResult result;
+  std::string base, source;
+
+  // The robot's file, as it would stand at `out`. Throws config::Error.
+  std::string file(const std::string& out) const;
+};
+
+// --- plan ---
+
+// Holds a plan, and for which muscle it is.
+struct PlanFound {
+  MeasurementPlan plan;
+  ExpectedMuscle muscle;
+  PlanOptions options;
+  std::string subject;             // "a muscle of 250 mm, 12 mm wide"
+  std::vector<std::string> notes;  // what was taken for granted, in sentences
+  std::size_t measured = 0;        // readings that there are already
+
+  // Returns a table with a row for each reading, in order, whose force is to be filled in: then
+  // `sinew identify static` reads it.
+  std::string file(const std::string& out) const;
+};
+
+// Returns the three mounts that lower the error most, with the errors that are expected before and
+// after each; none of a muscle whose points are too few for a plan. They are those of
+// `sinew identify plan DATA --error "1.05 %" --most 3`.
+std::vector<Further> further_measurements(const StaticResult& result, double atmosphere,
+                                          const std::optional<actuator::Braid>& braid);
+
+// --- force-beam ---
+
+// --- what a transducer does, as text ---
+
+// What ways to wire the gages are called.
+struct Arrangement {
+  std::string_view name;
+  Bridge::Arms arms;
+};
+inline constexpr Arrangement arrangements[] = {{"quarter", Bridge::Arms::quarter},
+                                               {"half", Bridge::Arms::half},
+                                               {"poisson", Bridge::Arms::poisson},
+                                               {"bending", Bridge::Arms::bending}};
+
+// Returns lines of text: strain, stress, safety, output, in SI and in the thesis's units; or in
+// `shown` alone, where somebody asked for some.
+std::string text_of(const Transducer& transducer, const units::ShownUnits* shown = nullptr);
+
+// Returns a line for each arrangement: how far from the load the gages have to be for the wanted
+// sensitivity [V/N].
+std::string text_of_places(const Transducer& transducer, double wanted,
+                           const units::ShownUnits* shown = nullptr);
+
+// Returns both as JSON, in SI.
+std::string json_of(const Transducer& transducer, std::optional<double> wanted);
+
+// Returns the transducer, and the wanted sensitivity [V/N], if there is one. Throw config::Error.
+Transducer transducer_of(const TransducerSettings& settings);
+std::optional<double> wanted_sensitivity(const TransducerSettings& settings);
+
+// --- all of them ---
 
 // Calls `each` with a fresh value of the settings of every method, in the order of their help.
 template <class Each>
@@ -40,44 +228,51 @@ void for_each_method(const Each& each) {
   each(PlanSettings{});
 }
 
-// Returns what a method finds in the tables. Throws config::Error and Refusal.
-// clang-format off
-using TableList = std::vector<Source>;
-inline auto find(const TableList& t, const GeometrySettings& s) { return find_geometry(t, s); }
-inline auto find(const TableList& t, const SensorSettings& s) { return find_sensors(t, s); }
-inline auto find(const TableList& t, const DynamicSettings& s) { return find_dynamic(t, s); }
-inline auto find(const TableList& t, const JointSettings& s) { return find_joint(t, s); }
-inline auto find(const TableList& t, const PairSettings& s) { return find_pair(t, s); }
-inline auto find(const TableList& t, const ValveSettings& s) { return find_valve(t, s); }
-inline auto find(const TableList& t, const StaticSettings& s) { return find_static(t, s); }
-inline auto find(const TableList& t, const CreepSettings& s) { return find_creep(t, s); }
-inline auto find(const TableList& t, const CheckSettings& s) { return check_before_static(t, s.how); }
-inline auto find(const TableList&, const ScaleSettings& s) { return find_scaled(s); }
-inline auto find(const TableList&, const RunFitSettings& s) { return find_run_fit(s); }
-inline auto find(const TableList& t, const PlanSettings& s) { return find_plan(t, s); }
-// clang-format on
+// Return what a method finds in the tables. Of geometry and plan there may be none: then trapezoids
+// were counted, and nobody has measured the muscle, at the `atmosphere` [Pa] of its gauges. A
+// static law is fitted after its tables were checked (identify/check/check.h).
+using SourceList = std::vector<Source>;
+GeometryFound find(const SourceList& sources, const GeometrySettings& settings);
+SensorFound find(const SourceList& sources, const SensorSettings& settings);
+DynamicFound find(const SourceList& sources, const DynamicSettings& settings);
+JointFound find(const SourceList& sources, const JointSettings& settings);
+PairFound find(const SourceList& sources, const PairSettings& settings);
+ValveFound find(const SourceList& sources, const ValveSettings& settings);
+StaticFound find(const SourceList& sources, const StaticSettings& settings);
+CreepResult find(const SourceList& sources, const CreepSettings& settings);
+Checkup find(const SourceList& sources, const CheckSettings& settings);
+ScaleFound find(const SourceList& sources, const ScaleSettings& settings);
+RunFitFound find(const SourceList& sources, const RunFitSettings& settings);
+PlanFound find(const SourceList& sources, const PlanSettings& settings,
+               double atmosphere = units::atmosphere);
 
-// Returns the reports of what a method found, for its page; the first one is the method's own.
+// Return what `--json` prints: the report with what it does not hold, in SI with the unit in the
+// key; null where it is unknown.
+Json to_json(const GeometryFound& found);
+Json to_json(const SensorFound& found);
+Json to_json(const DynamicFound& found);
+Json to_json(const JointFound& found);
+Json to_json(const PairFound& found);
+Json to_json(const ValveFound& found);
+Json to_json(const StaticFound& found);
+Json to_json(const CreepResult& found);
+Json to_json(const ScaleFound& found);
+Json to_json(const RunFitFound& found);
+Json to_json(const PlanFound& found);
+
+// Return the reports of what a method found, for its page; the first one is the method's own.
 // Empty: what was found is no law, such as a counted braid.
+using Reports = std::vector<const Report*>;
+Reports reports_of(const GeometryFound& found);
+Reports reports_of(const SensorFound& found);
+Reports reports_of(const PairFound& found);
+inline Reports reports_of(const CreepResult& found) { return {&found.report}; }
+inline Reports reports_of(const Checkup&) { return {}; }
+inline Reports reports_of(const ScaleFound&) { return {}; }
+inline Reports reports_of(const PlanFound&) { return {}; }
 template <class Found>
-std::vector<const Report*> reports_of(const Found& found) {
-  if constexpr (requires { found.report.fits; }) {
-    return {&found.report};
-  } else if constexpr (requires { found.result.air; }) {
-    std::vector<const Report*> out{&found.result.report};
-    if (found.result.air) out.push_back(&found.result.air->report);
-    return out;
-  } else if constexpr (requires { found.result.report; }) {
-    return {&found.result.report};
-  } else if constexpr (requires { found.report.value(); }) {
-    return found.report ? std::vector<const Report*>{&*found.report} : std::vector<const Report*>{};
-  } else if constexpr (requires { found.calibration; }) {
-    std::vector<const Report*> out;
-    for (const SensorResult& sensor : found.calibration.sensors) out.push_back(&sensor.report);
-    return out;
-  } else {
-    return {};
-  }
+Reports reports_of(const Found& found) {
+  return {&found.result.report};
 }
 
 // Returns the title of a method's page; empty: its first report has one.
@@ -96,17 +291,6 @@ std::string refused(const Found& found) {
     return found.result.refused;
   else
     return "";
-}
-
-// Returns what `--json` prints.
-template <class Found>
-Json json_of(const Found& found) {
-  if constexpr (requires { found.calibration; })
-    return to_json(found.calibration);
-  else if constexpr (requires { to_json(found); })
-    return to_json(found);
-  else
-    return to_json(found.result.report);
 }
 
 // Returns the texts of the parameter files, of each as it would stand at `out`; the first one is

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/pair_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -148,7 +148,7 @@ bool is_time_range(std::string_view text) {
   return time(from) && time(to) && from.size() + to.size() > 0;
 }
 
-PairFound find_pair(const std::vector<Source>& sources, const PairSettings& settings) {
+PairFound find(const SourceList& sources, const PairSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   PairOptions options{.model = settings.model, .wishes = Wishes(settings.wishes)};
   HeldOut others{.tables = settings.hold_out.tables};
@@ -180,6 +180,12 @@ std::string PairFound::file(const std::string& out) const {
 Json to_json(const PairFound& found) {
   Json out = to_json(found.result.report);
   out.update(describe(found.result));
+  return out;
+}
+
+Reports reports_of(const PairFound& found) {
+  Reports out{&found.result.report};
+  if (found.result.air) out.push_back(&found.result.air->report);
   return out;
 }
 

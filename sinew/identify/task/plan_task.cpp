@@ -1,4 +1,4 @@
-#include "sinew/identify/task/plan_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/task/static_task.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -211,8 +210,7 @@ PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& sett
 
 }  // namespace
 
-PlanFound find_plan(const std::vector<Source>& sources, const PlanSettings& settings,
-                    double atmosphere) {
+PlanFound find(const SourceList& sources, const PlanSettings& settings, double atmosphere) {
   return sources.empty() ? first_plan(settings, atmosphere) : next_plan(sources, settings);
 }
 

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/run_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -115,7 +115,7 @@ std::string RunFitFound::file(const std::string& out) const {
   return run_file(result, source, robot_over(base, out));
 }
 
-RunFitFound find_run_fit(const RunFitSettings& settings) {
+RunFitFound find(const SourceList&, const RunFitSettings& settings) {
   const run::RecordedRun run = run::recorded_run(settings.run);
   const std::string machine = run::machine_of(run, settings.machine).string();
   const config::Node root = config::compose(machine, all_sets(settings));

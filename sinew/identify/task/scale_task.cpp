@@ -1,4 +1,4 @@
-#include "sinew/identify/task/scale_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ double scatter_of(const ForceReading& read, const actuator::Prediction& old, dou
 
 }  // namespace
 
-ScaleFound find_scaled(const ScaleSettings& s) {
+ScaleFound find(const SourceList&, const ScaleSettings& s) {
   const double atmosphere = atmosphere_setting(s.atmosphere);
   const auto file = experiment::load_machine_file(s.file);
   const actuator::Actuator old =

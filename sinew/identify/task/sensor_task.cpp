@@ -1,4 +1,4 @@
-#include "sinew/identify/task/sensor_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -163,7 +163,8 @@ void warn_below_zero(Calibration& c) {
 
 }  // namespace
 
-Json to_json(const Calibration& c) {
+Json to_json(const SensorFound& found) {
+  const Calibration& c = found.calibration;
   Json out{{"format", "sinew.identification/1"}, {"subject", "calibration of sensors"}};
   out["average_sensitivity"] = c.average;
   // A single transducer's values stand where other methods have it.
@@ -179,7 +180,7 @@ Json to_json(const Calibration& c) {
   return out;
 }
 
-SensorFound find_sensors(const std::vector<Source>& sources, const SensorSettings& settings) {
+SensorFound find(const SourceList& sources, const SensorSettings& settings) {
   const Source& source = only_of(sources);
   const CountScale converter{settings.bits, SettingValues(settings).of(settings.full_scale)};
   const SensorData data = read_sensor_data(source, converter, settings.known, settings.sensors);
@@ -196,6 +197,12 @@ SensorFound find_sensors(const std::vector<Source>& sources, const SensorSetting
 
 std::string SensorFound::file(const std::string& out) const {
   return sensor_file(calibration, converter, average, robot_over(base, out));
+}
+
+Reports reports_of(const SensorFound& found) {
+  Reports out;
+  for (const SensorResult& sensor : found.calibration.sensors) out.push_back(&sensor.report);
+  return out;
 }
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/static_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
-#include "sinew/identify/task/plan_task.h"
 #include "sinew/identify/task/tables.h"
 
 namespace sinew::identify {
@@ -179,7 +178,7 @@ StaticData read_static(const std::vector<Source>& sources, const StaticSettings&
   return read_tables(sources, settings, Unreadable::is_refused).data;
 }
 
-StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings) {
+StaticFound find(const SourceList& sources, const StaticSettings& settings) {
   CheckInput read = read_tables(sources, settings, Unreadable::is_refused);
   std::vector<double> lengths;
   for (const std::string& setting : settings.predict)
@@ -198,8 +197,10 @@ StaticFound find_static(const std::vector<Source>& sources, const StaticSettings
   return out;
 }
 
-Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings) {
-  return check_up(read_tables(sources, settings, Unreadable::is_red));
+Checkup find(const SourceList& sources, const CheckSettings& settings) {
+  return check_up(read_tables(sources, settings.how, Unreadable::is_red));
 }
+
+Json to_json(const StaticFound& found) { return to_json(found.result.report); }
 
 }  // namespace sinew::identify

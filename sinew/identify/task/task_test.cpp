@@ -54,14 +54,14 @@ TEST(Task, CheckFindsAForceThatIsNotOfTheDiameter) {
       text += std::to_string(length) + "," + std::to_string(p) + "," +
               std::to_string(0.9 * p - 3.0 * (250 - length)) + "\n";
   const auto light_of = [&](const StaticSettings& settings, const std::string& name) {
-    for (const Check& c : check_before_static(table(text, "rig.csv"), settings).checks)
+    for (const Check& c : find(table(text, "rig.csv"), CheckSettings{settings}).checks)
       if (c.name == name) return std::string(word(c.light));
     return std::string("absent");
   };
   EXPECT_EQ(light_of({.diameter = "11 mm"}, "force unit"), "green");
   EXPECT_EQ(light_of({.diameter = "40 mm"}, "force unit"), "red");
   EXPECT_NE(
-      refusal([&] { check_before_static(table(text), {.diameter = "11 kg"}); }).find("diameter"),
+      refusal([&] { find(table(text), CheckSettings{{.diameter = "11 kg"}}); }).find("diameter"),
       std::string::npos);
 }
 
@@ -70,7 +70,7 @@ void expect_begins(const std::string& said, const std::string& begin) {
 }
 
 TEST(Task, FindsTheBraidOfATable) {
-  const GeometryFound found = find_geometry(mesh(), {});
+  const GeometryFound found = find(mesh(), GeometrySettings{});
   EXPECT_NEAR(found.braid.thread_length, 0.1, 1e-6);
   EXPECT_NEAR(found.braid.turns, 1, 1e-5);
   EXPECT_NE(found.file.find("sinew identify geometry numbers"), std::string::npos);
@@ -80,18 +80,18 @@ TEST(Task, FindsTheBraidOfATable) {
 }
 
 TEST(Task, CountsTrapezoidsWithoutATable) {
-  const GeometryFound found = find_geometry({}, {.trapezoids = "37,16", .side = "0.057 in"});
+  const GeometryFound found = find({}, GeometrySettings{.trapezoids = "37,16", .side = "0.057 in"});
   EXPECT_FALSE(found.report.has_value());
   EXPECT_FALSE(to_json(found).contains("format"));
-  expect_begins(refusal([] { find_geometry({}, {.trapezoids = "37", .side = "1 mm"}); }),
+  expect_begins(refusal([] { find({}, GeometrySettings{.trapezoids = "37", .side = "1 mm"}); }),
                 "trapezoids: found \"37\"");
-  expect_begins(refusal([] { find_geometry({}, {.trapezoids = "37,16", .side = "2 m"}); }),
+  expect_begins(refusal([] { find({}, GeometrySettings{.trapezoids = "37,16", .side = "2 m"}); }),
                 "side: found \"2 m\"");
 }
 
 TEST(Task, WantsItsTables) {
-  expect_begins(refusal([] { find_creep({}); }), "data: found 0 files; expected one");
-  expect_begins(refusal([] { find_static({}, {}); }), "data: found no files");
+  expect_begins(refusal([] { find({}, CreepSettings{}); }), "data: found 0 files; expected one");
+  expect_begins(refusal([] { find({}, StaticSettings{}); }), "data: found no files");
   expect_begins(refusal([] { sources_of({"a.csv", "a.csv"}, {}); }), "data: found a.csv twice");
   expect_begins(refusal([] { refuse_fitted({{.path = actuator}}, "hold_out", actuator); }),
                 "hold_out: found ");
@@ -133,10 +133,10 @@ std::vector<Source> moved_pair(const std::string& name = "pair.csv") {
 }
 
 TEST(Task, FindsAPairAndWritesItsJoint) {
-  const PairFound found = find_pair(moved_pair(), {.hold_out = {{"4 s.."}, {}},
-                                                   .model = "spring_bristle",
-                                                   .wishes = {.freeze = {"delay=0 s"}},
-                                                   .joint = "knee"});
+  const PairFound found = find(moved_pair(), PairSettings{.hold_out = {{"4 s.."}, {}},
+                                                          .model = "spring_bristle",
+                                                          .wishes = {.freeze = {"delay=0 s"}},
+                                                          .joint = "knee"});
   EXPECT_NEAR(found.result.values.stiffness, 12, 0.1);
   EXPECT_NEAR(found.result.values.friction, 0.8, 0.03);
   EXPECT_EQ(found.result.report.held_out_is, "each recording from 4 s on");
@@ -153,7 +153,7 @@ TEST(Task, FindsAPairAndWritesItsJoint) {
 
 TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
   const auto asked = [&](const PairSettings& s) {
-    return refusal([&] { (void)find_pair(moved_pair(), s); });
+    return refusal([&] { (void)find(moved_pair(), s); });
   };
   expect_begins(asked({.rigs = "a,b"}), "rigs: found 2 names; expected 1");
   expect_begins(asked({.hold_out = {{"9 s..4 s"}, {}}}),
@@ -167,9 +167,7 @@ TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
 
 TEST(Task, TellsASettingByItsName) {
   const std::vector<Source> any = table("time [s],pressure [Pa gauge]\n0,1\n");
-  const auto dynamic = [&](const DynamicSettings& s) {
-    return [&any, s] { find_dynamic(any, s); };
-  };
+  const auto dynamic = [&](const DynamicSettings& s) { return [&any, s] { find(any, s); }; };
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "-1 kg"})), "mass: found \"-1 kg\"");
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "1 kg,2 kg"})),
                 "mass: found 2 values");
@@ -178,18 +176,22 @@ TEST(Task, TellsASettingByItsName) {
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "1 kg", .count = 0})),
                 "count: found");
   expect_begins(
-      refusal([&] { find_joint(any, {.actuator = actuator, .names = {.flexion = "up"}}); }),
+      refusal([&] { find(any, JointSettings{.actuator = actuator, .names = {.flexion = "up"}}); }),
       "flexion: found \"up\"");
-  expect_begins(refusal([&] { find_joint(any, {.actuator = actuator, .lever = "1 s"}); }),
+  expect_begins(refusal([&] { find(any, JointSettings{.actuator = actuator, .lever = "1 s"}); }),
                 "lever: found");
-  expect_begins(refusal([&] { find_valve(any, {.kind = "curve"}); }), "kind: found \"curve\"");
-  expect_begins(refusal([&] { find_valve(any, {.temperature = "0 K"}); }), "temperature: found");
-  expect_begins(refusal([&] { find_sensors(any, {.bits = 40}); }), "bits: found 40");
-  expect_begins(refusal([] { find_geometry(mesh(), {.thread_thickness = "1 m"}); }),
+  expect_begins(refusal([&] { find(any, ValveSettings{.kind = "curve"}); }),
+                "kind: found \"curve\"");
+  expect_begins(refusal([&] { find(any, ValveSettings{.temperature = "0 K"}); }),
+                "temperature: found");
+  expect_begins(refusal([&] { find(any, SensorSettings{.bits = 40}); }), "bits: found 40");
+  expect_begins(refusal([] { find(mesh(), GeometrySettings{.thread_thickness = "1 m"}); }),
                 "thread_thickness: found");
-  expect_begins(refusal([&] { find_static(any, {}); }), "numbers");
-  expect_begins(refusal([&] { find_static(any, {.branch = "up"}); }), "branch: found \"up\"");
-  expect_begins(refusal([&] { find_dynamic(any, {.actuator = actuator}); }), "mass: found nothing");
+  expect_begins(refusal([&] { find(any, StaticSettings{}); }), "numbers");
+  expect_begins(refusal([&] { find(any, StaticSettings{.branch = "up"}); }),
+                "branch: found \"up\"");
+  expect_begins(refusal([&] { find(any, DynamicSettings{.actuator = actuator}); }),
+                "mass: found nothing");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/valve_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -193,7 +193,7 @@ void refuse_beside_added(const ValveSettings& s, const std::vector<Source>& othe
 
 }  // namespace
 
-ValveFound find_valve(const std::vector<Source>& sources, const ValveSettings& settings) {
+ValveFound find(const SourceList& sources, const ValveSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   const double atmosphere = sources.front().atmosphere;
   const SettingValues values(settings, atmosphere);
