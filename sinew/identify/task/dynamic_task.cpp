@@ -17,6 +17,7 @@
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/motion/dynamic.h"
+#include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -57,14 +58,12 @@ Json describe(const DynamicResult& found) {
 }
 
 // Returns the text of the actuator's file with the [loss] that was found. `start` are the origins
-// of the actuator's values in `start_file`, which stay what they are; `files` were fitted.
+// of the actuator's values in `start_file`, which stay what they are; `sources` were fitted.
 std::string loss_file(const config::Origins& start, const std::string& start_file,
                       actuator::Actuator a, const DynamicResult& found,
-                      const std::vector<std::string>& files) {
+                      const std::vector<Source>& sources) {
   Provenance provenance(start, start_file);
-  std::string source = "sinew identify dynamic";
-  for (const std::string& file : files) source += " " + file;
-  source += ": " + found.report.best().model;
+  const std::string source = source_words("dynamic", sources, found.report.best().model);
 
   const std::string path = "actuator." + a.name + ".loss.";
   for (const char* key : {"viscous", "coulomb_length"}) {
@@ -126,9 +125,7 @@ DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
   DynamicFound out{identify_dynamic(records_of(sources, settings, values, a), settings.model,
                                     Wishes(settings.wishes)),
                    ""};
-  std::vector<std::string> files;
-  for (const Source& source : sources) files.push_back(source.path);
-  out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, files);
+  out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, sources);
   return out;
 }
 

@@ -210,9 +210,7 @@ JointFound find(const SourceList& sources, const JointSettings& settings) {
                  .setup = setup,
                  .names = names,
                  .base = settings.base};
-  out.source = "sinew identify joint";
-  for (const Source& source : sources) out.source += " " + source.path;
-  out.source += ": " + out.result.report.best().model;
+  out.source = source_words("joint", sources, out.result.report.best().model);
   out.actuator_file = effectiveness_file(start.experiment.origins, settings.actuator, a, out.result,
                                          settings.keep_force, out.source);
   return out;

@@ -131,6 +131,9 @@ struct StaticFound {
   std::vector<std::string> predicted_files;
 };
 
+// Returns the braid of the actuator in a file; nothing where no file is named.
+std::optional<actuator::Braid> known_braid(const std::string& file_name);
+
 // Returns the points of the tables, as a static law would be fitted to them. Throws config::Error
 // and Refusal.
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings);
@@ -180,8 +183,6 @@ std::vector<Further> further_measurements(const StaticResult& result, double atm
                                           const std::optional<actuator::Braid>& braid);
 
 // --- force-beam ---
-
-// --- what a transducer does, as text ---
 
 // What ways to wire the gages are called.
 struct Arrangement {

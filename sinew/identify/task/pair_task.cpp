@@ -167,9 +167,7 @@ PairFound find(const SourceList& sources, const PairSettings& settings) {
   PairFound out{.result = identify_pair(records_of(sources, settings, others), options),
                 .joint = settings.joint,
                 .base = settings.base};
-  out.source = "sinew identify pair";
-  for (const Source& source : sources) out.source += " " + source.path;
-  out.source += ": " + out.result.report.best().model;
+  out.source = source_words("pair", sources, out.result.report.best().model);
   return out;
 }
 

@@ -193,12 +193,7 @@ PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& sett
   const PlanReader read(settings, atmosphere);
   PlanFound out{.options = read.options(""), .measured = data.points.size()};
   give_longest(data.points, out.notes);
-  std::optional<actuator::Braid> braid;
-  if (!settings.actuator.empty()) {
-    const auto file = experiment::load_machine_file(settings.actuator);
-    braid = config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
-  }
-  FittedMuscle fitted = muscle_by_points(data.points, atmosphere, braid);
+  FittedMuscle fitted = muscle_by_points(data.points, atmosphere, known_braid(settings.actuator));
   double& top = fitted.muscle.scales.top_pressure;
   top = read.values().given(settings.pressure).value_or(top);
   out.muscle = fitted.muscle;

@@ -18,10 +18,9 @@
 
 namespace sinew::identify {
 
-// --- geometry: thread length and turns of a braid, from lengths and diameters or from counted
-// trapezoids ---
+// --- geometry ---
 
-// Settings, as texts; fields() describes them.
+// Thread length and turns of a braid, from lengths and diameters or from counted trapezoids.
 struct GeometrySettings {
   std::string trapezoids, side, thread_thickness = "0 mm", name = "bpa";
 };
@@ -42,9 +41,9 @@ void fields(Visitor& v, GeometrySettings& s) {
   v.text({"name", "of the actuator"}, s.name);
 }
 
-// --- sensor: calibrations to the sensors of a robot's file ---
+// --- sensor ---
 
-// Settings, as texts; fields() describes them.
+// Calibrations to the sensors of a robot's file.
 struct SensorSettings {
   std::string known;
   std::vector<std::string> sensors;
@@ -80,9 +79,9 @@ void fields(Visitor& v, SensorSettings& s) {
          s.base);
 }
 
-// --- dynamic: what a muscle loses in motion, from a mass that swings on trapped air ---
+// --- dynamic ---
 
-// Settings, as texts; fields() describes them.
+// What a muscle loses in motion, from a mass that swings on trapped air.
 struct DynamicSettings {
   std::string actuator, name, mass, pressure, external_volume = "0 m3", exponent;
   int count = 1;
@@ -123,7 +122,7 @@ void fields(Visitor& v, DynamicSettings& s) {
   fields(v, s.wishes);
 }
 
-// --- joint: force law and moment arm of a joint's muscles, without a length rig ---
+// --- joint ---
 
 // Names of the joint and its muscles in the robot's file.
 struct JointNames {
@@ -131,8 +130,8 @@ struct JointNames {
   std::string flexion = "raises angle";  // or "lowers angle": what a shorter flexor does
 };
 
-// Settings, as texts; fields() describes them. Of empty quantities a column has the values, or they
-// are fitted.
+// Force law and moment arm of a joint's muscles, without a length rig. Of empty quantities a column
+// has the values, or they are fitted.
 struct JointSettings {
   std::string actuator, name;
   int count = 1;
@@ -209,9 +208,9 @@ void fields(Visitor& v, JointSettings& s) {
   fields(v, s.wishes);
 }
 
-// --- pair: a sealed antagonistic pair that is moved ---
+// --- pair ---
 
-// Settings, as texts; fields() describes them.
+// A sealed antagonistic pair that is moved.
 struct PairSettings {
   std::string rigs;
   HeldOut hold_out;
@@ -244,10 +243,9 @@ void fields(Visitor& v, PairSettings& s) {
   v.file({"base", "robot whose joint it is, named in the file that is written"}, s.base);
 }
 
-// --- valve: flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties
-// ---
+// --- valve ---
 
-// Settings, as texts; fields() describes them.
+// Flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties.
 struct ValveSettings {
   std::string kind, volume, conductance, added_volume;
   bool per_volume = false;
@@ -297,9 +295,9 @@ void fields(Visitor& v, ValveSettings& s) {
              s.frequency);
 }
 
-// --- static and check: the static law of an actuator from force, length and pressure ---
+// --- static and check ---
 
-// Settings of `static`, as texts; fields() describes them.
+// The static law of an actuator from force, length and pressure.
 struct StaticSettings {
   std::string rest_length, actuator, branch = "both";
   std::vector<std::string> fit_where;
@@ -358,9 +356,9 @@ void fields(Visitor& v, CheckSettings& s) {
   table_fields(v, s.how);
 }
 
-// --- creep: creep and dry friction from fill, hold and vent ---
+// --- creep ---
 
-// It has no settings.
+// Creep and dry friction from fill, hold and vent. It has no settings.
 struct CreepSettings {
   host::Tally* tried = nullptr;  // counts laws that have been tried; null: nothing
 };
@@ -373,9 +371,9 @@ void fields(Visitor& v, CreepSettings&) {
             Tables::needed, creep_models().size()});
 }
 
-// --- scale: the actuator of a muscle of another rest length than the one that was measured ---
+// --- scale ---
 
-// Settings, as texts; fields() describes them.
+// The actuator of a muscle of another rest length than the one that was measured.
 struct ScaleSettings {
   std::string file, rest_length, actuator, reading, name, atmosphere = "14.7 psi";
 };
@@ -398,9 +396,9 @@ void fields(Visitor& v, ScaleSettings& s) {
   v.text({"atmosphere", "the pressure of the room"}, s.atmosphere);
 }
 
-// --- run: numbers of a machine from a run of it that is kept ---
+// --- run ---
 
-// Settings, as texts; fields() describes them.
+// Numbers of a machine from a run of it that is kept.
 struct RunFitSettings {
   std::string run;
   std::vector<std::string> fit;
@@ -444,9 +442,9 @@ void fields(Visitor& v, RunFitSettings& s) {
   v.file(Setting{"base", "the robot's file, named in the one that is written"}.of_file(), s.base);
 }
 
-// --- plan: which lengths and pressures to measure ---
+// --- plan ---
 
-// Settings, as texts; fields() describes them. Empty quantities are not known, or follow from the
+// Which lengths and pressures to measure. Empty quantities are not known, or follow from the
 // others.
 struct PlanSettings {
   std::string rest_length, branch = "both", diameter, actuator, pressure, noise;
@@ -516,9 +514,9 @@ void fields(Visitor& v, PlanSettings& s) {
   aim_fields(v, s);
 }
 
-// --- force-beam: a force transducer ---
+// --- force-beam ---
 
-// Settings; fields() describes them. The thesis's transducer, 4.4. Where the gages are and how they
+// A force transducer. The thesis's transducer, 4.4. Where the gages are and how they
 // are wired it does not print: of the bridges one gives the measured 0.17 V/lb near the strain that
 // it was designed for, 1000e-6 at 30 lb.
 struct TransducerSettings {

@@ -71,13 +71,6 @@ void keep_branch(const std::string& word, StaticData& data) {
   omitted.points = std::move(left_out);
 }
 
-// The braid that is known from elsewhere.
-std::optional<actuator::Braid> braid_of(const StaticSettings& settings) {
-  if (settings.actuator.empty()) return {};
-  const auto file = experiment::load_machine_file(settings.actuator);
-  return config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
-}
-
 StaticOptions options_of(const std::vector<Source>& sources, const StaticSettings& settings,
                          const std::optional<actuator::Braid>& braid) {
   StaticOptions out{.atmosphere = sources[0].atmosphere,
@@ -162,7 +155,7 @@ CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings&
   const SettingValues values(settings, sources[0].atmosphere);
   CheckInput out{.diameter = values.given(settings.diameter).value_or(0),
                  .atmosphere = sources[0].atmosphere,
-                 .braid = braid_of(settings)};
+                 .braid = known_braid(settings.actuator)};
   StaticInput input{.rest_length = values.given(settings.rest_length).value_or(0)};
   const std::vector<Source> others = held_out_of(sources, settings);
   for (const Source& source : sources) read_table(settings, input, source, unreadable, out);
@@ -173,6 +166,12 @@ CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings&
 }
 
 }  // namespace
+
+std::optional<actuator::Braid> known_braid(const std::string& file_name) {
+  if (file_name.empty()) return {};
+  const auto file = experiment::load_machine_file(file_name);
+  return config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
+}
 
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   return read_tables(sources, settings, Unreadable::is_refused).data;

@@ -34,6 +34,13 @@ void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    "another file than those that are fitted");
 }
 
+std::string source_words(std::string_view method, const std::vector<Source>& sources,
+                         std::string_view law) {
+  std::string out = "sinew identify " + std::string(method);
+  for (const Source& source : sources) out += " " + source.path;
+  return out + ": " + std::string(law);
+}
+
 std::vector<std::string> words_of(const std::vector<Source>& sources) {
   std::vector<std::string> out;
   for (const Source& source : sources) out.push_back(source.path);

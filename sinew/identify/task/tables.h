@@ -24,6 +24,10 @@ const Source& only_of(const std::vector<Source>& sources);
 void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    const std::string& file);
 
+// Returns "sinew identify METHOD a.csv b.csv: LAW", the source of what was found.
+std::string source_words(std::string_view method, const std::vector<Source>& sources,
+                         std::string_view law);
+
 // Returns what is read, and how, in sentences for a page: "a.csv", "column force=F_N".
 std::vector<std::string> words_of(const std::vector<Source>& sources);
 
