@@ -1,6 +1,6 @@
 #include "sinew/identify/check/checkup.h"
 
-#include "sinew/identify/fit/report_json.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {

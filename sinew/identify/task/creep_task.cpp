@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sinew/identify/fit/report_json.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 

@@ -9,7 +9,6 @@
 #include "sinew/config/setting.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 

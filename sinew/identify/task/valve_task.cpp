@@ -9,8 +9,8 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/timing.h"
