@@ -1,9 +1,143 @@
 #include "sinew/identify/check/checkup.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/identify/actuator/static_groups.h"
+#include "sinew/identify/actuator/static_tried.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/refusal.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
+
+// --- what a fit could determine ---
+
+namespace {
+
+constexpr double known_share = 0.5;  // of its value: a wider interval tells its size at best
+
+// The measurement that tells a parameter.
+std::string_view measurement_for(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> all[] = {
+      {"thread_length",
+       "mounts over a longer range, down to 80 % of the rest length; or the mesh's own geometry, "
+       "by "
+       "`sinew identify geometry`"},
+      {"turns", "more pressures at the longest mounts; or the mesh's own geometry"},
+      {"effectiveness_c0", "more pressures at each mount"},
+      {"effectiveness_c1", "pressures over a wider range, up to the highest that is allowed"},
+      {"threshold", "pressures in small steps from 20 to 150 kPa at the longest mount"},
+      {"bladder_stiffness", "mounts over a longer range, down to 80 % of the rest length"},
+      {"saturating_tension", "two or three mounts within 5 % of the rest length"},
+      {"saturation_length", "mounts 1, 2 and 4 % shorter than the rest length"},
+      {"half_width", "the same pressures on the way up and on the way down"},
+      {"end_loss", "a muscle of the same make with another rest length"},
+  };
+  for (const auto& [which, measurement] : all)
+    if (which == name) return measurement;
+  return "more mounts and more pressures";
+}
+
+// Of two alike the one that holds for any muscle of a make.
+const StaticModel& richest_law() {
+  for (const StaticModel& m : static_models())
+    if (m.name == "saturating-effectiveness") return m;
+  return static_models().back();
+}
+
+Determined one_determined(const Estimate& e, bool leans) {
+  Determined out{.name = e.name,
+                 .unit = e.unit,
+                 .value = e.value,
+                 .half_width = e.at_bound ? unbounded : 0.5 * (e.high - e.low)};
+  const double share = out.half_width / std::abs(e.value);
+  if (e.at_bound) {
+    out.by = Determination::at_bound;
+    out.words = "at the end of its range: the data show no such effect";
+    return out;
+  }
+  if (leans) {
+    out.by = Determination::by_priors;
+    out.words = "from other muscles: the data hardly show it";
+  } else if (std::isfinite(share) && share <= known_share) {
+    out.by = Determination::by_data;
+    out.words = fmt::format("to +-{:.2g} %", 100 * share);
+    return out;
+  } else if (std::isfinite(share) && share < 1) {
+    out.words = fmt::format("its size at best, to +-{:.2g} %", 100 * share);
+  } else {
+    out.words = "not at all: zero would do as well";
+  }
+  out.advice = measurement_for(e.name);
+  return out;
+}
+
+// Nothing was measured that depends on it.
+Determined unasked(const char* name, const char* unit, const char* words) {
+  return {.name = name,
+          .unit = unit,
+          .half_width = unbounded,
+          .words = words,
+          .advice = std::string(measurement_for(name))};
+}
+
+std::vector<StaticPoint> fitted_points(const CheckInput& input) {
+  std::vector<StaticPoint> out;
+  double longest = 0;
+  for (const StaticPoint& p : input.data.points) {
+    longest = std::max(longest, p.length);
+    if (p.fitted) out.push_back(p);
+  }
+  for (StaticPoint& p : out)
+    if (!(p.rest_length > 0)) p.rest_length = longest;
+  sort_points(out);
+  return out;
+}
+
+void add_parameters(const StaticFit& fit, DeterminedLaw& out) {
+  bool branches = false;
+  for (std::size_t i = 0; i < fit.knobs.size(); ++i) {
+    const bool leans = std::ranges::find(fit.unknown, fit.knobs[i]) != fit.unknown.end();
+    out.parameters.push_back(one_determined(fit.solution.estimates[i], leans));
+    branches = branches || fit.knobs[i] == Knob::half_width;
+  }
+  if (!branches)
+    out.parameters.push_back(
+        unasked("half_width", "Pa diff", "not at all: there is one branch, or none is told"));
+}
+
+}  // namespace
+
+DeterminedLaw determine(const CheckInput& input) {
+  const StaticModel& model = richest_law();
+  DeterminedLaw out{.model = std::string(model.name), .law = std::string(model.law)};
+  const std::vector<StaticPoint> points = fitted_points(input);
+  try {
+    if (points.empty()) throw Refusal("data", "no points", "some", "");
+    const StaticScales scales = scales_of(points, input.atmosphere, input.braid);
+    add_parameters(Tried(model, scales, points).fit(points), out);
+  } catch (const Refusal& refusal) {
+    out.refused = refusal.what();
+  }
+  return out;
+}
+
+std::string_view word(Determination by) {
+  switch (by) {
+    case Determination::by_data:
+      return "data";
+    case Determination::by_priors:
+      return "priors";
+    case Determination::at_bound:
+      return "bound";
+    case Determination::not_at_all:
+      break;
+  }
+  return "nothing";
+}
 
 namespace {
 
