@@ -46,6 +46,11 @@ void add_new(Command app, Action& action);
 void add_completion(Command app, Action& action);
 void add_help(Command app, Action& action);
 
+// Returns the words of a line. Where they ask a method of `identify` for its columns, they are
+// those of `identify columns`, and what else the line says is left out, as `--help` does. The
+// option --columns with a value behind it is another matter: a header.
+std::vector<std::string> with_columns_first(std::vector<std::string> words);
+
 // `--set key=value`, any number of times; one value each, so that what follows stays what it is.
 inline void add_sets(Command sub, std::vector<std::string>& sets) {
   sub.add_option("--set", sets, "a value instead of the file's: key=value; may be repeated")

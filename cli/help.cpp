@@ -84,7 +84,7 @@ std::string words_of(const Shape& option) {
     out += ": " + either_of(option.choices);
   if (option.takes_value() && !option.default_text.empty())
     out += "; default " + option.default_text;
-  if (option.repeats && out.find("repeated") == out.npos) out += "; may be named several times";
+  if (option.repeats && out.find("repeated") == out.npos) out += "; may be repeated";
   if (option.required && !option.names.empty()) out += "; always needed";
   return out;
 }

@@ -1,33 +1,200 @@
 // cli/identify.cpp - `sinew identify`: from measurements to parameter files.
+//
+// The options of a method come from the rows of its settings (identify/task/settings.h), and every
+// method runs through run_method(). Where one differs from the others it has an overload.
 #include "cli/identify.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
-#include "cli/identify_columns.h"
-#include "cli/identify_page.h"
+#include "cli/setting_options.h"
 #include "cli/settings.h"
+#include "cli/table_options.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
-#include "sinew/config/setting.h"
-#include "sinew/identify/fit/report_json.h"
+#include "sinew/host/side_by_side.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/task/tables.h"
-#include "sinew/json/json.h"
 #include "sinew/recording/stated.h"
 #include "sinew/report/page/page.h"
-#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
 namespace {
+
+constexpr Replaceable page_file{"page of `sinew identify`", "such a page", "\"sinew.fit/", "",
+                                "another one, or --no-report"};
+constexpr Replaceable parameter_file{"parameter file", "a parameter file", "format=\"sinew.",
+                                     ".toml"};
+constexpr Replaceable plan_file{"plan", "a plan", "#Planof`sinewidentifyplan`", ".csv"};
+
+// How files of measurements are read.
+struct DataOptions {
+  std::vector<std::string> files;
+  TableOptions table;
+  std::string template_file;  // of the help alone: see with_columns_first()
+  std::string atmosphere = "14.7 psi";
+};
+
+// What is done with a result.
+struct ResultOptions {
+  std::string out;     // the parameter file
+  std::string beside;  // another file that some methods write
+  std::string report;  // the page; empty: beside `out`
+  std::string units;   // of what is printed; empty: the method's own
+  bool json = false, force = false, quiet = false, no_report = false;
+};
+
+// All of one method.
+template <class Settings>
+struct Options {
+  DataOptions data;
+  ResultOptions result;
+  Settings settings;
+};
+
+// The help of a method's outputs; without a text it has no such option.
+struct OutputHelp {
+  std::string_view out, force, json, quiet, units;
+  bool page = true;
+};
+constexpr std::string_view units_help = "of what is printed, else SI; --json and files are in SI";
+constexpr OutputHelp usual_help{
+    "the parameter file to write", "replace the parameter file and the page",
+    "print the report as JSON", "only the report and errors", units_help};
+constexpr OutputHelp creep_help{"", "replace the page", "print the report as JSON",
+                                "only the report and errors", units_help};
+constexpr OutputHelp check_help{"", "", "print all of it as JSON", "", "", false};
+constexpr OutputHelp scale_help{"the new actuator's file",
+                                "replace an old file",
+                                "print it as JSON, in SI",
+                                "only the result and errors",
+                                "",
+                                false};
+constexpr OutputHelp plan_help{"FILE.csv: a row for each reading, to fill in",
+                               "replace it",
+                               "print the plan as JSON",
+                               "only the plan and errors",
+                               "of what is printed, else mm and kPa; --json is in SI",
+                               false};
+
+// What the help of a method has besides its settings.
+struct MethodHelp {
+  std::string_view method;
+  OutputHelp outputs;
+  std::string_view example;
+};
+constexpr MethodHelp methods[] = {
+    {"geometry", usual_help, "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\""},
+    {"sensor", usual_help,
+     "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml"},
+    {"dynamic", usual_help,
+     "sinew identify dynamic a.csv b.csv --actuator robots/leg/actuator.toml --mass \"6 lb,11 lb\" "
+     "--pressure \"60 psi gauge,80 psi gauge\" --external-volume \"0.114 in3\" -o bpa.toml"},
+    {"joint", usual_help,
+     "sinew identify joint knee.csv --actuator robots/leg/actuator.toml --load \"5 lb\" --lever "
+     "\"6 in\" --rest-angle \"310 deg\" --joint knee --base robots/leg/robot.toml -o mine.toml"},
+    {"pair", usual_help,
+     "sinew identify pair moved.csv --hold-out \"7 s..\" --freeze \"delay=0 s\""},
+    {"valve", usual_help, "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml"},
+    {"static", usual_help,
+     "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
+     "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\" -o my-actuator.toml"},
+    {"creep", creep_help, "sinew identify creep hold.csv"},
+    {"check", check_help,
+     "sinew identify check map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
+     "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\""},
+    {"scale", scale_help,
+     "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml"},
+    {"run", usual_help,
+     "sinew run experiments/one-joint.toml -o runs/bench\n  sinew identify run runs/bench --base "
+     "robots/one-joint/robot.toml -o mine.toml\n  sinew identify run runs/bench --fit "
+     "friction,valve.inlet.closing_delay --hold-out \"30 %\""},
+    {"plan", plan_help,
+     "sinew identify plan --rest-length \"250 mm\" --diameter \"10 mm\" --pressure \"600 kPa "
+     "gauge\" --error \"2 %\" -o plan.csv\n  sinew identify plan forces.csv --error \"1.5 %\""},
+};
+
+// --- the options of a line ---
+
+using Row = identify::Setting;
+
+// Refuses what concerns the parameter file alone where none is written. A visitor.
+struct NeedsOut : identify::RowVisitor<NeedsOut> {
+  void row(const Row& row, const std::string& value) const {
+    if (row.is_of_file && !value.empty())
+      config::fail({"--" + std::string(row.name), 0, 0}, "", "no --out",
+                   "a file in which to name the base");
+  }
+  void row(const Row& row, const auto&) const { (void)row; }
+};
+
+void add_data_options(Command sub, identify::Tables tables, DataOptions& options) {
+  if (tables == identify::Tables::none) return;
+  sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run")
+      .required(tables == identify::Tables::needed);
+  add_table_options(sub, options.table);
+  sub.add_option("--template", options.template_file,
+                 "FILE.csv: writes a table to fill in, without DATA; --columns alone lists its "
+                 "columns");
+  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
+}
+
+void add_outputs(Command sub, const OutputHelp& help, ResultOptions& result) {
+  const auto flag = [&](const char* name, bool& value, std::string_view text) {
+    if (!text.empty()) sub.add_flag(name, value, std::string(text));
+  };
+  if (!help.out.empty()) sub.add_option("-o,--out", result.out, std::string(help.out));
+  flag("--force", result.force, help.force);
+  flag("--json", result.json, help.json);
+  flag("--quiet", result.quiet, help.quiet);
+  result.no_report = !help.page;
+  if (help.page) {
+    Option page =
+        sub.add_option("--report", result.report,
+                       "FILE.html: a page with the data beside the models; absent: beside --out");
+    sub.add_flag("--no-report", result.no_report, "no page").excludes(page);
+  }
+  if (!help.units.empty()) add_units(sub, result.units, std::string(help.units));
+}
+
+// Adds a second file that a method writes.
+template <class Settings>
+void add_beside(Command, Options<Settings>&) {}
+
+void add_beside(Command sub, Options<identify::JointSettings>& options) {
+  sub.add_option("--actuator-out", options.result.beside, "the actuator's file to write");
+}
+
+void add_beside(Command sub, Options<identify::ValveSettings>& options) {
+  sub.add_option("--predict-dat", options.result.beside,
+                 "FILE for the duties' opening and closing ticks, compensated for the delays");
+}
+
+// Refuses options that do not go together, as wrong usage.
+template <class Settings>
+void refuse_together(const Options<Settings>&) {}
+
+void refuse_together(const Options<identify::GeometrySettings>& options) {
+  const bool counted = !options.settings.trapezoids.empty();
+  if (options.data.files.empty() != counted)
+    refuse("DATA", counted ? "a file beside --trapezoids" : "no file",
+           "either a file of lengths and diameters, or --trapezoids");
+  if (counted && !options.result.report.empty())
+    refuse("--report", "--trapezoids beside it", "a file of lengths and diameters, to show it");
+  if (counted && options.settings.side.empty())
+    require("--side", "the side of one trapezoid, beside --trapezoids");
+}
+
+// --- tables ---
 
 // "force=F_N"
 void add_pair(std::string_view option, const std::string& text,
@@ -57,122 +224,10 @@ std::vector<std::string> pairs_of(const std::vector<std::string>& texts) {
   return out;
 }
 
-// Something that would be replaced, and that can be read first.
-bool is_old_file(const std::string& path) {
-  return std::filesystem::exists(path) && !log::is_written_directly(path);
-}
-
-// What --force may replace: never somebody's measurements.
-bool is_page(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return text.find("\"sinew.fit/") != text.npos;
-}
-
-bool is_parameter_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  while (std::getline(in, line))
-    if (line.starts_with("format") && line.find("\"sinew.") != line.npos) return true;
-  return false;
-}
-
-void print_models(const identify::Report& report) {
-  using enum report::TextTable::Align;
-  const bool ends = std::ranges::any_of(
-      report.fits, [](const identify::Fit& f) { return f.extrapolated.has_value(); });
-  std::vector<std::string> head = {"model",         "parameters", "fit rmse",       "max",
-                                   "held out rmse", "max",        "cross-validated"};
-  if (ends) head.emplace_back("at the ends");
-  head.emplace_back();
-  std::vector<report::TextTable::Align> align(head.size(), right);
-  align.front() = align.back() = left;
-  report::TextTable table(head, align);
-
-  const auto rmse = [](const std::optional<identify::Score>& score) {
-    return score ? fmt::format("{:.2f} %", score->rmse_percent) : std::string("-");
-  };
-  const auto most = [](const std::optional<identify::Score>& score) {
-    return score ? fmt::format("{:.2f} %", score->max_percent) : std::string("-");
-  };
-  for (std::size_t i = 0; i < report.fits.size(); ++i) {
-    const identify::Fit& f = report.fits[i];
-    if (!f.refused.empty()) {
-      std::vector<std::string> row(head.size(), "-");
-      row.front() = f.model;
-      row.back() = as_options(f.refused);
-      table.add(row);
-      continue;
-    }
-    std::vector<std::string> row = {f.model,
-                                    std::to_string(identify::free_count(f.parameters)),
-                                    rmse(f.fit),
-                                    most(f.fit),
-                                    rmse(f.held_out),
-                                    most(f.held_out),
-                                    rmse(f.cross_validated)};
-    if (ends) row.push_back(rmse(f.extrapolated));
-    row.push_back(i == report.chosen ? "<- chosen" : f.not_chosen);
-    table.add(row);
-  }
-  fmt::print("{}", table.text());
-}
-
-// The value and half its interval to the digits that mean something, multiplied with `scale`.
-std::string interval(const identify::Estimate& e, double scale) {
-  if (!e.free && e.low == e.high) return e.known;
-  if (e.at_bound) return "at the bound of its range";
-  if (!std::isfinite(e.high)) return e.identifiable ? "no interval" : "not identifiable";
-  return fmt::format("+- {:.2g}{}{}{}", 0.5 * scale * (e.high - e.low),
-                     e.identifiable ? "" : ", not identifiable", e.known.empty() ? "" : "; ",
-                     e.known);
-}
-
-void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
-  report::TextTable table({"parameter", "value", "unit", "95 %"},
-                          {report::TextTable::Align::left, report::TextTable::Align::right});
-  for (const identify::Estimate& e : fit.parameters) {
-    const Retold shown = retold(e.value, e.unit, asked, room);
-    table.add({e.name, fmt::format("{:.6g}", shown.number), shown.unit == "1" ? "" : shown.unit,
-               interval(e, shown.scale)});
-  }
-  fmt::print("{}", table.text());
-}
-
-void print(const identify::Report& report, const config::UnitsToShow& asked, double room) {
-  const Retold whole = retold(report.full_scale, report.unit, asked, room);
-  fmt::print("{}\n", report.subject);
-  const std::string of =
-      whole.unit == "1" ? "" : fmt::format(", {:.5g} {}", whole.number, whole.unit);
-  fmt::print("errors of the {} in % of {}{}\n\n", report.quantity, report.full_scale_is, of);
-  print_models(report);
-  if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
-  if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
-  fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
-  print_parameters(report.best(), asked, room);
-  if (const auto& band = report.best().band) {
-    const Retold most = retold(band->half_95, report.unit, asked, room);
-    const std::string unit = most.unit == "1" ? "" : " " + most.unit;
-    const std::string where = band->where.empty() ? "" : ", " + band->where;
-    fmt::print("68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
-               band->half_68 * most.scale, most.number, unit, where);
-  }
-  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
-}
-
-}  // namespace
-
-void add_data_options(Command sub, DataOptions& options) {
-  sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run").required();
-  add_table_options(sub, options.table);
-  sub.add_option("--template", options.template_file,
-                 "FILE.csv: writes a table to fill in, without DATA; --columns alone lists its "
-                 "columns");
-  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
-}
-
+// One source per file. A --value may also be of the files that are held out. Throws config::Error
+// for what is no name=value, and for a --value of no file.
 std::vector<identify::Source> sources_of(const DataOptions& options,
-                                         const std::vector<std::string>& held_out) {
+                                         const std::vector<std::string>& held_out = {}) {
   identify::Source how;
   const TableOptions& table = options.table;
   for (const std::string& map : pairs_of(table.maps)) add_pair("--map", map, how.names);
@@ -197,34 +252,28 @@ std::vector<identify::Source> sources_of(const DataOptions& options,
   return identify::sources_of(options.files, how);
 }
 
-void add_wish_options(Command sub, identify::WishTexts& wishes) {
-  sub.add_option("--freeze", wishes.freeze,
-                 "NAME=VALUE: a parameter that is known and not fitted; may be repeated")
-      .takes_one();
-  sub.add_option(
-         "--prior", wishes.prior,
-         "NAME=VALUE±DEVIATION: what is known of a parameter, and how well; may be repeated")
-      .takes_one();
-  sub.add_option("--tie", wishes.tie, "NAME=OTHER: two parameters that are one; may be repeated")
-      .takes_one();
+// Returns the files that are read: a run's method reads the run.
+template <class Settings>
+DataOptions read_by(const Options<Settings>& options) {
+  DataOptions out = options.data;
+  if constexpr (requires { options.settings.run; }) out.files = {options.settings.run};
+  return out;
 }
 
-void add_result_options(Command sub, ResultOptions& options) {
-  sub.add_option("-o,--out", options.out, "the parameter file to write");
-  sub.add_flag("--force", options.force, "replace the parameter file and the page");
-  sub.add_flag("--json", options.json, "print the report as JSON");
-  sub.add_flag("--quiet", options.quiet, "only the report and errors");
-  add_report_options(sub, options);
+template <class Settings>
+std::vector<std::string> held_out_by(const Settings& settings) {
+  if constexpr (requires { settings.hold_out.texts; })
+    return settings.hold_out.texts;
+  else if constexpr (requires { settings.how.hold_out; })
+    return settings.how.hold_out.texts;
+  else
+    return {};
 }
 
-void add_report_options(Command sub, ResultOptions& options) {
-  Option page =
-      sub.add_option("--report", options.report,
-                     "FILE.html: a page with the data beside the models; absent: beside --out");
-  sub.add_flag("--no-report", options.no_report, "no page").excludes(page);
-  add_units(sub, options.units, "of what is printed, else SI; --json and files are in SI");
-}
+// --- files ---
 
+// Returns the page that is to be written: that of --report, or the parameter file's name with
+// .html; empty: none.
 std::string page_of(const ResultOptions& options) {
   if (options.no_report) return "";
   if (!options.report.empty()) return options.report;
@@ -232,63 +281,263 @@ std::string page_of(const ResultOptions& options) {
   return std::filesystem::path(options.out).replace_extension(".html").string();
 }
 
-void check_result_options(const ResultOptions& options) {
+// Refuses files that exist already, before the work begins.
+void check_outputs(const ResultOptions& options, const Replaceable& out = parameter_file,
+                   const std::vector<std::string>& inputs = {}) {
   if (const std::string page = page_of(options); !page.empty()) {
     report::require_page(page);
     if (page == options.out)
       config::fail({"--out", 0, 0}, "", config::in_quotes(options.out) + ", the page's name too",
                    "a parameter file, such as mine.toml", "another name, or --no-report");
-    run::refuse_to_overwrite(page, options.force);
-    if (is_old_file(page) && !is_page(page))
-      config::fail({page, 0, 0}, "", "something that is no page of `sinew identify`",
-                   "a name that is free, or that of such a page", "another one, or --no-report");
+    refuse_to_replace(page, options.force, page_file);
   }
-  if (options.out.empty()) return;
-  run::refuse_to_overwrite(options.out, options.force, {}, ".toml");
-  if (is_old_file(options.out) && !is_parameter_file(options.out))
-    config::fail({options.out, 0, 0}, "", "something that is no parameter file",
-                 "a name that is free, or that of a parameter file", "another one");
+  if (!options.out.empty()) refuse_to_replace(options.out, options.force, out, inputs);
 }
 
-void write_parameter_file(const std::string& text, const ResultOptions& options) {
-  if (options.out.empty()) return;
-  run::write_file(options.out, text);
-  Messages(options.quiet).note(fmt::format("{}: written", options.out));
+void write_output(const std::string& file, const std::string& text, const ResultOptions& options) {
+  if (file.empty()) return;
+  run::write_file(file, text);
+  Messages(options.quiet).note(fmt::format("{}: written", file));
 }
 
-void tell(const identify::Report& report, const std::string& parameter_file,
-          const DataOptions& data, const ResultOptions& options, const Json& json) {
-  const Messages messages(options.quiet);
-  for (const std::string& note : report.notes) messages.note(note);
-  for (const std::string& warning : report.warnings) messages.warning(warning);
-  // Files come before what is printed: a reader that ends early, such as head, ends the program.
-  write_parameter_file(parameter_file, options);
-  leave_page(report.title.empty() ? report.subject : report.title, {&report}, parameter_file, data,
-             options);
-  if (options.json) {
-    fmt::print("{}\n", (json.is_null() ? to_json(report) : json).text(2));
+std::string file_of_muscle(const std::string& out, const identify::StaticMuscle& muscle) {
+  const std::filesystem::path path(out);
+  return (path.parent_path() / fmt::format("{}-{:.0f}mm{}", path.stem().string(),
+                                           1e3 * muscle.rest_length, path.extension().string()))
+      .string();
+}
+
+// Refuses the second file of a method where it exists already.
+template <class Settings>
+void check_beside(const Options<Settings>&) {}
+
+void check_beside(const Options<identify::JointSettings>& options) {
+  if (!options.result.beside.empty())
+    refuse_to_replace(options.result.beside, options.result.force, parameter_file);
+}
+
+void check_beside(const Options<identify::ValveSettings>& options) {
+  const std::string& file = options.result.beside;
+  if (file.empty()) return;
+  run::refuse_to_overwrite(file, options.result.force);
+  identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
+}
+
+// Writes what a method makes besides its parameter file.
+template <class Found, class Settings>
+void write_beside(const Found&, const Options<Settings>&) {}
+
+void write_beside(const identify::JointFound& found,
+                  const Options<identify::JointSettings>& options) {
+  write_output(options.result.beside, found.actuator_file, options.result);
+}
+
+// The compensated table, where the delays are known.
+void write_beside(const identify::ValveFound& found,
+                  const Options<identify::ValveSettings>& options) {
+  if (options.result.beside.empty() || !found.result.refused.empty()) return;
+  const identify::TimingFile timing = identify::timing_of(found, options.settings.frequency);
+  run::write_file(options.result.beside, timing.text);
+  Messages(options.result.quiet)
+      .note(
+          fmt::format("{}: written for {:g} Hz; the delivered duty differs from the commanded one "
+                      "by {:.1f} % at most",
+                      options.result.beside, timing.frequency, 100 * timing.worst));
+}
+
+// Other muscles of its make, each in a file beside that of the first one.
+void write_beside(const identify::StaticFound& found,
+                  const Options<identify::StaticSettings>& options) {
+  if (options.result.out.empty()) return;
+  const auto write = [&](const identify::StaticMuscle& muscle, const std::string& text) {
+    const std::string file = file_of_muscle(options.result.out, muscle);
+    refuse_to_replace(file, options.result.force, parameter_file);
+    write_output(file, text, options.result);
+  };
+  for (std::size_t i = 1; i < found.files.size(); ++i)
+    write(found.result.muscles[i], found.files[i]);
+  for (std::size_t i = 0; i < found.predicted.size(); ++i)
+    write(found.predicted[i], found.predicted_files[i]);
+}
+
+// --- messages ---
+
+// Prints the notes and warnings of what was found.
+template <class Found>
+void print_messages(const Found& found, const Messages& messages) {
+  if constexpr (requires { found.calibration; }) {
+    for (const std::string& note : found.calibration.notes) messages.note(note);
+    for (const std::string& warning : found.calibration.warnings) messages.warning(warning);
+    if (found.calibration.sensors.size() == 1) return;
+    for (const identify::SensorResult& sensor : found.calibration.sensors)
+      for (const std::string& note : sensor.report.notes) messages.note(note);
+  } else if constexpr (requires { found.plan; }) {
+    for (const std::string& note : found.notes) messages.note(as_options(note));
+  } else if constexpr (requires { found.corrected_by; }) {
+    if (!(found.actuator.prediction.inside_95 > 0))
+      messages.warning(
+          "how far off it is is unknown: no muscle was left out when the file was made; fit "
+          "muscles of two rest lengths at least");
+  } else if (const auto reports = identify::reports_of(found); !reports.empty()) {
+    for (const std::string& note : reports[0]->notes) messages.note(note);
+    for (const std::string& warning : reports[0]->warnings) messages.warning(warning);
+  }
+}
+
+template <class Found>
+bool is_ok(const Found&) {
+  return true;
+}
+// So that a script stops.
+bool is_ok(const identify::Checkup& found) { return !identify::has_red(found.checks); }
+
+// Prints the report, if there is one, and what the method adds. Of several sensors it is a table.
+template <class Found>
+void print(const Found& found, const PrintOptions& how) {
+  const std::vector<const identify::Report*> reports = identify::reports_of(found);
+  const bool several = std::is_same_v<Found, identify::SensorFound> && reports.size() > 1;
+  if (!reports.empty() && !several) print_report(*reports[0], how);
+  print_more(found, how);
+}
+
+// --- a method from its options to its files ---
+
+// Calls `find` with a counter of laws that have been tried, and shows it on a terminal.
+template <class Find>
+auto watched(std::size_t laws, bool quiet, const Find& find) {
+  host::Tally tried = 0;
+  const ProgressBar bar(tried, static_cast<std::int64_t>(laws), {.unit = "laws"}, quiet);
+  return find(tried);
+}
+
+template <class Settings>
+auto find(const Options<Settings>& options, const identify::MethodRow& row) {
+  Settings settings = options.settings;
+  std::vector<identify::Source> sources;
+  if (row.tables != identify::Tables::none)
+    sources = sources_of(options.data, held_out_by(settings));
+  if constexpr (requires { settings.tried; }) {
+    return watched(row.laws, options.result.quiet, [&](host::Tally& tried) {
+      settings.tried = &tried;
+      return identify::find(sources, settings);
+    });
   } else {
-    print(report, units_asked(options.units, units::UnitSet::si),
-          identify::atmosphere_setting(data.atmosphere));
+    if constexpr (requires { settings.progress; })
+      settings.progress = [&](const std::string& what) {
+        Messages(options.result.quiet).note(what);
+      };
+    return identify::find(sources, settings);
   }
+}
+
+auto find(const Options<identify::PlanSettings>& options, const identify::MethodRow&) {
+  return identify::find(sources_of(options.data), options.settings,
+                        identify::atmosphere_setting(options.data.atmosphere));
+}
+
+// Returns the text of a method's own file, as it would stand at `out`; empty: it makes none. The
+// page shows its values as well, where the data support a file.
+template <class Found>
+std::string own_file(const std::shared_ptr<const Found>& found, const std::string& out) {
+  const auto files = identify::files_of(found);
+  if (files.empty() || !identify::refused(*found).empty()) return "";
+  try {
+    return files[0](out);
+  } catch (const identify::Refusal&) {
+    if (!out.empty()) throw;
+    return "";
+  }
+}
+
+template <class Found>
+void leave_page(const Found& found, const std::string& file, const DataOptions& data,
+                const ResultOptions& options) {
+  const std::vector<const identify::Report*> reports = identify::reports_of(found);
+  const std::string page = page_of(options);
+  if (page.empty() || reports.empty()) return;
+  std::string title = identify::title_of(found);
+  if (title.empty()) title = reports[0]->title;
+  if (title.empty()) title = reports[0]->subject;
+  write_output(page,
+               identify::page({.title = title,
+                               .version = SINEW_VERSION,
+                               .data = identify::words_of(sources_of(data)),
+                               .atmosphere = identify::atmosphere_setting(data.atmosphere),
+                               .reports = reports,
+                               .parameter_file = file}),
+               options);
+}
+
+// Finds, writes the files that are wanted, and prints: files come first, as a reader that ends
+// early, such as head, ends the program.
+template <class Settings>
+ExitCode run_method(const Options<Settings>& options, const identify::MethodRow& row) {
+  const bool plan = std::is_same_v<Settings, identify::PlanSettings>;
+  check_outputs(options.result, plan ? plan_file : parameter_file,
+                plan ? options.data.files : std::vector<std::string>());
+  Settings settings = options.settings;
+  NeedsOut needs;
+  if (options.result.out.empty()) fields(needs, settings);
+  check_beside(options);
+
+  using Found = decltype(find(options, row));
+  const auto found = std::make_shared<const Found>(find(options, row));
+  write_beside(*found, options);
+  const std::string file = own_file(found, options.result.out);
+  print_messages(*found, Messages(options.result.quiet));
+  if (!file.empty()) write_output(options.result.out, file, options.result);
+  const DataOptions data = read_by(options);
+  leave_page(*found, file, data, options.result);
+  if (options.result.json)
+    fmt::print("{}\n", identify::to_json(*found).text(2));
+  else
+    print(*found, {options.result.units, identify::atmosphere_setting(data.atmosphere)});
+  if (const std::string why = identify::refused(*found); !why.empty()) {
+    error(why);
+    return failed;
+  }
+  return is_ok(*found) ? ok : failed;
+}
+
+template <class Settings>
+void add_method(Command identify, Action& action) {
+  auto options = std::make_shared<Options<Settings>>();
+  const identify::MethodRow row = identify::SettingList(options->settings).of;
+  const MethodHelp& help = *std::ranges::find(methods, row.name, &MethodHelp::method);
+  Command sub =
+      identify.subcommand(std::string(row.name), std::string(row.doc), std::string(help.example));
+  add_data_options(sub, row.tables, options->data);
+  SettingOptions rows(sub);
+  fields(rows, options->settings);
+  add_beside(sub, *options);
+  add_outputs(sub, help.outputs, options->result);
+  sub.callback([options, row, &action] {
+    refuse_together(*options);
+    action = [options, row] { return run_method(*options, row); };
+  });
+}
+
+}  // namespace
+
+void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
+                       const std::vector<std::string>& inputs) {
+  run::refuse_to_overwrite(path, force, {inputs.begin(), inputs.end()}, old.ending);
+  if (!std::filesystem::exists(path) || log::is_written_directly(path)) return;
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::erase(text, ' ');
+  if (text.find(old.mark) == text.npos)
+    config::fail({path, 0, 0}, "", fmt::format("something that is no {}", old.what),
+                 fmt::format("a name that is free, or that of {}", old.name),
+                 std::string(old.otherwise));
 }
 
 void add_identify(Command app, Action& action) {
   Command sub = app.subcommand("identify", "from measurements to parameter files",
                                "sinew identify geometry mesh.csv -o my-actuator.toml");
   sub.require_subcommand();
-  add_identify_geometry(sub, action);
-  add_identify_sensor(sub, action);
-  add_identify_dynamic(sub, action);
-  add_identify_joint(sub, action);
-  add_identify_pair(sub, action);
-  add_identify_valve(sub, action);
-  add_identify_static(sub, action);
-  add_identify_creep(sub, action);
-  add_identify_check(sub, action);
-  add_identify_scale(sub, action);
-  add_identify_run(sub, action);
-  add_identify_plan(sub, action);
+  identify::for_each_method(
+      [&]<class Settings>(const Settings&) { add_method<Settings>(sub, action); });
   add_identify_columns(sub, action);
 }
 

@@ -1,12 +1,10 @@
 // cli/identify_columns.cpp - `sinew identify columns`: what the table of a method must hold.
-#include "cli/identify_columns.h"
+#include "cli/identify.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "cli/settings.h"
@@ -59,15 +57,6 @@ void print(const identify::MethodInputs& inputs) {
   for (const std::string_view sentence : inputs.advice) fmt::print("{}\n", as_options(sentence));
 }
 
-// What --force may replace: never somebody's measurements of another origin.
-bool is_template(const std::string& path) {
-  if (log::is_written_directly(path)) return true;
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  std::getline(in, line);
-  return line.starts_with("# For `sinew identify ");
-}
-
 ExitCode run_columns(const IdentifyColumnsOptions& options) {
   const identify::MethodInputs& inputs = identify::inputs_of(options.method);
   const std::string text = identify::template_of(inputs, options.kind);  // is the kind one?
@@ -78,10 +67,8 @@ ExitCode run_columns(const IdentifyColumnsOptions& options) {
       print(inputs);
     return ok;
   }
-  run::refuse_to_overwrite(options.file, options.force, {}, ".csv");
-  if (std::filesystem::exists(options.file) && !is_template(options.file))
-    config::fail({options.file, 0, 0}, "", "something that is no template of `sinew identify`",
-                 "a name that is free, or that of a template", "another one");
+  refuse_to_replace(options.file, options.force,
+                    {"template of `sinew identify`", "a template", "#For`sinewidentify", ".csv"});
   run::write_file(options.file, text);
   Messages(options.quiet).note(fmt::format("{}: written", options.file));
   return ok;

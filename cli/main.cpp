@@ -14,7 +14,6 @@
 
 #include "cli/command.h"
 #include "cli/help.h"
-#include "cli/identify_columns.h"
 #include "cli/interrupt.h"
 #include "cli/settings.h"
 #include "cli/shipped_files.h"

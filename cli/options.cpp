@@ -213,6 +213,11 @@ Option Option::takes_one() {
   return *this;
 }
 
+Option Option::once() {
+  option_->expected(1);
+  return *this;
+}
+
 Option Option::takes_all() {
   option_->expected(1, CLI::detail::expected_max_vector_size);
   return *this;

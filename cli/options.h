@@ -26,6 +26,7 @@ class Option {
   // `wrong` returns what is wrong with a text, "" for nothing.
   Option check(std::function<std::string(const std::string&)> wrong);
   Option takes_one();  // a word each time that it is named
+  Option once();       // one word, of what takes several
   Option takes_all();  // the words that follow
   Option takes(int least, int most, const std::string& in_the_help);
   Option split_at(char delimiter);

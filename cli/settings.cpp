@@ -43,7 +43,8 @@ constexpr std::string_view quantities =
     "concentration conductance count criterion dates decimal diameter down encoding error "
     "event excitation exponent extensor_length external_volume fit "
     "fit_where flexion "
-    "flexor_length font fps frequency from full_scale gage_factor gages gain height hold_out kind "
+    "flexor_length font fps frequency from full_scale gage_factor gages gain height "
+    "hold_out kind "
     "label law_error length length_error lever limb limb_lever load longest lowest machine mass "
     "modulus moment_arm most mount_time name noise output poisson predict "
     "port predict_dat pressure prior rate reading rest rest_angle rest_length sensitivity shortest "
@@ -51,7 +52,7 @@ constexpr std::string_view quantities =
     "speed "
     "step_time "
     "temperature "
-    "thousands thread_thickness title to trapezoids volume width window within yield ";
+    "thousands thread_thickness threads title to trapezoids volume width window within yield ";
 
 // Words between blanks, " one two ".
 bool is_one_of(std::string_view word, std::string_view words) {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "sinew/identify/task/static_task.h"
+#include "sinew/identify/task/methods.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/tune/study.h"
 
@@ -27,7 +27,8 @@ std::string actuator_file() {
       .path = csv,
       .names = {{"pressure", "P_gauge_Pa"}, {"length", "L_m"}, {"force", "F_N"}},
       .units = {{"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}, {"F_N", "N"}}};
-  const identify::StaticFound found = identify::find_static({map}, {.rest_length = "250 mm"});
+  const identify::StaticFound found =
+      identify::find({map}, identify::StaticSettings{.rest_length = "250 mm"});
 
   const identify::Fit& law = found.result.report.best();
   std::printf("%zu points: %s, to %.2f %% of the largest force, %.2f %% of what it did not see\n",

@@ -9,8 +9,8 @@
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/check/check.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/json/json.h"
 
 namespace sinew::python {

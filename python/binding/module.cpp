@@ -22,6 +22,4 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_fmu(m);
   sinew::python::bind_figures(m);
   sinew::python::bind_identify_tables(m);
-  sinew::python::bind_force_beam(m);
-  sinew::python::bind_identify_plan(m);
 }

@@ -30,6 +30,7 @@ std::string quantity_text(const char* name, const py::handle& value, std::string
   if (!is_plain_number(value))
     refuse(name, value, fmt::format("a number [{}], or text with a unit", unit));
   const double number = py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>();
+  if (unit.empty()) return config::format_number(number) + " SI";
   return unit == "1" ? config::format_number(number) : config::format_quantity(number, unit);
 }
 
@@ -38,8 +39,6 @@ std::string quantity_text(const char* name, const py::handle& value, std::string
 py::object Settings::at(const char* name) const {
   return given_.contains(name) ? py::object(given_[name]) : py::object(py::none());
 }
-
-bool Settings::is_number(const char* name) const { return is_plain_number(at(name)); }
 
 void Settings::quantity(const char* name, std::string_view unit, std::string& out) const {
   if (const py::object value = at(name); !value.is_none()) out = quantity_text(name, value, unit);
@@ -64,19 +63,18 @@ void Settings::text(const char* name, std::string& out) const {
   out = bytes_of(value);
 }
 
-void Settings::texts(const char* name, std::vector<std::string>& out) const {
+void Settings::texts(const char* name, std::string_view unit, std::vector<std::string>& out) const {
   const py::object value = at(name);
   if (value.is_none()) return;
-  if (is_text(value)) {
-    out = {bytes_of(value)};
-    return;
-  }
-  if (!py::hasattr(value, "__iter__")) refuse(name, value, "texts");
+  const auto text = [&](const py::handle& one) {
+    if (!is_text(one) && unit.empty()) refuse(name, one, "text");
+    return is_text(one) ? bytes_of(one) : quantity_text(name, one, unit);
+  };
   out.clear();
-  for (const py::handle one : value) {
-    if (!is_text(one)) refuse(name, one, "text");
-    out.push_back(bytes_of(one));
-  }
+  if (is_text(value) || !py::hasattr(value, "__iter__"))
+    out.push_back(text(value));
+  else
+    for (const py::handle one : value) out.push_back(text(one));
 }
 
 void Settings::path(const char* name, std::string& out) const {
@@ -106,23 +104,13 @@ void Settings::flag(const char* name, bool& out) const {
   out = value.cast<bool>();
 }
 
-void Settings::table(const char* name, std::optional<identify::Source>& out) const {
-  if (const py::object value = at(name); !value.is_none()) out = source_of(value);
-}
-
-void Settings::tables(const char* name, std::vector<identify::Source>& out) const {
-  const py::object value = at(name);
-  if (value.is_none()) return;
-  for (const py::handle one : value) out.push_back(source_of(one));
-}
-
 identify::Source source_of(const py::handle& parts) {
   const auto given = py::reinterpret_borrow<py::dict>(parts);
   const Settings settings(given);
   identify::Source out;
   settings.text("path", out.path);
   if (const py::object text = given["text"]; !text.is_none()) out.text = bytes_of(text);
-  settings.texts("columns", out.columns);
+  settings.texts("columns", "", out.columns);
   std::map<std::string, std::string> values;
   for (const auto& [name, to] : {std::pair{"names", &out.names},
                                  {"units", &out.units},

@@ -2,7 +2,6 @@
 // tables that it is asked about.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,26 +17,23 @@ class Settings {
  public:
   explicit Settings(const py::dict& given) : given_(given) {}
 
-  // A text with a unit, or a number in `unit`, as a text.
+  // A text with a unit, or a number in `unit`, as a text: "0.3 SI" where the unit is empty.
   void quantity(const char* name, std::string_view unit, std::string& out) const;
   // One for all tables, or a list with one for each: with commas between.
   void quantities(const char* name, std::string_view unit, std::string& out) const;
 
   void text(const char* name, std::string& out) const;
-  void texts(const char* name, std::vector<std::string>& out) const;
+  // One, or a list of them; numbers only where they have a `unit`.
+  void texts(const char* name, std::string_view unit, std::vector<std::string>& out) const;
   void path(const char* name, std::string& out) const;
   void integer(const char* name, int& out) const;
   void number(const char* name, double& out) const;
   void flag(const char* name, bool& out) const;
-  void table(const char* name, std::optional<identify::Source>& out) const;
-  void tables(const char* name, std::vector<identify::Source>& out) const;
 
-  bool is_number(const char* name) const;
-
- private:
-  // None where it is not there.
+  // Returns the setting; None where it is not there.
   py::object at(const char* name) const;
 
+ private:
   py::dict given_;
 };
 

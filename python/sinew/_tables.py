@@ -176,11 +176,3 @@ def like(data: Any, other: Any) -> Any:
     if isinstance(first, Table) and not isinstance(other, Table):
         return dataclasses.replace(first, data=other)
     return other
-
-
-def held_out_of(method: str, data: Any, other: Any) -> "Optional[Dict[str, Any]]":
-    """Return the table that is not fitted beside `data`, where there is one."""
-    if other is None:
-        return None
-    units = _sinew.identify_columns(method)
-    return parts_of(like(data, other), units, "held out arrays of Python")

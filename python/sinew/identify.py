@@ -20,14 +20,21 @@ SI unit that is told here, or text with a unit, "6 lb".
 Functions raise RefusalError where the data support no answer, sinew.InputError for what is wrong with a
 table or a setting, and TypeError for what is none. What the numbers mean, and what is refused:
 docs/how-to/characterise.md and the pages of docs/theory that it names.
+
+The settings of a method are described in the library alone, which gives the last lines of a docstring and
+the defaults: None, "" and () leave a setting at its own.
 """
 
-from sinew._sinew import RefusalError
+import inspect
+import os
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, TypeVar, Union
+
+import numpy.typing
+
+from sinew import _sinew
 from sinew._found import Checked, Found, Joint, Plan, Static, Valve
-from sinew._identify_motion import creep, dynamic, joint, pair, run
-from sinew._identify_parts import force_beam, geometry, geometry_from_trapezoids, sensor, valve
-from sinew._identify_static import check, columns, plan, scale, static, static_from, template
-from sinew._tables import Table
+from sinew._sinew import RefusalError
+from sinew._tables import Path, Table, like, parts_of, tables_of
 
 __all__ = [
     "Checked",
@@ -56,3 +63,320 @@ __all__ = [
     "template",
     "valve",
 ]
+
+Quantity = Union[float, int, str]
+Quantities = Union[Quantity, Sequence[Quantity]]
+Texts = Union[str, Sequence[str]]
+Freeze = Mapping[str, Quantity]
+Prior = Mapping[str, Union[str, Sequence[Quantity]]]
+Tie = Mapping[str, str]
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def _of(method: str) -> Callable[[Function], Function]:
+    """Return a decorator that ends a docstring with a line for each setting of the method."""
+
+    def described(function: Function) -> Function:
+        lines = [inspect.cleandoc(function.__doc__ or ""), ""]
+        for row in _sinew.identify_settings(method):
+            unit = f" [{row['unit']}]" if "unit" in row else ""
+            words = f": {', '.join(row['words'])}" if "words" in row else ""
+            usual = f"; default {row['default']}" if "default" in row else ""
+            lines.append(f"{row['keyword']}{unit}: {row['doc']}{words}{usual}.")
+        function.__doc__ = "\n".join(lines)
+        return function
+
+    return described
+
+
+def _text(value: Any) -> str:
+    """Return text as it is, a number as one in the SI unit of what it is of, a pair with ± between."""
+    if isinstance(value, str):
+        return value
+    return "±".join(map(_text, value)) if isinstance(value, Sequence) else f"{float(value)!r} SI"
+
+
+def _held_out(method: str, data: Any, given: Any) -> "List[Union[str, Dict[str, Any]]]":
+    """Return what is not fitted: texts, which are rules or files, and tables as the library takes them."""
+    units = _sinew.identify_columns(method)
+    every = given if isinstance(given, (list, tuple)) else [] if given is None or given == "" else [given]
+    return [
+        os.fspath(one)
+        if isinstance(one, (str, os.PathLike))
+        else parts_of(like(data, one), units, "held out arrays of Python")
+        for one in every
+    ]
+
+
+def _found(method: str, given: Dict[str, Any]) -> _sinew.Identified:
+    """Return what a method finds; `given` are the arguments of its function, by their names."""
+    settings = {name: value for name, value in given.items() if name != "data"}
+    data = given.get("data")
+    if data is not None and "hold_out" in settings:
+        settings["hold_out"] = _held_out(method, data, settings["hold_out"])
+    for name, value in settings.items():
+        if isinstance(value, Mapping):
+            settings[name] = [f"{key}={_text(one)}" for key, one in value.items()]
+    return _sinew.identify_tables(method, [] if data is None else tables_of(method, data), settings)
+
+
+# --- a muscle at rest -------------------------------------------------------------------------------
+
+
+def static(
+    length: numpy.typing.ArrayLike, pressure: numpy.typing.ArrayLike, force: numpy.typing.ArrayLike, *,
+    rest_length: Optional[numpy.typing.ArrayLike] = None, fitted: numpy.typing.ArrayLike = True, model: str = "",
+    hold_out: str = "", name: str = "bpa", source: str = "arrays of Python", diameter: Optional[float] = None,
+    anyway: bool = False,
+) -> Static:  # fmt: skip
+    """Return the static law of an actuator from forces [N] at lengths [m] and gauge pressures [Pa].
+
+    Arrays with a number for each point, or one number for all. rest_length [m] of the muscle without
+    pressure and load (None: the longest length; several say which points are of which muscle). fitted:
+    False for points that are held out, to score what was not seen; hold_out does that with every second
+    "pressure" or each "length" once. model: that law alone; else the data choose. source: where the data
+    are from, for the file. diameter [m] without pressure, to compare the force with. The points are checked
+    first, as by check(): what is red is refused, unless they are to be fitted anyway; then it is among the
+    report's warnings, as suspicions are.
+
+    Raises RefusalError where the data support no law or a check is red, and ValueError for arrays that do
+    not belong together or a model that there is not.
+    """
+    report, files = _sinew.identify_static(
+        length, pressure, force, rest_length, fitted, model, hold_out, name, source, diameter, anyway
+    )
+    return Static(report, tuple(files))
+
+
+@_of("static")
+def static_from(
+    data: Any, *, rest_length: Optional[Quantity] = None, actuator: Optional[Path] = None,
+    branch: Optional[str] = None, fit_where: Texts = (), hold_out: Any = "", model: str = "",
+    name: Optional[str] = None, diameter: Optional[Quantity] = None, anyway: bool = False,
+    predict: Quantities = (),
+) -> Static:  # fmt: skip
+    """Return the static law of an actuator from tables, or recordings with a column of time.
+
+    Columns force [N] or load [kg], pressure [Pa gauge], length [m], or contraction [1] with rest_length; branch,
+    time where there are such. data: a table, or several; of a file without a column sinew.identify.Table states its
+    value, Table("rig.csv", values={"length": "205 mm"}). The files of muscles that `predict` names follow those
+    of the muscles that were measured.
+    """
+    found = _found("static", locals())
+    return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
+
+
+@_of("check")
+def check(
+    data: Any, *, rest_length: Optional[Quantity] = None, actuator: Optional[Path] = None,
+    branch: Optional[str] = None, fit_where: Texts = (), hold_out: Any = "",
+    diameter: Optional[Quantity] = None,
+) -> Checked:  # fmt: skip
+    """Return what static_from() would find in the same tables, and what speaks against it.
+
+    What no method can read is a red check, too.
+    """
+    return Checked(_found("check", locals()).report)
+
+
+@_of("scale")
+def scale(
+    file: Path, rest_length: Quantity, *, reading: Union[str, Sequence[float]] = "", actuator: str = "",
+    name: str = "", atmosphere: Optional[str] = None,
+) -> Found:  # fmt: skip
+    """Return the actuator of a muscle that nobody measured, from the file of one of its make.
+
+    A reading may also be (length [m], pressure [Pa gauge], force [N]). The report has the largest force, and
+    within what 68 and 95 % of forces are expected; None where no muscle was left out when the file was made.
+    """
+    given = dict(locals())
+    if not isinstance(reading, str):
+        length, pressure, force = (float(one) for one in reading)
+        given["reading"] = f"{length!r} m, {pressure!r} Pa gauge, {force!r} N"
+    return Found(_found("scale", given))
+
+
+def columns(method: str) -> Dict[str, Any]:
+    """Return which columns a method of `sinew identify` reads, as `--columns --json` prints it.
+
+    method: "static", "dynamic", ... For each column its quantity, accepted units, meaning, and whether it is
+    needed; for each kind of table what a row is. Raises sinew.InputError for a method that there is not.
+    """
+    return dict(_sinew.identify_inputs(method))
+
+
+def template(method: str, kind: str = "") -> str:
+    """Return a table to fill in, as `--template` writes it: CSV that the method reads as it is.
+
+    kind: of table, where a method takes several, "chart"; else the usual one.
+    """
+    return str(_sinew.identify_template(method, kind))
+
+
+@_of("plan")
+def plan(
+    data: Any = None, *, rest_length: Optional[Quantity] = None, diameter: Optional[Quantity] = None,
+    actuator: Optional[Path] = None, pressure: Optional[Quantity] = None, noise: Optional[Quantity] = None,
+    length_error: Optional[Quantity] = None, law_error: Optional[Quantity] = None,
+    error: Optional[Quantity] = None, mount_time: Optional[Quantity] = None,
+    step_time: Optional[Quantity] = None, shortest: Optional[Quantity] = None,
+    longest: Optional[Quantity] = None, lowest: Optional[Quantity] = None, criterion: Optional[str] = None,
+    most: Optional[int] = None, branch: Optional[str] = None,
+) -> Plan:  # fmt: skip
+    """Return which lengths and pressures to measure so that a static law is known well enough.
+
+    Without data for a muscle that nobody has measured: its rest_length and diameter, or an actuator's file
+    with one like it, and the highest pressure. With data, as of static_from(), what to measure next and what
+    it buys.
+    """
+    found = _found("plan", locals())
+    return Plan(found.report, found.text(0, ""))
+
+
+# --- measurements that move, and runs -----------------------------------------------------------------
+
+
+@_of("creep")
+def creep(data: Any) -> Found:
+    """Return shares and times of creep from force that goes on growing at one length.
+
+    Columns time [s], force [N], pressure [Pa gauge]. What was found is in report["creep"]; there is no
+    file: it belongs into an actuator's [creep].
+    """
+    return Found(_found("creep", locals()))
+
+
+@_of("dynamic")
+def dynamic(
+    data: Any, *, actuator: Path, mass: Quantities, pressure: Optional[Quantities] = None,
+    external_volume: Optional[Quantities] = None, exponent: Optional[Quantity] = None,
+    count: Optional[int] = None, hold_out: Any = (), freeze: Optional[Freeze] = None,
+    prior: Optional[Prior] = None, tie: Optional[Tie] = None, model: str = "", name: str = "",
+) -> Found:  # fmt: skip
+    """Return viscous loss and dry friction of an actuator from a mass that swings on trapped air.
+
+    data: a table for each swing, with columns time [s], length [m], and pressure [Pa abs] where it was
+    measured. What is one for each table may be a list. freeze, prior, tie: of parameters, as pair() has them.
+    """
+    return Found(_found("dynamic", locals()))
+
+
+@_of("joint")
+def joint(
+    data: Any, *, actuator: Path, load: Optional[Quantity] = None, lever: Optional[Quantity] = None,
+    down: Optional[Quantity] = None, limb: Optional[Quantity] = None, limb_lever: Optional[Quantity] = None,
+    rest_angle: Optional[Quantity] = None, moment_arm: Optional[Quantity] = None,
+    flexor_length: Optional[Quantity] = None, extensor_length: Optional[Quantity] = None,
+    keep_force: bool = False, torque_bias: bool = False, torque_gain: bool = False, moving: bool = False,
+    count: Optional[int] = None, flexion: Optional[str] = None, hold_out: Any = None,
+    freeze: Optional[Freeze] = None, prior: Optional[Prior] = None, tie: Optional[Tie] = None,
+    model: str = "", name: str = "", joint_name: Optional[str] = None, flexor: str = "", extensor: str = "",
+    base: Optional[Path] = None,
+) -> Joint:  # fmt: skip
+    """Return force law and moment arm of a joint's muscles from its angle, pressures and a known load.
+
+    Columns angle [rad], flexor_pressure or extensor_pressure [Pa abs], and torque [N m] or load [kg]
+    where there is one. data: a table, or several recordings. freeze, prior, tie: of parameters, as pair()
+    has them.
+    """
+    return Joint(_found("joint", locals()))
+
+
+@_of("pair")
+def pair(
+    data: Any, *, rigs: Texts = "", hold_out: Any = (), window: Optional[Quantity] = None,
+    freeze: Optional[Freeze] = None, prior: Optional[Prior] = None, tie: Optional[Tie] = None,
+    model: str = "", joint_name: Optional[str] = None, base: Optional[Path] = None,
+) -> Found:  # fmt: skip
+    """Return stiffness, friction, losses and trapped air of a sealed pair that is moved by hand or motor.
+
+    data: a table for each recording, with columns time [s], force [N] and displacement [m], or torque [N m]
+    and angle [rad], and pressure_1, pressure_2 [Pa abs] where they were measured. freeze: {name: value} of
+    parameters that are known; prior: {name: (value, standard deviation)}; tie: {name: other name}; numbers
+    in SI.
+    """
+    return Found(_found("pair", locals()))
+
+
+@_of("run")
+def run(
+    run: Path, *, fit: Texts = (), machine: Optional[Path] = None, sets: Texts = (), priors: Texts = (),
+    freeze: Texts = (), hold_out: Optional[Quantity] = None, begin: Optional[Quantity] = None,
+    threads: Optional[int] = None, base: Optional[Path] = None,
+) -> Found:  # fmt: skip
+    """Return friction, damping, dead times, volumes and leaks of a robot from a run of it.
+
+    The result is the same with any number of threads. A leg that walks has no intervals: "intervals" of the
+    report is False, "no_intervals_because" says why, and "low" and "high" are None.
+    """
+    return Found(_found("run", locals()))
+
+
+# --- parts one by one ---------------------------------------------------------------------------------
+
+
+def geometry(data: Any, *, thread_thickness: Optional[Quantity] = None, name: Optional[str] = None) -> Found:
+    """Return thread length and turns of a braid from columns length and diameter [m].
+
+    thread_thickness [m] is taken off diameters that were measured outside the threads.
+    """
+    return Found(_found("geometry", locals()))
+
+
+def geometry_from_trapezoids(
+    lengthwise: Union[float, int], around: Union[float, int], side: Quantity, *, name: Optional[str] = None
+) -> Found:
+    """Return thread length and turns of a braid from trapezoids counted on the opened mesh.
+
+    lengthwise and around: how many; side [m] of one between two threads. The report has no models.
+    """
+    return Found(_found("geometry", {"trapezoids": f"{lengthwise},{around}", "side": side, "name": name}))
+
+
+@_of("sensor")
+def sensor(
+    data: Any, *, known: str = "", sensors: Texts = (), rest: Optional[Quantity] = None,
+    bits: Optional[int] = None, full_scale: Optional[Quantity] = None, hold_out: Any = None,
+    average: bool = False, base: Optional[Path] = None,
+) -> Found:  # fmt: skip
+    """Return scale, offset, linearity, hysteresis and noise of calibrated sensors.
+
+    Columns: what was set, and what each sensor made of it, with their units: {"load [kg]": ..., "gage [V]":
+    ...}; volts, or counts. A number for rest is in SI.
+    """
+    return Found(_found("sensor", locals()))
+
+
+@_of("valve")
+def valve(
+    data: Any, *, kind: str = "", volume: Optional[Quantity] = None, conductance: Optional[Quantity] = None,
+    per_volume: bool = False, added_volume: Optional[Quantities] = None, port: Optional[Quantity] = None,
+    exponent: Optional[Quantity] = None, temperature: Optional[Quantity] = None,
+    frequency: Optional[Quantity] = None, hold_out: Any = None, name: Optional[str] = None,
+    base: Optional[Path] = None,
+) -> Valve:  # fmt: skip
+    """Return flow and delays of a valve from a chart, a filling, pulses, a coil's current or duties.
+
+    By kind: "chart" has columns upstream, downstream [Pa abs] and flow [m3/s] or mass_flow [kg/s]; "fill"
+    time [s] and pressure [Pa abs]; "pulses" command [1] beside; "coil" time and current [A]; "duty" duty [1],
+    delivered [1] or flow, and frequency [Hz]. Of a filling or pulses: the chamber's volume, or the valve's
+    conductance, or per_volume where their ratio is enough; or fillings with known volumes joined to the
+    chamber, a table for each, whose added_volume is given here or in a column of that name.
+    """
+    return Valve(_found("valve", locals()))
+
+
+@_of("force-beam")
+def force_beam(
+    *, length: Optional[Quantity] = None, width: Optional[Quantity] = None, height: Optional[Quantity] = None,
+    gages: Optional[Quantity] = None, modulus: Optional[Quantity] = None, poisson: Optional[float] = None,
+    yield_stress: Optional[Quantity] = None, concentration: Optional[float] = None, bridge: str = "poisson",
+    gage_factor: Optional[float] = None, excitation: Optional[Quantity] = None, gain: Optional[float] = None,
+    full_scale: Optional[Quantity] = None, bits: Optional[int] = None, load: Optional[Quantity] = None,
+    sensitivity: Optional[Quantity] = None,
+) -> Dict[str, Any]:  # fmt: skip
+    """Return strain, safety and output of a beam with strain gages, as `sinew force-beam --json` prints.
+
+    None: the thesis's.
+    """
+    return dict(_sinew.force_beam(dict(locals())))

@@ -37,6 +37,15 @@ class Documentation(unittest.TestCase):
                 self.assertGreater(len(words.strip()), 8, f"{name}: {text!r}")
         self.assertGreater(count, 100)
 
+    def test_methods_of_identification_take_the_settings_of_the_library(self) -> None:
+        called = {"static": "static_from", "force-beam": "force_beam"}
+        for method in "dynamic joint pair valve sensor creep check scale run plan static force-beam".split():
+            function = getattr(sinew.identify, called.get(method, method))
+            rows = {row["keyword"] for row in sinew._sinew.identify_settings(method)}
+            self.assertEqual(set(inspect.signature(function).parameters) - {"data"}, rows, method)
+            for keyword in rows:
+                self.assertRegex(inspect.getdoc(function) or "", rf"(?m)^{keyword}( \[.*\])?: ", method)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/identify/task/methods.h"
 #include "tests/cli/program.h"
 
 namespace sinew::test::settings_test {
@@ -24,6 +25,25 @@ TEST(Settings, AreToldAsOptions) {
             "try --map flexor_pressure=NAME (--known load)");
   EXPECT_EQ(as_options("run/1: align=sequence: found a run without phases"),
             "run/1: --align sequence: found a run without phases");
+}
+
+// Those that have a range or words. A file of text may have a key of another's name, "actuator".
+struct IsOption : identify::RowVisitor<IsOption> {
+  void row(const identify::Setting& row, const std::string&) const { expect(row); }
+  void row(const identify::Setting& row, int) const { expect(row); }
+  void row(const identify::Setting&, const auto&) const {}
+  static void expect(const identify::Setting& row) {
+    if (row.kind == Kind::text || row.kind == Kind::file) return;
+    const std::string text = as_options(std::string(row.name) + ": found \"x\"");
+    EXPECT_TRUE(text.starts_with("--")) << text;
+  }
+};
+
+TEST(Settings, OfAMethodOfIdentificationAreItsOptions) {
+  identify::for_each_method([](auto settings) {
+    IsOption visitor;
+    fields(visitor, settings);
+  });
 }
 
 TEST(Settings, BeginAProblemOrDoNot) {

@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../tools/site"))
 import comments  # noqa: E402
 from api import Name, documented, share_texts  # noqa: E402
 from names import blocks_of  # noqa: E402
-from python_pages import docs_of, prose  # noqa: E402
+from python_pages import docs_of, prose, setting_rows  # noqa: E402
 
 
 def converted(text: str) -> List[str]:
@@ -22,6 +22,15 @@ def converted(text: str) -> List[str]:
 
 def name(kind: str, word: str, line: int, **more: str) -> Name:
     return Name(kind, word, word, "a/b.h", line, **more)
+
+
+class Settings(unittest.TestCase):
+    def test_each_method_has_those_of_its_table(self) -> None:
+        rows = setting_rows(os.path.join(os.path.dirname(__file__), "../../sinew/identify/task"))
+        self.assertGreater(len(rows), 11)
+        self.assertIn("`moment_arm` [m]: is known, at the rest angle.", rows["joint"])
+        self.assertIn("`tie`: NAME=OTHER: two parameters that are one.", rows["pair"])
+        self.assertTrue(set(rows["check"]) < set(rows["static"]))
 
 
 class Headers(unittest.TestCase):

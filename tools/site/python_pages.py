@@ -122,6 +122,52 @@ def compiled_docs(folder: str) -> Dict[str, str]:
     return found
 
 
+# --- settings of the methods of identification ------------------------------------------------------
+
+
+def row_of(part: Tokens, constants: Dict[str, str]) -> List[str]:
+    """Name and line of a row, `Setting{"name", "doc", "unit", …}.in_python("keyword")`."""
+    fields: List[str] = [""]
+    for kind, text in part[part.index(("sign", "{")) + 1 :]:
+        if (kind, text) == ("sign", "}"):
+            break
+        if (kind, text) == ("sign", ","):
+            fields.append("")
+        else:
+            fields[-1] += text if kind == "string" else constants.get(text, "")
+    words = [text for _, text in part]
+    keyword = words[words.index(".in_python") + 2] if ".in_python" in words else fields[0]
+    unit = f" [{fields[2]}]" if len(fields) > 2 and fields[2] not in ("", "1") else ""
+    return [f"`{keyword}`{unit}: {fields[1]}."]
+
+
+def rows_of(functions: Dict[Tuple[str, str], str], name: str, kind: str) -> List[str]:
+    """The rows of a table fields(Visitor&, kind&), with those of the tables that it calls."""
+    body = functions[name, kind]
+    constants = dict(re.findall(r'(\w+) = "([^"]*)";', body))
+    found, out = list(tokens(body)), []
+    for i, (_, word) in enumerate(found):
+        call = call_at(found, i) if re.fullmatch(r"v\.(?!method)\w+|\w*fields", word) else None
+        if call is None:
+            continue
+        if word.startswith("v."):
+            out += row_of(call[1][0], constants)
+        else:
+            out += rows_of(functions, word, "WishTexts" if word == "fields" else kind.replace("Check", "Static"))
+    return out
+
+
+def setting_rows(folder: str) -> Dict[str, List[str]]:
+    """A line for each setting of a method, by the method's name."""
+    functions: Dict[Tuple[str, str], str] = {}
+    for path in sorted(glob.glob(os.path.join(folder, "*.h"))):
+        with open(path, encoding="utf-8") as file:
+            for match in re.finditer(r"^void (\w+)\(Visitor& v, (\w+)&.*?\{\n(.*?)^\}", file.read(), re.S | re.M):
+                functions[match[1], match[2]] = match[3]
+    return {match[1]: rows_of(functions, name, kind) for (name, kind), body in functions.items()
+            if (match := re.search(r'v\.method\(\s*\{"([\w-]+)"', body))}
+
+
 # --- names of the package ---------------------------------------------------------------------------
 
 
@@ -201,8 +247,9 @@ def prose(text: str) -> str:
 class ModulePage:
     """The page of one module; counts what has no words."""
 
-    def __init__(self, root: str, module: str, docs: Dict[str, str]) -> None:
+    def __init__(self, root: str, module: str, docs: Dict[str, str], rows: Dict[str, List[str]]) -> None:
         self.root = root
+        self.rows = rows
         self.module = module
         self.docs = docs
         self.out: List[str] = []
@@ -213,6 +260,9 @@ class ModulePage:
         own = None
         if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
             own = ast.get_docstring(node)
+            for call in node.decorator_list:
+                if isinstance(call, ast.Call) and ast.unparse(call.func) == "_of":
+                    own = "\n\n".join([own or "", *self.rows[ast.literal_eval(call.args[0])]])
         return own or (self.docs.get(name, "") if compiled else "")
 
     def entry(self, level: int, name: str, node: ast.stmt, text: str) -> None:
@@ -261,10 +311,11 @@ class ModulePage:
 def write_python_pages(root: str, out: str) -> Tuple[int, List[str]]:
     """Write the pages; return how many names there are, and those without words."""
     docs = compiled_docs(os.path.join(root, "python/binding"))
+    rows = setting_rows(os.path.join(root, "sinew/identify/task"))
     count, bare = 0, []
     os.makedirs(os.path.join(out, "reference/python"), exist_ok=True)
     for module in MODULES:
-        page = ModulePage(os.path.join(root, "python"), module, docs)
+        page = ModulePage(os.path.join(root, "python"), module, docs, rows)
         with open(os.path.join(out, f"reference/python/{module.replace('.', '-')}.md"), "w", encoding="utf-8") as file:
             file.write(page.render())
         count += page.count

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "sinew/identify/check/label.h"
 #include "sinew/identify/check/plausible.h"
 #include "sinew/identify/fit/refusal.h"
 

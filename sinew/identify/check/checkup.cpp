@@ -7,11 +7,13 @@
 
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_tried.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
+
+// --- what a fit could determine ---
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "sinew/identify/check/noise.h"
+#include "sinew/identify/check/recognised.h"
 #include "sinew/identify/check/test_rig.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/json/json.h"

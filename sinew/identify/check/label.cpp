@@ -1,4 +1,4 @@
-#include "sinew/identify/check/label.h"
+#include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // A label that is wrong is named with the length that it should have; right ones are left in peace,
 // whichever law the muscle follows.
-#include "sinew/identify/check/label.h"
+#include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

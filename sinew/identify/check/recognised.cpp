@@ -1,12 +1,15 @@
 #include "sinew/identify/check/recognised.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_settled.h"
-#include "sinew/identify/check/noise.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::identify {
 
@@ -72,6 +75,121 @@ Recognised recognise(const CheckInput& input) {
     if (!own.empty()) out.mounts.push_back(mount_of(own));
   }
   out.noise = force_noise(input);
+  return out;
+}
+
+// --- noise of the force ---
+
+namespace {
+
+constexpr std::size_t rest_window = 25;  // samples that a line is laid through
+constexpr double same_length = 2e-3;     // of the longest: readings of one mount
+constexpr double same_pressure = 0.01;   // of the highest: readings of one step
+
+// Squares about something, and how many of them are free.
+struct Squares {
+  double sum = 0, freedom = 0;
+  std::size_t readings = 0;
+};
+
+// Adds what values leave of a straight line over x; of their mean where all x are one.
+void add_about_line(std::span<const double> x, std::span<const double> y, Squares& out) {
+  const auto n = static_cast<double>(y.size());
+  double mx = 0, my = 0, sxy = 0, sxx = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) mx += x[i] / n, my += y[i] / n;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    sxy += (x[i] - mx) * (y[i] - my);
+    sxx += (x[i] - mx) * (x[i] - mx);
+  }
+  const bool leans = sxx > 1e-12 * mx * mx && n > 2;
+  const double slope = leans ? sxy / sxx : 0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    out.sum += std::pow(y[i] - my - slope * (x[i] - mx), 2);
+  out.freedom += n - (leans ? 2 : 1);
+  out.readings += y.size();
+}
+
+// Samples that rest together, in windows.
+void add_rests(const Measured& m, Squares& out) {
+  const bool weighs = m.has("load");
+  const std::vector<double>& force = m[weighs ? "load" : "force"];
+  const std::vector<bool> rests = settled_samples(m["time"], m["pressure"]).sample;
+  Squares own;
+  for (std::size_t i = 0; i < force.size();) {
+    std::size_t end = i;
+    while (end < force.size() && rests[end] && end - i < rest_window) ++end;
+    if (end - i >= 5)
+      add_about_line(std::span(m["time"]).subspan(i, end - i), std::span(force).subspan(i, end - i),
+                     own);
+    i = std::max(end, i + 1);
+  }
+  const double unit = weighs ? units::standard_gravity : 1;
+  out.sum += own.sum * unit * unit;
+  out.freedom += own.freedom;
+  out.readings += own.readings;
+}
+
+// Readings of one muscle, length and branch, by pressure, whose pressures are one: each about their
+// line, as they are not quite one.
+void add_repeated(const std::vector<StaticPoint>& sorted, double near, Squares& out) {
+  for (std::size_t i = 0; i < sorted.size();) {
+    std::size_t end = i;
+    std::vector<double> pressure, force;
+    for (; end < sorted.size() && sorted[end].pressure - sorted[i].pressure <= near; ++end) {
+      pressure.push_back(sorted[end].pressure);
+      force.push_back(sorted[end].force);
+    }
+    if (force.size() >= 2) add_about_line(pressure, force, out);
+    i = end;
+  }
+}
+
+Squares of_tables(const std::vector<StaticPoint>& points) {
+  double longest = 0, top = 0;
+  for (const StaticPoint& p : points) {
+    longest = std::max(longest, p.length);
+    top = std::max(top, p.pressure);
+  }
+  std::vector<StaticPoint> sorted = points;
+  sort_points(sorted);
+  Squares out;
+  for (std::size_t i = 0; i < sorted.size();) {
+    std::size_t end = i;
+    while (end < sorted.size() && sorted[end].rest_length == sorted[i].rest_length &&
+           sorted[end].branch == sorted[i].branch &&
+           sorted[end].length - sorted[i].length <= same_length * longest)
+      ++end;
+    std::vector<StaticPoint> own(sorted.begin() + static_cast<std::ptrdiff_t>(i),
+                                 sorted.begin() + static_cast<std::ptrdiff_t>(end));
+    std::ranges::stable_sort(own, {}, &StaticPoint::pressure);
+    add_repeated(own, same_pressure * top, out);
+    i = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+ForceNoise force_noise(const CheckInput& input) {
+  Squares recorded;
+  double strongest = 0;
+  for (const StaticPoint& p : input.data.points) strongest = std::max(strongest, p.force);
+  for (const CheckedTable& t : input.tables) {
+    const Measured& m = t.table;
+    if (m.has("time") && m.has("pressure") && m.has("force") != m.has("load"))
+      add_rests(m, recorded);
+  }
+  const bool records = recorded.freedom > 0;
+  const Squares squares = records ? recorded : of_tables(input.data.points);
+  ForceNoise out;
+  // Readings that differ by the last digits of a number alone are copies.
+  if (!(squares.freedom >= 3) || !(strongest > 0) ||
+      !(std::sqrt(squares.sum / squares.freedom) > 1e-9 * strongest))
+    return out;
+  out.deviation = std::sqrt(squares.sum / squares.freedom);
+  out.share = out.deviation / strongest;
+  out.readings = squares.readings;
+  out.from = records ? "settled samples" : "repeated readings";
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sinew/identify/check/check.h"
+#include "sinew/identify/check/recognised.h"
 
 namespace sinew::identify {
 
@@ -51,5 +52,12 @@ struct Recognised {
 
 // Returns what the tables and their points are. Throws nothing for what they hold.
 Recognised recognise(const CheckInput& input);
+
+// --- noise of the force ---
+
+// Returns it from the samples of recordings that have settled, each against a straight line through
+// those of its neighbours that it rests with; else from readings of a table that repeat a length,
+// pressure and branch, each against the others. The larger kind of data speaks.
+ForceNoise force_noise(const CheckInput& input);
 
 }  // namespace sinew::identify

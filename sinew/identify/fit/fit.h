@@ -11,6 +11,7 @@
 #include "sinew/identify/fit/evidence.h"
 #include "sinew/identify/fit/least_squares.h"
 #include "sinew/identify/fit/score.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -95,5 +96,15 @@ void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for = {});
 // Throws Refusal if the chosen model leaves a larger error than that where it was fitted: then the
 // data are of something else, or not what their columns say.
 void refuse_unexplained(const Report& report, double percent, const std::string& try_this);
+
+// --- a report for programs ---
+
+// Returns format sinew.identification/1: the report with its models, and the chosen one once more
+// where a program looks first. Values are in the units that stand beside them; what is not known,
+// as the interval of a value at its bound, is null.
+Json to_json(const Report& report);
+
+// Returns the value, or null where it is not finite: JSON has no infinity.
+Json finite_or_null(double value);
 
 }  // namespace sinew::identify

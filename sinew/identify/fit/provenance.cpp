@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "sinew/actuator/actuator.fields.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/write/writer.h"
 
@@ -118,6 +120,21 @@ std::string actuator_file(actuator::Actuator actuator, const Provenance& provena
     root.put(std::move(child));
   }
   return config::to_toml(root);
+}
+
+// --- parameter files that are a part of a robot ---
+
+config::Node robot_over(const std::string& base, const std::string& out) {
+  namespace fs = std::filesystem;
+  config::Node root = config::make_table("");
+  root.put(config::make_text("format", "sinew.robot/1"));
+  if (base.empty()) return root;
+  if (!out.empty() && fs::exists(out) && fs::equivalent(base, out))
+    config::fail({"base", 0, 0}, "", "the file that is to be written", "another one",
+                 "another name for the parameter file");
+  const fs::path folder = fs::absolute(out).parent_path();
+  root.put(config::make_text("base", fs::absolute(base).lexically_relative(folder)));
+  return root;
 }
 
 }  // namespace sinew::identify

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/config/node.h"
 #include "sinew/config/origin.h"
 #include "sinew/identify/fit/least_squares.h"
 
@@ -49,5 +50,11 @@ actuator::Actuator without_idle_digits(actuator::Actuator actuator);
 
 // A file of format sinew.actuator/1; paths begin with "actuator.<name>.".
 std::string actuator_file(actuator::Actuator actuator, const Provenance& provenance);
+
+// --- parameter files that are a part of a robot ---
+
+// Returns the beginning of a robot's file at `out` that adds to the one at `base`; empty: to none.
+// Throws config::Error where both are the same file.
+config::Node robot_over(const std::string& base, const std::string& out);
 
 }  // namespace sinew::identify

@@ -4,12 +4,210 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numbers>
+#include <optional>
 
+#include "sinew/config/diagnostics.h"
+#include "sinew/robot/legs.h"
+#include "sinew/run/controllers/boards.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/valve_commands.h"
 #include "sinew/world/machine.h"
 
 namespace sinew::identify {
+
+// --- channels of a recorded run ---
+
+namespace {
+
+using experiment::Experiment;
+using signals::Tick;
+using Of = RunChannel::Of;
+using Kind = robot::Sensor::Kind;
+
+constexpr double rounding_variance = 1.0 / 12;  // of a whole number [count^2]
+
+Tick nearest_tick(std::int64_t time_ns) {
+  return (time_ns + signals::tick_nanoseconds / 2) / signals::tick_nanoseconds;
+}
+
+// What a sensor measures; nothing for one of something that stands still.
+std::optional<RunChannel> channel_of(const Experiment& e, const robot::Sensor& sensor) {
+  const int joint = robot::find_joint(e.robot, sensor.of);
+  const int muscle = robot::find_muscle(e.robot, sensor.of);
+  const double per_volt = e.robot.converter.counts_per_volt();
+  RunChannel out{.name = sensor.name, .unit = "count", .at_zero = sensor.at_rest};
+  const bool of_joint = sensor.kind == Kind::angle || sensor.kind == Kind::velocity;
+  const bool of_muscle = sensor.kind == Kind::tension || sensor.kind == Kind::pressure;
+  if ((of_joint && joint < 0) || (of_muscle && muscle < 0) || sensor.kind == Kind::fixed) return {};
+  out.index = static_cast<std::size_t>(of_joint ? joint : of_muscle ? muscle : 0);
+  out.of = sensor.kind == Kind::angle      ? Of::angle
+           : sensor.kind == Kind::velocity ? Of::rate
+           : sensor.kind == Kind::tension  ? Of::tension
+           : sensor.kind == Kind::pressure ? Of::pressure
+                                           : Of::lift;
+  const bool per_unit = sensor.kind == Kind::angle || sensor.kind == Kind::cylinder;
+  out.per_unit = per_unit ? per_volt / sensor.scale : per_volt * sensor.scale;
+  out.noise = std::sqrt(sensor.noise * sensor.noise + rounding_variance);
+  out.bottom = 0;
+  out.top = e.robot.converter.top();
+  return out;
+}
+
+// Returns the topic of the sensor's quantity, as a recording has it; empty: it has none.
+std::string topic_of(const Experiment& e, const RunChannel& c) {
+  if (c.of == Of::angle) return robot::topic_of_joint(e.robot, c.index) + "/angle";
+  if (c.of == Of::rate) return robot::topic_of_joint(e.robot, c.index) + "/velocity";
+  if (c.of == Of::tension) return robot::topic_of_muscle(e.robot, c.index) + "/tension";
+  if (c.of == Of::pressure) return robot::topic_of_muscle(e.robot, c.index) + "/pressure";
+  return "/cylinder/position";
+}
+
+// A channel of the quantity itself, in SI as its topic is told.
+RunChannel quantity_channel(const Experiment& e, RunChannel c, const signals::Series& series) {
+  c.name = series.topic.name;
+  c.unit = series.topic.fields[0].unit;
+  c.noise /= std::abs(c.per_unit);
+  c.per_unit = 1;
+  c.at_zero = c.of == Of::angle      ? e.robot.joints[c.index].rest_angle
+              : c.of == Of::pressure ? e.air.atmosphere
+                                     : 0.0;
+  c.bottom = -std::numeric_limits<double>::infinity();
+  c.top = std::numeric_limits<double>::infinity();
+  return c;
+}
+
+// The ticks at which a sensor's conversions begin and are read, within a period.
+struct Converted {
+  Tick start = 0, read = 0, period = 100;
+
+  // Returns the start of the last conversion that was read by then; below 0: there was none.
+  Tick last_before(Tick row) const {
+    const Tick into = ((row - read) % period + period) % period;
+    return row - into - (read - start);
+  }
+};
+
+void add_samples(const signals::Series& series, const Converted* scan, RunChannel& c) {
+  for (std::size_t i = 0; i < series.time_ns.size(); ++i) {
+    const double value = series.columns[0][i];
+    const Tick row = nearest_tick(series.time_ns[i]);
+    const Tick at = scan ? scan->last_before(row) : row;
+    // A row that comes more often than a conversion repeats what it was.
+    if (!std::isfinite(value) || at < 0 || (!c.at.empty() && at <= c.at.back())) continue;
+    c.at.push_back(at);
+    c.value.push_back(value);
+  }
+}
+
+// What stands at the converter's end for long says only that it is beyond it.
+void leave_out_ends(RunChannel& c) {
+  constexpr std::size_t around = 10;  // so many samples before and behind
+  const std::size_t n = c.value.size();
+  std::vector<bool> out(n, false);
+  const auto at_end = [&](std::size_t i) { return c.value[i] <= c.bottom || c.value[i] >= c.top; };
+  std::size_t run = 0;  // samples at an end up to here
+  for (std::size_t i = 0; i < n; ++i) {
+    run = at_end(i) ? run + 1 : 0;
+    if (run >= 2 * around + 1) out[i - around] = true;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (out[i]) continue;
+    c.at[kept] = c.at[i];
+    c.value[kept++] = c.value[i];
+  }
+  c.at.resize(kept);
+  c.value.resize(kept);
+}
+
+// The spread of a recording's noise, from its third differences: what moves slowly leaves none.
+double noise_of(const std::vector<double>& v) {
+  std::vector<double> d;
+  for (std::size_t i = 3; i < v.size(); ++i)
+    d.push_back(std::abs(v[i] - 3 * v[i - 1] + 3 * v[i - 2] - v[i - 3]));
+  if (d.empty()) return 0;
+  std::ranges::nth_element(d, d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2));
+  constexpr double median = 0.6745;  // of |x| of a unit normal; the weights' squares add up to 20
+  return d[d.size() / 2] / (median * std::sqrt(20.0));
+}
+
+// Pressures that instruments measured, where the robot has no sensor of them.
+void add_instruments(const Experiment& e, const signals::Table& recorded,
+                     std::vector<RunChannel>& out) {
+  for (std::size_t m = 0; m < e.robot.muscles.size(); ++m) {
+    const std::string topic = robot::topic_of_muscle(e.robot, m) + "/pressure";
+    const signals::Series* series = recorded.find(topic);
+    const bool sensed = std::ranges::any_of(
+        out, [&](const RunChannel& c) { return c.of == Of::pressure && c.index == m; });
+    if (!series || sensed || series->time_ns.size() < 4) continue;
+    RunChannel c = quantity_channel(e, {.of = Of::pressure, .index = m}, *series);
+    add_samples(*series, nullptr, c);
+    constexpr double least = 100;  // a gauge of a laboratory [Pa]
+    c.noise = std::max(least, noise_of(c.value));
+    out.push_back(std::move(c));
+  }
+}
+
+}  // namespace
+
+double RunChannel::quantity(const plant::Truth& truth, const robot::Robot& robot,
+                            double atmosphere) const {
+  if (of == Of::angle) return truth.angle[index] - robot.joints[index].rest_angle;
+  if (of == Of::rate) return truth.rate[index];
+  if (of == Of::tension) return truth.tension[index];
+  if (of == Of::pressure) return truth.pressure[index] - atmosphere;
+  return truth.lift;
+}
+
+double RunChannel::expected(double quantity) const {
+  const double mean = at_zero + per_unit * quantity;
+  // The mean of max(bottom, x), x normal about `mean`, and the same from above.
+  const auto excess = [](double z) {  // of a unit normal above -z
+    const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
+    return z * 0.5 * std::erfc(-z / std::numbers::sqrt2) + density;
+  };
+  constexpr double far = 6;  // in standard deviations: nothing is cut
+  if (mean < bottom + far * noise) return bottom + noise * excess((mean - bottom) / noise);
+  if (mean > top - far * noise) return top - noise * excess((top - mean) / noise);
+  return mean;
+}
+
+std::vector<RunChannel> run_channels(const Experiment& e, const signals::Table& recorded,
+                                     bool imported, const std::string& name) {
+  const run::Boards boards(run::boards_of(e));
+  const signals::Scan scan = boards.scan();
+  std::vector<RunChannel> out;
+  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+    std::optional<RunChannel> c = channel_of(e, e.robot.sensors[s]);
+    if (!c) continue;
+    Converted converted{.period = scan.period};
+    for (const signals::Conversion& one : scan.conversions)
+      if (one.channel.index == s) converted = {one.start, one.read, scan.period};
+    const signals::Series* counts = recorded.find("/sensor/" + c->name + "/count");
+    const signals::Series* quantity = recorded.find(topic_of(e, *c));
+    // Counts that were made from a recording's quantities go by scales that nobody measured.
+    const bool made = counts && imported && counts->topic.description.starts_with("from /");
+    if (counts && !(made && quantity)) {
+      add_samples(*counts, imported ? nullptr : &converted, *c);
+    } else if (quantity) {
+      *c = quantity_channel(e, *c, *quantity);
+      add_samples(*quantity, nullptr, *c);
+    }
+    leave_out_ends(*c);
+    // Counts that are always the same are of something that stands still: they say nothing.
+    if (std::ranges::adjacent_find(c->value, std::not_equal_to<>()) != c->value.end())
+      out.push_back(std::move(*c));
+  }
+  add_instruments(e, recorded, out);
+  if (out.empty())
+    config::fail({name, 0, 0}, "", "no channel of a sensor that moves",
+                 "counts of sensors, or angles, tensions, pressures",
+                 "a mapping that names their columns, as sinew import makes it");
+  return out;
+}
 
 using experiment::Experiment;
 

@@ -24,9 +24,11 @@
 #include <string>
 #include <vector>
 
+#include "sinew/config/node.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/machine/driven_run.h"
+#include "sinew/json/json.h"
 
 namespace sinew::identify {
 
@@ -82,5 +84,12 @@ struct RunFitResult {
 // support the fit.
 RunFitResult fit_run(const experiment::Experiment& experiment, const DrivenRun& run,
                      const RunFitOptions& options);
+
+// Returns the text of a robot's file: `robot` with the keys that were found, each with its source
+// and how far it can be trusted. What the run does not determine is left out.
+std::string run_file(const RunFitResult& found, const std::string& source, config::Node robot);
+
+// Returns what the report does not say: channels, what is not determined, and what it took.
+Json describe(const RunFitResult& found);
 
 }  // namespace sinew::identify

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "sinew/config/write/writer.h"
-#include "sinew/identify/machine/run_file.h"
 #include "sinew/identify/machine/test_runs.h"
 #include "sinew/json/json.h"
 

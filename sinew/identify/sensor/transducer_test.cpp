@@ -1,5 +1,5 @@
 // A transducer's numbers hang together, and its doubts come where they should.
-#include "sinew/identify/sensor/transducer.h"
+#include "sinew/identify/sensor/force_beam.h"
 
 #include <gtest/gtest.h>
 

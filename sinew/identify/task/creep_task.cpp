@@ -1,15 +1,15 @@
-#include "sinew/identify/task/creep_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <algorithm>
 
-#include "sinew/identify/fit/report_json.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
 
-CreepResult find_creep(const std::vector<Source>& sources, host::Tally* tried) {
-  return identify_creep(read_measured(only_of(sources), creep_columns()), tried);
+CreepResult find(const SourceList& sources, const CreepSettings& settings) {
+  return identify_creep(read_measured(only_of(sources), creep_columns()), settings.tried);
 }
 
 Json to_json(const CreepResult& found) {

@@ -1,10 +1,11 @@
-#include "sinew/identify/task/dynamic_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,10 @@
 #include "sinew/config/origin.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/motion/dynamic.h"
+#include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -56,14 +58,12 @@ Json describe(const DynamicResult& found) {
 }
 
 // Returns the text of the actuator's file with the [loss] that was found. `start` are the origins
-// of the actuator's values in `start_file`, which stay what they are; `files` were fitted.
+// of the actuator's values in `start_file`, which stay what they are; `sources` were fitted.
 std::string loss_file(const config::Origins& start, const std::string& start_file,
                       actuator::Actuator a, const DynamicResult& found,
-                      const std::vector<std::string>& files) {
+                      const std::vector<Source>& sources) {
   Provenance provenance(start, start_file);
-  std::string source = "sinew identify dynamic";
-  for (const std::string& file : files) source += " " + file;
-  source += ": " + found.report.best().model;
+  const std::string source = source_words("dynamic", sources, found.report.best().model);
 
   const std::string path = "actuator." + a.name + ".loss.";
   for (const char* key : {"viscous", "coulomb_length"}) {
@@ -80,43 +80,24 @@ std::string loss_file(const config::Origins& start, const std::string& start_fil
   return actuator_file(a, provenance);
 }
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-// One value for all tables, or one for each.
-std::vector<double> per_table(std::string_view name, const std::string& text, std::string_view unit,
-                              double atmosphere, std::size_t tables, const config::Range& range) {
-  std::vector<double> out;
-  for (const std::string& piece : config::at_commas(text))
-    out.push_back(config::quantity_setting(name, piece, unit, atmosphere, range));
-  if (out.size() == 1) out.resize(tables, out[0]);
-  if (out.size() != tables)
-    config::fail({std::string(name), 0, 0}, "", fmt::format("{} values", out.size()),
-                 fmt::format("one, or {}: one for each file", tables));
-  return out;
-}
-
 bool is_among(const std::vector<Source>& sources, const std::string& path) {
   return std::ranges::find(sources, path, &Source::path) != sources.end();
 }
 
 std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSettings& settings,
-                                    const actuator::Actuator& a) {
-  for (const Source& other : settings.held_out)
+                                    const SettingValues& values, const actuator::Actuator& a) {
+  const std::vector<Source> held_out = held_out_tables(settings.hold_out, sources, {}, true);
+  for (const Source& other : held_out)
     if (!is_among(sources, other.path)) sources.push_back(other);
   const double atmosphere = sources[0].atmosphere;
   const std::size_t n = sources.size();
-  const std::vector<double> mass = per_table("mass", settings.mass, "kg", atmosphere, n,
-                                             config::above_zero(1e6, "hangs on the muscle"));
-  const std::vector<double> external = per_table("external_volume", settings.external_volume, "m3",
-                                                 atmosphere, n, config::air_volume);
-  std::vector<double> pressure(n, unknown);
-  if (!settings.pressure.empty())
-    pressure =
-        per_table("pressure", settings.pressure, "Pa abs", atmosphere, n, config::air_pressure);
-  const bool given = !settings.exponent.empty();
-  const double exponent = given ? config::quantity_setting("exponent", settings.exponent, "1",
-                                                           atmosphere, config::polytropic)
-                                : 1.4;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> mass = values.each(settings.mass, n);
+  const std::vector<double> external = values.each(settings.external_volume, n);
+  const std::vector<double> pressure = settings.pressure.empty()
+                                           ? std::vector<double>(n, unknown)
+                                           : values.each(settings.pressure, n);
+  const std::optional<double> exponent = values.given(settings.exponent);
   std::vector<DecayRecord> out;
   for (std::size_t i = 0; i < n; ++i) {
     DecayRecord r{.data = read_measured(sources[i], decay_columns())};
@@ -124,10 +105,10 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
                .mass = mass[i] / settings.count,
                .pressure = pressure[i],
                .external_volume = external[i] / settings.count,
-               .polytropic_exponent = !given && r.data.has("pressure") ? unknown : exponent,
+               .polytropic_exponent = exponent.value_or(r.data.has("pressure") ? unknown : 1.4),
                .atmosphere = atmosphere,
                .gravity = units::standard_gravity};
-    r.held_out = is_among(settings.held_out, sources[i].path);
+    r.held_out = is_among(held_out, sources[i].path);
     out.push_back(std::move(r));
   }
   return out;
@@ -135,18 +116,16 @@ std::vector<DecayRecord> records_of(std::vector<Source> sources, const DynamicSe
 
 }  // namespace
 
-DynamicFound find_dynamic(const std::vector<Source>& sources, const DynamicSettings& settings) {
+DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  (void)config::number_setting("count", settings.count, {1, 100, "actuators in parallel"});
+  const SettingValues values(settings, sources[0].atmosphere);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a =
       config::named(start.experiment.actuators, settings.name, "name", "actuator");
-  DynamicFound out{
-      identify_dynamic(records_of(sources, settings, a), settings.model, Wishes(settings.wishes)),
-      ""};
-  std::vector<std::string> files;
-  for (const Source& source : sources) files.push_back(source.path);
-  out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, files);
+  DynamicFound out{identify_dynamic(records_of(sources, settings, values, a), settings.model,
+                                    Wishes(settings.wishes)),
+                   ""};
+  out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, sources);
   return out;
 }
 

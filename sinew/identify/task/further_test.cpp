@@ -1,5 +1,5 @@
 // What a further measurement would buy is what a plan from the same points says.
-#include "sinew/identify/task/further.h"
+#include "sinew/identify/task/methods.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/geometry_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 #include <string>
@@ -10,7 +10,6 @@
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 
@@ -67,25 +66,8 @@ Json describe(const actuator::Braid& braid) {
           {"shortest_length_m", actuator::shortest_length(braid)}};
 }
 
-double thickness_of(const GeometrySettings& settings) {
-  return config::quantity_setting("thread_thickness", settings.thread_thickness, "m",
-                                  units::atmosphere, config::from_zero(0.1, "of one thread"));
-}
-
-}  // namespace
-
-GeometryFound find_geometry(const std::vector<Source>& sources, const GeometrySettings& settings) {
-  const Source& source = only_of(sources);
-  const double thread = thickness_of(settings);
-  const GeometryResult found =
-      identify_geometry(each_row_once(read_measured(source, geometry_columns())), thread);
-  return {found.braid, found.report,
-          braid_file(found.braid, settings.name, "sinew identify geometry " + source.path,
-                     &found.report)};
-}
-
-GeometryFound count_geometry(const GeometrySettings& settings) {
-  (void)thickness_of(settings);
+// From what was counted.
+GeometryFound count_geometry(const GeometrySettings& settings, double side) {
   std::vector<double> counts;
   for (const std::string& piece : config::at_commas(settings.trapezoids))
     counts.push_back(config::quantity_setting(
@@ -94,13 +76,31 @@ GeometryFound count_geometry(const GeometrySettings& settings) {
   if (counts.size() != 2)
     config::fail({"trapezoids", 0, 0}, "", config::in_quotes(settings.trapezoids),
                  "two counts, lengthwise and around: 37,16");
-  const double side =
-      config::quantity_setting("side", settings.side, "m", units::atmosphere,
-                               config::above_zero(1, "of one trapezoid between two threads"));
   const actuator::Braid braid = actuator::braid_from_trapezoids(counts[0], counts[1], side);
   const std::string source =
       fmt::format("{} x {} trapezoids of {}, [17], [18]", counts[0], counts[1], settings.side);
   return {braid, {}, braid_file(braid, settings.name, source)};
+}
+
+}  // namespace
+
+GeometryFound find(const SourceList& sources, const GeometrySettings& settings) {
+  const SettingValues values(settings);
+  if (!settings.trapezoids.empty()) {
+    if (!sources.empty())
+      config::fail({"data", 0, 0}, "", "a file beside trapezoids",
+                   "either a file of lengths and diameters, or trapezoids");
+    if (settings.side.empty())
+      config::fail({"side", 0, 0}, "", "nothing", "the side of one trapezoid, beside trapezoids");
+    return count_geometry(settings, values.of(settings.side));
+  }
+  const Source& source = only_of(sources);
+  const GeometryResult found =
+      identify_geometry(each_row_once(read_measured(source, geometry_columns())),
+                        values.of(settings.thread_thickness));
+  return {found.braid, found.report,
+          braid_file(found.braid, settings.name, "sinew identify geometry " + source.path,
+                     &found.report)};
 }
 
 Json to_json(const GeometryFound& found) {
@@ -108,6 +108,10 @@ Json to_json(const GeometryFound& found) {
   if (found.report) out = to_json(*found.report);
   out.update(describe(found.braid));
   return out;
+}
+
+Reports reports_of(const GeometryFound& found) {
+  return found.report ? Reports{&*found.report} : Reports{};
 }
 
 }  // namespace sinew::identify

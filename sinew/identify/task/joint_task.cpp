@@ -1,19 +1,17 @@
-#include "sinew/identify/task/joint_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/report_json.h"
-#include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 #include "sinew/robot/robot.h"
@@ -21,6 +19,8 @@
 namespace sinew::identify {
 
 namespace {
+
+// --- what was found of a joint, for programs and as a part of a robot ---
 
 using robot::Joint;
 using robot::Muscle;
@@ -132,30 +132,25 @@ Json describe(const JointResult& found) {
   return out;
 }
 
+// --- settings and tables ---
+
 JointSetup setup_of(const JointSettings& settings, const actuator::Actuator& a, double atmosphere) {
-  using config::Range;
-  const auto value = [&](std::string_view name, const std::string& text, std::string_view unit,
-                         const Range& range) {
-    return text.empty() ? to_be_found
-                        : config::quantity_setting(name, text, unit, atmosphere, range);
+  const SettingValues values(settings, atmosphere);
+  const auto value = [&](const std::string& member) {
+    return values.given(member).value_or(to_be_found);
   };
-  constexpr double turns = 4 * std::numbers::pi;
-  constexpr Range angle{-turns, turns, "two turns; a joint makes less than one"};
-  constexpr Range mass = config::from_zero(1e6, "of what hangs on a joint");
-  constexpr Range lever = config::from_zero(1000, "from the joint's axis");
-  constexpr Range size = config::above_zero(1000, "of a robot");
   JointSetup s{.actuator = a, .count = settings.count, .atmosphere = atmosphere};
   s.gravity = units::standard_gravity;
   s.flexion_raises = settings.names.flexion == "raises angle";
-  s.rest_angle = value("rest_angle", settings.rest_angle, "rad", angle);
-  s.load = value("load", settings.load, "kg", mass);
-  s.lever = value("lever", settings.lever, "m", lever);
-  s.down = value("down", settings.down, "rad", angle);
-  s.limb = value("limb", settings.limb, "kg", mass);
-  s.limb_lever = value("limb_lever", settings.limb_lever, "m", lever);
-  s.moment_arm = value("moment_arm", settings.moment_arm, "m", size);
-  s.flexor_length = value("flexor_length", settings.flexor_length, "m", size);
-  s.extensor_length = value("extensor_length", settings.extensor_length, "m", size);
+  s.rest_angle = value(settings.rest_angle);
+  s.load = value(settings.load);
+  s.lever = value(settings.lever);
+  s.down = value(settings.down);
+  s.limb = value(settings.limb);
+  s.limb_lever = value(settings.limb_lever);
+  s.moment_arm = value(settings.moment_arm);
+  s.flexor_length = value(settings.flexor_length);
+  s.extensor_length = value(settings.extensor_length);
   s.keep_force = settings.keep_force;
   s.torque_bias = settings.torque_bias;
   s.torque_gain = settings.torque_gain;
@@ -167,9 +162,6 @@ JointNames names_of(const JointSettings& settings) {
   JointNames names = settings.names;
   if (names.flexor.empty()) names.flexor = names.joint + "_flexor";
   if (names.extensor.empty()) names.extensor = names.joint + "_extensor";
-  if (names.flexion != "raises angle" && names.flexion != "lowers angle")
-    config::fail({"flexion", 0, 0}, "", config::in_quotes(names.flexion),
-                 "\"raises angle\" or \"lowers angle\"");
   return names;
 }
 
@@ -196,12 +188,12 @@ Measured joined(const std::vector<Source>& sources, bool moving) {
 
 }  // namespace
 
-JointFound find_joint(const std::vector<Source>& sources, const JointSettings& settings) {
+JointFound find(const SourceList& sources, const JointSettings& settings) {
   if (sources.empty()) (void)only_of(sources);
-  (void)config::number_setting("count", settings.count, {1, 100, "actuators in parallel"});
+  (void)SettingValues(settings, sources[0].atmosphere);
   if (settings.keep_force && settings.model.ends_with("pressure"))
-    config::fail({"model", 0, 0}, "", config::in_quotes(settings.model),
-                 "with keep_force=true round or hinge");
+    config::fail({"model", 0, 0}, "", settings.model + " with keep_force=true",
+                 "round or hinge beside it");
   const JointNames names = names_of(settings);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a =
@@ -211,16 +203,14 @@ JointFound find_joint(const std::vector<Source>& sources, const JointSettings& s
     if (sources.size() > 1) setup.recordings.push_back(source.path);
   const Measured data = joined(sources, settings.moving);
   std::optional<Measured> held_out;
-  if (settings.held_out)
-    held_out = read_measured(*settings.held_out, joint_columns(settings.moving));
+  for (const Source& other : held_out_tables(settings.hold_out, sources))
+    held_out = read_measured(other, joint_columns(settings.moving));
   JointFound out{.result = identify_joint(data, held_out, setup, settings.model,
                                           Wishes(settings.wishes), settings.tried),
                  .setup = setup,
                  .names = names,
                  .base = settings.base};
-  out.source = "sinew identify joint";
-  for (const Source& source : sources) out.source += " " + source.path;
-  out.source += ": " + out.result.report.best().model;
+  out.source = source_words("joint", sources, out.result.report.best().model);
   out.actuator_file = effectiveness_file(start.experiment.origins, settings.actuator, a, out.result,
                                          settings.keep_force, out.source);
   return out;

@@ -1,11 +1,14 @@
-#include "sinew/identify/task/pair_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
@@ -13,10 +16,9 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/report_json.h"
-#include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/pair/pair.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -114,19 +116,20 @@ std::vector<std::string> rigs_of(const std::string& text, std::size_t tables) {
   return out;
 }
 
-std::vector<PairRecord> records_of(std::vector<Source> sources, const PairSettings& settings) {
-  for (const Source& other : settings.held_out)
+std::vector<PairRecord> records_of(std::vector<Source> sources, const PairSettings& settings,
+                                   const HeldOut& others) {
+  const std::vector<Source> held_out = held_out_tables(others, sources, {}, true);
+  for (const Source& other : held_out)
     if (std::ranges::find(sources, other.path, &Source::path) == sources.end())
       sources.push_back(other);
   const std::vector<std::string> rigs = rigs_of(settings.rigs, sources.size());
-  const double window = config::quantity_setting("window", settings.window, "s", units::atmosphere,
-                                                 config::above_zero(10, "of a few samples"));
+  const double window = SettingValues(settings).of(settings.window);
   std::vector<PairRecord> out;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     out.push_back(pair_record(read_measured(sources[i], pair_columns()), window));
     out.back().rig = rigs[i];
-    out.back().held_out = std::ranges::find(settings.held_out, sources[i].path, &Source::path) !=
-                          settings.held_out.end();
+    out.back().held_out =
+        std::ranges::find(held_out, sources[i].path, &Source::path) != held_out.end();
   }
   return out;
 }
@@ -144,21 +147,26 @@ bool is_time_range(std::string_view text) {
   return time(from) && time(to) && from.size() + to.size() > 0;
 }
 
-PairFound find_pair(const std::vector<Source>& sources, const PairSettings& settings) {
+PairFound find(const SourceList& sources, const PairSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   PairOptions options{.model = settings.model, .wishes = Wishes(settings.wishes)};
-  if (!settings.hold_out.empty()) {
-    if (!is_time_range(settings.hold_out))
-      config::fail({"hold_out", 0, 0}, "", config::in_quotes(settings.hold_out),
-                   "times such as \"7 s..14 s\" or \"7 s..\", or a file");
-    std::tie(options.held_out_from, options.held_out_to) = times_of(settings.hold_out);
+  HeldOut others{.tables = settings.hold_out.tables};
+  std::string times;
+  for (const std::string& text : settings.hold_out.texts) {
+    if (!is_time_range(text)) {
+      if (!std::filesystem::exists(text))
+        config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
+                     "times such as \"7 s..14 s\" or \"7 s..\", or a file");
+      others.texts.push_back(text);
+    } else if (!std::exchange(times, text).empty()) {
+      config::fail({"hold_out", 0, 0}, "", "two ranges of time", "one");
+    }
   }
-  PairFound out{.result = identify_pair(records_of(sources, settings), options),
+  if (!times.empty()) std::tie(options.held_out_from, options.held_out_to) = times_of(times);
+  PairFound out{.result = identify_pair(records_of(sources, settings, others), options),
                 .joint = settings.joint,
                 .base = settings.base};
-  out.source = "sinew identify pair";
-  for (const Source& source : sources) out.source += " " + source.path;
-  out.source += ": " + out.result.report.best().model;
+  out.source = source_words("pair", sources, out.result.report.best().model);
   return out;
 }
 
@@ -169,6 +177,12 @@ std::string PairFound::file(const std::string& out) const {
 Json to_json(const PairFound& found) {
   Json out = to_json(found.result.report);
   out.update(describe(found.result));
+  return out;
+}
+
+Reports reports_of(const PairFound& found) {
+  Reports out{&found.result.report};
+  if (found.result.air) out.push_back(&found.result.air->report);
   return out;
 }
 

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/plan_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -16,44 +16,32 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr config::Range plan_length = config::above_zero(1000, "of an actuator");
-constexpr config::Range plan_pressure = config::above_zero(5e6, "above the room's, in a muscle");
-
-// Reads the settings of a plan; `room` is what gauges read against  [Pa].
+// Reads the settings of a plan in SI.
 class PlanReader {
  public:
-  PlanReader(const PlanSettings& settings, double room) : settings_(settings), room_(room) {}
+  PlanReader(const PlanSettings& settings, double room)
+      : settings_(settings), values_(settings, room) {}
 
-  double value(std::string_view name, const std::string& text, std::string_view unit,
-               const config::Range& range) const {
-    return config::quantity_setting(name, text, unit, room_, range);
+  const SettingValues& values() const { return values_; }
+
+  // Throws config::Error, by `name`, for what is needed and missing.
+  double needed(std::string_view name, const std::string& member, std::string_view what) const {
+    if (member.empty())
+      config::fail(
+          {std::string(name), 0, 0}, "", "nothing", std::string(what),
+          fmt::format("{}={}", name, name == "pressure" ? "\"600 kPa gauge\"" : "\"250 mm\""));
+    return values_.of(member);
   }
 
-  // Throws config::Error for what is needed and not told.
-  double needed(std::string_view name, const std::string& text, std::string_view unit,
-                const config::Range& range, std::string_view what) const {
-    if (text.empty())
-      config::fail({std::string(name), 0, 0}, "", "nothing", std::string(what),
-                   fmt::format("{}={}", name, unit == "m" ? "\"250 mm\"" : "\"600 kPa gauge\""));
-    return value(name, text, unit, range);
-  }
-
-  PlanOptions options() const {
-    const config::Range share = config::above_zero(0.5, "of the largest force");
-    const config::Range time = config::from_zero(86400, "more than a day for one step");
+  PlanOptions options(std::string_view usual_noise) const {
     PlanOptions out;
-    out.length_error =
-        value("length_error", settings_.length_error, "m", config::from_zero(0.1, "of a mount"));
-    out.law_error = value("law_error", settings_.law_error, "1",
-                          config::from_zero(0.5, "of the largest force"));
-    out.error = value("error", settings_.error, "1", share);
-    out.mount_time = value("mount_time", settings_.mount_time, "s", time);
-    out.step_time = value("step_time", settings_.step_time, "s", time);
+    out.noise = values_.of(settings_.noise, usual_noise);
+    out.length_error = values_.of(settings_.length_error);
+    out.law_error = values_.of(settings_.law_error);
+    out.error = values_.of(settings_.error);
+    out.mount_time = values_.of(settings_.mount_time);
+    out.step_time = values_.of(settings_.step_time);
     out.most = settings_.most;
-    (void)config::number_setting("most", out.most, {3, 100, "mounts; fewer cannot try a law"});
-    if (settings_.criterion != "mean" && settings_.criterion != "worst")
-      config::fail({"criterion", 0, 0}, "", config::in_quotes(settings_.criterion),
-                   "mean or worst");
     if (settings_.criterion == "worst") out.criterion = PlanCriterion::worst;
     const double least = out.law_error * (out.criterion == PlanCriterion::worst ? 1.96 : 1);
     if (out.error <= least)
@@ -67,13 +55,9 @@ class PlanReader {
   PlanRegion region(const ExpectedMuscle& muscle) const {
     PlanRegion out = region_of(muscle);
     const double lowest = free_length(muscle);
-    const auto take = [&](std::string_view name, const std::string& text, double& place) {
-      if (!text.empty()) place = value(name, text, "m", plan_length);
-    };
-    take("shortest", settings_.shortest, out.shortest);
-    take("longest", settings_.longest, out.longest);
-    if (!settings_.lowest.empty())
-      out.lowest = value("lowest", settings_.lowest, "Pa gauge", plan_pressure);
+    out.shortest = values_.given(settings_.shortest).value_or(out.shortest);
+    out.longest = values_.given(settings_.longest).value_or(out.longest);
+    out.lowest = values_.given(settings_.lowest).value_or(out.lowest);
     if (out.longest - out.shortest < 0.01 * out.longest)
       config::fail({"longest", 0, 0}, "", config::format_quantity(out.longest, "m", "mm", 4),
                    "at least 1 % above the shortest, " +
@@ -92,13 +76,8 @@ class PlanReader {
 
  private:
   const PlanSettings& settings_;
-  double room_;
+  SettingValues values_;
 };
-
-double planned_noise(const PlanReader& read, const std::string& text, const char* otherwise) {
-  return read.value("noise", text.empty() ? otherwise : text, "N",
-                    config::above_zero(1e4, "of a force"));
-}
 
 void tell_what_is_assumed(PlanFound& out) {
   const double full = out.muscle.scales.full_scale;
@@ -140,20 +119,53 @@ Json json_of_error(const PlanError& error) {
   return {{"rms_percent", 100 * error.rms}, {"half_width_95_percent", 100 * error.half_width}};
 }
 
-}  // namespace
+// An error just above the law's own: then mounts are added as long as there is room for them.
+constexpr double wanted = 1.05;  // times the law's error
+constexpr int mounts = 3;
 
-PlanFound find_plan(const PlanSettings& settings, double atmosphere) {
+Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
+                   const std::optional<actuator::Braid>& braid) {
+  const FittedMuscle fitted = muscle_by_points(points, atmosphere, braid);
+  PlanOptions options{.noise = fitted.scatter, .most = mounts};
+  options.error = wanted * options.law_error;
+  const MeasurementPlan plan =
+      plan_measurements(fitted.muscle, region_of(fitted.muscle), options, mounts_of(points));
+  Further out{.of = "",
+              .readings = points.size(),
+              .rms = 100 * (plan.before.rms),
+              .half = 100 * (plan.before.half_width),
+              .mounts = {},
+              .note = ""};
+  double time = 0;
+  for (const PlannedMount& m : plan.mounts) {
+    time += m.time;
+    out.mounts.push_back({.length = m.length,
+                          .pressures = m.pressures,
+                          .readings = m.readings(),
+                          .time = time,
+                          .rms = 100 * (m.after.rms),
+                          .half = 100 * (m.after.half_width)});
+  }
+  out.note = fmt::format(
+      "Expected errors of the richest law, {:.2g} % of them the law's own, which no measurement "
+      "lowers. A reading is taken to scatter by {:.2g} N as these did, a mount's length to be off "
+      "by {:.1g} mm; a mount takes {:.0f} min, a reading {:.1g} min.",
+      100 * (options.law_error), options.noise, 1e3 * options.length_error, options.mount_time / 60,
+      options.step_time / 60);
+  return out;
+}
+
+// A plan for a muscle that nobody has measured.
+PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
   const PlanReader read(settings, atmosphere);
-  PlanFound out{.options = read.options()};
-  out.options.noise = planned_noise(read, settings.noise, "2 N");
-  const double pressure = read.needed("pressure", settings.pressure, "Pa gauge", plan_pressure,
-                                      "the highest one that will be measured");
+  PlanFound out{.options = read.options("2 N")};
+  const double pressure =
+      read.needed("pressure", settings.pressure, "the highest one that will be measured");
   if (settings.actuator.empty()) {
-    const double rest = read.needed("rest_length", settings.rest_length, "m", plan_length,
+    const double rest = read.needed("rest_length", settings.rest_length,
                                     "the muscle's length without pressure and load");
-    const double diameter =
-        read.needed("diameter", settings.diameter, "m", config::above_zero(1, "of a muscle"),
-                    "that of the mesh without pressure, or an actuator's file");
+    const double diameter = read.needed("diameter", settings.diameter,
+                                        "that of the mesh without pressure, or an actuator's file");
     if (diameter > 0.5 * rest)
       config::fail({"diameter", 0, 0}, "", config::in_quotes(settings.diameter),
                    "at most half of the rest length: a muscle is longer than wide");
@@ -164,7 +176,7 @@ PlanFound find_plan(const PlanSettings& settings, double atmosphere) {
     const auto& a = config::named(file.experiment.actuators, "", "actuator", "actuator");
     double rest = a.prediction.rest_length;
     if (!settings.rest_length.empty() || !(rest > 0))
-      rest = read.needed("rest_length", settings.rest_length, "m", plan_length,
+      rest = read.needed("rest_length", settings.rest_length,
                          "the muscle's length without pressure and load");
     out.muscle = muscle_by_actuator(a, rest, pressure, atmosphere);
     out.subject = fmt::format("a muscle of {:.4g} mm like {}", 1e3 * rest, a.name);
@@ -172,45 +184,45 @@ PlanFound find_plan(const PlanSettings& settings, double atmosphere) {
   return planned(std::move(out), read, {});
 }
 
-PlanFound find_next(const std::vector<Source>& sources, const StaticSettings& how,
-                    const PlanSettings& settings) {
-  StaticData data = read_static(sources, how);
+// A plan for what the tables leave open.
+PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& settings) {
+  StaticData data = read_static(sources, {.rest_length = settings.rest_length,
+                                          .actuator = settings.actuator,
+                                          .branch = settings.branch});
   const double atmosphere = sources[0].atmosphere;
   const PlanReader read(settings, atmosphere);
-  PlanFound out{.options = read.options(), .measured = data.points.size()};
+  PlanFound out{.options = read.options(""), .measured = data.points.size()};
   give_longest(data.points, out.notes);
-  std::optional<actuator::Braid> braid;
-  if (!how.actuator.empty()) {
-    const auto file = experiment::load_machine_file(how.actuator);
-    braid = config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
-  }
-  FittedMuscle fitted = muscle_by_points(data.points, atmosphere, braid);
-  if (!settings.pressure.empty())
-    fitted.muscle.scales.top_pressure =
-        read.value("pressure", settings.pressure, "Pa gauge", plan_pressure);
+  FittedMuscle fitted = muscle_by_points(data.points, atmosphere, known_braid(settings.actuator));
+  double& top = fitted.muscle.scales.top_pressure;
+  top = read.values().given(settings.pressure).value_or(top);
   out.muscle = fitted.muscle;
-  out.options.noise =
-      settings.noise.empty() ? fitted.scatter : planned_noise(read, settings.noise, "");
+  if (settings.noise.empty()) out.options.noise = fitted.scatter;
   out.subject = fmt::format("what {} readings in {}{} leave open", data.points.size(),
                             sources[0].path, sources.size() > 1 ? " and others" : "");
   return planned(std::move(out), read, mounts_of(data.points));
 }
 
-std::string plan_table(const PlanFound& found) {
-  const PlanError after = found.plan.after();
+}  // namespace
+
+PlanFound find(const SourceList& sources, const PlanSettings& settings, double atmosphere) {
+  return sources.empty() ? first_plan(settings, atmosphere) : next_plan(sources, settings);
+}
+
+std::string PlanFound::file(const std::string&) const {
+  const PlanError after = plan.after();
   std::string out = fmt::format(
       "# Plan of `sinew identify plan`: {} mounts, {} readings, {:.0f} minutes, for {}.\n"
       "# Expected afterwards: {:.2g} % of the largest force, root mean square.\n"
       "# Fill in force [N], and the lengths and pressures that you really had; leave out what you "
       "did not measure.\n"
       "length [mm],pressure [kPa gauge],force [N],branch,rest_length [mm]\n",
-      found.plan.mounts.size(), found.plan.readings(), found.plan.time() / 60, found.subject,
-      100 * after.rms);
+      plan.mounts.size(), plan.readings(), plan.time() / 60, subject, 100 * after.rms);
   const auto row = [&](double length, double pressure, const char* branch) {
     out += fmt::format("{:.6g},{:.6g},,{},{:.6g}\n", 1e3 * length, 1e-3 * pressure, branch,
-                       1e3 * found.muscle.scales.rest_length);
+                       1e3 * muscle.scales.rest_length);
   };
-  for (const PlannedMount& m : found.plan.mounts) {
+  for (const PlannedMount& m : plan.mounts) {
     for (const double p : m.pressures) row(m.length, p, "fill");
     for (auto p = m.pressures.rbegin() + 1; p < m.pressures.rend(); ++p) row(m.length, *p, "vent");
   }
@@ -244,6 +256,24 @@ Json to_json(const PlanFound& found) {
   out["readings"] = plan.readings();
   out["time_s"] = plan.time();
   out["notes"] = found.notes;
+  return out;
+}
+
+std::vector<Further> further_measurements(const StaticResult& result, double atmosphere,
+                                          const std::optional<actuator::Braid>& braid) {
+  std::vector<Further> out;
+  for (const StaticMuscle& muscle : result.muscles) {
+    std::vector<StaticPoint> own;
+    for (const StaticPoint& p : result.points)
+      if (p.rest_length == muscle.rest_length) own.push_back(p);
+    try {
+      out.push_back(further_of(own, atmosphere, braid));
+    } catch (const Refusal&) {
+      continue;  // too few points for a plan: the models of the report say what is missing
+    }
+    if (result.muscles.size() > 1)
+      out.back().of = fmt::format("the muscle of {:.4g} mm", 1e3 * muscle.rest_length);
+  }
   return out;
 }
 

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/run_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,9 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
-#include "sinew/identify/fit/report_json.h"
-#include "sinew/identify/fit/robot_over.h"
+#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/machine/machine_numbers.h"
-#include "sinew/identify/machine/run_file.h"
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
@@ -77,8 +76,8 @@ std::vector<std::string> frozen_keys(const std::vector<std::string>& texts,
   return out;
 }
 
-double share_of(const std::string& text) {
-  const double share = config::quantity_setting("hold_out", text, "1");
+// Returns the share of the run that is held out, which `text` gave.
+double share_of(const std::string& text, double share) {
   if (share >= 0 && share < most_held_out) return share;
   config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
                fmt::format("a share of the run, from 0 to below {:g} %", 100 * most_held_out),
@@ -91,9 +90,9 @@ RunFitOptions options_of(const RunFitSettings& settings, experiment::Experiment&
   RunFitOptions out{
       .fit = settings.fit, .threads = settings.threads, .progress = settings.progress};
   out.frozen = frozen_keys(settings.freeze, settings.fit, e);
-  out.hold_out = share_of(settings.hold_out);
-  out.from = config::quantity_setting("from", settings.from, "s", units::atmosphere,
-                                      config::from_zero(1e6, "a time of the run"));
+  const SettingValues values(settings);
+  out.hold_out = share_of(settings.hold_out, values.of(settings.hold_out));
+  out.from = values.of(settings.from);
   for (const std::string& prior : settings.priors) out.priors.push_back(prior_of(prior, e));
   return out;
 }
@@ -116,7 +115,7 @@ std::string RunFitFound::file(const std::string& out) const {
   return run_file(result, source, robot_over(base, out));
 }
 
-RunFitFound find_run_fit(const RunFitSettings& settings) {
+RunFitFound find(const SourceList&, const RunFitSettings& settings) {
   const run::RecordedRun run = run::recorded_run(settings.run);
   const std::string machine = run::machine_of(run, settings.machine).string();
   const config::Node root = config::compose(machine, all_sets(settings));

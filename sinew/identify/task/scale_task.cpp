@@ -1,4 +1,4 @@
-#include "sinew/identify/task/scale_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -65,13 +65,12 @@ double scatter_of(const ForceReading& read, const actuator::Prediction& old, dou
 
 }  // namespace
 
-ScaleFound find_scaled(const ScaleSettings& s) {
+ScaleFound find(const SourceList&, const ScaleSettings& s) {
   const double atmosphere = atmosphere_setting(s.atmosphere);
   const auto file = experiment::load_machine_file(s.file);
   const actuator::Actuator old =
       config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
-  const double rest_length =
-      config::quantity_setting("rest_length", s.rest_length, "m", atmosphere, new_length);
+  const double rest_length = SettingValues(s, atmosphere).of(s.rest_length);
   ScaleFound out{.actuator = with_rest_length(old, rest_length, atmosphere),
                  .from = old.prediction.rest_length,
                  .file = {}};

@@ -1,23 +1,142 @@
-#include "sinew/identify/task/sensor_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/fit/robot_over.h"
-#include "sinew/identify/sensor/sensor_file.h"
+#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
+#include "sinew/robot/sensor.fields.h"
 
 namespace sinew::identify {
 
 namespace {
 
-CountScale converter_of(const SensorSettings& settings) {
-  (void)config::number_setting("bits", settings.bits, {1, 16, "of a converter"});
-  return {settings.bits,
-          config::quantity_setting("full_scale", settings.full_scale, "V", units::atmosphere,
-                                   config::above_zero(1000, "of a converter"))};
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// Potentiometers are given per volt, transducers in volts.
+bool per_volt(SensorKind kind) { return kind == SensorKind::angle || kind == SensorKind::cylinder; }
+
+robot::Sensor::Kind kind_of(SensorKind kind) {
+  using Kind = robot::Sensor::Kind;
+  switch (kind) {
+    case SensorKind::angle:
+      return Kind::angle;
+    case SensorKind::tension:
+      return Kind::tension;
+    case SensorKind::pressure:
+      return Kind::pressure;
+    case SensorKind::velocity:
+      return Kind::velocity;
+    case SensorKind::cylinder:
+      break;
+  }
+  return Kind::cylinder;
+}
+
+}  // namespace
+
+double scale_of(const Calibration& c, double sensitivity) {
+  return per_volt(c.kind) ? 1 / sensitivity : sensitivity;
+}
+
+double scale_uncertainty(const Calibration& c, const SensorResult& r) {
+  const double relative = r.sensitivity_uncertainty / std::abs(r.sensitivity);
+  return relative * std::abs(scale_of(c, r.sensitivity));
+}
+
+std::string scale_unit(const Calibration& c) {
+  if (c.kind == SensorKind::angle) return "rad/V";
+  if (c.kind == SensorKind::cylinder) return "m/V";
+  return std::string(facts_of(c.kind).sensitivity);
+}
+
+std::string scale_unit_for(const Calibration& c, const std::string& display) {
+  std::string unit = display;
+  for (const std::string_view word : {" gauge", " abs"})
+    if (unit.ends_with(word)) unit.resize(unit.size() - word.size());
+  if (c.kind == SensorKind::velocity || unit.find('/') != unit.npos) return scale_unit(c);
+  return per_volt(c.kind) ? unit + "/V" : "V/" + unit;
+}
+
+namespace {
+
+robot::Sensor sensor_of(const Calibration& c, const SensorResult& r, const CountScale& converter,
+                        bool average) {
+  const double per_count = converter.volts_per_count();
+  robot::Sensor s{.name = r.name, .kind = kind_of(c.kind)};
+  s.scale = scale_of(c, r.sensitivity);
+  s.at_rest = std::max(0.0, r.at_rest / per_count);
+  s.noise = std::isfinite(r.noise) ? r.noise / per_count : unknown;
+  const double believed = average ? scale_of(c, c.average) : s.scale;
+  s.assumed_scale = per_volt(c.kind) ? 1 / (believed * per_count) : believed;
+  s.assumed_at_rest = s.at_rest;
+  return s;
+}
+
+void note_origins(const Calibration& c, const SensorResult& r, const CountScale& converter,
+                  bool average, const std::string& source, Provenance& provenance) {
+  const std::string real = "sensor." + r.name + ".real.",
+                    assumed = "sensor." + r.name + ".assumed.";
+  provenance.fitted(real + "scale", scale_unit(c), scale_uncertainty(c, r), source);
+  provenance.fitted(real + "at_rest", "count", r.at_rest_uncertainty / converter.volts_per_count(),
+                    source);
+  provenance.fitted(real + "noise", "count", unknown, source + ", repeated readings");
+  provenance.given(assumed + "scale", average ? "the average of " + c.file : source);
+  provenance.given(assumed + "at_rest", source);
+}
+
+Json describe(const Calibration& c, const SensorResult& r) {
+  return {{"name", r.name},
+          {"kind", facts_of(c.kind).word},
+          {"scale", scale_of(c, r.sensitivity)},
+          {"scale_unit", scale_unit(c)},
+          {"scale_uncertainty", finite_or_null(scale_uncertainty(c, r))},
+          {"sensitivity", r.sensitivity},
+          {"sensitivity_unit", facts_of(c.kind).sensitivity},
+          {"at_rest_V", r.at_rest},
+          {"span_V", r.span},
+          {"linearity_percent", 100 * r.linearity},
+          {"hysteresis_percent", finite_or_null(100 * r.hysteresis)},
+          {"noise_V", finite_or_null(r.noise)},
+          {"resolution_V", finite_or_null(r.step)},
+          {"deviation_percent", 100 * r.deviation}};
+}
+
+// Returns the text of a robot's file: `robot`, the beginning of one (robot_over.h), with the
+// sensors. `average`: the controller assumes one scale for all of them, as the thesis's did.
+std::string sensor_file(const Calibration& c, const CountScale& converter, bool average,
+                        config::Node robot) {
+  const std::string source = "sinew identify sensor " + c.file;
+  Provenance provenance;
+  std::vector<robot::Sensor> sensors;
+  for (const SensorResult& r : c.sensors) {
+    note_origins(c, r, converter, average, source, provenance);
+    sensors.push_back(sensor_of(c, r, converter, average));
+  }
+  config::Writer writer(&provenance.origins());
+  writer.each({.name = "sensor"}, sensors, [](auto& v, robot::Sensor& s) {
+    v.group({.name = "real"}, [&](auto& g) { robot::real_fields(g, s); });
+    v.group({.name = "assumed"}, [&](auto& g) { robot::assumed_fields(g, s); });
+  });
+  for (const config::Node& child : writer.root().children) robot.put(child);
+  return config::to_toml(robot);
+}
+
+// Returns the known value at rest [SI], which is text in the unit of what was set, or "0.1 SI".
+double rest_of(const std::string& text, std::string_view unit) {
+  if (text.empty()) return 0;
+  if (text.ends_with(" SI"))
+    return config::quantity_setting("rest", text.substr(0, text.size() - 3), "1");
+  return config::quantity_setting("rest", text, unit);
 }
 
 // The base must have these sensors, of this kind.
@@ -43,16 +162,32 @@ void warn_below_zero(Calibration& c) {
 
 }  // namespace
 
-SensorFound find_sensors(const std::vector<Source>& sources, const SensorSettings& settings) {
+Json to_json(const SensorFound& found) {
+  const Calibration& c = found.calibration;
+  Json out{{"format", "sinew.identification/1"}, {"subject", "calibration of sensors"}};
+  out["average_sensitivity"] = c.average;
+  // A single transducer's values stand where other methods have it.
+  if (c.sensors.size() == 1) out.update(to_json(c.sensors[0].report));
+  out["sensors"] = Json::array();
+  for (const SensorResult& r : c.sensors) {
+    Json one = describe(c, r);
+    one.update(to_json(r.report));
+    out["sensors"].push_back(one);
+  }
+  out["notes"] = c.notes;
+  out["warnings"] = c.warnings;
+  return out;
+}
+
+SensorFound find(const SourceList& sources, const SensorSettings& settings) {
   const Source& source = only_of(sources);
-  const CountScale converter = converter_of(settings);
+  const CountScale converter{settings.bits, SettingValues(settings).of(settings.full_scale)};
   const SensorData data = read_sensor_data(source, converter, settings.known, settings.sensors);
-  const double rest = settings.rest.empty() ? settings.rest_value.value_or(0)
-                                            : config::quantity_setting("rest", settings.rest,
-                                                                       facts_of(data.kind).unit);
+  const double rest = rest_of(settings.rest, facts_of(data.kind).unit);
+  constexpr std::string_view level[] = {"level"};
   std::optional<SensorData> other;
-  if (settings.held_out)
-    other = read_sensor_data(*settings.held_out, converter, settings.known, settings.sensors);
+  for (const Source& table : held_out_tables(settings.hold_out, sources, level))
+    other = read_sensor_data(table, converter, settings.known, settings.sensors);
   Calibration c = identify_sensors(data, converter, rest, other ? &*other : nullptr);
   check_base(settings.base, c);
   warn_below_zero(c);
@@ -61,6 +196,12 @@ SensorFound find_sensors(const std::vector<Source>& sources, const SensorSetting
 
 std::string SensorFound::file(const std::string& out) const {
   return sensor_file(calibration, converter, average, robot_over(base, out));
+}
+
+Reports reports_of(const SensorFound& found) {
+  Reports out;
+  for (const SensorResult& sensor : found.calibration.sensors) out.push_back(&sensor.report);
+  return out;
 }
 
 }  // namespace sinew::identify

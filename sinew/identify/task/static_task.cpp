@@ -1,4 +1,4 @@
-#include "sinew/identify/task/static_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 
@@ -12,24 +12,11 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/task/further.h"
 #include "sinew/identify/task/tables.h"
 
 namespace sinew::identify {
 
 namespace {
-
-constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
-constexpr config::Range across_a_muscle = config::above_zero(1, "of a muscle");
-
-// Returns what the settings say of a file's points.
-StaticInput input_for(const StaticSettings& settings, const Source& source, bool fitted) {
-  StaticInput input{.fitted = fitted};
-  if (!settings.rest_length.empty())
-    input.rest_length = config::quantity_setting("rest_length", settings.rest_length, "m",
-                                                 source.atmosphere, actuator_length);
-  return input;
-}
 
 // Which rows of a table fit_where names; the others are held out.
 std::vector<bool> named_rows(const StaticSettings& settings, const Source& source,
@@ -50,18 +37,21 @@ std::vector<bool> named_rows(const StaticSettings& settings, const Source& sourc
   return out;
 }
 
+// The rules by which rows are held out, in the order of HoldOut.
+constexpr std::string_view rules[] = {"pressure", "length", "muscle"};
+
 // What is done with a table that no method can read.
 enum class Unreadable { is_refused, is_red };
 
-void read_table(const StaticSettings& settings, const Source& source, bool fitted,
+void read_table(const StaticSettings& settings, const StaticInput& input, const Source& source,
                 Unreadable unreadable, CheckInput& out) {
   Measured all = read_measured(source, static_columns());
-  std::vector<bool>
-      named;  // what is fitted; a row repeats another only where both are or neither is
-  if (fitted && !settings.fit_where.empty()) named = named_rows(settings, source, all);
+  // A row repeats another only where both are fitted, or neither is.
+  std::vector<bool> named;
+  if (input.fitted && !settings.fit_where.empty()) named = named_rows(settings, source, all);
   all = each_row_once(std::move(all), named);
   const std::size_t before = out.data.points.size();
-  CheckedTable table{all, input_for(settings, source, fitted)};
+  CheckedTable table{all, input};
   if (unreadable == Unreadable::is_red)
     out.add_or_tell(std::move(table));
   else
@@ -73,8 +63,6 @@ void read_table(const StaticSettings& settings, const Source& source, bool fitte
 // Points of one branch only; what has none stays.
 void keep_branch(const std::string& word, StaticData& data) {
   if (word == "both") return;
-  if (word != "fill" && word != "vent")
-    config::fail({"branch", 0, 0}, "", config::in_quotes(word), "fill, vent or both");
   const auto other = word == "fill" ? Branch::vent : Branch::fill;
   std::vector<StaticPoint> left_out;
   for (const StaticPoint& p : data.points)
@@ -86,13 +74,6 @@ void keep_branch(const std::string& word, StaticData& data) {
   omitted.points = std::move(left_out);
 }
 
-// The braid that is known from elsewhere.
-std::optional<actuator::Braid> braid_of(const StaticSettings& settings) {
-  if (settings.actuator.empty()) return {};
-  const auto file = experiment::load_machine_file(settings.actuator);
-  return config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
-}
-
 StaticOptions options_of(const std::vector<Source>& sources, const StaticSettings& settings,
                          const std::optional<actuator::Braid>& braid) {
   StaticOptions out{.atmosphere = sources[0].atmosphere,
@@ -101,9 +82,9 @@ StaticOptions options_of(const std::vector<Source>& sources, const StaticSetting
                     .tried = settings.tried};
   out.subject = "static law from " + sources[0].path;
   if (sources.size() > 1) out.subject += " and " + std::to_string(sources.size() - 1) + " more";
-  if (settings.hold_out == "pressure") out.hold_out = HoldOut::pressure;
-  if (settings.hold_out == "length") out.hold_out = HoldOut::length;
-  if (settings.hold_out == "muscle") out.hold_out = HoldOut::muscle;
+  for (const std::string& word : settings.hold_out.texts)
+    if (const auto* rule = std::ranges::find(rules, word); rule != std::end(rules))
+      out.hold_out = static_cast<HoldOut>(1 + (rule - rules));
   return out;
 }
 
@@ -125,18 +106,14 @@ std::string title_of(const std::vector<Source>& sources, const StaticSettings& s
                           : fmt::format("{} files", sources.size()));
 }
 
-// The table that is not fitted, where there is one.
-std::optional<Source> held_out_of(const std::vector<Source>& sources,
-                                  const StaticSettings& settings) {
-  const std::string& word = settings.hold_out;
-  const std::string_view ways[] = {"", "pressure", "length", "muscle"};
-  if (settings.held_out || std::ranges::find(ways, word) != std::end(ways))
-    return settings.held_out;
-  Source other = beside(sources, "hold_out", word);
-  if (!std::filesystem::exists(word))
-    config::fail({"hold_out", 0, 0}, "", config::in_quotes(word),
-                 "pressure, length, muscle or a file that is there");
-  return other;
+// Returns the table that is not fitted, if there is one.
+std::vector<Source> held_out_of(const std::vector<Source>& sources,
+                                const StaticSettings& settings) {
+  for (const std::string& text : settings.hold_out.texts)
+    if (std::ranges::find(rules, text) == std::end(rules) && !std::filesystem::exists(text))
+      config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
+                   "pressure, length, muscle or a file that is there");
+  return held_out_tables(settings.hold_out, sources, rules);
 }
 
 // "rest_length=120 mm", or the length alone  [m].
@@ -177,26 +154,33 @@ void add_predicted(const std::vector<double>& lengths, const StaticSettings& set
 // All tables, those that are held out last.
 CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings& settings,
                        Unreadable unreadable) {
-  CheckInput out{.atmosphere = sources[0].atmosphere, .braid = braid_of(settings)};
-  if (!settings.diameter.empty())
-    out.diameter = config::quantity_setting("diameter", settings.diameter, "m",
-                                            sources[0].atmosphere, across_a_muscle);
-  const std::optional<Source> other = held_out_of(sources, settings);
-  for (const Source& source : sources) read_table(settings, source, true, unreadable, out);
-  if (other) read_table(settings, *other, false, unreadable, out);
+  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  const SettingValues values(settings, sources[0].atmosphere);
+  CheckInput out{.diameter = values.given(settings.diameter).value_or(0),
+                 .atmosphere = sources[0].atmosphere,
+                 .braid = known_braid(settings.actuator)};
+  StaticInput input{.rest_length = values.given(settings.rest_length).value_or(0)};
+  const std::vector<Source> others = held_out_of(sources, settings);
+  for (const Source& source : sources) read_table(settings, input, source, unreadable, out);
+  input.fitted = false;
+  for (const Source& source : others) read_table(settings, input, source, unreadable, out);
   keep_branch(settings.branch, out.data);
   return out;
 }
 
 }  // namespace
 
+std::optional<actuator::Braid> known_braid(const std::string& file_name) {
+  if (file_name.empty()) return {};
+  const auto file = experiment::load_machine_file(file_name);
+  return config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
+}
+
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings) {
-  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   return read_tables(sources, settings, Unreadable::is_refused).data;
 }
 
-StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings) {
-  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+StaticFound find(const SourceList& sources, const StaticSettings& settings) {
   CheckInput read = read_tables(sources, settings, Unreadable::is_refused);
   std::vector<double> lengths;
   for (const std::string& setting : settings.predict)
@@ -215,9 +199,10 @@ StaticFound find_static(const std::vector<Source>& sources, const StaticSettings
   return out;
 }
 
-Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings) {
-  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  return check_up(read_tables(sources, settings, Unreadable::is_red));
+Checkup find(const SourceList& sources, const CheckSettings& settings) {
+  return check_up(read_tables(sources, settings.how, Unreadable::is_red));
 }
+
+Json to_json(const StaticFound& found) { return to_json(found.result.report); }
 
 }  // namespace sinew::identify

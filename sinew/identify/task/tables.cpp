@@ -34,13 +34,11 @@ void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    "another file than those that are fitted");
 }
 
-Source beside(const std::vector<Source>& sources, std::string_view setting,
-              const std::string& file) {
-  refuse_fitted(sources, setting, file);
-  Source out = sources.front();
-  out.path = file;
-  out.text.reset();
-  return out;
+std::string source_words(std::string_view method, const std::vector<Source>& sources,
+                         std::string_view law) {
+  std::string out = "sinew identify " + std::string(method);
+  for (const Source& source : sources) out += " " + source.path;
+  return out + ": " + std::string(law);
 }
 
 std::vector<std::string> words_of(const std::vector<Source>& sources) {

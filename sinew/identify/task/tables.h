@@ -20,14 +20,13 @@ std::vector<Source> sources_of(const std::vector<std::string>& files, const Sour
 // Returns the only table. Throws config::Error where there are others.
 const Source& only_of(const std::vector<Source>& sources);
 
-// Returns a source like the first for a file that is not fitted; `setting` names it. Throws
-// config::Error where it is one of those that are.
-Source beside(const std::vector<Source>& sources, std::string_view setting,
-              const std::string& file);
-
 // Throws config::Error where the setting's file is one of those that are fitted.
 void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    const std::string& file);
+
+// Returns "sinew identify METHOD a.csv b.csv: LAW", the source of what was found.
+std::string source_words(std::string_view method, const std::vector<Source>& sources,
+                         std::string_view law);
 
 // Returns what is read, and how, in sentences for a page: "a.csv", "column force=F_N".
 std::vector<std::string> words_of(const std::vector<Source>& sources);

@@ -6,19 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/task/creep_task.h"
-#include "sinew/identify/task/dynamic_task.h"
-#include "sinew/identify/task/geometry_task.h"
-#include "sinew/identify/task/joint_task.h"
-#include "sinew/identify/task/pair_task.h"
-#include "sinew/identify/task/sensor_task.h"
-#include "sinew/identify/task/static_task.h"
+#include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
-#include "sinew/identify/task/valve_task.h"
 #include "sinew/json/json.h"
 #include "tests/places.h"
 
@@ -60,14 +54,14 @@ TEST(Task, CheckFindsAForceThatIsNotOfTheDiameter) {
       text += std::to_string(length) + "," + std::to_string(p) + "," +
               std::to_string(0.9 * p - 3.0 * (250 - length)) + "\n";
   const auto light_of = [&](const StaticSettings& settings, const std::string& name) {
-    for (const Check& c : check_before_static(table(text, "rig.csv"), settings).checks)
+    for (const Check& c : find(table(text, "rig.csv"), CheckSettings{settings}).checks)
       if (c.name == name) return std::string(word(c.light));
     return std::string("absent");
   };
   EXPECT_EQ(light_of({.diameter = "11 mm"}, "force unit"), "green");
   EXPECT_EQ(light_of({.diameter = "40 mm"}, "force unit"), "red");
   EXPECT_NE(
-      refusal([&] { check_before_static(table(text), {.diameter = "11 kg"}); }).find("diameter"),
+      refusal([&] { find(table(text), CheckSettings{{.diameter = "11 kg"}}); }).find("diameter"),
       std::string::npos);
 }
 
@@ -76,7 +70,7 @@ void expect_begins(const std::string& said, const std::string& begin) {
 }
 
 TEST(Task, FindsTheBraidOfATable) {
-  const GeometryFound found = find_geometry(mesh(), {});
+  const GeometryFound found = find(mesh(), GeometrySettings{});
   EXPECT_NEAR(found.braid.thread_length, 0.1, 1e-6);
   EXPECT_NEAR(found.braid.turns, 1, 1e-5);
   EXPECT_NE(found.file.find("sinew identify geometry numbers"), std::string::npos);
@@ -86,22 +80,42 @@ TEST(Task, FindsTheBraidOfATable) {
 }
 
 TEST(Task, CountsTrapezoidsWithoutATable) {
-  const GeometryFound found = count_geometry({.trapezoids = "37,16", .side = "0.057 in"});
+  const GeometryFound found = find({}, GeometrySettings{.trapezoids = "37,16", .side = "0.057 in"});
   EXPECT_FALSE(found.report.has_value());
   EXPECT_FALSE(to_json(found).contains("format"));
-  expect_begins(refusal([] { count_geometry({.trapezoids = "37", .side = "1 mm"}); }),
+  expect_begins(refusal([] { find({}, GeometrySettings{.trapezoids = "37", .side = "1 mm"}); }),
                 "trapezoids: found \"37\"");
-  expect_begins(refusal([] { count_geometry({.trapezoids = "37,16", .side = "2 m"}); }),
+  expect_begins(refusal([] { find({}, GeometrySettings{.trapezoids = "37,16", .side = "2 m"}); }),
                 "side: found \"2 m\"");
 }
 
 TEST(Task, WantsItsTables) {
-  expect_begins(refusal([] { find_creep({}); }), "data: found 0 files; expected one");
-  expect_begins(refusal([] { find_static({}, {}); }), "data: found no files");
+  expect_begins(refusal([] { find({}, CreepSettings{}); }), "data: found 0 files; expected one");
+  expect_begins(refusal([] { find({}, StaticSettings{}); }), "data: found no files");
   expect_begins(refusal([] { sources_of({"a.csv", "a.csv"}, {}); }), "data: found a.csv twice");
   expect_begins(refusal([] { refuse_fitted({{.path = actuator}}, "hold_out", actuator); }),
                 "hold_out: found ");
   expect_begins(refusal([] { atmosphere_setting("14.7 in"); }), "atmosphere: found ");
+}
+
+// The names of a method's settings are its own, each has its line, and the defaults are in order.
+TEST(Task, DescribesEachSettingOnce) {
+  std::size_t methods = 0;
+  for_each_method([&](const auto& settings) {
+    const SettingList list(settings);
+    EXPECT_FALSE(list.of.doc.empty()) << list.of.name;
+    std::set<std::string> names;
+    for (const Json& row : list.rows) {
+      EXPECT_TRUE(names.insert(row["name"].string()).second) << row.text();
+      EXPECT_TRUE(names.insert("as " + row["keyword"].string()).second) << row.text();
+      EXPECT_GT(row["doc"].string().size(), 5u) << row.text();
+    }
+    const std::string wrong = refusal([&] { (void)SettingValues(settings); });
+    EXPECT_TRUE(wrong == "nothing" || wrong.find(": found nothing; expected") != wrong.npos)
+        << wrong;
+    ++methods;
+  });
+  EXPECT_EQ(methods, 12u);
 }
 
 // Records a joint with a spring of 12 N m/rad and 0.8 N m of dry friction, moved by hand.
@@ -119,10 +133,10 @@ std::vector<Source> moved_pair(const std::string& name = "pair.csv") {
 }
 
 TEST(Task, FindsAPairAndWritesItsJoint) {
-  const PairFound found = find_pair(moved_pair(), {.hold_out = "4 s..",
-                                                   .wishes = {.freeze = {"delay=0 s"}},
-                                                   .model = "spring_bristle",
-                                                   .joint = "knee"});
+  const PairFound found = find(moved_pair(), PairSettings{.hold_out = {{"4 s.."}, {}},
+                                                          .model = "spring_bristle",
+                                                          .wishes = {.freeze = {"delay=0 s"}},
+                                                          .joint = "knee"});
   EXPECT_NEAR(found.result.values.stiffness, 12, 0.1);
   EXPECT_NEAR(found.result.values.friction, 0.8, 0.03);
   EXPECT_EQ(found.result.report.held_out_is, "each recording from 4 s on");
@@ -139,11 +153,12 @@ TEST(Task, FindsAPairAndWritesItsJoint) {
 
 TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
   const auto asked = [&](const PairSettings& s) {
-    return refusal([&] { (void)find_pair(moved_pair(), s); });
+    return refusal([&] { (void)find(moved_pair(), s); });
   };
   expect_begins(asked({.rigs = "a,b"}), "rigs: found 2 names; expected 1");
-  expect_begins(asked({.hold_out = "9 s..4 s"}), "hold_out: found \"9 s..4 s\"; expected a time");
-  expect_begins(asked({.hold_out = "late"}), "hold_out: found \"late\"; expected times");
+  expect_begins(asked({.hold_out = {{"9 s..4 s"}, {}}}),
+                "hold_out: found \"9 s..4 s\"; expected a time");
+  expect_begins(asked({.hold_out = {{"late"}, {}}}), "hold_out: found \"late\"; expected times");
   expect_begins(asked({.window = "0 s"}), "window: found");
   expect_begins(asked({.wishes = {.freeze = {"delay=1 m"}}}), "freeze: found \"1 m\"");
   EXPECT_TRUE(is_time_range("7 s..") && is_time_range("..3 s") && is_time_range("1 s..2 s"));
@@ -152,9 +167,7 @@ TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
 
 TEST(Task, TellsASettingByItsName) {
   const std::vector<Source> any = table("time [s],pressure [Pa gauge]\n0,1\n");
-  const auto dynamic = [&](const DynamicSettings& s) {
-    return [&any, s] { find_dynamic(any, s); };
-  };
+  const auto dynamic = [&](const DynamicSettings& s) { return [&any, s] { find(any, s); }; };
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "-1 kg"})), "mass: found \"-1 kg\"");
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "1 kg,2 kg"})),
                 "mass: found 2 values");
@@ -163,16 +176,22 @@ TEST(Task, TellsASettingByItsName) {
   expect_begins(refusal(dynamic({.actuator = actuator, .mass = "1 kg", .count = 0})),
                 "count: found");
   expect_begins(
-      refusal([&] { find_joint(any, {.actuator = actuator, .names = {.flexion = "up"}}); }),
+      refusal([&] { find(any, JointSettings{.actuator = actuator, .names = {.flexion = "up"}}); }),
       "flexion: found \"up\"");
-  expect_begins(refusal([&] { find_joint(any, {.actuator = actuator, .lever = "1 s"}); }),
+  expect_begins(refusal([&] { find(any, JointSettings{.actuator = actuator, .lever = "1 s"}); }),
                 "lever: found");
-  expect_begins(refusal([&] { find_valve(any, {.kind = "curve"}); }), "kind: found \"curve\"");
-  expect_begins(refusal([&] { find_valve(any, {.temperature = "0 K"}); }), "temperature: found");
-  expect_begins(refusal([&] { find_sensors(any, {.bits = 40}); }), "bits: found 40");
-  expect_begins(refusal([] { find_geometry(mesh(), {.thread_thickness = "1 m"}); }),
+  expect_begins(refusal([&] { find(any, ValveSettings{.kind = "curve"}); }),
+                "kind: found \"curve\"");
+  expect_begins(refusal([&] { find(any, ValveSettings{.temperature = "0 K"}); }),
+                "temperature: found");
+  expect_begins(refusal([&] { find(any, SensorSettings{.bits = 40}); }), "bits: found 40");
+  expect_begins(refusal([] { find(mesh(), GeometrySettings{.thread_thickness = "1 m"}); }),
                 "thread_thickness: found");
-  expect_begins(refusal([&] { find_static(any, {.branch = "up"}); }), "numbers");
+  expect_begins(refusal([&] { find(any, StaticSettings{}); }), "numbers");
+  expect_begins(refusal([&] { find(any, StaticSettings{.branch = "up"}); }),
+                "branch: found \"up\"");
+  expect_begins(refusal([&] { find(any, DynamicSettings{.actuator = actuator}); }),
+                "mass: found nothing");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "sinew/identify/task/valve_task.h"
+#include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/timing.h"
@@ -62,20 +61,20 @@ bool has_column_of_volumes(const Source& source) {
 
 // One for each source, between commas.
 std::vector<AddedFill> fills_by_setting(const std::vector<Source>& sources,
-                                        const std::string& settings) {
-  const std::vector<std::string> pieces = config::at_commas(settings);
-  if (pieces.size() != sources.size())
-    config::fail({"added_volume", 0, 0}, "", fmt::format("{} volumes", pieces.size()),
+                                        const ValveSettings& settings,
+                                        const SettingValues& values) {
+  const std::size_t pieces = config::at_commas(settings.added_volume).size();
+  if (pieces != sources.size())
+    config::fail({"added_volume", 0, 0}, "", fmt::format("{} volumes", pieces),
                  fmt::format("one for each of {} files, between commas", sources.size()));
+  const std::vector<double> added = values.each(settings.added_volume, sources.size());
   std::vector<AddedFill> out;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const double added = config::quantity_setting("added_volume", pieces[i], "m3",
-                                                  sources[i].atmosphere, config::air_volume);
     Measured data = read_measured(sources[i], valve_columns());
     if (data.has("added_volume"))
-      config::fail({"added_volume", 0, 0}, "", config::in_quotes(settings),
+      config::fail({"added_volume", 0, 0}, "", config::in_quotes(settings.added_volume),
                    fmt::format("no such setting: {} has a column of that name", data.file));
-    out.push_back({std::move(data), added});
+    out.push_back({std::move(data), added[i]});
   }
   return out;
 }
@@ -105,13 +104,13 @@ Measured read_valve(const Source& source) {
   }
 }
 
-// Returns the fillings whose added volumes are known: by `settings`, one between commas for each
+// Returns the fillings whose added volumes are known: by the setting, one between commas for each
 // source, or by a column added_volume, whose values may also part one table. Several recordings in
 // a file, one after the other, are as many fillings. Empty: no such volumes are told. Throws
 // config::Error and Refusal.
 std::vector<AddedFill> added_fills(const std::vector<Source>& sources,
-                                   const std::string& settings) {
-  if (!settings.empty()) return fills_by_setting(sources, settings);
+                                   const ValveSettings& settings, const SettingValues& values) {
+  if (!settings.added_volume.empty()) return fills_by_setting(sources, settings, values);
   if (!std::ranges::any_of(sources, has_column_of_volumes)) return {};
   std::vector<AddedFill> out;
   for (const Source& source : sources)
@@ -132,7 +131,7 @@ constexpr std::array<Kind, 5> kinds{{{"chart", ValveData::chart},
                                      {"coil", ValveData::coil},
                                      {"duty", ValveData::duty}}};
 
-ValveOptions options_of(const ValveSettings& s, double atmosphere) {
+ValveOptions options_of(const ValveSettings& s, const SettingValues& values, double atmosphere) {
   ValveOptions out{.name = s.name};
   out.valve.profile = gas::Valve::Profile::ideal;
   if (!s.base.empty()) {
@@ -141,36 +140,25 @@ ValveOptions options_of(const ValveSettings& s, double atmosphere) {
     out.provenance = Provenance(file.experiment.origins, s.base);
   }
   out.air.atmosphere = atmosphere;
-  out.air.temperature = config::quantity_setting("temperature", s.temperature, "K", atmosphere,
-                                                 {200, 400, "of air in a laboratory"});
-  const auto optional = [&](std::string_view name, const std::string& text, const char* unit,
-                            const config::Range& range) {
-    std::optional<double> value;
-    if (!text.empty()) value = config::quantity_setting(name, text, unit, atmosphere, range);
-    return value;
-  };
-  out.volume = optional("volume", s.volume, "m3",
-                        config::above_zero(config::air_volume.high, config::air_volume.why));
-  out.conductance = optional("conductance", s.conductance, "m3/(s Pa)",
-                             config::above_zero(1, "a valve of this size fills a hall"));
-  out.port = optional("port", s.port, "Pa abs", config::air_pressure);
-  out.frequency = optional("frequency", s.frequency, "Hz", config::pulses);
-  out.exponent = optional("exponent", s.exponent, "1", config::polytropic);
+  out.air.temperature = values.of(s.temperature);
+  out.volume = values.given(s.volume);
+  out.conductance = values.given(s.conductance);
+  out.port = values.given(s.port);
+  out.frequency = values.given(s.frequency);
+  out.exponent = values.given(s.exponent);
   out.per_volume = s.per_volume;
   return out;
 }
 
 ValveData kind_of(const std::string& name, const Measured& data) {
-  if (name.empty()) return valve_data(data);
   for (const Kind& kind : kinds)
     if (kind.name == name) return valve_data(data, kind.data);
-  config::fail({"kind", 0, 0}, "", config::in_quotes(name),
-               config::either(config::names_of(kinds)));
+  return valve_data(data);
 }
 
-ValveResult identified(const Measured& data, const ValveOptions& how,
-                       const ValveSettings& settings) {
-  switch (kind_of(settings.kind, data)) {
+ValveResult identified(const Measured& data, const ValveOptions& how, const std::string& kind,
+                       const std::vector<Source>& others) {
+  switch (kind_of(kind, data)) {
     case ValveData::chart:
       return identify_chart(data, how);
     case ValveData::pulses:
@@ -182,13 +170,13 @@ ValveResult identified(const Measured& data, const ValveOptions& how,
     case ValveData::fill:
       break;
   }
-  if (!settings.held_out) return identify_fill(data, how);
-  const Measured unseen = read_measured(*settings.held_out, valve_columns());
+  if (others.empty()) return identify_fill(data, how);
+  const Measured unseen = read_measured(others[0], valve_columns());
   return identify_fill(data, how, &unseen);
 }
 
 // With fillings that tell volume and conductance, neither is known beforehand.
-void refuse_beside_added(const ValveSettings& s) {
+void refuse_beside_added(const ValveSettings& s, const std::vector<Source>& others) {
   const auto refuse = [](const char* name, const std::string& found, const char* expected) {
     config::fail({name, 0, 0}, "", found, expected);
   };
@@ -199,26 +187,28 @@ void refuse_beside_added(const ValveSettings& s) {
   if (!s.conductance.empty())
     refuse("conductance", config::in_quotes(s.conductance),
            "none beside added volumes: they tell it");
-  if (s.held_out)
-    refuse("hold_out", config::in_quotes(s.held_out->path),
+  if (!others.empty())
+    refuse("hold_out", config::in_quotes(others[0].path),
            "none beside added volumes: every second tenth of each curve is held out");
 }
 
 }  // namespace
 
-ValveFound find_valve(const std::vector<Source>& sources, const ValveSettings& settings) {
+ValveFound find(const SourceList& sources, const ValveSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  const ValveOptions options = options_of(settings, sources.front().atmosphere);
-  if (const std::vector<AddedFill> fills = added_fills(sources, settings.added_volume);
-      !fills.empty()) {
-    refuse_beside_added(settings);
+  const double atmosphere = sources.front().atmosphere;
+  const SettingValues values(settings, atmosphere);
+  const ValveOptions options = options_of(settings, values, atmosphere);
+  const std::vector<Source> others = held_out_tables(settings.hold_out, sources);
+  if (const std::vector<AddedFill> fills = added_fills(sources, settings, values); !fills.empty()) {
+    refuse_beside_added(settings, others);
     return {identify_added(fills, options)};
   }
   if (sources.size() > 1)
     config::fail({"data", 0, 0}, "", std::to_string(sources.size()) + " files",
                  "one, or fillings with known volumes joined to the chamber",
                  "added_volume=\"0 L,0.5 L\"");
-  return {identified(read_valve(sources.front()), options, settings)};
+  return {identified(read_valve(sources.front()), options, settings.kind, others)};
 }
 
 std::string ValveFound::file(const std::string& out) const {
@@ -241,9 +231,8 @@ TimingFile timing_of(const ValveFound& found, const std::string& frequency) {
   if (!r.opening_known || !r.closing_known)
     throw Refusal("predict_dat", "no opening and closing delay", "both",
                   "a map of duties, or pulses and their pressure");
-  const double hertz =
-      config::quantity_setting("frequency", frequency.empty() ? "100 Hz" : frequency, "Hz",
-                               units::atmosphere, config::pulses);
+  const ValveSettings settings{.frequency = frequency};
+  const double hertz = SettingValues(settings).of(settings.frequency, "100 Hz");
   const CompensatedTiming timing = compensated(r.valve.opening_delay, r.valve.closing_delay, hertz);
   return {predict_dat(timing.timing), hertz, timing.worst};
 }

@@ -1,0 +1,576 @@
+// identify/task/settings.fields.h - the settings of every method, and of `sinew force-beam`: a
+// struct of texts, as a user writes them, and its rows (settings.h). Empty quantities are not
+// known.
+#pragma once
+
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "sinew/identify/actuator/creep.h"
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/actuator/static_model.h"
+#include "sinew/identify/joint/joint.h"
+#include "sinew/identify/motion/dynamic.h"
+#include "sinew/identify/pair/pair.h"
+#include "sinew/identify/task/settings.h"
+
+namespace sinew::identify {
+
+// --- geometry ---
+
+// Thread length and turns of a braid, from lengths and diameters or from counted trapezoids.
+struct GeometrySettings {
+  std::string trapezoids, side, thread_thickness = "0 mm", name = "bpa";
+};
+
+template <class Visitor>
+void fields(Visitor& v, GeometrySettings& s) {
+  v.method({"geometry",
+            "thread length and turns, from counted trapezoids or from lengths and diameters",
+            Tables::optional});
+  v.text({"trapezoids", "LENGTHWISE,AROUND counted on the opened mesh, instead of data"},
+         s.trapezoids);
+  v.quantity({"side", "of one trapezoid", "m",
+              config::above_zero(1, "of one trapezoid between two threads")},
+             s.side);
+  v.quantity({"thread_thickness", "taken off diameters that were measured outside the threads", "m",
+              config::from_zero(0.1, "of one thread")},
+             s.thread_thickness);
+  v.text({"name", "of the actuator"}, s.name);
+}
+
+// --- sensor ---
+
+// Calibrations to the sensors of a robot's file.
+struct SensorSettings {
+  std::string known;
+  std::vector<std::string> sensors;
+  std::string rest;
+  int bits = 12;
+  std::string full_scale = "5 V";
+  HeldOut hold_out;
+  bool average = false;
+  std::string base;
+};
+
+template <class Visitor>
+void fields(Visitor& v, SensorSettings& s) {
+  v.method({"sensor", "scale, offset, linearity, hysteresis and noise of calibrated sensors"});
+  v.text({"known",
+          "load, force, tension, angle, length, position, pressure or velocity: what was set, "
+          "where the file has several"},
+         s.known);
+  v.texts(Setting{"sensors", "columns to calibrate; absent: all in volts or counts"}.at_commas(),
+          s.sensors);
+  v.quantity({"rest", "the known value at the joint's rest angle; absent: 0"}, s.rest);
+  v.integer({"bits", "of the converter", "", {1, 16, "of a converter"}}, s.bits);
+  v.quantity({"full_scale", "of the converter", "V", config::above_zero(1000, "of a converter")},
+             s.full_scale);
+  v.hold_out({"hold_out",
+              "level: every known value is predicted from the others; or another calibration; "
+              "absent: level"},
+             s.hold_out);
+  v.flag({"average", "the controller assumes one scale for all of them, as the thesis's did"},
+         s.average);
+  v.file(Setting{"base", "the robot whose sensors these are: the parameter file is then a robot"}
+             .of_file(),
+         s.base);
+}
+
+// --- dynamic ---
+
+// What a muscle loses in motion, from a mass that swings on trapped air.
+struct DynamicSettings {
+  std::string actuator, name, mass, pressure, external_volume = "0 m3", exponent;
+  int count = 1;
+  HeldOut hold_out;
+  std::string model;
+  WishTexts wishes;
+};
+
+constexpr config::Range parallel_actuators = {1, 100, "actuators in parallel"};
+
+template <class Visitor>
+void fields(Visitor& v, DynamicSettings& s) {
+  v.method({"dynamic", "viscous loss and dry friction from a mass that swings on trapped air"});
+  v.file(Setting{"actuator", "file with braid, tension and ends; a start"}.required(), s.actuator);
+  v.text({"name", "which actuator, where the file has several"}, s.name);
+  v.quantities(Setting{"mass", "that moves; one, or one per file with commas", "kg",
+                       config::above_zero(1e6, "hangs on the muscle")}
+                   .required(),
+               s.mass);
+  v.quantities(
+      {"pressure", "of the air as the mass hangs; one, or one per file; absent: the measured one",
+       "Pa abs", config::air_pressure},
+      s.pressure);
+  v.quantities(
+      {"external_volume", "of hose and fittings up to the shut valve; one, or one per file", "m3",
+       config::air_volume},
+      s.external_volume);
+  v.quantity({"exponent", "of the trapped air; absent: from the measured pressure, else 1.4 [39]",
+              "1", config::polytropic},
+             s.exponent);
+  v.integer({"count", "actuators in parallel", "", parallel_actuators}, s.count);
+  v.hold_out(Setting{"hold_out",
+                     "a file that scores the laws and is not fitted; absent: each file in turn, or "
+                     "the last third of the only one"}
+                 .repeated(),
+             s.hold_out);
+  v.choice({"model", "only this law"}, s.model, dynamic_models());
+  fields(v, s.wishes);
+}
+
+// --- joint ---
+
+// Names of the joint and its muscles in the robot's file.
+struct JointNames {
+  std::string joint = "joint", flexor = "joint_flexor", extensor = "joint_extensor";
+  std::string flexion = "raises angle";  // or "lowers angle": what a shorter flexor does
+};
+
+// Force law and moment arm of a joint's muscles, without a length rig. Of empty quantities a column
+// has the values, or they are fitted.
+struct JointSettings {
+  std::string actuator, name;
+  int count = 1;
+  JointNames names{.flexor = "", .extensor = ""};
+  std::string rest_angle = "0 rad", load, lever = "0 m", down = "270 deg";
+  std::string limb = "0 kg", limb_lever = "0 m";
+  std::string moment_arm, flexor_length, extensor_length;
+  bool keep_force = false, torque_bias = false, torque_gain = false, moving = false;
+  HeldOut hold_out;
+  std::string model, base;
+  WishTexts wishes;
+  host::Tally* tried = nullptr;  // counts models that have been tried; null: nothing
+};
+
+// What hangs on the joint, and where.
+template <class Visitor>
+void load_fields(Visitor& v, JointSettings& s) {
+  constexpr double turns = 4 * std::numbers::pi;
+  constexpr config::Range angle{-turns, turns, "two turns; a joint makes less than one"};
+  constexpr config::Range mass = config::from_zero(1e6, "of what hangs on a joint");
+  constexpr config::Range lever = config::from_zero(1000, "from the joint's axis");
+  v.quantity({"rest_angle", "of the joint, at which the muscles' lengths are given", "rad", angle},
+             s.rest_angle);
+  v.quantity({"load", "mass at the lever, where no column torque or load has it", "kg", mass},
+             s.load);
+  v.quantity({"lever", "from the joint to the load", "m", lever}, s.lever);
+  v.quantity({"down", "angle at which the lever points straight down", "rad", angle}, s.down);
+  v.quantity({"limb", "mass of the limb itself", "kg", mass}, s.limb);
+  v.quantity({"limb_lever", "from the joint to the limb's center of mass", "m", lever},
+             s.limb_lever);
+}
+
+// What is known of the muscles, and what of the torque is to be found.
+template <class Visitor>
+void known_fields(Visitor& v, JointSettings& s) {
+  constexpr config::Range size = config::above_zero(1000, "of a robot");
+  const std::string_view known = "is known, at the rest angle";
+  v.quantity({"moment_arm", known, "m", size}, s.moment_arm);
+  v.quantity({"flexor_length", known, "m", size}, s.flexor_length);
+  v.quantity({"extensor_length", known, "m", size}, s.extensor_length);
+  v.flag({"keep_force", "the effectiveness of the actuator's file is right"}, s.keep_force);
+  v.flag({"torque_bias", "the torque of each file has a zero of its own, which is to be found"},
+         s.torque_bias);
+  v.flag({"torque_gain",
+          "and a gain in that of the first file; where the force is kept the first has one, too"},
+         s.torque_gain);
+  v.flag({"moving",
+          "the joint moves, over a column time: its dry friction and damping, and how far the "
+          "torque comes behind"},
+         s.moving);
+}
+
+template <class Visitor>
+void fields(Visitor& v, JointSettings& s) {
+  v.method({"joint", "force law and moment arm from joint angle, pressures and a known load",
+            Tables::needed, joint_models().size()});
+  v.file(Setting{"actuator", "file with the braid; a start"}.required(), s.actuator);
+  v.text({"name", "which actuator, where the file has several"}, s.name);
+  v.integer({"count", "actuators in parallel in a muscle", "", {1, 100, "actuators in parallel"}},
+            s.count);
+  v.choice({"flexion", "what a shorter flexor does to the angle"}, s.names.flexion,
+           {"raises angle", "lowers angle"});
+  load_fields(v, s);
+  known_fields(v, s);
+  v.hold_out(
+      {"hold_out", "a file that scores the models and is not fitted; absent: every third row"},
+      s.hold_out);
+  v.choice({"model", "only this one"}, s.model, joint_models());
+  v.text(Setting{"joint", "its name in the robot's file"}.in_python("joint_name"), s.names.joint);
+  v.text({"flexor", "the muscle's name; absent: <joint>_flexor"}, s.names.flexor);
+  v.text({"extensor", "the muscle's name; absent: <joint>_extensor"}, s.names.extensor);
+  v.file(Setting{"base", "robot whose joint it is, named in the file that is written"}.of_file(),
+         s.base);
+  fields(v, s.wishes);
+}
+
+// --- pair ---
+
+// A sealed antagonistic pair that is moved.
+struct PairSettings {
+  std::string rigs;
+  HeldOut hold_out;
+  std::string window = "20 ms", model;
+  WishTexts wishes;
+  std::string joint = "joint", base;
+};
+
+template <class Visitor>
+void fields(Visitor& v, PairSettings& s) {
+  v.method({"pair",
+            "stiffness, dry friction, losses and trapped air of an antagonistic pair that is "
+            "sealed and moved by hand or motor"});
+  v.text(
+      Setting{"rigs", "A,A,B: the rig of each file; recordings of one have its sensors in common"}
+          .at_commas(),
+      s.rigs);
+  v.hold_out(Setting{"hold_out",
+                     "\"7 s..14 s\" or \"7 s..\": times of each file, or a FILE, that score the "
+                     "laws and are not fitted"}
+                 .repeated(),
+             s.hold_out);
+  v.quantity({"window", "of the parabolas that give velocity and acceleration", "s",
+              config::above_zero(10, "of a few samples")},
+             s.window);
+  v.choice({"model", "only this law"}, s.model, pair_models());
+  fields(v, s.wishes);
+  v.text(Setting{"joint", "its name in the robot's file that is written"}.in_python("joint_name"),
+         s.joint);
+  v.file({"base", "robot whose joint it is, named in the file that is written"}, s.base);
+}
+
+// --- valve ---
+
+// Flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties.
+struct ValveSettings {
+  std::string kind, volume, conductance, added_volume;
+  bool per_volume = false;
+  std::string port, exponent, temperature = "20 degC";
+  HeldOut hold_out;
+  std::string name = "valve", base, frequency;
+};
+
+template <class Visitor>
+void fields(Visitor& v, ValveSettings& s) {
+  v.method(
+      {"valve",
+       "flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties"});
+  v.choice({"kind", "what was measured; absent: by the columns"}, s.kind,
+           {"chart", "fill", "pulses", "coil", "duty"});
+  v.quantity({"volume", "fill, pulses: of the chamber, hoses included", "m3",
+              config::above_zero(config::air_volume.high, config::air_volume.why)},
+             s.volume);
+  v.quantity({"conductance", "fill, pulses: of the valve, for the volume instead", "m3/(s Pa)",
+              config::above_zero(1, "a valve of this size fills a hall")},
+             s.conductance);
+  v.quantities({"added_volume",
+                "fill: joined to the chamber, of each file: \"0 L,0.5 L\"; two fillings give "
+                "conductance and volume apart",
+                "m3", config::air_volume},
+               s.added_volume);
+  v.flag({"per_volume", "fill, pulses: C/V is enough"}, s.per_volume);
+  v.quantity(
+      Setting{"port", "pressure on the valve's other side, the room's when venting; fitted without",
+              "Pa abs", config::air_pressure}
+          .called("supply,port"),
+      s.port);
+  v.quantity(
+      {"exponent", "fill: polytropic, of the chamber: 1 isothermal, 1.4 adiabatic; tried without",
+       "1", config::polytropic},
+      s.exponent);
+  v.quantity({"temperature", "of the air", "K", {200, 400, "of air in a laboratory"}},
+             s.temperature);
+  v.hold_out({"hold_out", "OTHER.csv that scores the model of a filling"}, s.hold_out);
+  v.text({"name", "of the valve"}, s.name);
+  v.file(
+      {"base", "VALVES.toml with a valve of that name: what is not identified is kept from there"},
+      s.base);
+  v.quantity({"frequency",
+              "of the pulses: of a map of duties without such a column, and of the duties' timing",
+              "Hz", config::pulses},
+             s.frequency);
+}
+
+// --- static and check ---
+
+// The static law of an actuator from force, length and pressure.
+struct StaticSettings {
+  std::string rest_length, actuator, branch = "both";
+  std::vector<std::string> fit_where;
+  HeldOut hold_out;
+  std::string diameter;
+  bool anyway = false;
+  std::vector<std::string> predict;
+  std::string model, name = "bpa";
+  host::Tally* tried = nullptr;  // counts laws that have been tried; null: nothing
+};
+
+// Settings of `check`: those of `static` which concern the tables.
+struct CheckSettings {
+  StaticSettings how;
+};
+
+constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
+
+// What concerns the tables.
+template <class Visitor>
+void table_fields(Visitor& v, StaticSettings& s) {
+  v.quantity(
+      {"rest_length", "of the muscle without pressure and load; without it the longest length", "m",
+       actuator_length},
+      s.rest_length);
+  v.file({"actuator", "a file whose braid is taken as known"}, s.actuator);
+  v.choice({"branch", "the points that are fitted: of filling, of venting, or both"}, s.branch,
+           {"fill", "vent", "both"});
+  v.texts({"fit_where", "NAME=VALUE,...: only such rows are fitted, the others held out"},
+          s.fit_where);
+  v.hold_out({"hold_out",
+              "pressure (every second), length or muscle (each once) or another FILE, to score "
+              "what was not seen"},
+             s.hold_out);
+  v.quantity({"diameter", "of the muscle without pressure and load, to compare its force with", "m",
+              config::above_zero(1, "of a muscle")},
+             s.diameter);
+}
+
+template <class Visitor>
+void fields(Visitor& v, StaticSettings& s) {
+  v.method({"static", "the static law of an actuator from force, length and pressure",
+            Tables::needed, static_models().size()});
+  table_fields(v, s);
+  v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
+  v.texts({"predict",
+           "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own", "m"},
+          s.predict);
+  v.text({"model", "this one alone"}, s.model);
+  v.text({"name", "of the actuator"}, s.name);
+}
+
+template <class Visitor>
+void fields(Visitor& v, CheckSettings& s) {
+  v.method({"check", "are measurements plausible, and what can `identify static` find in them"});
+  table_fields(v, s.how);
+}
+
+// --- creep ---
+
+// Creep and dry friction from fill, hold and vent. It has no settings.
+struct CreepSettings {
+  host::Tally* tried = nullptr;  // counts laws that have been tried; null: nothing
+};
+
+template <class Visitor>
+void fields(Visitor& v, CreepSettings&) {
+  v.method({"creep",
+            "creep and dry friction from force at one length while the muscle is filled, held and "
+            "vented; they belong into an actuator's [creep] and [hysteresis]",
+            Tables::needed, creep_models().size()});
+}
+
+// --- scale ---
+
+// The actuator of a muscle of another rest length than the one that was measured.
+struct ScaleSettings {
+  std::string file, rest_length, actuator, reading, name, atmosphere = "14.7 psi";
+};
+
+template <class Visitor>
+void fields(Visitor& v, ScaleSettings& s) {
+  v.method(
+      {"scale", "a muscle of another rest length than those that were measured", Tables::none});
+  v.file(Setting{"file", "an actuator that `identify static` wrote"}.required().called("FILE"),
+         s.file);
+  v.quantity(Setting{"rest_length", "of the new muscle, without pressure and load", "m",
+                     config::above_zero(1000, "of a muscle")}
+                 .required(),
+             s.rest_length);
+  v.text({"actuator", "which one, where the file has several"}, s.actuator);
+  v.text(
+      {"reading", "one of the new muscle at rest, to correct the law: \"LENGTH, PRESSURE, FORCE\""},
+      s.reading);
+  v.text({"name", "of the new actuator; as in the file"}, s.name);
+  v.text({"atmosphere", "the pressure of the room"}, s.atmosphere);
+}
+
+// --- run ---
+
+// Numbers of a machine from a run of it that is kept.
+struct RunFitSettings {
+  std::string run;
+  std::vector<std::string> fit;
+  std::string machine;
+  std::vector<std::string> sets, priors, freeze;
+  std::string hold_out = "20 %", from = "0 s";
+  int threads = 0;
+  std::string base;
+  std::function<void(const std::string&)> progress;  // is given a line now and then; empty: nothing
+};
+
+template <class Visitor>
+void fields(Visitor& v, RunFitSettings& s) {
+  v.method({"run", "friction, damping, dead times, volumes, leaks from a run of a robot itself",
+            Tables::none});
+  v.file(Setting{"run", "a run's folder, or a log file; an imported recording's too"}
+             .required()
+             .called("RUN"),
+         s.run);
+  v.texts(Setting{"fit",
+                  "keys, and groups of them: friction, damping, dead-time, volume, leak; absent: "
+                  "all groups"}
+              .at_commas(),
+          s.fit);
+  v.file({"machine", "what was run, in place of the folder's"}, s.machine);
+  v.texts(
+      Setting{"sets", "KEY=VALUE: where the search begins, or what is known"}.called("start,set"),
+      s.sets);
+  v.texts(Setting{"priors", "\"KEY=VALUE +- DEVIATION\": what is known of a fitted number"}.called(
+              "prior"),
+          s.priors);
+  v.texts({"freeze", "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
+  v.quantity({"hold_out", "of the run, at its end: scores and is not fitted", "1"}, s.hold_out);
+  v.quantity(Setting{"from", "what is before is not compared", "s",
+                     config::from_zero(1e6, "a time of the run")}
+                 .in_python("begin"),
+             s.from);
+  v.integer(
+      {"threads", "simulations at once; 0: one for each processor", "", {0, 1024, "simulations"}},
+      s.threads);
+  v.file(Setting{"base", "the robot's file, named in the one that is written"}.of_file(), s.base);
+}
+
+// --- plan ---
+
+// Which lengths and pressures to measure. Empty quantities are not known, or follow from the
+// others.
+struct PlanSettings {
+  std::string rest_length, branch = "both", diameter, actuator, pressure, noise;
+  std::string length_error = "0.1 mm", law_error = "1 %", error = "2 %", criterion = "mean";
+  std::string mount_time = "10 min", step_time = "30 s", shortest, longest, lowest;
+  int most = 12;
+};
+
+// What is known of the muscle and of the measurement.
+template <class Visitor>
+void measurement_fields(Visitor& v, PlanSettings& s) {
+  constexpr config::Range length = config::above_zero(1000, "of an actuator");
+  v.quantity(
+      {"rest_length", "of the muscle without pressure and load; without it the longest length", "m",
+       length},
+      s.rest_length);
+  v.choice({"branch", "of DATA: fill, vent or both"}, s.branch, {"fill", "vent", "both"});
+  v.quantity({"diameter", "of the mesh without pressure and load", "m",
+              config::above_zero(1, "of a muscle")},
+             s.diameter);
+  v.file(
+      {"actuator",
+       "a file with a muscle like it, in place of the diameter; with DATA: whose braid is known"},
+      s.actuator);
+  v.quantity({"pressure", "the highest that will be measured", "Pa gauge",
+              config::above_zero(5e6, "above the room's, in a muscle")},
+             s.pressure);
+  v.quantity(
+      {"noise", "of one reading of force, a standard deviation; absent: 2 N, or what DATA scatter",
+       "N", config::above_zero(1e4, "of a force")},
+      s.noise);
+  v.quantity({"length_error", "of a mount's length", "m", config::from_zero(0.1, "of a mount")},
+             s.length_error);
+}
+
+// What is wanted.
+template <class Visitor>
+void aim_fields(Visitor& v, PlanSettings& s) {
+  constexpr config::Range time = config::from_zero(86400, "more than a day for one step");
+  constexpr config::Range length = config::above_zero(1000, "of an actuator");
+  v.quantity(
+      {"law_error", "that the law itself is off by, of the largest force; no measurement lowers it",
+       "1", config::from_zero(0.5, "of the largest force")},
+      s.law_error);
+  v.quantity({"error", "wanted, of the largest force", "1",
+              config::above_zero(0.5, "of the largest force")},
+             s.error);
+  v.choice({"criterion",
+            "mean: the error is a root mean square over the region; worst: half of the 95 % "
+            "interval at its worst place"},
+           s.criterion, {"mean", "worst"});
+  v.quantity({"mount_time", "to change the length", "s", time}, s.mount_time);
+  v.quantity({"step_time", "to change the pressure, wait and read", "s", time}, s.step_time);
+  v.quantity({"shortest", "length at which the law is wanted", "m", length}, s.shortest);
+  v.quantity({"longest", "length at which it is; absent: the rest length", "m", length}, s.longest);
+  v.quantity({"lowest", "pressure at which it is", "Pa gauge",
+              config::above_zero(5e6, "above the room's, in a muscle")},
+             s.lowest);
+  v.integer({"most", "mounts at most", "", {3, 100, "mounts; fewer cannot try a law"}}, s.most);
+}
+
+template <class Visitor>
+void fields(Visitor& v, PlanSettings& s) {
+  v.method({"plan", "which lengths and pressures to measure for an error, and in how many minutes",
+            Tables::optional});
+  measurement_fields(v, s);
+  aim_fields(v, s);
+}
+
+// --- force-beam ---
+
+// A force transducer. The thesis's transducer, 4.4. Where the gages are and how they
+// are wired it does not print: of the bridges one gives the measured 0.17 V/lb near the strain that
+// it was designed for, 1000e-6 at 30 lb.
+struct TransducerSettings {
+  std::string length = "0.75 in", width = "0.3 in", height = "0.15 in", gages = "0.36 in";
+  std::string modulus = "10000000 psi";
+  double poisson = 0.33;
+  std::string yield = "40000 psi";
+  double concentration = 1;
+  std::string bridge = "poisson";
+  double gage_factor = 2;
+  std::string excitation = "5 V";
+  double gain = 800;
+  std::string full_scale = "5 V";
+  int bits = 12;
+  std::string load = "30 lbf", sensitivity;
+};
+
+template <class Visitor>
+void fields(Visitor& v, TransducerSettings& s) {
+  // What is beyond these is a slip of its unit.
+  constexpr config::Range size = config::above_zero(10, "of a transducer");
+  constexpr config::Range stress = config::above_zero(1e13, "diamond has 1.2e12 N/m2");
+  constexpr config::Range voltage = config::above_zero(1000, "of an instrument");
+  v.method({"force-beam",
+            "strain, safety and output of a beam with strain gages; without options the thesis's",
+            Tables::none});
+  v.quantity({"length", "from the load to the mount", "m", size}, s.length);
+  v.quantity({"width", "of the beam", "m", size}, s.width);
+  v.quantity({"height", "in the direction of the load", "m", size}, s.height);
+  v.quantity({"gages", "from the load to the middle of the gages", "m", size}, s.gages);
+  v.quantity({"modulus", "Young's, of the material", "N/m2", stress}, s.modulus);
+  v.number(
+      {"poisson", "Poisson's ratio", "", config::from_zero(0.5, "no stretched solid gains more")},
+      s.poisson);
+  v.quantity(
+      Setting{"yield", "stress at which it yields", "N/m2", stress}.in_python("yield_stress"),
+      s.yield);
+  v.number({"concentration", "of stress at the mount", "", {1, 100, "a mount adds to the stress"}},
+           s.concentration);
+  v.choice({"bridge",
+            "quarter: one gage; half: above and below; poisson: above and below, along and across; "
+            "bending: two above, two below"},
+           s.bridge, {"quarter", "half", "poisson", "bending"});
+  v.number({"gage_factor", "of the gages", "", config::above_zero(1000, "semiconductors have 200")},
+           s.gage_factor);
+  v.quantity({"excitation", "of the bridge", "V", voltage}, s.excitation);
+  v.number({"gain", "of the amplifier", "", config::above_zero(1e6, "of an amplifier")}, s.gain);
+  v.quantity({"full_scale", "of the converter", "V", voltage}, s.full_scale);
+  v.integer({"bits", "of the converter", "", {1, 24, "of a converter"}}, s.bits);
+  v.quantity({"load", "at the free end", "N", config::above_zero(1e9, "at the beam's free end")},
+             s.load);
+  v.quantity({"sensitivity", "wanted: gives where the gages must be", "V/N",
+              config::above_zero(1e9, "output by load")},
+             s.sensitivity);
+}
+
+}  // namespace sinew::identify
