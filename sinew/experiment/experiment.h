@@ -28,7 +28,6 @@
 namespace sinew::experiment {
 
 // What of a run is recorded: [log] of every kind of experiment.
-
 struct Log {
   bool enabled = true;
   std::vector<std::string> channels = {"*"};  // topics, * for any run of characters

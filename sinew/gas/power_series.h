@@ -85,7 +85,6 @@ inline void follow(const PowerSeries& series, Base& base, double quantity, doubl
 //
 // It is for whoever takes steps in which the quantity leaves the reach of a series: a table costs
 // 80 powers once.
-
 class PowerTable {
  public:
   // Fills the table for that exponent.

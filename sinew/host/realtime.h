@@ -74,6 +74,7 @@ std::int64_t now_ns() noexcept;
 // Returns at once where the instant has passed. A signal's handler does not end it.
 void sleep_until_ns(std::int64_t instant) noexcept;
 
+// Gives the ticks of a machine by the clock of this computer.
 class Beat {
  public:
   // Tick 0 is at the first wait_until, or from here on.

@@ -24,7 +24,6 @@ namespace sinew::live {
 //
 // The loop never waits: where the watchers are behind by a whole ring, what comes is left out, and
 // with it the rest of its row. The log lacks nothing.
-
 class Feed {
  public:
   // `topics` in the recorder's order: /valve/… are edges, the others the fields of a row. `ring`:

@@ -180,7 +180,6 @@ Ran run_once(const std::string& file, const std::vector<std::string>& sets,
 // Goes up along the given values to the first that does not hold, then halves the interval between
 // it and the one before. What holds again further up is not looked for, so of something that is not
 // monotone this is the end of the lowest part, as finely as the values see it.
-
 struct Largest {
   enum class Is { never, between, to_the_end };  // not even the first; found; even the last holds
 

@@ -105,6 +105,7 @@ struct MachineFault {
 // Returns those that began by `last`  [s].
 std::vector<MachineFault> begun_by(std::vector<MachineFault> faults, double last);
 
+// Holds the figures of a run in their order, with its title and its warnings.
 class Summary {
  public:
   std::string title;

@@ -69,6 +69,7 @@ double gage_distance_for(const ForceBeam& beam, const Bridge& bridge, double wan
 
 // --- a force beam with its bridge and the converter that reads it ---
 
+// Holds a force beam with its bridge, its amplifier and the converter.
 struct Transducer {
   ForceBeam beam;
   Bridge bridge;

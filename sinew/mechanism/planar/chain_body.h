@@ -57,6 +57,7 @@ inline Footing<double> footing_of(const robot::Robot& robot) {
   return f;
 }
 
+// Decides the dry friction at joints, trolley and foot of a chain of N links.
 template <int N, class S = double>
 class Contacts {
  public:
@@ -495,7 +496,6 @@ ChainBody<N, units::Pack<W>> side_by_side(const std::array<const ChainBody<N>*, 
 //
 // robot::is_chain says which robots it holds; body_mechanism.h holds all, and both agree where both
 // hold one.
-
 template <int N>
 class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N> {
   using Equations = ChainBody<N>;

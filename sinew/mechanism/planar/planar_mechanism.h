@@ -14,7 +14,6 @@
 namespace sinew::plant {
 
 // The readings of a planar machine's sensors, and its true values, from previews of world.h.
-
 class PlanarSenses {
  public:
   using Truth = plant::Truth;

@@ -34,7 +34,6 @@ class Recorded final : public signals::Port {
 // A body whose valves follow a log, whatever a controller decides:
 // recorded commands for a simulated machine. It then has to move as the recorded one did, or the
 // model differs from it.
-
 class Driven final : public signals::Port {
  public:
   // `body` outlives it; the edges come in ascending time.

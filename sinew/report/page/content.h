@@ -34,7 +34,6 @@ namespace sinew::report {
 // that is drawn as a line the least value and the greatest one, in the order in which they come, so
 // that no peak is lost; of one that belongs to a pose the values of the first sample and of the
 // middle one, so that a pose is one that was.
-
 class Blob {
  public:
   static constexpr std::size_t most = 65536;  // samples of a clock

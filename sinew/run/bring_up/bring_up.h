@@ -68,6 +68,7 @@ struct Stroke {
   double lowest = 0, highest = 0;
 };
 
+// Holds the steps that are done, and what they found.
 struct Progress {
   std::string robot, board;
   std::string machine;                                   // stands for all of the robot's values

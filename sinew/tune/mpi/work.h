@@ -28,6 +28,7 @@ struct SinewMessages;
 
 namespace sinew::tune {
 
+// Holds which of the processes this one is, and passes texts between them.
 class Ranks {
  public:
   // Joins the others where this process is one of several, else is alone. Throws std::runtime_error
