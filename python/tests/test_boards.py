@@ -49,7 +49,7 @@ class Wrong(Refusals):
                 (lambda: run(WALK, port="emulated:no.elf"), sinew.BoardError, "no such program"),
                 (lambda: run(WALK, port=f"lock-step:{WALK}"), sinew.BoardError, ""),
                 (lambda: run(WALK, port=3), TypeError, "incompatible"),
-                (lambda: run(rig, port="serial:/dev/nowhere"), sinew.InputError, "expected one of a robot"),
+                (lambda: run(rig, port="serial:/dev/nowhere"), sinew.InputError, "expected at least one"),
             ]
         )
         self.assertEqual(run(AIR, port="simulated").board, "")
