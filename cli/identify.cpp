@@ -86,7 +86,7 @@ constexpr OutputHelp plan_help{"FILE.csv: a row for each reading, to fill in",
                                "of what is printed, else mm and kPa; --json is in SI",
                                false};
 
-// What the help of a method has besides its settings.
+// Holds the parts of a method's help that are not its settings.
 struct MethodHelp {
   std::string_view method;
   OutputHelp outputs;
@@ -345,7 +345,7 @@ void write_beside(const identify::ValveFound& found,
                       options.result.beside, timing.frequency, 100 * timing.worst));
 }
 
-// Other muscles of its make, each in a file beside that of the first one.
+// Writes each further muscle of the make into a file next to that of the first one.
 void write_beside(const identify::StaticFound& found,
                   const Options<identify::StaticSettings>& options) {
   if (options.result.out.empty()) return;

@@ -293,7 +293,7 @@ self_test() {
   expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
   expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'
   expect sinew/identify/motion/a_test.cpp '#include "sinew/world/stand.h"'      ''
-  expect sinew/identify/motion/a.cpp '#include "sinew/world/stand.h"'           'identify/motion may not include world'
+  expect sinew/identify/sensor/a.cpp '#include "sinew/world/stand.h"'           'identify/sensor may not include world'
   expect sinew/novelty/a.h        'int a;'                                     'no row'
   expect sinew/gas/a.h            '#include "sinew/novelty/a.h"'               'no row'
   expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'behind sinew/config'

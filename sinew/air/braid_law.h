@@ -41,7 +41,7 @@ struct BraidPull {
   S pressure, tension, clamped, friction_bound;
 };
 
-// The inputs of a bundle's pull: its length [m], the rate of it [m/s], the mass of its air [kg],
+// The inputs of a bundle's pull: its length [m], the length's rate [m/s], its mass of air [kg],
 // and the reference of its density.
 template <class S>
 struct BraidState {

@@ -123,7 +123,7 @@ void fields(Visitor& v, Circuit& c) {
                     "both above zero", R"(resistance = "12 ohm", inductance = "6 mH")");
 }
 
-// What bounds it, and what its coil takes: delay.h, coil_current.h.
+// These keys bound a valve and describe its coil: delay.h, coil_current.h.
 template <class Visitor>
 void drive_fields(Visitor& v, Valve& valve) {
   const auto seconds = [](auto& g, std::string_view name, std::string_view doc, double& value) {

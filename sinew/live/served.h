@@ -33,7 +33,7 @@ Served served(const std::vector<std::string>& what, const std::string& machine,
 // Returns the folders below `folder` with a log, the newest first.
 std::vector<std::filesystem::path> runs_below(const std::filesystem::path& folder);
 
-// Answers requests for the pages of recorded runs.
+// Serves the pages of recorded runs.
 class RunsPages {
  public:
   // `folder`: where runs are looked for, anew whenever the list is asked for; empty: nowhere.

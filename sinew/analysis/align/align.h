@@ -4,7 +4,7 @@
 //   reclock(b, found.clock);              b's times are those of a's clock now
 //
 // They are laid by an event or by the greatest correlation (correlation.h), or by a shift known
-// already; then, where it is wished, the clock's rate too. Without a wish the
+// already; then, where it is wished, the clock's rate too. By default the
 // channels are those of the first kind that moves in both recordings: angles, lengths, positions,
 // tensions, pressures, all others, counts. What only a simulation knows (/true), plans (/desired)
 // and valves are not asked: a measurement has none, or they would say nothing of the motion.

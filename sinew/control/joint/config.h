@@ -67,7 +67,7 @@ enum class Truncation : std::uint8_t {
 struct MuscleConfig {
   bool present = true;  // false: a spring or gravity pulls this way
   signals::Channel tension;
-  signals::Valve inlet, exhaust;  // the kind of the joint says whether there is an exhaust
+  signals::Valve inlet, exhaust;  // only some kinds of joints have an exhaust
   bool exhaust_inverted = false;  // its coil shuts it, B.1's "(3-way)" lines
 
   std::int32_t free_length =

@@ -207,4 +207,22 @@ constexpr void letters(Io& io, X& x) noexcept {
 template <class M, class X>
 concept Is = std::same_as<std::remove_const_t<M>, X>;
 
+// How many members an aggregate has, so that a list of its fields notices
+// when one is added: static_assert(members<Gains>() == 3).
+
+// Stands for a member of any type.
+struct AnyMember {
+  template <class T>
+  operator T() const;  // never defined: only asked whether it would do
+};
+
+// Returns how many members an aggregate has.
+template <class T, class... Before>
+consteval std::size_t members() {
+  if constexpr (requires { T{Before{}..., AnyMember{}}; })
+    return members<T, Before..., AnyMember>();
+  else
+    return sizeof...(Before);
+}
+
 }  // namespace sinew::link

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "sinew/control/joint/config.h"
-#include "sinew/control/link/members.h"
+#include "sinew/control/link/bytes.h"
 #include "sinew/control/link/messages.h"
 #include "sinew/control/supervise/safety.h"
 

@@ -1,6 +1,6 @@
 #include "sinew/control/link/telemetry.h"
 
-#include "sinew/control/link/members.h"
+#include "sinew/control/link/bytes.h"
 
 namespace sinew::link {
 namespace {

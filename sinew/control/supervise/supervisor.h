@@ -69,7 +69,7 @@ struct Trip {
   std::uint8_t joint = 0;    // command
 };
 
-// Holds what the supervisor knows of a run.
+// Holds the supervisor's counts of a run, and why it ended.
 struct Supervised {
   std::array<SensorSeen, max_channels> sensor;
   std::uint32_t rejected = 0;  // readings of all sensors

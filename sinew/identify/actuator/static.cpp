@@ -431,9 +431,10 @@ StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, 
   return out;
 }
 
-// Takes the law of the rest length, between the label and what the fit has beside the other
-// muscles, that misses the muscle's rows least as their lengths are labelled: those are what a user
-// of its file has. In the fit an error of the label moves the mount at rest as well.
+// Chooses the rest length of a muscle's file, between its label and the length that the fit found
+// from the other muscles: the one with the smallest error on the muscle's rows at their labelled
+// lengths, because a user of the file measures those. In the fit an error of the label also moves
+// the mount at rest.
 void set_file(const StaticFit& fit, const StaticScales& scales, const Points& points,
               StaticMuscle& muscle) {
   constexpr int steps = 20;

@@ -131,7 +131,7 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
   const Places places = places_of(m);
   actuator::Prediction out{
       .rest_length = m.file_length, .lengths = m.lengths, .lowest = m.lowest, .highest = m.highest};
-  // What it misses the rows by that it was made from is the least that it misses others by.
+  // The errors on its own rows are a lower limit of those on other rows.
   write_widths(mean_widths(result, places.inside), {m.half_68, m.half_95}, out.inside_68,
                out.inside_95);
   const std::array<double, 2> least{out.inside_68, out.inside_95};

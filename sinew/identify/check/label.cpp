@@ -24,7 +24,7 @@ constexpr double make_supports = 0.25;  // the same among muscles, where the mus
 constexpr double make_explains = 0.5;   // where it does not
 constexpr double mount_explains = 0.6;  // where one mount among four or more is doubted
 constexpr double least_misfit = 0.002;  // of the largest force: less is left by right labels
-constexpr std::size_t fewest_points = 15, most_mounts = 12;  // of a muscle that can be asked
+constexpr std::size_t fewest_points = 15, most_mounts = 12;  // for a check of mounts
 
 // Beside branches and what several muscles need.
 const std::vector<Knob> label_laws[] = {
@@ -155,8 +155,8 @@ Check suspicion_of(const Doubt* own, const Doubt* make, const std::string& other
   return {"labels", Light::yellow, text + ".", advice};
 }
 
-// A muscle each of whose mounts can be asked about: as many points as a law needs, and not so many
-// mounts that one of them hardly counts.
+// Returns whether each mount of a muscle can be checked: it has enough points for a law, and so few
+// mounts that one of them matters.
 bool mounts_can_be_asked(const Points& own) {
   const std::size_t mounts = mounts_of_muscle(own).size();
   return mounts >= 4 && mounts <= most_mounts && own.size() >= fewest_points;
@@ -236,7 +236,7 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
   Points points = few_points(data.points);
   if (points.empty()) return;
   const bool has_label = points.front().rest_length > 0;
-  if (!has_label) {  // the longest mount stands for it, as in a fit
+  if (!has_label) {  // the longest mount takes its place, as in a fit
     const double longest = std::ranges::max(points, {}, &StaticPoint::length).length;
     for (StaticPoint& p : points) p.rest_length = longest;
   }

@@ -52,8 +52,8 @@ void refuse_clipped(const Measured& data, std::string_view column, std::string_v
 // others: a row that repeats an earlier one in every column is no new evidence. A recording, which
 // has a time, stays as it is.
 Measured each_row_once(Measured data);
-// The same where rows are of two kinds, as those to be fitted and those held out: a row repeats
-// only others of its kind. `kinds` is that of each row, and loses the rows that the table loses.
+// Does the same for rows of two kinds, for example fitted and held-out ones: a row repeats only
+// others of its kind. `kinds` has the kind of each row and loses the rows that the table loses.
 Measured each_row_once(Measured data, std::vector<bool>& kinds);
 
 }  // namespace sinew::identify

@@ -664,7 +664,7 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   std::vector<Fitted> fitted;
   for (const PairLaw* law : laws) fitted.push_back(pair.fit(*law));
   for (Fitted& f : fitted) {
-    // What is 0 is not there, and a bristle may be bent all the way at the start.
+    // An effect of size 0 is absent, and a bristle may be fully bent at the start.
     std::vector<std::string_view> allowed;
     for (const Estimate& e : f.fit.parameters)
       if (e.value == 0 || e.name.starts_with("start")) allowed.push_back(e.name);

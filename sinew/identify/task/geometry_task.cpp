@@ -66,7 +66,7 @@ Json describe(const actuator::Braid& braid) {
           {"shortest_length_m", actuator::shortest_length(braid)}};
 }
 
-// From what was counted.
+// Finds the braid from counted trapezoids.
 GeometryFound count_geometry(const GeometrySettings& settings, double side) {
   std::vector<double> counts;
   for (const std::string& piece : config::at_commas(settings.trapezoids))

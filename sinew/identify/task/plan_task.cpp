@@ -155,7 +155,7 @@ Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
   return out;
 }
 
-// A plan for a muscle that nobody has measured.
+// Makes the plan for a muscle without measurements.
 PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
   const PlanReader read(settings, atmosphere);
   PlanFound out{.options = read.options("2 N")};

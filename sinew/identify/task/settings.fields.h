@@ -146,7 +146,7 @@ struct JointSettings {
   host::Tally* tried = nullptr;  // counts models that have been tried; null: nothing
 };
 
-// What hangs on the joint, and where.
+// These settings describe the load on the joint.
 template <class Visitor>
 void load_fields(Visitor& v, JointSettings& s) {
   constexpr double turns = 4 * std::numbers::pi;
@@ -164,7 +164,7 @@ void load_fields(Visitor& v, JointSettings& s) {
              s.limb_lever);
 }
 
-// What is known of the muscles, and what of the torque is to be found.
+// These settings describe the muscles, and the parts of the torque that are fitted.
 template <class Visitor>
 void known_fields(Visitor& v, JointSettings& s) {
   constexpr config::Range size = config::above_zero(1000, "of a robot");
@@ -316,7 +316,7 @@ struct CheckSettings {
 
 constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
 
-// What concerns the tables.
+// These settings concern the tables.
 template <class Visitor>
 void table_fields(Visitor& v, StaticSettings& s) {
   v.quantity(
@@ -444,7 +444,7 @@ void fields(Visitor& v, RunFitSettings& s) {
 
 // --- plan ---
 
-// Which lengths and pressures to measure. Empty quantities are not known, or follow from the
+// The settings of a plan of lengths and pressures. Empty quantities are unknown, or follow from the
 // others.
 struct PlanSettings {
   std::string rest_length, branch = "both", diameter, actuator, pressure, noise;
@@ -453,7 +453,7 @@ struct PlanSettings {
   int most = 12;
 };
 
-// What is known of the muscle and of the measurement.
+// These settings describe the muscle and the measurement.
 template <class Visitor>
 void measurement_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range length = config::above_zero(1000, "of an actuator");
@@ -536,7 +536,7 @@ struct TransducerSettings {
 
 template <class Visitor>
 void fields(Visitor& v, TransducerSettings& s) {
-  // What is beyond these is a slip of its unit.
+  // A value beyond these limits has a wrong unit.
   constexpr config::Range size = config::above_zero(10, "of a transducer");
   constexpr config::Range stress = config::above_zero(1e13, "diamond has 1.2e12 N/m2");
   constexpr config::Range voltage = config::above_zero(1000, "of an instrument");

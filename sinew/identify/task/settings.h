@@ -1,6 +1,6 @@
 // identify/task/settings.h - the settings of a method of identification: one row for each.
 //
-// Beside its struct of settings a method has one function template,
+// In addition to its struct of settings a method has one function template,
 //
 //   template <class Visitor>
 //   void fields(Visitor& v, GeometrySettings& s) {
@@ -42,7 +42,7 @@ namespace sinew::identify {
 // Whether a method reads tables of measurements.
 enum class Tables { needed, optional, none };
 
-// What is not fitted and scores the laws.
+// A part of the data that is not fitted and scores the laws.
 struct HeldOut {
   std::vector<std::string> texts;  // a rule of the method, such as "pressure", or files
   std::vector<Source> tables;      // in place of files
@@ -59,7 +59,7 @@ struct MethodRow {
 
 // One setting.
 struct Setting {
-  // How its text is taken; the visitor's functions above describe each.
+  // The kind of its value; the visitor's functions above describe each.
   enum class Kind {
     quantity,
     quantities,
@@ -78,7 +78,7 @@ struct Setting {
   std::string_view unit = "";  // of a quantity: SI, as in units/field.h; empty: known with the data
   config::Range range = {};    // of a quantity or an integer
 
-  // What the visitor's function gives, and what the functions below change.
+  // The visitor's function sets these; the functions below change them.
   Kind kind = Kind::text;
   std::vector<std::string> words = {};
   std::string_view option = name, keyword = name;

@@ -46,7 +46,7 @@ double left_by_rest(const Curve& c, std::span<const std::size_t> rows, std::size
 }
 
 // Returns whether the record begins before the pressure moves: two rows or more at rest go with its
-// first tenth much better than a rise from the first row on does. Of many rows some are asked.
+// first tenth much better than a rise from the first row on does. Long records are thinned.
 bool rests_first(const Curve& c) {
   constexpr std::size_t enough = 200;
   const std::size_t moves = first_beyond(c, 0.03), end = std::max(first_beyond(c, 0.1), moves + 2);

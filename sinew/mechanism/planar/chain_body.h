@@ -5,8 +5,8 @@
 //   layout.h    routes of the muscles        setup.h     ends of the joints' ranges
 //
 // S is a double; or a pack of them: machines side by side, of any numbers, whose muscles pull the
-// same joints. Each has the bits that it has alone. ChainMechanism makes a
-// mechanism for world/kernel/world.h of it; contract.h describes the members.
+// same joints. Each has the bits that it has alone. ChainMechanism is the
+// mechanism for world/kernel/world.h; contract.h describes the members.
 #pragma once
 
 #include <algorithm>

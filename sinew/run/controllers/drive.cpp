@@ -53,7 +53,7 @@ Drive::Drive(const experiment::Experiment& e)
     planned_.push_back({.at = at, .valve = {valve}, .open = true});
     planned_.push_back({.at = at + open, .valve = {valve}, .open = false});
   }
-  // Where a valve shuts and opens at one tick, it opens last.
+  // A valve that shuts and opens at one tick opens last.
   std::ranges::stable_sort(planned_, {},
                            [](const signals::Edge& edge) { return std::pair(edge.at, edge.open); });
   if (bundle_.actuator.braid.turns > 0 && e.stand->start_length > 0)

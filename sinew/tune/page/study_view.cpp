@@ -19,7 +19,7 @@ namespace sinew::tune {
 
 namespace {
 
-// --- facts from the text of a study (results/asked.h) ---
+// --- facts from the text of a study (results/) ---
 
 // "vary = KEY [unit]: values" without its name; nothing for another line.
 std::optional<std::string> value_after(const std::string& line, const std::string& name) {
