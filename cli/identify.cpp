@@ -398,6 +398,7 @@ void print(const Found& found, const PrintOptions& how) {
   const bool several = std::is_same_v<Found, identify::SensorFound> && reports.size() > 1;
   if (!reports.empty() && !several) print_report(*reports[0], how);
   print_more(found, how);
+  if (!reports.empty() && !several) print_unseen(*reports[0]);
 }
 
 // --- a method from its options to its files ---

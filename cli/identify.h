@@ -35,6 +35,9 @@ struct PrintOptions {
 // Prints a report on stdout: its laws, and the parameters of the chosen one.
 void print_report(const identify::Report& report, const PrintOptions& how);
 
+// Prints the last paragraph of a report: what it does not show.
+void print_unseen(const identify::Report& report);
+
 // Print what a method has besides a report.
 template <class Found>
 void print_more(const Found&, const PrintOptions&) {}

@@ -79,15 +79,35 @@ std::string interval(const identify::Estimate& e, double scale) {
                      e.known);
 }
 
+// Returns an error of a profile, in multiples of that of the chosen values.
+std::string error_at(double times) {
+  return times < identify::Profile::most ? fmt::format("{:.3g}", times) : "> 10";
+}
+
 void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
-  TextTable table({"parameter", "value", "unit", "95 %"},
-                  {TextTable::Align::left, TextTable::Align::right});
+  using enum TextTable::Align;
+  const bool profiled = std::ranges::any_of(
+      fit.parameters, [](const identify::Estimate& e) { return e.profile.has_value(); });
+  std::vector<std::string> head = {"parameter", "value", "unit", "95 %"};
+  if (profiled) head.insert(head.end(), {"error at half", "at twice", ""});
+  TextTable table(head, {left, right, left, left, right, right, left});
   for (const identify::Estimate& e : fit.parameters) {
     const Retold shown = retold(e.value, e.unit, asked, room);
-    table.add({e.name, fmt::format("{:.6g}", shown.number), shown.unit == "1" ? "" : shown.unit,
-               interval(e, shown.scale)});
+    std::vector<std::string> row = {e.name, fmt::format("{:.6g}", shown.number),
+                                    shown.unit == "1" ? "" : shown.unit, interval(e, shown.scale)};
+    if (e.profile)
+      row.insert(row.end(), {error_at(e.profile->error.front()), error_at(e.profile->error.back()),
+                             std::string(e.profile->pinned ? "pinned" : "not pinned") +
+                                 (e.profile->near_zero ? ", near zero" : "")});
+    else if (profiled)
+      row.insert(row.end(), {"-", "-", e.at_bound ? "not pinned" : ""});
+    table.add(row);
   }
   fmt::print("{}", table.text());
+  if (profiled)
+    fmt::print(
+        "error at half, at twice: times as large, with that value and all others fitted again; a "
+        "value near zero is moved by its scale\n");
 }
 
 // --- what each method adds ---
@@ -351,7 +371,10 @@ void print_report(const identify::Report& report, const PrintOptions& how) {
   fmt::print("{}\n", report.subject);
   const std::string of =
       whole.unit == "1" ? "" : fmt::format(", {:.5g} {}", whole.number, whole.unit);
-  fmt::print("errors of the {} in % of {}{}\n\n", report.quantity, report.full_scale_is, of);
+  fmt::print("errors of the {} in % of {}{}\n", report.quantity, report.full_scale_is, of);
+  if (const std::vector<std::string> names = identify::not_pinned(report); !names.empty())
+    fmt::print("these data do not pin: {}\n", fmt::join(names, ", "));
+  fmt::print("\n");
   print_models(report);
   if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
   if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
@@ -365,6 +388,11 @@ void print_report(const identify::Report& report, const PrintOptions& how) {
                band->half_68 * most.scale, most.number, unit, where);
   }
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
+}
+
+void print_unseen(const identify::Report& report) {
+  fmt::print("\nwhat this does not show:\n");
+  for (const std::string& text : identify::does_not_show(report)) fmt::print("  {}\n", text);
 }
 
 void print_more(const identify::DynamicFound& found, const PrintOptions& how) {

@@ -1,7 +1,7 @@
 // The page of an identification: what was measured beside what every model says of it, why one was
 // chosen, and its values.
 import { Charts } from './charts.js';
-import { errors, further, left_out, percent } from './fit_evidence.js';
+import { errors, further, left_out, percent, unseen } from './fit_evidence.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
 import { cell, heading, show_parameters, table } from './tables.js';
@@ -20,6 +20,8 @@ function precise(value, half) {
   return [words(value.toFixed(decimals)), `± ${small ? words(half.toExponential(1)) : half.toFixed(decimals)}`];
 }
 
+const error_at = ({ profile }, k) => (!profile ? '–' : profile[k].error >= 10 ? '> 10' : profile[k].error.toPrecision(3));
+
 class Part {
   constructor(spec, page) {
     const { report } = spec;
@@ -33,7 +35,7 @@ class Part {
     this.evidence = element('div', {});
     this.plan = element('div', {});
     this.root = element('section', { class: 'block fit' }, head, this.verdict(), charts, this.evidence, this.values, this.models(),
-                        this.plan, this.remarks());
+                        this.plan, this.remarks(), unseen(report));
     this.show = () => (this.charts = spec.charts.length ? new Charts(charts, spec.charts, [], page.units, report.subject) : null);
     this.refresh();
   }
@@ -48,7 +50,8 @@ class Part {
       element('div', { class: 'chosen' }, element('span', { class: 'quiet' }, 'chosen'), element('b', {}, report.chosen),
         element('code', {}, best.law), element('span', { class: 'quiet' }, best.source)),
       figure('error of the fit, rms', best.fit), figure('held out', best.held_out),
-      figure('cross-validated', best.cross_validated), figure('lengths at the ends, not seen', best.extrapolated));
+      figure('cross-validated', best.cross_validated), figure('lengths at the ends, not seen', best.extrapolated),
+      report.not_pinned.length ? element('p', { class: 'hint not-pinned' }, `These data do not pin: ${report.not_pinned.join(', ')}.`) : '');
   }
 
   models() {
@@ -78,6 +81,7 @@ class Part {
     const { band } = report;
     this.scale.textContent = `errors of the ${report.quantity} in % of ${report.full_scale_is}, ${units.text(report.full_scale, report.unit)}` +
       (band ? `; 68 and 95 % of what it did not see lie within ± ${units.text(band.half_68, report.unit)} and ± ${units.text(band.half_95, report.unit)}${band.where ? `, ${band.where}` : ''}` : '');
+    const profiled = report.parameters.some((p) => p.profile);
     const rows = report.parameters.map((p) => {
       const u = units.of(p.unit), half = p.high === null || p.high === p.low ? NaN : 0.5 * (p.high - p.low) * u.scale;
       const value = units.convert(p.value, p.unit);
@@ -85,13 +89,17 @@ class Part {
         : p.known?.replace('+-', '±') || (!Number.isFinite(half) ? 'no interval' : '');
       const [shown, interval] = precise(value, half);
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
-        cell(shown, 'number ours'), cell(interval, 'number'),
-        cell(u.label, 'unit'), element('td', {}, note ? element('span', { class: 'tag guess' }, note) : ''));
+        cell(shown, 'number ours'), cell(interval, 'number'), cell(u.label, 'unit'),
+        ...(profiled ? [cell(error_at(p, 0), 'number'), cell(error_at(p, 4), 'number'),
+                        cell(p.pinned === undefined && !p.at_bound ? '' : p.pinned ? 'pinned' : 'not pinned', p.pinned ? 'quiet' : '')] : []),
+        element('td', {}, note ? element('span', { class: 'tag guess' }, note) : ''));
     });
     this.evidence.replaceChildren(left_out(report, this.spec.charts[0], units), errors(report, units));
     this.plan.replaceChildren(further(report, units));
     this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
-      table('Values', ['', 'value', '95 %', '', ''], rows));
+      table('Values', ['', 'value', '95 %', '', ...(profiled ? ['error at half', 'at twice', ''] : []), ''], rows),
+      profiled ? element('p', { class: 'hint' },
+        'Error at half, at twice: times as large, with that value and all others fitted again; a value near zero is moved by its scale.') : '');
   }
 
   remarks() {

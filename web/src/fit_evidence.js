@@ -71,3 +71,7 @@ export function further(report, units) {
   if (!report.further) return '';
   return section('What a further measurement would buy', ...report.further.map((f) => mounts_of(f, units)));
 }
+
+export function unseen(report) {
+  return section('What this does not show', element('ul', { class: 'unseen' }, ...report.does_not_show.map((text) => element('li', {}, text))));
+}

@@ -8,6 +8,7 @@
 #include "sinew/actuator/hysteresis.h"
 #include "sinew/identify/actuator/static_settled.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
@@ -121,53 +122,38 @@ std::vector<Parameter> parameters(const Held& held, const Form& form) {
   return out;
 }
 
-// Fits these rows, from `start` or, without one, from the best of three thresholds.
-Solution fit(const Held& held, const Form& form, const std::vector<std::size_t>& rows,
-             const Solution* start) {
-  const Residuals residuals = [&](std::span<const double> x, std::span<double> r) {
-    const std::vector<double> f = force(held, form, x);
-    for (std::size_t k = 0; k < rows.size(); ++k) r[k] = f[rows[k]] - held.force[rows[k]];
+Candidate candidate_of(const Held& held, const Form& form) {
+  Candidate out{
+      .model = std::string(form.name),
+      .law = "F = A (max(f - P0, 0) + sum c_i max(z_i - P0, 0)), z_i' = (f - z_i)/tau_i",
+      .source = form.friction ? "actuator/creep.h, actuator/hysteresis.h" : "actuator/creep.h",
+      .parameters = parameters(held, form),
+      .options = {.correlated = true, .tolerance = 1e-12},
+      .may_be_at_bound = {"threshold"}};
+  out.predict = [&held, &form](std::span<const double> x, std::span<double> f) {
+    std::ranges::copy(force(held, form, x), f.begin());
     return true;
   };
-  std::vector<Parameter> from = parameters(held, form);
-  std::vector<std::vector<double>> starts;
   for (const double threshold : {0.0, 0.5, 0.9}) {
-    if (start) break;
-    std::vector<double> each;
-    for (const Parameter& p : from) each.push_back(p.start);
-    each[1] = threshold * held.top;
-    each[0] = held.pull / (held.top - each[1]);
-    starts.push_back(each);
+    std::vector<double> start;
+    for (const Parameter& p : out.parameters) start.push_back(p.start);
+    start[1] = threshold * held.top;
+    start[0] = held.pull / (held.top - start[1]);
+    out.starts.push_back(start);
   }
-  const Solution first =
-      start ? *start
-            : least_squares_from(residuals, rows.size(), from, starts, {.tolerance = 1e-6});
-  for (std::size_t i = 0; i < from.size(); ++i) from[i].start = first.values[i];
-  return least_squares(residuals, rows.size(), from,
-                       {.correlated = true, .tolerance = start ? 1e-9 : 1e-12});
+  return out;
 }
 
-Fit try_form(const Held& held, const Form& form) {
-  Fit out{.model = std::string(form.name),
-          .law = "F = A (max(f - P0, 0) + sum c_i max(z_i - P0, 0)), z_i' = (f - z_i)/tau_i",
-          .source = form.friction ? "actuator/creep.h, actuator/hysteresis.h" : "actuator/creep.h"};
-  const Solution whole = fit(held, form, held.rows, nullptr);
-  out.parameters = whole.estimates;
-  out.fit = score(whole.residuals, held.pull);
-  const std::vector<double> every = force(held, form, whole.values);
-  for (std::size_t i = 0; i < every.size(); ++i) out.residuals.push_back(every[i] - held.force[i]);
-  std::vector<double> unseen;
+// Ten stretches of time, of which every second one is left out, by turns.
+Trial trial_of(const Held& held) {
+  Trial out{.measured = {held.force.begin(), held.force.end()}, .rows = held.rows};
+  out.cross_validates = true;
+  out.band_where = "while the pressure rests";
   for (int parity = 0; parity < 2; ++parity) {
-    std::vector<std::size_t> seen, left;
+    Split& split = out.splits.emplace_back();
     for (const std::size_t row : held.rows)
-      (held.stretch(row) % 2 == parity ? left : seen).push_back(row);
-    const std::vector<double> f = force(held, form, fit(held, form, seen, &whole).values);
-    for (const std::size_t row : left) unseen.push_back(f[row] - held.force[row]);
+      (held.stretch(row) % 2 == parity ? split.unseen : split.fitted).push_back(row);
   }
-  out.cross_validated = score(unseen, held.pull);
-  out.band = band_of(unseen, "while the pressure rests");
-  constexpr std::string_view may_be_zero[] = {"threshold"};
-  keep_off_bounds(out, may_be_zero);
   return out;
 }
 
@@ -240,14 +226,13 @@ CreepResult identify_creep(const Measured& data, host::Tally* done) {
             .notes = data.notes};
   const Held held = held_of(data, report);
   const bool both = vents(held.pressure);
-  std::vector<const Form*> tried;
+  std::vector<Candidate> tried;
   for (const Form& form : forms)
-    if (both || !form.friction) tried.push_back(&form);
-  report.fits.resize(tried.size());
-  host::side_by_side(
-      tried.size(), [&](std::size_t k) { report.fits[k] = try_form(held, *tried[k]); }, done);
+    if (both || !form.friction) tried.push_back(candidate_of(held, form));
+  contend(tried, trial_of(held), report, done);
+  report.unseen = {"creep and friction at other lengths"};
   report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
-  choose(report);
+  conclude(report);
   const Form& best = *std::ranges::find(forms, report.best().model, &Form::name);
   const std::vector<Estimate>& found = report.best().parameters;
   const std::size_t first = best.friction ? 3 : 2;

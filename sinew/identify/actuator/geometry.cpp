@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
@@ -64,28 +65,28 @@ void refuse_thick(const Measured& data, const std::vector<double>& diameter, dou
       "a diameter above zero", "the thickness of one thread, or diameters in mm");
 }
 
-// Residuals in diameters, which exist wherever the threads are longer than the mesh. One pair that
-// stands far off at the start was written down wrong: the fit hardly listens to it.
-Solution fit(const std::vector<double>& length, const std::vector<double>& diameter, double thread,
-             double turns) {
-  const Parameter parameters[] = {
+// Residuals are in diameters, which exist wherever the threads are longer than the mesh. One pair
+// that stands far off at the start was written down wrong: the fit hardly listens to it.
+Candidate candidate_of(const std::vector<double>& length, const std::vector<double>& diameter,
+                       double thread, double turns) {
+  Candidate out{.model = "braid", .law = "L^2 + (n pi D)^2 = b^2", .source = "[1]-[4]"};
+  out.parameters = {
       {.name = "thread_length", .unit = "m", .start = thread, .low = 0, .scale = thread},
       {.name = "turns", .unit = "1", .start = turns, .low = 0, .scale = turns}};
-  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+  out.predict = [length](std::span<const double> p, std::span<double> d) {
     for (std::size_t i = 0; i < length.size(); ++i) {
       const double around2 = p[0] * p[0] - length[i] * length[i];
       if (around2 < 0) return false;
-      r[i] = std::sqrt(around2) / (p[1] * std::numbers::pi) - diameter[i];
+      d[i] = std::sqrt(around2) / (p[1] * std::numbers::pi);
     }
     return true;
   };
-  std::vector<double> at_start(length.size());
-  const double start[] = {thread, turns};
-  residuals(start, at_start);
-  const double typical = std::max(spread(at_start), 1e-3 * largest(diameter));
-  const bool doubtful = !outliers(at_start, 4 * typical).empty();
-  return least_squares(residuals, length.size(), parameters,
-                       {.outlier = doubtful ? 3 * typical : 0});
+  std::vector<double> off(length.size());
+  out.predict(std::array{thread, turns}, off);
+  for (std::size_t i = 0; i < off.size(); ++i) off[i] -= diameter[i];
+  const double typical = std::max(spread(off), 1e-3 * largest(diameter));
+  if (!outliers(off, 4 * typical).empty()) out.options.outlier = 3 * typical;
+  return out;
 }
 
 }  // namespace
@@ -106,30 +107,28 @@ GeometryResult identify_geometry(const Measured& data, double thread_thickness) 
   const double thread = std::sqrt(line.at_zero);
   const double turns = std::sqrt(-line.slope) / std::numbers::pi;
 
-  const Solution solution = fit(length, diameter, std::max(thread, 1.001 * largest(length)), turns);
-
-  GeometryResult out{.braid = {solution.values[0], solution.values[1]}};
+  GeometryResult out;
   Report& report = out.report;
   report.subject = "braid geometry";
   report.quantity = "diameter";
   report.unit = "m";
   report.full_scale = largest(diameter);
   report.full_scale_is = "the largest diameter";
-  Fit fit{.model = "braid", .law = "L^2 + (n pi D)^2 = b^2", .source = "[1]-[4]"};
-  fit.parameters = solution.estimates;
-  fit.fit = score(solution.residuals, report.full_scale);
-  fit.residuals = solution.residuals;
+  report.unseen = {"how the threads stretch under load, and how thick they are between the ends"};
+  contend({candidate_of(length, diameter, std::max(thread, 1.001 * largest(length)), turns)},
+          {.measured = diameter}, report);
   report.rows = {.x = "length", .x_unit = "m", .at = length, .measured = diameter};
-  if (length.size() == 2) fit.notes.emplace_back("two pairs fix two values: no error can be seen");
-  report.fits.push_back(std::move(fit));
   report.notes = data.notes;
-  for (const std::size_t i : outliers(solution.residuals, 0.02 * largest(diameter)))
+  conclude(report);
+  refuse_unexplained(report, 20, "the columns and their units, or another mesh");
+  Fit& fit = report.fits.front();
+  out.braid = {fit.parameters[0].value, fit.parameters[1].value};
+  if (length.size() == 2) fit.notes.emplace_back("two pairs fix two values: no error can be seen");
+  for (const std::size_t i : outliers(fit.residuals, 0.02 * largest(diameter)))
     report.warnings.push_back(
         fmt::format("{}:{}: a diameter {:.3g} m off the braid, far from the others: a slip of the "
                     "pen?",
-                    data.file, data.lines[i], -solution.residuals[i]));
-  choose(report);
-  refuse_unexplained(report, 20, "the columns and their units, or another mesh");
+                    data.file, data.lines[i], -fit.residuals[i]));
   return out;
 }
 

@@ -340,6 +340,8 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
     refuse_falling(fit, scales);
     describe(fit, out);
     const StaticScales own = tried.scales_of_fit(fit);
+    if (model.name != "effectiveness-by-ratio")
+      out.again = std::make_shared<Refit>(refit_of(fit, s.fitted, own));
     out.residuals = misses(fit.setting, own, s.fitted);
     out.fit = score(out.residuals, full_scale);
     const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
@@ -542,6 +544,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   report.full_scale_is = "the largest force";
   report.notes = data.notes;
   report.warnings = data.warnings;
+  report.unseen = {"how the muscle moves: losses in motion, creep and fatigue"};
 
   Points points = data.points;
   give_rest_length(points, report);
@@ -560,7 +563,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   std::vector<Best> found;
   report.fits = try_all(s, out.scales, options, report.full_scale, found);
   report.rows = rows_of(s);
-  choose(report);
+  conclude(report);
   if (options.model.empty())
     refuse_unexplained(
         report, 15,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 
 #include "sinew/actuator/hysteresis.h"
@@ -304,6 +305,26 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   }
   judge_labels(out);
   return out;
+}
+
+Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
+               const StaticScales& scales) {
+  struct Held {
+    std::vector<Knob> knobs;
+    std::vector<StaticPoint> points;
+    StaticScales scales;
+    Problem problem{knobs, points, scales};
+  };
+  const auto held =
+      std::make_shared<const Held>(fit.knobs, std::vector(points.begin(), points.end()), scales);
+  FitProblem out{.count = held->problem.count(),
+                 .parameters = held->problem.parameters(),
+                 .options = {.outlier = outlier * fit.scatter},
+                 .wishes = {},
+                 .data = points.size()};
+  out.residuals = [held, residuals = held->problem.residuals(fit.scatter)](
+                      std::span<const double> p, std::span<double> r) { return residuals(p, r); };
+  return {std::move(out), fit.solution};
 }
 
 StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& scales) {

@@ -16,6 +16,7 @@
 
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_model.h"
+#include "sinew/identify/fit/fit.h"
 
 namespace sinew::identify {
 
@@ -49,6 +50,10 @@ std::vector<double> misses(const StaticSetting& setting, const StaticScales& sca
 StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
                      const StaticScales& scales, const StaticFit* start = nullptr,
                      double tolerance = 1e-14);
+
+// Returns the problem that such a fit has solved, for its profiles.
+Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
+               const StaticScales& scales);
 
 // 2.3: the effectiveness of each nominal pressure by the ratio of sums, a parabola through them;
 // the braid is the given one, or that of an ideal fit.

@@ -7,6 +7,7 @@
 
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/json/json.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::identify {
 
@@ -132,6 +133,97 @@ void choose(Report& report, double tolerance, double negligible) {
       runners_up(fits, *chosen, by));
 }
 
+namespace {
+
+void add_profiles(Report& report) {
+  Fit& fit = report.fits[report.chosen];
+  if (fit.again) {
+    const std::vector<std::optional<Profile>> profiles =
+        profiles_of(fit.again->problem, fit.again->solution);
+    for (std::size_t i = 0; i < profiles.size(); ++i) {
+      const std::string& name = fit.again->problem.parameters[i].name;
+      const auto estimate = std::ranges::find(fit.parameters, name, &Estimate::name);
+      if (estimate != fit.parameters.end()) estimate->profile = profiles[i];
+    }
+  }
+  for (Fit& each : report.fits) each.again.reset();
+}
+
+// Writes the errors by group, in the order in which the groups come; of one group there are none.
+void add_errors_by_group(Report& report) {
+  const std::vector<std::string>& group = report.rows.group;
+  const std::vector<double>& residuals = report.best().residuals;
+  if (!report.errors.empty() || group.empty() || residuals.size() != group.size()) return;
+  std::vector<std::string> names;
+  std::vector<int> part;
+  for (const std::string& name : group) {
+    const auto at = std::ranges::find(names, name);
+    part.push_back(static_cast<int>(at - names.begin()));
+    if (at == names.end()) names.push_back(name);
+  }
+  if (names.size() < 2) return;
+  ErrorBy by =
+      error_by("group", "", residuals, part, std::vector<double>(part.size()), report.full_scale);
+  for (std::size_t i = 0; i < names.size(); ++i) by.parts[i].name = names[i];
+  report.errors.push_back(std::move(by));
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+// Returns the laws whose error, by which the choice goes, is at most a tenth more than the chosen
+// one's.
+std::vector<std::string> hardly_worse(const Report& report) {
+  std::vector<std::string> out;
+  const By by = measure(report);
+  const double chosen = error_of(report.best(), by);
+  for (const Fit* fit : eligible(report))
+    if (fit != &report.best() && error_of(*fit, by) <= 1.1 * chosen) out.push_back(fit->model);
+  return out;
+}
+
+}  // namespace
+
+void conclude(Report& report, double tolerance, double negligible) {
+  choose(report, tolerance, negligible);
+  add_profiles(report);
+  add_errors_by_group(report);
+}
+
+std::vector<std::string> not_pinned(const Report& report) {
+  std::vector<std::string> out;
+  for (const Estimate& e : report.best().parameters)
+    if (e.at_bound || (e.profile && !e.profile->pinned)) out.push_back(e.name);
+  return out;
+}
+
+std::vector<std::string> does_not_show(const Report& report) {
+  std::vector<std::string> out = report.unseen;
+  const Fit& best = report.best();
+  if (const std::vector<std::string> names = not_pinned(report); !names.empty())
+    out.push_back(fmt::format(
+        "the value{} of {}: with half or twice of {}, or at the end of its range, and all others "
+        "fitted again the law misses the data hardly more",
+        names.size() == 1 ? "" : "s", listed(names), names.size() == 1 ? "it" : "each"));
+  if (const std::vector<std::string> laws = hardly_worse(report); !laws.empty())
+    out.push_back(fmt::format("whether {} is the true law, as {} {} at most a tenth more",
+                              best.model, listed(laws), laws.size() == 1 ? "misses" : "miss"));
+  if (!best.held_out && !best.cross_validated)
+    out.emplace_back("how large errors are where nothing was measured, as no row was left out");
+  if (!report.rows.at.empty() && report.rows.x_unit != "s") {
+    const units::ShownUnits units = units::UnitSet::metric;
+    const auto [least, most] = std::ranges::minmax(report.rows.at);
+    out.push_back(fmt::format("what happens outside the {} that was measured, {} to {}",
+                              report.rows.x, units.text(least, report.rows.x_unit),
+                              units.text(most, report.rows.x_unit)));
+  }
+  out.emplace_back("how other specimens differ, or the same one on another day");
+  return out;
+}
+
 void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for) {
   std::string names;
   for (const Estimate& e : fit.parameters)
@@ -170,6 +262,14 @@ Json to_json(const Estimate& e) {
   out["identifiable"] = e.identifiable;
   if (e.at_bound) out["at_bound"] = true;
   if (!e.known.empty()) out["known"] = e.known;
+  if (!e.profile) return out;
+  out["pinned"] = e.profile->pinned;
+  out["profile"] = Json::array();
+  for (std::size_t i = 0; i < Profile::factors.size(); ++i)
+    out["profile"].push_back(
+        {{e.profile->near_zero ? "scales" : "times",
+          e.profile->near_zero ? Profile::factors[i] - 1 : Profile::factors[i]},
+         {"error", finite_or_null(e.profile->error[i])}});
   return out;
 }
 
@@ -268,6 +368,8 @@ Json to_json(const Report& report) {
   add_evidence(report, out);
   out["notes"] = report.notes;
   out["warnings"] = report.warnings;
+  out["not_pinned"] = not_pinned(report);
+  out["does_not_show"] = does_not_show(report);
 
   // The chosen one once more, where a program looks first.
   const Json best = to_json(report.best());

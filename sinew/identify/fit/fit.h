@@ -2,6 +2,7 @@
 // what it saw and what it did not see, and which one was chosen by which rule.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,10 +11,17 @@
 
 #include "sinew/identify/fit/evidence.h"
 #include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/fit/profile.h"
 #include "sinew/identify/fit/score.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
+
+// A fit that can be made again with a parameter at another value.
+struct Refit {
+  FitProblem problem;
+  Solution solution;
+};
 
 struct Fit {
   std::string model;   // its name, as the setting model takes it
@@ -33,10 +41,11 @@ struct Fit {
   std::optional<Score> extrapolated;
   // Half-widths about the model at every row; absent: not told, or by Report::curves.
   std::optional<Band> band;
-  std::vector<double> residuals;   // predicted - measured, of Report::rows; none: not told
-  std::vector<std::string> notes;  // what one should know about this fit
-  std::string refused;             // why this model cannot be had from the data; empty: it can
-  std::string not_chosen;          // why it is shown and not chosen: a parameter at its bound
+  std::vector<double> residuals;       // predicted - measured, of Report::rows; none: not told
+  std::vector<std::string> notes;      // what one should know about this fit
+  std::string refused;                 // why this model cannot be had from the data; empty: it can
+  std::string not_chosen;              // why it is shown and not chosen: a parameter at its bound
+  std::shared_ptr<const Refit> again;  // until the choice; empty: the fit has no profiles
 };
 
 // What was measured, for a picture of it: the report's quantity at another one.
@@ -73,6 +82,7 @@ struct Report {
   std::vector<ErrorBy> errors;         // of the chosen one, over all rows
   std::vector<Further> further;        // of each muscle that a plan can be made for
   std::vector<std::string> notes, warnings;
+  std::vector<std::string> unseen;  // what such data cannot show: "how fast the valve switches"
 
   // Returns the chosen one.
   const Fit& best() const { return fits[chosen]; }
@@ -87,6 +97,17 @@ struct Report {
 // warned of. Writes `chosen` and `rule`, which tells how close the next ones are. Throws Refusal
 // where every model was refused.
 void choose(Report& report, double tolerance = 0.1, double negligible = 0);
+
+// Chooses, and adds what every method reports of its choice: profiles of the parameters, and errors
+// by group where the rows have groups and the method has no errors of its own.
+void conclude(Report& report, double tolerance = 0.1, double negligible = 0);
+
+// Returns the parameters of the chosen law that the data do not pin, by name.
+std::vector<std::string> not_pinned(const Report& report);
+
+// Returns what the report does not show, as a list: the method's own, then what follows from the
+// profiles, from what was left out, from the rows and from the other laws.
+std::vector<std::string> does_not_show(const Report& report);
 
 // Writes into `not_chosen` which of the fit's parameters stand at the bounds of their ranges, but
 // for those that are named: there the law is not the one that its name says, or the data know

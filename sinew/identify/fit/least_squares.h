@@ -14,8 +14,10 @@
 // variance grows by 1 + 2 sum of the residuals' autocorrelation.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +56,18 @@ struct SolverOptions {
   double difference = 6e-6;
 };
 
+// How much more a law misses the data by when a parameter is moved and the others are fitted again
+// (profile.h).
+struct Profile {
+  // The parameter is moved to these multiples of its value, or, where that is near zero, to the
+  // value + (factor - 1) scales; not beyond its bounds.
+  static constexpr std::array<double, 5> factors{0.5, 0.8, 1, 1.25, 2};
+  static constexpr double most = 10;
+  std::array<double, 5> error{};  // there, as multiples of that of the value itself; up to `most`
+  bool near_zero = false;         // the value is
+  bool pinned = false;            // the data exclude the first and the last
+};
+
 // A number that was found, and how sure it is.
 struct Estimate {
   std::string name, unit;
@@ -61,9 +75,10 @@ struct Estimate {
   double standard_error = 0;  // infinite: not identifiable at all
   double low = 0, high = 0;   // 95 %
   bool identifiable = true;
-  bool at_bound = false;  // no interval: it would like to be elsewhere
-  bool free = true;       // false: frozen, or tied to another parameter
-  std::string known;      // what was known beforehand, in words: "frozen"; empty: nothing
+  bool at_bound = false;           // no interval: it would like to be elsewhere
+  bool free = true;                // false: frozen, or tied to another parameter
+  std::string known;               // what was known beforehand, in words: "frozen"; empty: nothing
+  std::optional<Profile> profile;  // of the chosen law, where its method has one
 };
 
 // Where the search has ended.

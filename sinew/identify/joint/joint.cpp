@@ -260,6 +260,7 @@ struct Solved {
   Values values;
   Solution solution;
   std::string ambiguous;  // another answer that fits as well
+  std::shared_ptr<const Refit> again;
 };
 
 // Is it one that a muscle's force or arm hangs on?
@@ -294,7 +295,13 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
   std::vector<Parameter> parameters;
   for (const JointSlot& s : slots) parameters.push_back(s.parameter);
   const Values known = joint_known(joint, setup);
-  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+  FitProblem problem{
+      .count = joint.rows(),
+      .options = {.correlated = setup.moving,
+                  .widest_interval = widest_interval,
+                  .difference = setup.moving ? across_kinks : SolverOptions{}.difference},
+      .wishes = wishes};
+  problem.residuals = [&law, &joint, slots, known](std::span<const double> p, std::span<double> r) {
     joint.residuals(law, joint_with(known, slots, p), r);
     return true;
   };
@@ -303,15 +310,14 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
     for (std::size_t i = 0; i < parameters.size(); ++i)
       parameters[i].start = std::clamp(start[i], parameters[i].low, parameters[i].high);
     all.push_back(
-        least_squares(residuals, joint.rows(), parameters, wishes,
-                      {.correlated = setup.moving,
-                       .widest_interval = widest_interval,
-                       .difference = setup.moving ? across_kinks : SolverOptions{}.difference}));
+        least_squares(problem.residuals, joint.rows(), parameters, wishes, problem.options));
   }
   const auto best = std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) {
     return square_sum(x) < square_sum(y);
   });
-  Solved out{joint_with(known, slots, best->values), *best, ""};
+  problem.parameters = parameters;
+  Solved out{joint_with(known, slots, best->values), *best, "",
+             std::make_shared<Refit>(std::move(problem), *best)};
   for (const Solution& other : all)
     if (out.ambiguous.empty()) out.ambiguous = another_answer(*best, other);
   return out;
@@ -421,6 +427,7 @@ Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
   try {
     solved = solve(law, joint, setup, wishes);
     fit.parameters = solved.solution.estimates;
+    fit.again = solved.again;
     fit.refused = inseparable(solved);
     fit.fit = score(solved.solution.residuals, full_scale);
     fit.residuals = told_from(solved.solution.residuals);
@@ -515,6 +522,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
                        : setup.moving ? "the last third of each recording"
                                       : "every third row";
   report.notes = data.notes;
+  report.unseen = {"the joint at angles and pressures between which no pose was measured"};
 
   std::vector<const Law*> tried;
   for (const Law& law : laws) {
@@ -532,7 +540,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   host::side_by_side(tried.size(), attempt, done);
   refuse_if_all_are(report, data.file);
   report.rows = rows_of(data, joint, held_out, others);
-  choose(report);
+  conclude(report);
 
   const Law& law = *tried[report.chosen];
   const Values& v = solved[report.chosen].values;

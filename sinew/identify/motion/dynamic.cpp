@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <memory>
 #include <stdexcept>
 
 #include "sinew/identify/data/quality.h"
@@ -68,8 +68,8 @@ struct Part {
 // since the last call is not integrated again.
 class Trajectories {
  public:
-  Trajectories(const Law& law, std::span<const Part> parts, double stiffness)
-      : law_(law), parts_(parts), stiffness_(stiffness), last_(parts.size()) {}
+  Trajectories(const Law& law, std::vector<Part> parts, double stiffness)
+      : law_(law), parts_(std::move(parts)), stiffness_(stiffness), last_(parts_.size()) {}
 
   std::size_t size() const {
     std::size_t n = 0;
@@ -104,7 +104,7 @@ class Trajectories {
     bool known = false;
   };
   const Law& law_;
-  std::span<const Part> parts_;
+  std::vector<Part> parts_;
   double stiffness_;
   std::vector<Last> last_;
 };
@@ -147,7 +147,8 @@ class Dynamic {
 
   Fit fit(const Law& law, double full_scale) const {
     Fit out{.model = law.name, .law = law.law, .source = law.source};
-    const Solution s = solve(law, fitted_, start_);
+    out.again = std::make_shared<Refit>(solve(law, fitted_, start_));
+    const Solution& s = out.again->solution;
     out.parameters = s.estimates;
     out.fit = score(s.residuals, full_scale);
     out.residuals = s.residuals;
@@ -206,14 +207,19 @@ class Dynamic {
     return parameters;
   }
 
-  Solution solve(const Law& law, const Which& which, const Start& start, double share = 1) const {
+  Refit solve(const Law& law, const Which& which, const Start& start, double share = 1) const {
     std::vector<Part> parts;
     for (const std::size_t i : which)
       parts.push_back(
           {&swings_[i], share < 1 ? swings_[i].samples_until(share) : swings_[i].time.size()});
-    Trajectories trajectories(law, parts, stiffness_);
-    return least_squares(std::ref(trajectories), trajectories.size(),
-                         parameters_of(law, which, start), wishes_, {.correlated = true});
+    const Trajectories trajectories(law, parts, stiffness_);
+    const FitProblem problem{.residuals = trajectories,
+                             .count = trajectories.size(),
+                             .parameters = parameters_of(law, which, start),
+                             .options = {.correlated = true},
+                             .wishes = wishes_};
+    return {problem, least_squares(problem.residuals, problem.count, problem.parameters, wishes_,
+                                   problem.options)};
   }
 
   // Residuals of what was not fitted.
@@ -244,7 +250,7 @@ class Dynamic {
   Loss loss_without(const Law& law, const Solution& all, std::size_t left_out) const {
     Which which = fitted_;
     std::erase(which, left_out);
-    return loss_of(law, solve(law, which, start_at(law, all)).values, stiffness_);
+    return loss_of(law, solve(law, which, start_at(law, all)).solution.values, stiffness_);
   }
 
   static std::vector<double> residuals_of(const Swing& swing, const Loss& loss,
@@ -258,7 +264,7 @@ class Dynamic {
   // Fitted to the first two thirds, which predict the last.
   std::vector<double> last_third(const Law& law, const Solution& all) const {
     constexpr double seen = 2.0 / 3;
-    const Solution s = solve(law, fitted_, start_at(law, all), seen);
+    const Solution s = solve(law, fitted_, start_at(law, all), seen).solution;
     const std::vector<double> r = residuals_of(swings_[0], loss_of(law, s.values, stiffness_),
                                                std::span(s.values).subspan(shared(law)));
     return {r.begin() + static_cast<std::ptrdiff_t>(swings_[0].samples_until(seen)), r.end()};
@@ -343,6 +349,7 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
   report.unit = "m";
   report.full_scale_is = "the largest first amplitude";
   report.held_out_is = held_out_is(records, marked > 0);
+  report.unseen = {"the losses at other pressures and amplitudes, and in a steady motion"};
   for (const Swing& s : swings) {
     report.full_scale = std::max(report.full_scale, s.amplitude);
     report.notes.insert(report.notes.end(), s.notes.begin(), s.notes.end());
@@ -356,7 +363,7 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
   for (const Law* law : tried) report.fits.push_back(dynamic.fit(*law, report.full_scale));
   report.rows = dynamic.rows();
-  choose(report);
+  conclude(report);
   out.loss = dynamic.loss(*tried[report.chosen], report.best());
   for (std::size_t i = 0; i < swings.size(); ++i)
     out.records[i].friction = swings[i].friction(out.loss);

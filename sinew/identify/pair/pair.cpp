@@ -40,12 +40,8 @@ class PairProblem {
                  std::vector<double>& out);
 
   // Returns the best of the starts, or of one.
-  Solution solve(std::span<const PairRows> rows, std::span<const std::vector<double>> starts,
-                 const Wishes& wishes, bool correlated);
-
-  // Returns the best of one start with the i-th parameter at that value.
-  Solution solve_with(std::span<const PairRows> rows, const std::vector<double>& start,
-                      const Wishes& wishes, std::size_t i, double value);
+  Refit solve(std::span<const PairRows> rows, std::span<const std::vector<double>> starts,
+              const Wishes& wishes, bool correlated) const;
 
   // Returns the parameters of which `known` has those of its names, and the others are fitted.
   std::vector<double> settled(std::span<const PairRows> rows, const Solution& known);
@@ -63,6 +59,8 @@ class PairProblem {
   void add_physics(double stiffness);
   void add_sensors(double stiffness, std::size_t fitted);
   bool scaled_by_start(std::size_t i) const;
+  FitProblem at(std::span<const PairRows> rows, const std::vector<double>& start,
+                const Wishes& wishes, bool correlated) const;
   void simulate(std::span<const double> p, std::size_t record);
 
   const PairLaw& law_;
@@ -301,39 +299,44 @@ std::vector<double> PairProblem::settled(std::span<const PairRows> rows, const S
   return all;
 }
 
-Solution PairProblem::solve_with(std::span<const PairRows> rows, const std::vector<double>& start,
-                                 const Wishes& wishes, std::size_t i, double value) {
-  return solve(rows, {{start}}, wishes.with_frozen(parameters_[i].name, value), false);
-}
-
 // Their size is known from a start only.
 bool PairProblem::scaled_by_start(std::size_t i) const {
   return i < physics_.size() &&
          (physics_[i] == &PairValues::presliding || physics_[i] == &PairValues::fade_time);
 }
 
-Solution PairProblem::solve(std::span<const PairRows> rows,
-                            std::span<const std::vector<double>> starts, const Wishes& wishes,
-                            bool correlated) {
-  std::vector<double> made;
-  std::size_t count = 0;
-  for (const PairRows& r : rows) count += r.size();
-  const auto model = [&](std::span<const double> p, std::span<double> r) {
-    residuals(p, rows, made);
+// The problem at a start, from which what is scaled by it has its scale.
+FitProblem PairProblem::at(std::span<const PairRows> rows, const std::vector<double>& start,
+                           const Wishes& wishes, bool correlated) const {
+  FitProblem out{
+      .parameters = parameters_,
+      .options = {.correlated = correlated, .most_steps = most_steps, .difference = smooth},
+      .wishes = wishes};
+  for (const PairRows& r : rows) out.count += r.size();
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    Parameter& p = out.parameters[i];
+    p.start = std::clamp(start[i], p.low, p.high);
+    if (scaled_by_start(i)) p.scale = p.start;
+  }
+  out.residuals = [own = *this, rows = std::vector<PairRows>(rows.begin(), rows.end()),
+                   made = std::vector<double>()](std::span<const double> p,
+                                                 std::span<double> r) mutable {
+    own.residuals(p, rows, made);
     std::ranges::copy(made, r.begin());
     return true;
   };
-  std::optional<Solution> best;
-  std::vector<Parameter> from = parameters_;
+  return out;
+}
+
+Refit PairProblem::solve(std::span<const PairRows> rows,
+                         std::span<const std::vector<double>> starts, const Wishes& wishes,
+                         bool correlated) const {
+  std::optional<Refit> best;
   for (const std::vector<double>& start : starts) {
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      from[i].start = std::clamp(start[i], from[i].low, from[i].high);
-      if (scaled_by_start(i)) from[i].scale = from[i].start;
-    }
-    Solution s =
-        least_squares(model, count, from, wishes,
-                      {.correlated = correlated, .most_steps = most_steps, .difference = smooth});
-    if (!best || s.rms < best->rms) best = std::move(s);
+    Refit one{at(rows, start, wishes, correlated), {}};
+    one.solution = least_squares(one.problem.residuals, one.problem.count, one.problem.parameters,
+                                 wishes, one.problem.options);
+    if (!best || one.solution.rms < best->solution.rms) best = std::move(one);
   }
   return std::move(*best);
 }
@@ -374,8 +377,10 @@ class Pair {
     Fitted out{.fit = {.model = law.name, .law = law.law, .source = law.source}};
     try {
       PairProblem problem(law, fitted_), thinned(law, thinned_);
-      const Solution near = thinned.solve(thinned_rows_, thinned.starts(), options_.wishes, false);
-      out.solution = problem.solve(rows_, {{near.values}}, options_.wishes, true);
+      out.fit.again = std::make_shared<Refit>(
+          thinned.solve(thinned_rows_, thinned.starts(), options_.wishes, true));
+      const std::vector<double>& near = out.fit.again->solution.values;
+      out.solution = problem.solve(rows_, {{near}}, options_.wishes, true).solution;
       out.values = out.solution.values;
       out.fit.parameters = out.solution.estimates;
       out.fit.fit = scored(problem, out.values, fitted_, rows_);
@@ -398,14 +403,15 @@ class Pair {
     for (std::size_t i = 0; i < fitted.values.size(); ++i) {
       Estimate& e = fitted.fit.parameters[i];
       if (!e.name.starts_with("delay") || !e.free || e.at_bound) continue;
-      const Solution best = thinned.solve(thinned_rows_, {{fitted.values}}, options_.wishes, true);
+      const Solution best =
+          thinned.solve(thinned_rows_, {{fitted.values}}, options_.wishes, true).solution;
       const double t = t_quantile(std::max(1, best.freedom));
       const double more = t * t * std::pow(best.standard_deviation, 2) * best.inflation;
       for (int k = -5; k <= 5; ++k) {
         const double delay = std::clamp(k * step, -most, most);
         if (delay > e.low && delay < e.high) continue;
-        const Solution at =
-            thinned.solve_with(thinned_rows_, fitted.values, options_.wishes, i, delay);
+        const Wishes frozen = options_.wishes.with_frozen(e.name, delay);
+        const Solution at = thinned.solve(thinned_rows_, {{fitted.values}}, frozen, false).solution;
         if (square_sum(at) - square_sum(best) > more) continue;
         e.low = std::min(e.low, delay);
         e.high = std::max(e.high, delay);
@@ -480,7 +486,7 @@ class Pair {
         others.push_back(pair_block(r, b, false));
         block.push_back(pair_block(r, b, true));
       }
-      const Solution s = problem.solve(others, {{from}}, options_.wishes, false);
+      const Solution s = problem.solve(others, {{from}}, options_.wishes, false).solution;
       problem.residuals(s.values, block, some);
       all.insert(all.end(), some.begin(), some.end());
     }
@@ -659,6 +665,7 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   report.full_scale = pair.full_scale();
   report.full_scale_is = fmt::format("the largest {}", report.quantity);
   report.held_out_is = pair.held_out_is();
+  report.unseen = {"the pair at other trapped pressures, and faster or slower than it was moved"};
   for (const PairRecord& r : records)
     report.notes.insert(report.notes.end(), r.notes.begin(), r.notes.end());
   std::vector<Fitted> fitted;
@@ -672,9 +679,10 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
     report.fits.push_back(f.fit);
   }
   report.rows = pair.rows();
-  choose(report);
+  conclude(report);
 
   Fitted& best = fitted[report.chosen];
+  best.fit = report.best();
   pair.widen_delays(*laws[report.chosen], best);
   report.fits[report.chosen] = best.fit;
   out.law = *laws[report.chosen];

@@ -136,19 +136,24 @@ std::vector<double> signs_of(const TrappedAir& air, const Selection& rows) {
   return out;
 }
 
-Solution solve_air(TrappedAir& air, const Selection& rows, bool correlated, const Wishes& wishes) {
-  const std::vector<double> signs = signs_of(air, rows);
-  std::vector<double> r;
-  const std::vector<Parameter> parameters = air.parameters(rows);
-  std::vector<double> start;
-  for (const Parameter& p : parameters) start.push_back(p.start);
-  air.residuals(start, rows, signs, r);
-  const auto residuals = [&](std::span<const double> p, std::span<double> out) {
-    air.residuals(p, rows, signs, r);
-    std::ranges::copy(r, out.begin());
+Refit solve_air(const TrappedAir& air, const Selection& rows, bool correlated,
+                const Wishes& wishes) {
+  std::vector<double> made;
+  FitProblem problem{.residuals = {},
+                     .count = 0,
+                     .parameters = air.parameters(rows),
+                     .options = {.correlated = correlated},
+                     .wishes = wishes};
+  problem.residuals = [own = air, rows, signs = signs_of(air, rows), made](
+                          std::span<const double> p, std::span<double> out) mutable {
+    own.residuals(p, rows, signs, made);
+    std::ranges::copy(made, out.begin());
     return true;
   };
-  return least_squares(residuals, r.size(), parameters, wishes, {.correlated = correlated});
+  for (const PairRows& r : rows) problem.count += r.size() * air.muscles();
+  Solution s =
+      least_squares(problem.residuals, problem.count, problem.parameters, wishes, problem.options);
+  return {std::move(problem), std::move(s)};
 }
 
 Fit fit_air(const AirLaw& law, Records records, const Selection& rows, const Wishes& wishes,
@@ -156,9 +161,9 @@ Fit fit_air(const AirLaw& law, Records records, const Selection& rows, const Wis
   Fit out{.model = law.name, .law = law.law, .source = "P V^n constant, to first order"};
   TrappedAir air(law, records);
   const std::vector<double> signs = signs_of(air, rows);
-  const Solution s = solve_air(air, rows, true, wishes);
-  out.parameters = s.estimates;
-  air.residuals(s.values, rows, signs, out.residuals);
+  out.again = std::make_shared<Refit>(solve_air(air, rows, true, wishes));
+  out.parameters = out.again->solution.estimates;
+  air.residuals(out.again->solution.values, rows, signs, out.residuals);
   out.fit = score(out.residuals, full_scale);
   std::vector<double> unseen, some;
   for (std::size_t k = 0; k < pair_blocks; ++k) {
@@ -167,7 +172,7 @@ Fit fit_air(const AirLaw& law, Records records, const Selection& rows, const Wis
       others.push_back(pair_block(r, k, false));
       block.push_back(pair_block(r, k, true));
     }
-    air.residuals(solve_air(air, others, false, wishes).values, block, signs, some);
+    air.residuals(solve_air(air, others, false, wishes).solution.values, block, signs, some);
     unseen.insert(unseen.end(), some.begin(), some.end());
   }
   out.cross_validated = score(unseen, full_scale);
@@ -241,7 +246,7 @@ PairAir identify_pair_air(Records records, std::span<const PairRows> fitted, con
   for (const AirLaw& law : air_laws)
     report.fits.push_back(fit_air(law, records, rows, wishes, report.full_scale));
   report.rows = rows_of(records, rows);
-  choose(report);
+  conclude(report);
   read_off(records, rows, out);
   return out;
 }

@@ -10,6 +10,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/sensor/points.h"
 
@@ -47,48 +48,54 @@ double slope_of(std::span<const Point> points) {
          (points.back().known - points.front().known);
 }
 
-Solution fit(const Law& law, std::span<const Point> points, double rest, const KindFacts& facts) {
+// `points` are those of the calibration, then those of another one.
+Candidate candidate_of(const Law& law, std::span<const Point> fitted, std::span<const Point> points,
+                       double rest, const KindFacts& facts) {
   double reach = 0, span = 0;
-  for (const Point& p : points) {
+  for (const Point& p : fitted) {
     reach = std::max(reach, std::abs(p.known - rest));
-    span = std::max(span, std::abs(p.output - points.front().output));
+    span = std::max(span, std::abs(p.output - fitted.front().output));
   }
+  // A bent sensor's errors from a line are alike at like values: they count as correlated.
+  Candidate out{.model = law.name,
+                .law = law.law,
+                .source = "4.4, table 4-1",
+                .options = {.correlated = true}};
   const std::string units[] = {"V", std::string(facts.sensitivity), std::string(facts.curvature)};
-  std::vector<Parameter> parameters;
   for (int k = law.first; k <= law.last; ++k)
-    parameters.push_back({.name = parameter_names[k],
-                          .unit = units[k],
-                          .start = k == 1 ? slope_of(points) : 0,
-                          .scale = span / std::pow(reach, k)});
-  const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
+    out.parameters.push_back({.name = parameter_names[k],
+                              .unit = units[k],
+                              .start = k == 1 ? slope_of(fitted) : 0,
+                              .scale = span / std::pow(reach, k)});
+  out.predict = [&law, points, rest](std::span<const double> p, std::span<double> output) {
     for (std::size_t i = 0; i < points.size(); ++i)
-      r[i] = value_of(law, p, points[i].known - rest) - points[i].output;
+      output[i] = value_of(law, p, points[i].known - rest);
     return true;
   };
-  // A bent sensor's errors from a line are alike at like values: they count as correlated.
-  return least_squares(residuals, points.size(), parameters, {.correlated = true});
-}
-
-std::vector<double> residuals_at(const Law& law, const Solution& s, std::span<const Point> points,
-                                 double rest) {
-  std::vector<double> out;
-  for (const Point& p : points) out.push_back(value_of(law, s.values, p.known - rest) - p.output);
+  if (const std::size_t levels = level_count(fitted); levels < law.fewest_levels)
+    out.refused = fmt::format("{} known values; it takes {}", levels, law.fewest_levels);
   return out;
 }
 
-// Every known value predicted from the others; of many, every twentieth at a time.
-std::optional<Score> leave_out(const Law& law, std::span<const Point> points, double rest,
-                               const KindFacts& facts, double span) {
-  const std::size_t levels = level_count(points), folds = std::min(levels, most_folds);
-  std::vector<double> residuals;
-  for (std::size_t fold = 0; fold < folds; ++fold) {
-    std::vector<Point> kept, out;
-    for (const Point& p : points) (p.level % folds == fold ? out : kept).push_back(p);
-    if (out.empty() || level_count(kept) < 2) return std::nullopt;
-    for (const double r : residuals_at(law, fit(law, kept, rest, facts), out, rest))
-      residuals.push_back(r);
+// Every known value is predicted from the others; of many, every twentieth at a time. The points of
+// another calibration, behind the first `fitted`, are all predicted.
+Trial trial_of(std::span<const Point> points, std::size_t fitted) {
+  Trial out;
+  std::vector<int> fold;
+  const std::span<const Point> own = points.first(fitted);
+  const std::size_t folds = std::min(level_count(own), most_folds);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    out.measured.push_back(points[i].output);
+    if (i < fitted) out.rows.push_back(i);
+    if (i < fitted) fold.push_back(static_cast<int>(own[i].level % folds));
   }
-  return score(residuals, span);
+  if (points.size() > fitted) {
+    Split& split = out.splits.emplace_back(out.rows);
+    for (std::size_t i = fitted; i < points.size(); ++i) split.unseen.push_back(i);
+  } else if (level_count(own) > 2) {
+    out.splits = each_part_unseen(fold);
+  }
+  return out;
 }
 
 // One sensor's readings without those at an end.
@@ -185,11 +192,12 @@ void refuse_unrelated(const SensorData& data, const SensorReadings& s, const Fit
 }
 
 void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usable& u,
-                      const Law& law, const Solution& solution, double rest,
+                      const Law& law, const Fit& fit, double rest,
                       std::vector<std::string>& warnings) {
-  std::vector<double> off;
+  std::vector<double> values, off;
+  for (const Estimate& e : fit.parameters) values.push_back(e.value);
   for (std::size_t i = 0; i < u.known.size(); ++i)
-    off.push_back(u.output[i] - value_of(law, solution.values, u.known[i] - rest));
+    off.push_back(u.output[i] - value_of(law, values, u.known[i] - rest));
   const double finest = std::isfinite(u.step) ? u.step : 0;
   const double span = largest(u.output) - smallest(u.output);
   if (u.points.size() < 5) return;  // the fit follows any of them
@@ -198,25 +206,6 @@ void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usa
         fmt::format("{}:{}: {}: {:.4g} V is {:+.3g} V from the fit, far from the "
                     "others: a typing error?",
                     data.file, u.lines[i], s.name, u.output[i], off[i]));
-}
-
-Fit fit_of(const Law& law, const SensorResult& r, const Usable& u, double rest,
-           const KindFacts& facts, const Usable* other, Solution& solution) {
-  Fit fit{.model = law.name, .law = law.law, .source = "4.4, table 4-1"};
-  const std::size_t levels = level_count(u.points);
-  if (levels < law.fewest_levels) {
-    fit.refused = fmt::format("{} known values; it takes {}", levels, law.fewest_levels);
-    return fit;
-  }
-  solution = identify::fit(law, u.points, rest, facts);
-  fit.parameters = solution.estimates;
-  fit.fit = score(solution.residuals, r.span);
-  fit.residuals = solution.residuals;
-  fit.held_out = other ? score(residuals_at(law, solution, other->points, rest), r.span)
-                       : leave_out(law, u.points, rest, facts, r.span);
-  if (solution.freedom < 1)
-    fit.notes.emplace_back("as many values as points: no error can be seen");
-  return fit;
 }
 
 double half_interval(const Estimate& e) { return 0.5 * (e.high - e.low); }
@@ -237,10 +226,12 @@ void describe(const Usable& u, const Fit& straight, SensorResult& r) {
     r.report.notes.push_back(fmt::format("{}: the hysteresis is no more than noise makes", r.name));
 }
 
-// The mean of the readings at every known value, each way by itself.
-Rows rows_of(std::span<const Point> points, const KindFacts& facts) {
+// The mean of the readings at every known value, each way by itself; those behind the first
+// `fitted` are held out.
+Rows rows_of(std::span<const Point> points, std::size_t fitted, const KindFacts& facts) {
   Rows out{.x = std::string(facts.word), .x_unit = std::string(facts.unit)};
   for (const Point& p : points) {
+    out.held_out.push_back(out.at.size() >= fitted);
     out.at.push_back(p.known);
     out.measured.push_back(p.output);
     out.group.emplace_back(p.direction < 0 ? "from above" : "from below");
@@ -261,31 +252,37 @@ SensorResult calibrate(const SensorData& data, const SensorReadings& s, const Co
               .full_scale_is = "its span"};
   r.report.notes = u.notes;
 
-  Usable second;
+  r.report.unseen = {"how the output changes with temperature and with time under load"};
+
+  std::vector<Point> points = u.points;
   if (other) {
     const auto same = std::ranges::find(other->sensors, s.name, &SensorReadings::name);
     if (same == other->sensors.end())
       config::fail({other->file, 1, 1}, "sensor", "no column " + config::in_quotes(s.name),
                    "the sensors of " + data.file);
-    second = without_ends(*other, *same, converter);
+    const std::vector<Point> second = without_ends(*other, *same, converter).points;
+    points.insert(points.end(), second.begin(), second.end());
   }
-  r.report.rows = rows_of(u.points, facts);
-  Solution solution[std::size(laws)];
-  for (std::size_t i = 0; i < std::size(laws); ++i)
-    r.report.fits.push_back(
-        fit_of(laws[i], r, u, rest, facts, other ? &second : nullptr, solution[i]));
+  r.report.rows = rows_of(points, u.points.size(), facts);
+  const Trial trial = trial_of(points, u.points.size());
+  std::vector<Candidate> candidates;
+  for (const Law& law : laws)
+    candidates.push_back(candidate_of(law, u.points, points, rest, facts));
+  contend(candidates, trial, r.report);
+  for (Fit& fit : r.report.fits)
+    if (fit.refused.empty() && fit.fit.points <= fit.parameters.size())
+      fit.notes.emplace_back("as many values as points: no error can be seen");
   refuse_unrelated(data, s, r.report.fits[1], u.points);
-  if (r.report.fits[0].fit.points > 0 && r.report.fits[0].held_out)
+  if (r.report.fits[0].held_out)
     r.report.held_out_is = other ? other->file : "each known value from the others";
 
   // Differences below what the steps make mean nothing.
   const double steps = std::isfinite(u.step) ? u.step / std::sqrt(12.0) : 0;
-  choose(r.report, 0.1, std::max(1e-6, 100 * steps / r.span));
+  conclude(r.report, 0.1, std::max(1e-6, 100 * steps / r.span));
   const bool bent = r.report.chosen == 2;
   r.straight = bent ? 1 : r.report.chosen;
   describe(u, r.report.fits[r.straight], r);
-  warn_of_outliers(data, s, u, laws[r.report.chosen], solution[r.report.chosen], rest,
-                   out.warnings);
+  warn_of_outliers(data, s, u, laws[r.report.chosen], r.report.best(), rest, out.warnings);
   if (bent)
     out.warnings.push_back(fmt::format(
         "{}: the output is bent; a robot's sensor is a straight line, which is up to {:.2g} % of "

@@ -78,20 +78,26 @@ class JointFill {
     return out;
   }
 
-  Solution solve() const {
-    const auto residuals = [this](std::span<const double> p, std::span<double> r) {
+  Refit solve() const {
+    FitProblem of{.count = count(),
+                  .parameters = parameters_,
+                  .options = {.correlated = true,
+                              .most_steps = 60,
+                              .widest_interval = well_known,
+                              .difference = 1e-3},
+                  .wishes = {}};
+    of.residuals = [own = *this](std::span<const double> p, std::span<double> r) {
       std::size_t at = 0;
-      for (const JointCurve& c : curves_) {
+      for (const JointCurve& c : own.curves_) {
         const std::size_t rows = c.curve.time.size();
-        if (!fill(c, p, r.subspan(at, rows))) return false;
+        if (!own.fill(c, p, r.subspan(at, rows))) return false;
         for (std::size_t i = 0; i < rows; ++i) r[at + i] -= c.curve.pressure[i];
         at += rows;
       }
       return true;
     };
-    return least_squares(
-        residuals, count(), parameters_,
-        {.correlated = true, .most_steps = 60, .widest_interval = well_known, .difference = 1e-3});
+    Solution s = least_squares(of.residuals, of.count, of.parameters, of.options);
+    return {std::move(of), std::move(s)};
   }
 
  private:
@@ -187,7 +193,9 @@ Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
   for (std::size_t i = 0; i < curves.size(); ++i)
     joined.push_back({curves[i], fills[i].added, free_values(model, curves[i], options), {}});
   try {
-    const Solution s = JointFill(model, options, std::move(joined), alone.curves).solve();
+    out.fit.again =
+        std::make_shared<Refit>(JointFill(model, options, std::move(joined), alone.curves).solve());
+    const Solution& s = out.fit.again->solution;
     for (const double r : s.residuals) out.squares += r * r;
     const double t = t_quantile(std::max(1, s.freedom));
     out.acceptable = out.squares * (1 + t * t * s.inflation / std::max(1, s.freedom));
@@ -317,6 +325,7 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
   report.unit = "Pa diff";
   report.full_scale_is = "the pressure's largest range";
   report.held_out_is = "every second tenth of the way of each curve, by a fit to that curve alone";
+  report.unseen = {"the flow in the other direction, and how fast the valve switches"};
   report.rows = {.x = "time", .x_unit = "s", .unit = "Pa abs"};
   for (const AddedFill& fill : fills) {
     const Curve& c = curves.emplace_back(curve_of(fill.data));
@@ -336,7 +345,7 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
     tried.push_back(
         fit_joined(fill_models()[i], fills, curves, alone[i], options, report.full_scale));
   for (const Tried& t : tried) report.fits.push_back(t.fit);
-  choose(report);
+  conclude(report);
   refuse_poor_fit(fills.front().data, report, options.worst_fit);
   reach_over(tried, report);
   report.notes.emplace_back("the volumes that were joined are taken as exact");

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/valve.h"
 
@@ -52,60 +54,36 @@ double predicted(bool iso, std::span<const double> p, const gas::Air& air, doubl
              : gas::mass_flow(p[0], up, air.temperature, lower, air);
 }
 
-Solution fit_rows(bool iso, const Chart& c, const gas::Air& air,
-                  std::span<const std::size_t> keep) {
+Candidate candidate_of(bool iso, const Chart& c, const gas::Air& air) {
+  Candidate out{.model = iso ? "iso6358" : "orifice",
+                .law = iso ? "m' = C rho_0 P_up sqrt(T_0/T) sqrt(1 - ((r - b)/(1 - b))^2)"
+                           : "m' = A P_up C_m/sqrt(T)",
+                .source = iso ? "ISO 6358-1" : "[42]-[44]",
+                .options = {.widest_interval = 0.25}};
   double area = 0;  // of the widest point as if it were choked
   for (std::size_t i = 0; i < c.size(); ++i)
     area = std::max(area, c.flow[i] / gas::mass_flow(1.0, c.up[i], air.temperature, 0.0, air));
   const double conductance = gas::sonic_conductance_of(area, air);
-  std::vector<Parameter> parameters;
-  if (iso) {
-    parameters = {
+  if (iso)
+    out.parameters = {
         {"sonic_conductance", "m3/(s Pa)", conductance, 0, 100 * conductance, conductance},
         {"critical_pressure_ratio", "1", 0.4, 0, 0.999, 1}};
-  } else {
-    parameters = {{"area", "m2", area, 0, 100 * area, area}};
-  }
-  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
-    for (std::size_t i = 0; i < keep.size(); ++i)
-      r[i] = predicted(iso, p, air, c.up[keep[i]], c.down[keep[i]]) - c.flow[keep[i]];
+  else
+    out.parameters = {{"area", "m2", area, 0, 100 * area, area}};
+  out.predict = [iso, &c, &air](std::span<const double> p, std::span<double> flow) {
+    for (std::size_t i = 0; i < c.size(); ++i) flow[i] = predicted(iso, p, air, c.up[i], c.down[i]);
     return true;
   };
-  return least_squares(residuals, keep.size(), parameters, {.widest_interval = 0.25});
+  return out;
 }
 
-// Each point by a fit of all the others.
-Score leave_one_out(bool iso, const Chart& c, const gas::Air& air) {
-  std::vector<double> errors;
-  for (std::size_t out = 0; out < c.size(); ++out) {
-    std::vector<std::size_t> keep;
-    for (std::size_t i = 0; i < c.size(); ++i)
-      if (i != out) keep.push_back(i);
-    const Solution s = fit_rows(iso, c, air, keep);
-    errors.push_back(predicted(iso, s.values, air, c.up[out], c.down[out]) - c.flow[out]);
-  }
-  return score(errors, largest(c.flow));
-}
-
-Fit try_law(bool iso, const Chart& c, const gas::Air& air) {
-  Fit fit{.model = iso ? "iso6358" : "orifice"};
-  fit.law = iso ? "m' = C rho_0 P_up sqrt(T_0/T) sqrt(1 - ((r - b)/(1 - b))^2)"
-                : "m' = A P_up C_m/sqrt(T)";
-  fit.source = iso ? "ISO 6358-1" : "[42]-[44]";
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < c.size(); ++i) all.push_back(i);
-  const Solution s = fit_rows(iso, c, air, all);
-  fit.parameters = s.estimates;
-  fit.fit = score(s.residuals, largest(c.flow));
-  fit.residuals = s.residuals;
-  fit.held_out = leave_one_out(iso, c, air);
-  if (!iso) return fit;
-  const Estimate& b = s["critical_pressure_ratio"];
-  if (!b.identifiable)
-    fit.refused = b.at_bound ? fmt::format("b would be {:.3g}, the bound of its range", b.value)
-                             : "b is not determined: points with downstream/upstream above it "
-                               "are missing";
-  return fit;
+// Refuses a law with a ratio b that the points do not determine.
+void refuse_unseen_ratio(Fit& fit) {
+  for (const Estimate& b : fit.parameters)
+    if (b.name == "critical_pressure_ratio" && !b.identifiable)
+      fit.refused =
+          b.at_bound ? fmt::format("b would be {:.3g}, the bound of its range", b.value)
+                     : "b is not determined: points with downstream/upstream above it are missing";
 }
 
 Rows rows_of(const Chart& c) {
@@ -138,9 +116,15 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   report.notes = data.notes;
   if (!data.has("mass_flow"))
     report.notes.emplace_back("volume flow is taken as of reference air, 20 degC and 1 bar (ANR)");
-  for (const bool iso : {false, true}) report.fits.push_back(try_law(iso, c, options.air));
+  report.unseen = {"how fast the valve switches, and its flow in the other direction"};
+  Trial trial{.measured = c.flow};
+  std::vector<int> each(c.size());
+  std::iota(each.begin(), each.end(), 0);
+  trial.splits = each_part_unseen(each);
+  contend({candidate_of(false, c, options.air), candidate_of(true, c, options.air)}, trial, report);
+  refuse_unseen_ratio(report.fits.back());
   report.rows = rows_of(c);
-  choose(report);
+  conclude(report);
   refuse_unexplained(report, worst_chart,
                      "where=\"valve=inlet\", if rows of several valves stand in one table");
   tell_choking(c, report);

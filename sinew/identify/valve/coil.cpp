@@ -10,6 +10,7 @@
 
 #include "sinew/gas/coil_current.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/valve.h"
@@ -204,36 +205,19 @@ std::vector<std::vector<double>> starts_of(const CoilModel& model, const Pulses&
   return out;
 }
 
-Solution fit_rows(const CoilModel& model, const Pulses& c, std::span<const std::size_t> keep,
-                  std::span<const std::vector<double>> starts) {
-  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+Candidate candidate_of(const CoilModel& model, const Pulses& c) {
+  Candidate out{.model = std::string(model.name),
+                .law = std::string(model.law),
+                .source = "gas/coil_current.h, 4.3",
+                .parameters = parameters_of(model, c),
+                .options = {.correlated = true, .most_steps = 80, .difference = 1e-3}};
+  out.starts = starts_of(model, c, out.parameters);
+  out.predict = [&model, &c](std::span<const double> p, std::span<double> current) {
     const std::vector<gas::CurrentPiece> pieces = pieces_of(model, p);
-    for (std::size_t i = 0; i < keep.size(); ++i)
-      r[i] = gas::current(pieces, c.time[keep[i]]) - c.current[keep[i]];
+    for (std::size_t i = 0; i < current.size(); ++i) current[i] = gas::current(pieces, c.time[i]);
     return true;
   };
-  return least_squares_from(residuals, keep.size(), parameters_of(model, c), starts,
-                            {.correlated = true, .most_steps = 80, .difference = 1e-3});
-}
-
-Fit try_model(const CoilModel& model, const Pulses& c) {
-  Fit fit{.model = std::string(model.name), .law = std::string(model.law)};
-  fit.source = "gas/coil_current.h, 4.3";
-  std::vector<std::size_t> all, even, odd;
-  for (std::size_t i = 0; i < c.time.size(); ++i) {
-    all.push_back(i);
-    (i % 2 ? odd : even).push_back(i);
-  }
-  const Solution s = fit_rows(model, c, all, starts_of(model, c, parameters_of(model, c)));
-  fit.parameters = s.estimates;
-  fit.fit = score(s.residuals, c.largest);
-  fit.residuals = s.residuals;
-  const Solution part = fit_rows(model, c, even, {&s.values, 1});
-  const std::vector<gas::CurrentPiece> pieces = pieces_of(model, part.values);
-  std::vector<double> errors;
-  for (const std::size_t i : odd) errors.push_back(gas::current(pieces, c.time[i]) - c.current[i]);
-  fit.held_out = score(errors, c.largest);
-  return fit;
+  return out;
 }
 
 }  // namespace
@@ -251,10 +235,17 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   report.full_scale = c.largest;
   report.full_scale_is = "the largest current";
   report.held_out_is = "every second sample";
+  report.unseen = {"how the delay changes with the pressure and with the supply's voltage"};
   report.notes.insert(report.notes.end(), data.notes.begin(), data.notes.end());
-  for (const CoilModel& model : coil_models) report.fits.push_back(try_model(model, c));
   report.rows = {.x = "time", .x_unit = "s", .at = c.time, .measured = c.current};
-  choose(report, 0.1, 0.01);
+  std::vector<Candidate> candidates;
+  for (const CoilModel& model : coil_models) candidates.push_back(candidate_of(model, c));
+  Trial trial{.measured = c.current};
+  std::vector<int> parity;
+  for (std::size_t i = 0; i < c.time.size(); ++i) parity.push_back(i % 2);
+  trial.splits = {each_part_unseen(parity).back()};
+  contend(candidates, trial, report);
+  conclude(report, 0.1, 0.01);
   if (!coil_models[report.chosen].dip)
     throw Refusal(data.file + ": current", "no dip in its rise: a coil without a moving shutter",
                   "the back-EMF of the opening shutter",

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/valve.h"
 
@@ -81,45 +83,24 @@ std::vector<std::size_t> straight_part(const Map& m) {
   return out;
 }
 
-// difference of the delays, and of a flow its scale.
-Solution fit_straight(const Map& m, std::span<const std::size_t> keep, bool delayed) {
-  std::vector<Parameter> parameters;
+// Fits the difference of the delays, and the scale of a flow.
+Candidate candidate_of(const Map& m, std::span<const std::size_t> rows, bool delayed) {
+  Candidate out{.model = delayed ? "dead times" : "ideal",
+                .law = delayed ? "delivered = D - (t_o - t_c) f, 0 below t_o f, 1 above 1 - t_c f"
+                               : "delivered = D",
+                .source = delayed ? "3.4" : "no delays"};
   const double period = 1 / largest(m.frequency);
-  if (delayed) parameters.push_back({"delay_difference", "s", 0, -period, period, 0.01 * period});
-  if (m.flow) parameters.push_back({"full_flow", "1", m.full, 0, 10 * m.full, m.full});
-  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
-    for (std::size_t k = 0; k < keep.size(); ++k) {
-      const std::size_t i = keep[k];
-      const double lost = delayed ? p[0] * m.frequency[i] : 0;
-      const double scale = m.flow ? p.back() : 1;
-      r[k] = scale * (m.duty[i] - lost) - m.delivered[i];
+  if (delayed)
+    out.parameters.push_back({"delay_difference", "s", 0, -period, period, 0.01 * period});
+  if (m.flow) out.parameters.push_back({"full_flow", "1", m.full, 0, 10 * m.full, m.full});
+  out.predict = [&m, rows, delayed](std::span<const double> p, std::span<double> delivered) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double lost = delayed ? p[0] * m.frequency[rows[k]] : 0;
+      delivered[k] = (m.flow ? p.back() : 1) * (m.duty[rows[k]] - lost);
     }
     return true;
   };
-  return least_squares(residuals, keep.size(), parameters);
-}
-
-Fit try_straight(const Map& m, std::span<const std::size_t> rows, bool delayed) {
-  Fit fit{.model = delayed ? "dead times" : "ideal"};
-  fit.law =
-      delayed ? "delivered = D - (t_o - t_c) f, 0 below t_o f, 1 above 1 - t_c f" : "delivered = D";
-  fit.source = delayed ? "3.4" : "no delays";
-  const Solution s = fit_straight(m, rows, delayed);
-  fit.parameters = s.estimates;
-  fit.fit = score(s.residuals, m.full);
-  fit.residuals = s.residuals;
-  std::vector<double> errors;
-  for (std::size_t out = 0; out < rows.size(); ++out) {
-    std::vector<std::size_t> keep(rows.begin(), rows.end());
-    keep.erase(keep.begin() + static_cast<std::ptrdiff_t>(out));
-    const Solution part = fit_straight(m, keep, delayed);
-    const std::size_t i = rows[out];
-    const double lost = delayed ? part.values[0] * m.frequency[i] : 0;
-    const double scale = m.flow ? part.values.back() : 1;
-    errors.push_back(scale * (m.duty[i] - lost) - m.delivered[i]);
-  }
-  fit.held_out = score(errors, m.full);
-  return fit;
+  return out;
 }
 
 // Of the straight part.
@@ -176,10 +157,14 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
   report.full_scale_is = m.flow ? "the largest flow" : "the whole period";
   report.held_out_is = "each point by a fit of all the others";
   report.notes = data.notes;
-  for (const bool delayed : {false, true})
-    report.fits.push_back(try_straight(m, straight, delayed));
+  report.unseen = {"how the delays change with the pressure and with the supply's voltage"};
   report.rows = rows_of(m, straight);
-  choose(report);
+  Trial trial{.measured = report.rows.measured};
+  std::vector<int> each(straight.size());
+  std::iota(each.begin(), each.end(), 0);
+  trial.splits = each_part_unseen(each);
+  contend({candidate_of(m, straight, false), candidate_of(m, straight, true)}, trial, report);
+  conclude(report);
 
   Fit& fit = report.fits[report.chosen];
   Bracket opening = opening_of(m), closing = closing_of(m);

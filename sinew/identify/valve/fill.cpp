@@ -133,31 +133,40 @@ FillCase fill_case(const FillModel& model, const Curve& c, const ValveOptions& o
   return out;
 }
 
-Solution fit_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
-                  std::span<const std::size_t> keep, std::span<const std::vector<double>> starts) {
+FitProblem fill_problem(const FillModel& model, const Curve& c, const ValveOptions& options,
+                        std::span<const std::size_t> keep) {
   const std::vector<FreeValue> free = free_values(model, c, options);
-  std::vector<Parameter> parameters;
-  for (const FreeValue& f : free) parameters.push_back(f.parameter);
-
-  std::vector<double> all(c.time.size());
-  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+  FitProblem out{.count = keep.size(),
+                 .options = {.correlated = true,
+                             .most_steps = 60,
+                             .widest_interval = 0.25,
+                             .difference = 1e-3},
+                 .wishes = {}};
+  for (const FreeValue& f : free) out.parameters.push_back(f.parameter);
+  out.residuals = [&model, &c, &options, free, rows = std::vector(keep.begin(), keep.end()),
+                   all = std::vector<double>(c.time.size())](std::span<const double> p,
+                                                             std::span<double> r) mutable {
     const FillCase fill = fill_case(model, c, options, free, p);
     const Opening opening{fill.opening, true};
     if (!simulate(fill.chamber, options.air, {&opening, 1}, c.time, all)) return false;
-    for (std::size_t i = 0; i < keep.size(); ++i) r[i] = all[keep[i]] - c.pressure[keep[i]];
+    for (std::size_t i = 0; i < rows.size(); ++i) r[i] = all[rows[i]] - c.pressure[rows[i]];
     return true;
   };
-  const SolverOptions options_of_all{
-      .correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3};
+  return out;
+}
+
+Refit fit_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
+               std::span<const std::size_t> keep, std::span<const std::vector<double>> starts) {
+  FitProblem of = fill_problem(model, c, options, keep);
   std::vector<std::vector<double>> from(starts.begin(), starts.end());
   if (from.size() > 1) {
-    SolverOptions rough = options_of_all;
+    SolverOptions rough = of.options;
     rough.most_steps = 12;
-    from = {least_squares_from(residuals, keep.size(), parameters, from, rough).values};
+    from = {least_squares_from(of.residuals, of.count, of.parameters, from, rough).values};
   }
-  Solution s = least_squares_from(residuals, keep.size(), parameters, from, options_of_all);
-  widen(s, residuals, keep.size(), parameters, options_of_all);
-  return s;
+  Solution s = least_squares_from(of.residuals, of.count, of.parameters, from, of.options);
+  widen(s, of.residuals, of.count, of.parameters, of.options);
+  return {std::move(of), std::move(s)};
 }
 
 }  // namespace sinew::identify

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/valve/chamber.h"
 #include "sinew/identify/valve/curve.h"
 #include "sinew/identify/valve/valve.h"
@@ -45,7 +45,7 @@ FillCase fill_case(const FillModel& model, const Curve& curve, const ValveOption
 
 // Fits the rows in `keep`. A value that ends at a bound is true only if it is really there: the
 // intervals of the others count it as free.
-Solution fit_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
-                  std::span<const std::size_t> keep, std::span<const std::vector<double>> starts);
+Refit fit_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
+               std::span<const std::size_t> keep, std::span<const std::vector<double>> starts);
 
 }  // namespace sinew::identify

@@ -167,7 +167,7 @@ Trials trials_of(const FillModel& model, const Chamber& truth, const char* name,
     for (const FreeValue& f : free_values(model, c, options)) start.push_back(f.parameter.start);
     std::vector<std::size_t> all(c.time.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    const Solution s = fit_fill(model, c, options, all, {&start, 1});
+    const Solution s = fit_fill(model, c, options, all, {&start, 1}).solution;
     const Estimate& e = s[name];
     out.covered += e.low <= value && value <= e.high;
     out.bias += (e.value / value - 1) / static_cast<double>(count);

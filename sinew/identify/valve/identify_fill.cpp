@@ -79,7 +79,7 @@ Score score_tenths(const FillModel& model, const Curve& c, const ValveOptions& o
   std::vector<std::size_t> keep;
   for (std::size_t i = 0; i < c.time.size(); ++i)
     if (!held_out(c, i)) keep.push_back(i);
-  const Solution part = fit_fill(model, c, options, keep, {&whole.values, 1});
+  const Solution part = fit_fill(model, c, options, keep, {&whole.values, 1}).solution;
   const std::vector<double> all = predict(model, c, options, part.values);
   std::vector<double> errors;
   for (std::size_t i = 0; i < c.time.size(); ++i)
@@ -152,6 +152,7 @@ void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
     v.unit = "m3";
     v.value = *options.conductance / k.value;
     v.standard_error = k.standard_error * v.value / k.value;
+    if (v.profile) std::ranges::reverse(v.profile->error);
     v.low = *options.conductance / k.high;
     v.high = k.low > 0 ? *options.conductance / k.low : unbounded;
     k = v;
@@ -245,7 +246,9 @@ Tried try_fill(const FillModel& model, const Curve& c, const ValveOptions& optio
   }
   const std::vector<FreeValue> free = free_values(model, c, options);
   try {
-    const Solution s = fit_fill(model, c, options, all_rows(c), spread_starts(model, free));
+    fit.again = std::make_shared<Refit>(
+        fit_fill(model, c, options, all_rows(c), spread_starts(model, free)));
+    const Solution& s = fit.again->solution;
     refuse_undetermined(s);
     for (const double r : s.residuals) out.squares += r * r;
     const double t = t_quantile(s.freedom);
@@ -298,6 +301,7 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   report.unit = "Pa diff";
   report.full_scale = c.range();
   report.full_scale_is = "the pressure's range";
+  report.unseen = {"the flow in the other direction, and how fast the valve switches"};
   report.held_out_is = other ? other->file + ", with its own start and opening instant"
                              : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";
   std::vector<Tried> tried;
@@ -308,7 +312,7 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   for (const Tried& t : tried) report.fits.push_back(t.fit);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
-  choose(report);
+  conclude(report);
   const Estimate alone = report.best().parameters.front();
   reach_over_models(tried, report);
   for (std::size_t i = 0; i < report.fits.size(); ++i)

@@ -9,6 +9,7 @@
 
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/contest.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/fill.h"
@@ -131,27 +132,6 @@ PulseCase case_of(const PulseModel& model, const ValveOptions& options, const Un
   return c;
 }
 
-bool predict(const PulseModel& model, const Record& r, const ValveOptions& options,
-             const Unknowns& u, std::span<const double> p, std::span<double> out) {
-  const PulseCase c = case_of(model, options, u, p);
-  return simulate(c.chamber, options.air, delayed(r.commands.edges, c.opening, c.closing),
-                  std::span(r.time).first(out.size()), out);
-}
-
-// Fits the first `rows` samples.
-Solution fit_pulses(const PulseModel& model, const Record& r, const ValveOptions& options,
-                    std::size_t rows, std::span<const std::vector<double>> starts) {
-  const Unknowns u = unknowns_of(model, r, options);
-  const auto residuals = [&](std::span<const double> p, std::span<double> out) {
-    if (!predict(model, r, options, u, p, out)) return false;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] -= r.pressure[i];
-    return true;
-  };
-  return least_squares_from(
-      residuals, rows, u.parameters, starts,
-      {.correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3});
-}
-
 std::vector<std::vector<double>> starts_of(const Unknowns& u) {
   std::vector<std::vector<double>> out;
   for (const double factor : {1.0, 0.2, 4.0}) {
@@ -162,26 +142,22 @@ std::vector<std::vector<double>> starts_of(const Unknowns& u) {
   return out;
 }
 
-Fit try_model(const PulseModel& model, const Record& r, const ValveOptions& options) {
-  Fit fit{.model = std::string(model.name), .law = std::string(model.law)};
-  fit.source = "3.4, gas/delay.h; ISO 6358-1";
-  try {
-    const Unknowns u = unknowns_of(model, r, options);
-    const Solution s = fit_pulses(model, r, options, r.time.size(), starts_of(u));
-    fit.parameters = s.estimates;
-    fit.fit = score(s.residuals, r.range());
-    fit.residuals = s.residuals;
-    const std::size_t seen = r.time.size() * 2 / 3;
-    const Solution part = fit_pulses(model, r, options, seen, {&s.values, 1});
-    std::vector<double> all(r.time.size());
-    if (!predict(model, r, options, u, part.values, all))
-      throw Refusal("model", "no answer", "a pressure", "");
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] -= r.pressure[i];
-    fit.held_out = score(std::span(all).subspan(seen), r.range());
-  } catch (const Refusal& refusal) {
-    fit.refused = refusal.what();
-  }
-  return fit;
+Candidate candidate_of(const PulseModel& model, const Record& r, const ValveOptions& options) {
+  const Unknowns u = unknowns_of(model, r, options);
+  Candidate out{
+      .model = std::string(model.name),
+      .law = std::string(model.law),
+      .source = "3.4, gas/delay.h; ISO 6358-1",
+      .parameters = u.parameters,
+      .starts = starts_of(u),
+      .options = {
+          .correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3}};
+  out.predict = [&model, &r, &options, u](std::span<const double> p, std::span<double> pressure) {
+    const PulseCase c = case_of(model, options, u, p);
+    return simulate(c.chamber, options.air, delayed(r.commands.edges, c.opening, c.closing), r.time,
+                    pressure);
+  };
+  return out;
 }
 
 // An edge lies anywhere between two samples of the command: the same for every edge if both were
@@ -204,11 +180,19 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   report.full_scale = r.range();
   report.full_scale_is = "the pressure's range";
   report.held_out_is = "the last third of the record";
+  report.unseen = {
+      "how the delays change with the supply's voltage, and the flow of another chamber"};
   report.notes = data.notes;
-  for (const PulseModel& model : pulse_models) report.fits.push_back(try_model(model, r, options));
+  std::vector<Candidate> candidates;
+  for (const PulseModel& model : pulse_models)
+    candidates.push_back(candidate_of(model, r, options));
+  std::vector<int> is_last;
+  for (std::size_t i = 0; i < r.time.size(); ++i) is_last.push_back(i >= r.time.size() * 2 / 3);
+  contend(candidates, {.measured = r.pressure, .splits = {each_part_unseen(is_last).back()}},
+          report);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = r.time, .measured = r.pressure};
-  choose(report);
+  conclude(report);
   if (report.best().fit.rmse_percent > options.worst_fit)
     throw Refusal(
         data.file,

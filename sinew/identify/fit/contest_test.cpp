@@ -1,0 +1,117 @@
+#include "sinew/identify/fit/contest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace sinew::identify::contest_test {
+namespace {
+
+// Powers of x up to that one, fitted to rows at x.
+Candidate polynomial(const std::vector<double>& x, int degree) {
+  Candidate out{.model = "degree " + std::to_string(degree)};
+  for (int k = 0; k <= degree; ++k)
+    out.parameters.push_back({.name = std::string(1, static_cast<char>('a' + k)), .unit = "1"});
+  out.predict = [x](std::span<const double> p, std::span<double> y) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      y[i] = 0;
+      for (std::size_t k = p.size(); k-- > 0;) y[i] = y[i] * x[i] + p[k];
+    }
+    return true;
+  };
+  return out;
+}
+
+struct Line {
+  std::vector<double> x, y;
+};
+
+// 1 + 2 x with noise of 0.05.
+Line line(int rows) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 0.05);
+  Line out;
+  for (int i = 0; i < rows; ++i) {
+    out.x.push_back(0.1 * i);
+    out.y.push_back(1 + 2 * out.x.back() + noise(random));
+  }
+  return out;
+}
+
+Report report_of(const Line& data) {
+  return {.full_scale = 1, .rows = {.x = "x", .x_unit = "1", .at = data.x, .measured = data.y}};
+}
+
+std::vector<int> each(std::size_t rows) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < rows; ++i) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+// Leaving one row out has a closed form: its residual over 1 - its leverage, for a mean 1 - 1/n.
+TEST(Contest, LeavesEachRowOutOnce) {
+  const Line data = line(10);
+  Report report = report_of(data);
+  contend({polynomial(data.x, 0)}, {.measured = data.y, .splits = each_part_unseen(each(10))},
+          report);
+  const Fit& fit = report.fits[0];
+  EXPECT_NEAR(fit.held_out->rmse, fit.fit.rmse / (1 - 0.1), 1e-7);
+  EXPECT_FALSE(fit.cross_validated.has_value());
+  EXPECT_FALSE(fit.band.has_value());  // 95 % of ten is not to be had
+}
+
+TEST(Contest, TheSimplestLawThatPredictsIsChosenAndPinned) {
+  const Line data = line(60);
+  Report report = report_of(data);
+  Trial trial{.measured = data.y, .splits = each_part_unseen(each(60))};
+  trial.cross_validates = true;
+  contend({polynomial(data.x, 0), polynomial(data.x, 1), polynomial(data.x, 2)}, trial, report);
+  conclude(report);
+  EXPECT_EQ(report.best().model, "degree 1");
+  EXPECT_TRUE(not_pinned(report).empty());
+  EXPECT_NEAR(report.best().band->half_68, 0.05, 0.02);
+  const std::vector<std::string> unseen = does_not_show(report);
+  ASSERT_EQ(unseen.size(), 3u);
+  EXPECT_EQ(unseen[0], "whether degree 1 is the true law, as degree 2 misses at most a tenth more");
+  EXPECT_EQ(unseen[1], "what happens outside the x that was measured, 0 to 5.9");
+}
+
+// Rows that are not fitted are predicted all the same, and a split that hides none of the fitted
+// ones takes the whole fit.
+TEST(Contest, ScoresRowsOfItsOwnThatNoFitSees) {
+  const Line data = line(20);
+  Trial trial{.measured = data.y};
+  Split split;
+  for (std::size_t i = 0; i < 20; ++i) (i < 12 ? split.fitted : split.unseen).push_back(i);
+  trial.rows = split.fitted;
+  trial.splits = {split};
+  Report report = report_of(data);
+  contend({polynomial(data.x, 1)}, trial, report);
+  const Fit& fit = report.fits[0];
+  EXPECT_EQ(fit.fit.points, 12u);
+  EXPECT_EQ(fit.residuals.size(), 20u);
+  double squares = 0;
+  for (std::size_t i = 12; i < 20; ++i) squares += fit.residuals[i] * fit.residuals[i];
+  EXPECT_DOUBLE_EQ(fit.held_out->rmse, std::sqrt(squares / 8));
+}
+
+TEST(Contest, RefusesAndFreezesWithAReason) {
+  const Line data = line(12);
+  Candidate known = polynomial(data.x, 1), bound = known, silent = known;
+  known.refused = "it takes four pressures";
+  bound.parameters[1].high = 1.5;
+  silent.predict = [](std::span<const double>, std::span<double>) { return false; };
+  Report report = report_of(data);
+  contend({known, bound, silent}, {.measured = data.y}, report);
+  EXPECT_EQ(report.fits[0].refused, "it takes four pressures");
+  EXPECT_EQ(report.fits[1].not_chosen, "b at the bound of its range");
+  EXPECT_NE(report.fits[2].refused.find("no answer at its start values"), std::string::npos);
+  conclude(report);
+  EXPECT_EQ(not_pinned(report), std::vector<std::string>{"b"});
+  const std::vector<std::string> unseen = does_not_show(report);
+  EXPECT_EQ(unseen[1], "how large errors are where nothing was measured, as no row was left out");
+}
+
+}  // namespace
+}  // namespace sinew::identify::contest_test

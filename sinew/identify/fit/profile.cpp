@@ -1,0 +1,102 @@
+#include "sinew/identify/fit/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "sinew/host/side_by_side.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr std::size_t middle = 2;  // the factor 1
+
+// A smaller value than this share of its scale is near zero.
+constexpr double smallest_share = 0.05;
+
+bool is_near_zero(const Parameter& p, double value) {
+  return std::abs(value) < smallest_share * p.scale;
+}
+
+double moved(const Parameter& p, double value, double factor) {
+  const double to = is_near_zero(p, value) ? value + (factor - 1) * p.scale : factor * value;
+  return std::clamp(to, p.low, p.high);
+}
+
+double loss_of(const FitProblem& problem, std::span<const double> residuals) {
+  const double outlier = problem.options.outlier;
+  double sum = 0;
+  for (const double r : residuals.first(problem.data > 0 ? problem.data : problem.count))
+    sum += outlier > 0 ? outlier * outlier * std::log1p(r * r / (outlier * outlier)) : r * r;
+  return sum;
+}
+
+// The first steps show whether a loss is far beyond the limit, where its size does not matter.
+constexpr double far_beyond = Profile::most * Profile::most;
+constexpr int first_steps = 8, more_steps = 60;
+
+// Fits the others from `values`, with one parameter at `value`, and leaves the values there.
+// Returns the loss, or a larger one where that is far beyond `limit`; infinite where the law has no
+// answer.
+double loss_with(const FitProblem& problem, std::size_t which, double value, double limit,
+                 std::vector<double>& values) {
+  std::vector<Parameter> parameters = problem.parameters;
+  const Wishes wishes = problem.wishes.with_frozen(parameters[which].name, value);
+  SolverOptions options = problem.options;
+  options.correlated = false;
+  double loss = unbounded;
+  const auto improve = [&](int steps, double tolerance) {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      parameters[i].start = std::clamp(values[i], parameters[i].low, parameters[i].high);
+    options.most_steps = std::min(problem.options.most_steps, steps);
+    options.tolerance = tolerance;
+    Solution s = least_squares(problem.residuals, problem.count, parameters, wishes, options);
+    values = std::move(s.values);
+    loss = loss_of(problem, s.residuals);
+  };
+  try {
+    improve(first_steps, 1e-3);
+    if (loss < far_beyond * limit) improve(more_steps, 1e-8);
+  } catch (const Refusal&) {
+    return unbounded;
+  }
+  return loss;
+}
+
+}  // namespace
+
+std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
+                                                const Solution& solution) {
+  const std::size_t n = solution.estimates.size();
+  std::vector<std::optional<Profile>> out(n);
+  if (solution.freedom < 1) return out;
+  const double best = loss_of(problem, solution.residuals);
+  const double t = t_quantile(solution.freedom), s = solution.standard_deviation;
+  const double limit = best + t * t * s * s * solution.inflation;
+  for (std::size_t i = 0; i < n; ++i)
+    if (solution.estimates[i].free && !solution.estimates[i].at_bound)
+      out[i] = {.error = {1, 1, 1, 1, 1},
+                .near_zero = is_near_zero(problem.parameters[i], solution.values[i])};
+  std::vector<double> ends(2 * n, 0);
+  host::side_by_side(2 * n, [&](std::size_t k) {
+    const std::size_t i = k / 2;
+    if (!out[i]) return;
+    // The others follow in two steps, each from where they were.
+    const FitProblem own = problem;
+    std::vector<double> values = solution.values;
+    for (std::size_t step = 1; step <= 2; ++step) {
+      const std::size_t at = k % 2 == 0 ? middle - step : middle + step;
+      const double to = moved(own.parameters[i], solution.values[i], Profile::factors[at]);
+      ends[k] = to == solution.values[i] ? best : loss_with(own, i, to, limit, values);
+      const double ratio = best > 0 ? std::sqrt(ends[k] / best) : ends[k] > 0 ? unbounded : 1;
+      out[i]->error[at] = std::min(ratio, Profile::most);
+    }
+  });
+  for (std::size_t i = 0; i < n; ++i)
+    if (out[i]) out[i]->pinned = std::min(ends[2 * i], ends[2 * i + 1]) > limit;
+  return out;
+}
+
+}  // namespace sinew::identify
