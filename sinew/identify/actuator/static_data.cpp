@@ -24,6 +24,9 @@ constexpr int bins = 25;           // over the range of pressures
 constexpr std::size_t fewest = 3;  // samples in a bin
 constexpr double largest_zero_force = 0.25;     // of the range of forces: more is no zero
 constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
+constexpr double same_pressure = 0.02;          // of the largest: no more is one pressure
+constexpr double same_force = 0.02;             // of their range: no more is one force
+constexpr double same_length = 0.01;            // of the length: no more is one mount
 constexpr int fewest_rests = 6;                 // of a recording that goes from level to level
 constexpr std::size_t most_omitted = 60;        // samples of a recording that are kept to be shown
 
@@ -107,13 +110,13 @@ void refuse_full(const Measured& m, std::string_view column, const std::vector<d
 }
 
 // Among rows of one length force rises with the pressure; columns that are swapped, or a sign, do
-// the opposite.
+// the opposite, beyond what noise does. Rows of one force show nothing of it.
 void refuse_falling(const Measured& m, const std::vector<double>& force,
                     const std::vector<double>& length) {
   const std::vector<double>& p = m["pressure"];
   const std::vector<int> group =
       mount_groups(length, 0.005 * largest(length), widest_mount * largest(length));
-  double rise = 0;
+  double rise = 0, pressures = 0, forces = 0;
   for (int g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
     std::vector<double> ps, fs;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -121,19 +124,29 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
       ps.push_back(p[i]);
       fs.push_back(force[i]);
     }
+    if (largest(fs) - smallest(fs) < same_force * (largest(force) - smallest(force))) continue;
     const double p0 = median(ps), f0 = median(fs);
-    for (std::size_t i = 0; i < ps.size(); ++i) rise += (ps[i] - p0) * (fs[i] - f0);
+    for (std::size_t i = 0; i < ps.size(); ++i) {
+      rise += (ps[i] - p0) * (fs[i] - f0);
+      pressures += (ps[i] - p0) * (ps[i] - p0);
+      forces += (fs[i] - f0) * (fs[i] - f0);
+    }
   }
-  if (rise < 0)
+  if (rise < -0.3 * std::sqrt(pressures * forces))
     throw Refusal(m.file, "force that falls while the pressure rises", "a muscle that pulls",
                   "names.force=NAME, if columns are swapped, or the sign of the force");
+}
+
+// Returns whether the muscle is pulled from length to length while the recording runs.
+bool is_sweep(const Measured& m, const std::vector<double>& length) {
+  return m.has("time") && largest(length) - smallest(length) > same_length * median(length);
 }
 
 void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {
   const auto pressure = std::ranges::find(m.columns, "pressure", &recording::Column::name);
   const bool is_one_of_several = pressure != m.columns.end() && pressure->is_stated;
-  if (!is_one_of_several)
-    refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
+  if (!is_one_of_several && !is_sweep(m, length))
+    refuse_constant(m, "pressure", same_pressure * largest(m["pressure"]),
                     "several pressures: a static law says how force grows with them",
                     "fill the muscle step by step");
   if (m.has("time")) refuse_full(m, "pressure", m["pressure"]);
@@ -272,13 +285,66 @@ void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
   }
 }
 
+// Adds what a recording says of a muscle that is pulled from length to length: where the pressure
+// rests, the medians of each step of length, of each level of the pressure, on each way.
+void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
+  const std::vector<double>& p = m["pressure"];
+  const std::vector<double> l = length_of(m, input), f = force_of(m);
+  const Settled found = settled_samples(m["time"], p);
+  const std::vector<bool> settled = found.rests > 0 ? found.sample : std::vector(p.size(), true);
+  const double range = largest(l) - smallest(l), top = largest(p);
+  const std::vector<std::size_t> turns = turns_of(smooth(l), turn * range);
+  const std::vector<int> level = groups_of(p, same_pressure * top, 5 * same_pressure * top);
+
+  struct Rows {
+    std::vector<double> length, pressure, force;
+  };
+  std::map<std::tuple<std::size_t, int, int>, Rows> steps;
+  for (std::size_t i = 0, way = 0; i < p.size(); ++i) {
+    if (way + 1 < turns.size() && i >= turns[way + 1]) ++way;
+    if (!settled[i]) continue;
+    const int step = static_cast<int>(bins * (l[i] - smallest(l)) / range);
+    Rows& rows = steps[{way, level[i], std::min(step, bins - 1)}];
+    rows.length.push_back(l[i]);
+    rows.pressure.push_back(p[i]);
+    rows.force.push_back(f[i]);
+  }
+  StaticOmitted few{.reason = "too few samples at a length",
+                    .told_by = fmt::format("fewer than {} at rest in a step of 1/{} of the lengths",
+                                           fewest, bins)};
+  for (const auto& [step, rows] : steps) {
+    const StaticPoint point{.length = median(rows.length),
+                            .pressure = median(rows.pressure),
+                            .force = median(rows.force),
+                            .rest_length = input.rest_length,
+                            .fitted = input.fitted};
+    if (rows.length.size() >= fewest) {
+      data.points.push_back(point);
+      continue;
+    }
+    few.count += rows.length.size();
+    few.points.insert(few.points.end(), rows.length.size(), point);
+  }
+  if (few.count == std::accumulate(settled.begin(), settled.end(), std::size_t{0}))
+    throw Refusal(m.file, fmt::format("a length that changes, in {} rows", m.rows()),
+                  fmt::format("at least {} rows in a step of 1/{} of the lengths, at one pressure",
+                              fewest, bins),
+                  "a slower sweep, or a table of points at rest, without the time");
+  if (few.count > 0) {
+    StaticOmitted& all = data.omitted(few.reason, few.told_by);
+    all.count += few.count;
+    all.points.insert(all.points.end(), few.points.begin(), few.points.end());
+  }
+  data.notes.push_back(fmt::format(
+      "{}: pulled from {:.4g} to {:.4g} mm on {} ways{}: the medians of {} steps are fitted; the "
+      "zeros are taken as they are",
+      m.file, 1e3 * smallest(l), 1e3 * largest(l), turns.size() - 1,
+      found.rests > 0 ? ", where the pressure rests" : "", bins));
+}
+
 Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
   std::vector<double> p = m["pressure"], f = force_of(m);
-  const std::vector<double> lengths = length_of(m, input);
-  const double length = median(lengths);
-  if (largest(lengths) - smallest(lengths) > 0.01 * length)
-    throw Refusal(m.file, "a recording whose length changes", "one at one length",
-                  "a table of points at rest, without the time");
+  const double length = median(length_of(m, input));
   const Zero zero = vented_start(smooth(p), f, data, m.file);
   for (double& x : p) x -= zero.pressure;
   for (double& x : f) x -= zero.force;
@@ -366,6 +432,10 @@ Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
   if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");
   check(m, force_of(m), length_of(m, input));
   for (const std::string& note : m.notes) data.notes.push_back(m.file + ": " + note);
+  if (is_sweep(m, length_of(m, input))) {
+    add_sweep(m, input, data);
+    return {};
+  }
   return m.has("time") ? add_recording(m, input, data) : add_table(m, input, data);
 }
 

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "sinew/identify/actuator/static.h"
+#include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify::static_data_test {
@@ -293,10 +294,50 @@ TEST(StaticRefusal, ASensorAtItsEnd) {
   }
 }
 
-TEST(StaticRefusal, ARecordingWhoseLengthChanges) {
+// Pulled out and let back at a pressure that a regulator keeps: an ideal braid, with noise.
+std::string sweep(double gauge, double pressure_noise) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 1);
   std::string text = "time [s],length [mm],force [N],pressure [kPa gauge]\n";
-  for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{},{}\n", i, 250 - i % 30, i, 5 * i);
-  expect_refused(refusal_of(text), {"length changes"});
+  for (int i = 0; i <= 800; ++i) {
+    const double l = 205e-3 + 45e-3 * (1 - std::abs(i - 400) / 400.0);
+    const double f = gauge * (3 * l * l - 0.09) / (4 * std::numbers::pi * 2.2 * 2.2);
+    text += fmt::format("{},{},{},{}\n", 0.05 * i, 1e3 * l, f + 0.1 * noise(random),
+                        1e-3 * gauge + pressure_noise * noise(random));
+  }
+  return text;
+}
+
+// A length sweep that is recorded is read as it is: a file for each pressure.
+TEST(StaticData, ASweepOfLengthsIsARecordingToo) {
+  StaticData data;
+  for (const double gauge : {2e5, 4e5, 6e5})
+    add_points(read(sweep(gauge, 1)), {.rest_length = 0.25}, data);
+  ASSERT_GT(data.points.size(), 120u);
+  EXPECT_EQ(count_of(pressure_groups(data.points)), 3);
+  EXPECT_GT(count_of(length_groups(data.points)), 10);
+  for (const StaticPoint& p : data.points) {
+    const double f =
+        p.pressure * (3 * p.length * p.length - 0.09) / (4 * std::numbers::pi * 2.2 * 2.2);
+    EXPECT_NEAR(p.force, f, 3);
+    EXPECT_EQ(p.branch, Branch::unknown);
+  }
+  const StaticResult found = identify_static(data, {.model = "ideal"});
+  EXPECT_NEAR(found.muscles[0].actuator.braid.thread_length, 0.3, 1e-3);
+  EXPECT_NEAR(found.muscles[0].actuator.braid.turns, 2.2, 0.01);
+}
+
+TEST(StaticRefusal, ASweepOfTooFewRows) {
+  std::string text = "time [s],length [mm],force [N],pressure [kPa gauge]\n";
+  for (int i = 0; i < 10; ++i) text += fmt::format("{},{},{},{}\n", i, 200 + 5 * i, 20 * i, 400);
+  expect_refused(refusal_of(text), {"a length that changes, in 10 rows", "slower sweep"});
+}
+
+// The noise of a regulated pressure is no second one.
+TEST(StaticData, ASweepAtOnePressureHasOne) {
+  StaticData data;
+  add_points(read(sweep(4e5, 1)), {.rest_length = 0.25}, data);
+  EXPECT_EQ(count_of(pressure_groups(data.points)), 1);
 }
 
 TEST(StaticRefusal, AModelThatThereIsNot) {

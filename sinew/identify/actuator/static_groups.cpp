@@ -52,8 +52,8 @@ StaticScales scales_of(const Points& points, double atmosphere,
 std::vector<int> pressure_groups(const Points& points) {
   std::vector<double> p;
   for (const StaticPoint& point : points) p.push_back(point.pressure);
-  const double range = largest(p) - smallest(p);
-  return groups_of(p, 0.015 * range, 0.1 * range);
+  const double range = largest(p) - smallest(p), top = largest(p);
+  return groups_of(p, std::max(0.015 * range, 0.01 * top), std::max(0.1 * range, 0.05 * top));
 }
 
 std::vector<int> length_groups(const Points& points) {

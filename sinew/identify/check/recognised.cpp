@@ -109,24 +109,32 @@ void add_about_line(std::span<const double> x, std::span<const double> y, Square
   out.readings += y.size();
 }
 
-// Samples that rest together, in windows.
+// Adds samples that rest together, in windows. One that scatters far more than most does not rest:
+// the muscle reaches an end of its travel there, say.
 void add_rests(const Measured& m, Squares& out) {
+  constexpr double far_more = 3;  // times the middle scatter
   const bool weighs = m.has("load");
   const std::vector<double>& force = m[weighs ? "load" : "force"];
   const std::vector<bool> rests = settled_samples(m["time"], m["pressure"]).sample;
-  Squares own;
+  std::vector<Squares> windows;
+  std::vector<double> scatter;
   for (std::size_t i = 0; i < force.size();) {
     std::size_t end = i;
     while (end < force.size() && rests[end] && end - i < rest_window) ++end;
-    if (end - i >= 5)
+    if (end - i >= 5) {
       add_about_line(std::span(m["time"]).subspan(i, end - i), std::span(force).subspan(i, end - i),
-                     own);
+                     windows.emplace_back());
+      scatter.push_back(std::sqrt(windows.back().sum / windows.back().freedom));
+    }
     i = std::max(end, i + 1);
   }
-  const double unit = weighs ? units::standard_gravity : 1;
-  out.sum += own.sum * unit * unit;
-  out.freedom += own.freedom;
-  out.readings += own.readings;
+  const double unit = weighs ? units::standard_gravity : 1, most = far_more * median(scatter);
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    if (most > 0 && scatter[k] > most) continue;
+    out.sum += windows[k].sum * unit * unit;
+    out.freedom += windows[k].freedom;
+    out.readings += windows[k].readings;
+  }
 }
 
 // Readings of one muscle, length and branch, by pressure, whose pressures are one: each about their
