@@ -9,6 +9,7 @@
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/check/check.h"
+#include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/json/json.h"
@@ -61,11 +62,13 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
             throw std::invalid_argument(fmt::format("{}: found {} m; expected {} to {} m",
                                                     column.name, x, wanted.least, wanted.most));
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
-  const std::vector<double> fit = each(fitted, "fitted", points);
+  std::vector<bool> fit;
+  for (const double x : each(fitted, "fitted", points)) fit.push_back(x != 0);
+  table = identify::each_row_once(std::move(table), fit);
   identify::CheckInput out{.diameter = diameter};
   out.add({std::move(table), {}});
   std::vector<identify::StaticPoint>& all = out.data.points;
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = fit[i] != 0;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = fit[i];
   return out;
 }
 

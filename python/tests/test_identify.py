@@ -69,6 +69,14 @@ class Static(unittest.TestCase):
                 sinew.Actuator(theirs).tension(*grid).tobytes(),
             )
 
+    def test_points_that_repeat_count_once(self) -> None:
+        length, pressure, force = measured()
+        once = sinew.identify.static(length, pressure, force, model="threshold").report
+        many = [numpy.tile(each, 20) for each in (length, pressure, force)]
+        again = sinew.identify.static(*many, model="threshold").report
+        self.assertEqual(once["parameters"], again["parameters"])
+        self.assertIn("rows repeat earlier ones", again["notes"][0])
+
     def test_the_law_that_made_the_forces_comes_back(self) -> None:
         truth = sinew.Actuator(ACTUATOR)
         ends = 1.02 * truth.shortest_length, 0.97 * truth.greatest_length
