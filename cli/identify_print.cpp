@@ -441,6 +441,8 @@ void print_more(const identify::ScaleFound& found, const PrintOptions&) {
              1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (found.corrected_by != 1)
     fmt::print("its reading    the law times {:.4f}\n", found.corrected_by);
+  else
+    fmt::print("a reading there corrects it most: --reading \"LENGTH, PRESSURE, FORCE\"\n");
   if (p.inside_95 > 0)
     fmt::print("68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
                actuator::widest_inside_68(p), actuator::widest_inside_95(p));

@@ -110,29 +110,57 @@ TEST(AcrossMuscles, MusclesOf10MmPredictEachOther) {
 }
 
 // Asked for: the muscle of 98 mm within 5 % with one reading of its own, else its interval holds
-// it. Both others are far from it, and it comes within 5 % without a reading as well; with one,
-// wherever above a third of its force it is read (the median of all).
-TEST(AcrossMuscles, OneReadingCorrectsTheShortMuscleOf20Mm) {
+// it. Both others are far from it, and it comes within 5 % without a reading as well.
+TEST(AcrossMuscles, TheShortMuscleOf20MmIsWithinItsInterval) {
   const std::string path = bins_file("psu_20mm");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
   const Other other = without(filling(path), 0.098, "saturating-series");
   EXPECT_GE(held(other), 95);
   EXPECT_LT(half_width(other), 35);
   EXPECT_LE(missed(other, [&](const StaticPoint& p) { return predict(other.found, p).force; }), 5);
-  const StaticMuscle muscle = muscle_of(other.found, 0.098);
-  std::vector<double> after;
-  for (const StaticPoint& q : other.unseen) {
-    if (q.force < 0.3 * other.largest) continue;
-    const double factor =
-        reading_factor(muscle.actuator, {q.length, q.pressure, q.force}, units::atmosphere);
-    const actuator::Actuator a = stronger(muscle.actuator, factor);
-    after.push_back(missed(other, [&](const StaticPoint& p) {
-      return actuator::tension(a, p.length, 0, p.pressure, units::atmosphere);
-    }));
+}
+
+// A reading where the program advises it, at the longest mount and above nine tenths of the
+// pressures, makes each of the six muscles better; wherever above a third of the largest force it
+// is taken, it makes none worse by more than a third.
+TEST(AcrossMuscles, OneReadingCorrectsAMuscleThatWasNotFitted) {
+  for (const char* folder : {"psu_10mm", "psu_20mm"}) {
+    const std::string path = bins_file(folder);
+    if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no " << folder;
+    const Points points = filling(path);
+    std::set<double> muscles;
+    for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+    for (const double m : muscles) {
+      const Other other = without(points, m, "saturating-series");
+      actuator::Actuator file = other.found.muscles[0].actuator;
+      file.prediction = prediction_of(other.found, other.found.muscles[0]);
+      const actuator::Actuator law = with_rest_length(file, m, units::atmosphere);
+      const auto error_of = [&](const actuator::Actuator& a) {
+        return missed(other, [&](const StaticPoint& p) {
+          return std::max(0.0,
+                          actuator::clamped_tension(a, p.length, 0, p.pressure, units::atmosphere));
+        });
+      };
+      const double before = error_of(law);
+      const StaticPoint& top = *std::ranges::max_element(other.unseen, {}, &StaticPoint::pressure);
+      const StaticPoint& rest = *std::ranges::max_element(other.unseen, {}, &StaticPoint::length);
+      double most = 0, sum = 0, count = 0;
+      for (const StaticPoint& q : other.unseen) {
+        if (q.force < 0.3 * other.largest) continue;
+        const ReadingFactor factor =
+            reading_factor(law, {q.length, q.pressure, q.force}, units::atmosphere);
+        const double after = error_of(stronger(law, factor.law));
+        most = std::max(most, after);
+        if (q.length < rest.length || q.pressure < 0.9 * top.pressure) continue;
+        sum += after;
+        ++count;
+      }
+      EXPECT_LE(most, before * 4 / 3) << folder << m;
+      EXPECT_LT(sum / count, before) << folder << m;
+      std::printf("%s %.3f: %.2f %% without, %.2f with a reading there, %.2f at most\n", folder, m,
+                  before, sum / count, most);
+    }
   }
-  ASSERT_GT(after.size(), 20u);
-  std::ranges::nth_element(after, after.begin() + static_cast<std::ptrdiff_t>(after.size() / 2));
-  EXPECT_LE(after[after.size() / 2], 5);
 }
 
 // The muscle that is labelled 225 mm is probably 228 mm (check/label_test.cpp). Asked for, with

@@ -144,8 +144,9 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
   return out;
 }
 
-double reading_factor(const actuator::Actuator& a, const ForceReading& r, double atmosphere,
-                      double half_68) {
+ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r,
+                             double atmosphere) {
+  constexpr double strength = 0.02, form = 0.01, left_out = 3;
   const double force = actuator::clamped_tension(a, r.length, 0, r.gauge_pressure, atmosphere);
   const double ratio = force > 0 ? r.force / force : 0;
   if (!(ratio > 0.5 && ratio < 2))
@@ -154,9 +155,15 @@ double reading_factor(const actuator::Actuator& a, const ForceReading& r, double
                               "kPa gauge",
                               std::max(force, 0.0), 1e3 * r.length, 1e-3 * r.gauge_pressure),
                   "a reading well within the range of the muscle, in these units");
-  const double muscles = a.prediction.other_68, noise = half_68 / force;
-  const double trust = muscles > 0 ? muscles * muscles / (muscles * muscles + noise * noise) : 1;
-  return 1 + (ratio - 1) * trust;
+  const actuator::Prediction& p = a.prediction;
+  const double most =
+      actuator::clamped_tension(a, p.lengths.back(), 0, p.highest, atmosphere) / force;
+  ReadingFactor out;
+  out.law = 1 + (ratio - 1) / (1 + std::pow(form * most / strength, 2));
+  const double left = 1 - out.law / ratio;
+  if (p.other_68 > 0)
+    out.share = std::sqrt((left_out + std::pow(left / p.other_68, 2)) / (left_out + 1));
+  return out;
 }
 
 actuator::Actuator stronger(actuator::Actuator a, double factor) {
@@ -170,7 +177,7 @@ actuator::Actuator stronger(actuator::Actuator a, double factor) {
 }
 
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
-                                    double atmosphere) {
+                                    double atmosphere, double share_factor) {
   const double from = actuator.prediction.rest_length;
   if (!(from > 0) || actuator.prediction.lengths.empty())
     throw Refusal("actuator", "no prediction.rest_length", "one, as `identify static` writes it",
@@ -183,7 +190,8 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   for (double& length : p.lengths) length *= ratio;
   const double most = actuator::tension(a, p.lengths.back(), 0, p.highest, atmosphere);
   const double away = std::abs(std::log(ratio));
-  const double stretch = old.other_reach > 0 ? std::max(1.0, away / old.other_reach) : 1.0;
+  const double stretch =
+      share_factor * (old.other_reach > 0 ? std::max(1.0, away / old.other_reach) : 1.0);
   const auto inside = [&](double share, double of_fit) {
     return share > 0 ? std::max(share * stretch * most, of_fit) : 0.0;
   };

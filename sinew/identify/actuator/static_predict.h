@@ -2,13 +2,20 @@
 // somewhere else, with the intervals that it has earned there.
 //
 // A muscle of another rest length is the like of those that were fitted (static_model.h). One
-// reading of its force corrects it: the law is multiplied towards the ratio of the force read to
-// the force predicted, as far as the reading is surer than the law:
+// reading of its force corrects it: muscles of one make differ in their strength by 2 %, and the
+// law's form errs by 1 % of the largest force, so that a reading says this much of the strength,
 //
-//   factor = 1 + (F_read/F - 1) t^2/(t^2 + (h/F)^2)
+//   factor = 1 + (F_read/F - 1) s^2/(s^2 + (0.01 F_max/F)^2)          s = 0.02
 //
-//   t  share of the force that two of three muscles are within [-]   h  half-width that two of
-//      three readings of a fitted muscle are within [N]; where a file tells neither, the ratio
+//   F_max  force at the longest mount and the highest pressure [N]: where F is near it a reading
+//          tells most
+//
+// What it leaves is one more muscle beside about three that were left out: it widens or narrows the
+// share of the force that they were missed by, of which two of three are within t,
+//
+//   t^2 = (3 t^2 + (1 - F_law/F_read)^2)/4
+//
+// s and 0.01 are of six muscles of two makes, each from the others (static_across_test.cpp).
 #pragma once
 
 #include <optional>
@@ -43,11 +50,16 @@ struct ForceReading {
   double length = 0, gauge_pressure = 0, force = 0;  // [m], [Pa], [N]
 };
 
-// Returns the factor above of one reading: t is the actuator's prediction.other_68, h is `half_68`.
-// Throws Refusal where it does not pull at that length and pressure, or twice or half as much as
-// was read: then the reading is of something else.
-double reading_factor(const actuator::Actuator& actuator, const ForceReading& reading,
-                      double atmosphere, double half_68 = 0);
+// What a reading makes of a muscle that was not measured.
+struct ReadingFactor {
+  double law = 1;    // of the law
+  double share = 1;  // of t, if that is known
+};
+
+// Returns both factors above. Throws Refusal where the muscle does not pull at that length and
+// pressure, or twice or half as much as was read: then the reading is of something else.
+ReadingFactor reading_factor(const actuator::Actuator& actuator, const ForceReading& reading,
+                             double atmosphere);
 
 // Returns the actuator with its law multiplied by a factor: all that pulls is as much stronger, so
 // that the shape stays.
@@ -56,8 +68,9 @@ actuator::Actuator stronger(actuator::Actuator actuator, double factor);
 // Returns the like of an identified actuator with another rest length, and what is known of how
 // far it is off: the share of the force that muscles were missed by that the fit had not seen,
 // more beyond the ratio of lengths over which that was tried. Throws Refusal where the actuator
-// tells neither its own rest length nor a length that was measured.
+// tells neither its own rest length nor a length that was measured. The share is multiplied with
+// `share`, which a reading tells.
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
-                                    double atmosphere);
+                                    double atmosphere, double share = 1);
 
 }  // namespace sinew::identify

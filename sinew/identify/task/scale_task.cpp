@@ -55,14 +55,6 @@ std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
   return actuator_file(without_idle_digits(found.actuator), provenance);
 }
 
-// How far one more reading of the muscle that is to be corrected may lie from its law: as far as
-// one of the muscle that was fitted, at the same share of its length  [N].
-double scatter_of(const ForceReading& read, const actuator::Prediction& old, double rest_length) {
-  const actuator::ForceInterval there = actuator::force_interval(
-      old, read.length * old.rest_length / rest_length, read.gauge_pressure);
-  return there.known ? there.half_68 : actuator::widest_inside_68(old);
-}
-
 }  // namespace
 
 ScaleFound find(const SourceList&, const ScaleSettings& s) {
@@ -75,10 +67,11 @@ ScaleFound find(const SourceList&, const ScaleSettings& s) {
                  .from = old.prediction.rest_length,
                  .file = {}};
   if (!s.reading.empty()) {
-    const ForceReading read = reading_of(s.reading, atmosphere);
-    out.corrected_by = reading_factor(out.actuator, read, atmosphere,
-                                      scatter_of(read, old.prediction, rest_length));
-    out.actuator = stronger(out.actuator, out.corrected_by);
+    const ReadingFactor factor =
+        reading_factor(out.actuator, reading_of(s.reading, atmosphere), atmosphere);
+    out.corrected_by = factor.law;
+    out.actuator =
+        stronger(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
   }
   if (!s.name.empty()) out.actuator.name = s.name;
   const actuator::Prediction& p = out.actuator.prediction;
@@ -93,7 +86,8 @@ Json to_json(const ScaleFound& found) {
            {"rest_length_m", p.rest_length},
            {"from_rest_length_m", found.from},
            {"largest_force_N", found.largest},
-           {"corrected_by", found.corrected_by}};
+           {"corrected_by", found.corrected_by},
+           {"read_at", {{"length_m", p.lengths.back()}, {"gauge_pressure_Pa", p.highest}}}};
   const double half_68 = actuator::widest_inside_68(p), half_95 = actuator::widest_inside_95(p);
   out["half_68_N"] = half_68 > 0 ? Json(half_68) : Json();
   out["half_95_N"] = half_95 > 0 ? Json(half_95) : Json();
