@@ -300,6 +300,13 @@ double t_quantile(int freedom) {
   return expanded(1.959963984540054, freedom);
 }
 
+Estimate scaled(Estimate e, std::string name, std::string unit, double factor) {
+  e.name = std::move(name);
+  e.unit = std::move(unit);
+  for (double* x : {&e.value, &e.standard_error, &e.low, &e.high}) *x *= factor;
+  return e;
+}
+
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options) {
   check_start(parameters, count);

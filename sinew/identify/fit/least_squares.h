@@ -81,6 +81,9 @@ struct Estimate {
   std::optional<Profile> profile;  // of the chosen law, where its method has one
 };
 
+// Returns an estimate of another quantity, which is `factor` times the first.
+Estimate scaled(Estimate e, std::string name, std::string unit, double factor);
+
 // Where the search has ended.
 struct Solution {
   std::vector<Estimate> estimates;  // in the parameters' order

@@ -242,23 +242,10 @@ void reach_over(std::span<const Tried> tried, Report& report) {
 void set_separated(const FillModel& model, const ValveOptions& options, const std::string& source,
                    ValveResult& out) {
   Fit& fit = out.report.fits[out.report.chosen];
-  const bool iso = model.flow == gas::Flow::Law::iso6358;
+  for (Estimate& e : fit.parameters)
+    if (e.name == "sonic_conductance" && model.flow != gas::Flow::Law::iso6358)
+      e = scaled(e, "area", "m2", gas::effective_area_of(1.0, options.air));
   replace_flow(model.flow, source, out);
-  const std::string flow = "valve." + options.name + ".flow.";
-  for (Estimate& e : fit.parameters) {
-    if (e.name == "sonic_conductance" && !iso) {
-      const double area = gas::effective_area_of(1.0, options.air);
-      for (double* x : {&e.value, &e.standard_error, &e.low, &e.high}) *x *= area;
-      e.name = "area";
-      e.unit = "m2";
-    }
-    if (e.name == "area") out.valve.flow.area = e.value;
-    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
-    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
-    if (e.name == "area" || e.name == "sonic_conductance" || e.name == "critical_pressure_ratio")
-      out.provenance.fitted(flow + e.name, e, source);
-  }
-  out.flow_known = true;
   for (const Estimate& e : std::span(fit.parameters).first(2))
     if (half_of(e) > well_known)
       out.refused += fmt::format(

@@ -130,15 +130,8 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   tell_choking(c, report);
 
   const bool iso = report.chosen == 1;
-  const std::string source = "sinew identify valve " + data.file;
-  replace_flow(iso ? gas::Flow::Law::iso6358 : gas::Flow::Law::orifice, source, out);
-  for (const Estimate& e : report.best().parameters) {
-    if (e.name == "area") out.valve.flow.area = e.value;
-    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
-    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
-    out.provenance.fitted("valve." + options.name + ".flow." + e.name, e, source);
-  }
-  out.flow_known = true;
+  replace_flow(iso ? gas::Flow::Law::iso6358 : gas::Flow::Law::orifice,
+               "sinew identify valve " + data.file, out);
   return out;
 }
 

@@ -130,13 +130,6 @@ void tell_correlations(const Solution& s, Fit& fit) {
     fit.notes.push_back("the curve does not tell " + unseen);
 }
 
-Estimate scaled(Estimate e, std::string name, std::string unit, double factor) {
-  e.name = std::move(name);
-  e.unit = std::move(unit);
-  for (double* x : {&e.value, &e.standard_error, &e.low, &e.high}) *x *= factor;
-  return e;
-}
-
 // C/V with what is known beside it.
 void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
   Estimate& k = fit.parameters.front();
@@ -174,23 +167,6 @@ void tell_exponent(Report& report) {
                       chosen.exponent, e.value,
                       e.at_bound ? ", the bound of its range"
                                  : fmt::format(" +- {:.2g}", 0.5 * (e.high - e.low))));
-    }
-  }
-}
-
-void set_valve(const FillModel& model, const ValveOptions& options, const std::string& source,
-               ValveResult& out) {
-  const std::string flow = "valve." + options.name + ".flow.";
-  const Fit& fit = out.report.best();
-  if (options.volume) replace_flow(model.flow, source + ", model " + fit.model, out);
-  for (const Estimate& e : fit.parameters) {
-    if (!options.volume) break;
-    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
-    if (e.name == "area") out.valve.flow.area = e.value;
-    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
-    if (e.name == "sonic_conductance" || e.name == "area" || e.name == "critical_pressure_ratio") {
-      out.provenance.fitted(flow + e.name, e, source + ", model " + fit.model);
-      out.flow_known = options.volume.has_value();
     }
   }
 }
@@ -319,7 +295,9 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
     if (report.fits[i].refused.empty()) divide(fill_models()[i], options, report.fits[i]);
   refuse_poor_fit(data, report, options.worst_fit);
   tell_exponent(report);
-  set_valve(fill_models()[report.chosen], options, "sinew identify valve " + data.file, out);
+  if (options.volume)
+    replace_flow(fill_models()[report.chosen].flow,
+                 "sinew identify valve " + data.file + ", model " + report.best().model, out);
   describe(c, options, alone, out);
   return out;
 }

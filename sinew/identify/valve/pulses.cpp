@@ -216,21 +216,10 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
       "the intervals of the delays include half a sample, {:.3g} ms, of the command's edge",
       0.5e3 * r.commands.sample));
   if (options.volume) {
-    replace_flow(gas::Flow::Law::iso6358, "sinew identify valve " + data.file, out);
     for (Estimate& e : report.fits[report.chosen].parameters)
-      if (e.name == "conductance_per_volume") {
-        e.name = "sonic_conductance";
-        e.unit = "m3/(s Pa)";
-        for (double* x : {&e.value, &e.standard_error, &e.low, &e.high}) *x *= *options.volume;
-        out.valve.flow.sonic_conductance = e.value;
-        out.flow_known = true;
-        out.provenance.fitted(valve + "flow.sonic_conductance", e,
-                              "sinew identify valve " + data.file);
-      } else if (e.name == "critical_pressure_ratio") {
-        out.valve.flow.critical_pressure_ratio = e.value;
-        out.provenance.fitted(valve + "flow.critical_pressure_ratio", e,
-                              "sinew identify valve " + data.file);
-      }
+      if (e.name == "conductance_per_volume")
+        e = scaled(e, "sonic_conductance", "m3/(s Pa)", *options.volume);
+    replace_flow(gas::Flow::Law::iso6358, "sinew identify valve " + data.file, out);
   }
   if (!out.opening_known || !out.closing_known)
     out.refused = fmt::format(

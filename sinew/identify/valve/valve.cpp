@@ -126,6 +126,16 @@ void replace_flow(gas::Flow::Law law, const std::string& source, ValveResult& re
   for (const char* key :
        {"law", "area", "efficiency", "sonic_conductance", "critical_pressure_ratio"})
     result.provenance.given(path + key, source);
+  for (const Estimate& e : result.report.best().parameters) {
+    double* const value = e.name == "area"                      ? &flow.area
+                          : e.name == "sonic_conductance"       ? &flow.sonic_conductance
+                          : e.name == "critical_pressure_ratio" ? &flow.critical_pressure_ratio
+                                                                : nullptr;
+    if (!value) continue;
+    *value = e.value;
+    result.provenance.fitted(path + e.name, e, source);
+  }
+  result.flow_known = true;
 }
 
 std::string valve_file(gas::Valve valve, const Provenance& provenance) {

@@ -59,7 +59,8 @@ ValveData valve_data(const Measured& data, std::optional<ValveData> wanted = {})
 // The start of a result: the valve as it was known before.
 ValveResult before(const ValveOptions& options);
 
-// The valve's flow is identified: nothing of the one before stays.
+// Writes area, conductance and critical ratio of the chosen law into the valve, each with its
+// source: nothing of the flow that was known before stays.
 void replace_flow(gas::Flow::Law law, const std::string& source, ValveResult& result);
 
 // Throw Refusal. `other` was not seen by the fit: it scores the model; nothing for most kinds.
