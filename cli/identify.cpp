@@ -374,6 +374,7 @@ void print_messages(const Found& found, const Messages& messages) {
   } else if constexpr (requires { found.plan; }) {
     for (const std::string& note : found.notes) messages.note(as_options(note));
   } else if constexpr (requires { found.corrected_by; }) {
+    if (!found.doubt.empty()) messages.warning(found.doubt);
     if (!(found.actuator.prediction.inside_95 > 0))
       messages.warning(
           "how far off it is is unknown: no muscle was left out when the file was made; fit "

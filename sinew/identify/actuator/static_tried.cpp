@@ -47,11 +47,11 @@ std::set<double> muscles_in(const Points& points) {
 }
 
 // Returns a part for each point: -1 for those at the ends, which are always fitted. Fewer than
-// three groups have nothing between their ends: each is a part then.
+// three groups have nothing between their ends: each is a part then, unless there is one alone.
 std::vector<int> interior_pressures(const Points& points) {
   std::vector<int> part = pressure_groups(points);
   const int last = *std::max_element(part.begin(), part.end());
-  if (last < 2) return part;
+  if (last == 1) return part;
   for (int& p : part) p = p == 0 || p == last ? -1 : p % pressure_parts;
   return part;
 }
@@ -243,9 +243,12 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
   const std::vector<int> part = interior_pressures(points);
   const int parts = 1 + *std::max_element(part.begin(), part.end());
   Unseen inside = model.cross(points, part, parts, whole);
-  std::vector<double> squares{mean_square(inside.residuals)};
-  fit.notes.push_back(fmt::format("pressures between the ends that it did not see: {:.2f} % rmse",
-                                  100 * std::sqrt(squares[0]) / full_scale));
+  std::vector<double> squares;
+  if (!inside.residuals.empty()) {
+    squares.push_back(mean_square(inside.residuals));
+    fit.notes.push_back(fmt::format("pressures between the ends that it did not see: {:.2f} % rmse",
+                                    100 * std::sqrt(squares[0]) / full_scale));
+  }
 
   StaticSpread out;
   out.inside = quantiles(inside);
@@ -258,6 +261,7 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
                         lengths.each);
     squares.push_back(mean_square(lengths.all.residuals));
     inside.add(lengths.all);
+    if (squares.size() == 1) out.inside = quantiles(inside);  // there is one pressure
   }
   const double of_muscles =
       tell_muscles(muscles, muscles_in(points), fit) * full_scale * full_scale;

@@ -113,5 +113,16 @@ TEST(Contest, RefusesAndFreezesWithAReason) {
   EXPECT_EQ(unseen[1], "how large errors are where nothing was measured, as no row was left out");
 }
 
+TEST(Contest, WarnsOfASearchThatHasNotSettled) {
+  const Line data = line(12);
+  Candidate hasty = polynomial(data.x, 1);
+  hasty.options.most_steps = 0;
+  Report report = report_of(data);
+  contend({hasty}, {.measured = data.y}, report);
+  conclude(report);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("before it had settled"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sinew::identify::contest_test

@@ -138,6 +138,11 @@ namespace {
 void add_profiles(Report& report) {
   Fit& fit = report.fits[report.chosen];
   if (fit.again) {
+    if (const Solution& s = fit.again->solution; !s.converged)
+      report.warnings.push_back(
+          fmt::format("the search for the values of {} ended after {} steps before it had settled: "
+                      "better ones may exist",
+                      fit.model, s.steps));
     const std::vector<std::optional<Profile>> profiles =
         profiles_of(fit.again->problem, fit.again->solution);
     for (std::size_t i = 0; i < profiles.size(); ++i) {

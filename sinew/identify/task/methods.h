@@ -146,6 +146,7 @@ struct ScaleFound {
   double from = 0;          // rest length of the muscle in the file [m]
   double largest = 0;       // force of the new one where the old one was measured [N]
   double corrected_by = 1;  // what its reading made of the law [-]
+  std::string doubt;        // of the reading, in words; empty: none
   std::string file;         // sinew.actuator/1
 };
 

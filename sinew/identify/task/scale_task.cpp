@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
@@ -18,6 +18,7 @@ namespace sinew::identify {
 
 namespace {
 
+constexpr double most_likely = 0.06;  // change of a law by its reading: three deviations [-]
 constexpr config::Range new_length = config::above_zero(1000, "of a muscle");
 constexpr config::Range new_pressure{0, 1e7, "gauge, of a muscle's air"};
 constexpr config::Range new_force = config::above_zero(1e6, "of a muscle");
@@ -70,6 +71,11 @@ ScaleFound find(const SourceList&, const ScaleSettings& s) {
     const ReadingFactor factor =
         reading_factor(out.actuator, reading_of(s.reading, atmosphere), atmosphere);
     out.corrected_by = factor.law;
+    if (std::abs(factor.law - 1) > most_likely)
+      out.doubt = fmt::format(
+          "the law is multiplied by {:.3f} for this reading, and muscles of one make differ by 2 % "
+          "or so: check its length, pressure and force",
+          factor.law);
     out.actuator =
         stronger(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
   }
@@ -89,6 +95,7 @@ Json to_json(const ScaleFound& found) {
            {"corrected_by", found.corrected_by},
            {"read_at", {{"length_m", p.lengths.back()}, {"gauge_pressure_Pa", p.highest}}}};
   const double half_68 = actuator::widest_inside_68(p), half_95 = actuator::widest_inside_95(p);
+  if (!found.doubt.empty()) out["warnings"] = {found.doubt};
   out["half_68_N"] = half_68 > 0 ? Json(half_68) : Json();
   out["half_95_N"] = half_95 > 0 ? Json(half_95) : Json();
   return out;
