@@ -302,9 +302,11 @@ def pair(
 def run(
     run: Path, *, fit: Texts = (), machine: Optional[Path] = None, sets: Texts = (), priors: Texts = (),
     freeze: Texts = (), hold_out: Optional[Quantity] = None, begin: Optional[Quantity] = None,
-    threads: Optional[int] = None, base: Optional[Path] = None,
+    score: Optional[Path] = None, threads: Optional[int] = None, base: Optional[Path] = None,
 ) -> Found:  # fmt: skip
     """Return friction, damping, dead times, volumes and leaks of a robot from a run of it.
+
+    score: another run, which the machine that was found is compared with: see Found.score.
 
     The result is the same with any number of threads. A leg that walks has no intervals: "intervals" of the
     report is False, "no_intervals_because" says why, and "low" and "high" are None.

@@ -90,8 +90,9 @@ class Part {
     });
     this.evidence.replaceChildren(left_out(report, this.spec.charts[0], units), errors(report, units));
     this.plan.replaceChildren(further(report, units));
-    this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
-      table('Values', ['', 'value', '95 %', '', ''], rows));
+    if (rows.length)
+      this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
+        table('Values', ['', 'value', '95 %', '', ''], rows));
   }
 
   remarks() {

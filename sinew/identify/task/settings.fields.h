@@ -404,7 +404,7 @@ struct RunFitSettings {
   std::vector<std::string> fit;
   std::string machine;
   std::vector<std::string> sets, priors, freeze;
-  std::string hold_out = "20 %", from = "0 s";
+  std::string hold_out = "20 %", from = "0 s", score;
   int threads = 0;
   std::string base;
   std::function<void(const std::string&)> progress;  // is given a line now and then; empty: nothing
@@ -431,7 +431,16 @@ void fields(Visitor& v, RunFitSettings& s) {
               "prior"),
           s.priors);
   v.texts({"freeze", "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
-  v.quantity({"hold_out", "of the run, at its end: scores and is not fitted", "1"}, s.hold_out);
+  v.quantity({"hold_out",
+              "of the run, at its end: scores and is not fitted; 100 %: nothing is fitted, and the "
+              "machine is scored as it is",
+              "1"},
+             s.hold_out);
+  v.file(
+      {"score",
+       "another run of the machine: its valve commands alone drive what was identified, and rms, "
+       "nrmse and correlation are reported"},
+      s.score);
   v.quantity(Setting{"from", "what is before is not compared", "s",
                      config::from_zero(1e6, "a time of the run")}
                  .in_python("begin"),
