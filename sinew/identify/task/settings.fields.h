@@ -302,7 +302,7 @@ struct StaticSettings {
   std::string rest_length, actuator, branch = "both";
   std::vector<std::string> fit_where;
   HeldOut hold_out;
-  std::string diameter;
+  std::string diameter, volume;
   bool anyway = false;
   std::vector<std::string> predict;
   std::string model, name = "bpa";
@@ -332,8 +332,10 @@ void table_fields(Visitor& v, StaticSettings& s) {
               "pressure (every second), length or muscle (each once) or another FILE, to score "
               "what was not seen"},
              s.hold_out);
-  v.quantity({"diameter", "of the muscle without pressure and load, to compare its force with", "m",
-              config::above_zero(1, "of a muscle")},
+  v.quantity({"diameter",
+              "of the air in the muscle without pressure and load: gives its volume, and the force "
+              "is compared with it",
+              "m", config::above_zero(1, "of a muscle")},
              s.diameter);
 }
 
@@ -342,6 +344,10 @@ void fields(Visitor& v, StaticSettings& s) {
   v.method({"static", "the static law of an actuator from force, length and pressure",
             Tables::needed, static_models().size()});
   table_fields(v, s);
+  v.quantity({"volume",
+              "of the air in the (longest) muscle without pressure and load, where it was measured",
+              "m3", config::above_zero(1, "of a muscle")},
+             s.volume);
   v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
   v.texts({"predict",
            "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own", "m"},
