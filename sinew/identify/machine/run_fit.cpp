@@ -57,12 +57,6 @@ void check_options(const RunFitOptions& options, const std::vector<std::string>&
                    fmt::format("one of {}", fmt::join(keys, ", ")), "to fit it too");
 }
 
-double rms_of(std::span<const double> r) {
-  double sum = 0;
-  for (const double x : r) sum += x * x;
-  return r.empty() ? 0 : std::sqrt(sum / static_cast<double>(r.size()));
-}
-
 // Rows of the page, and how well each channel is met.
 void score_channels(const DrivenRun& run, double until, double from,
                     const std::vector<double>& mean, RunFitResult& out) {
@@ -84,8 +78,8 @@ void score_channels(const DrivenRun& run, double until, double from,
       rows.held_out.push_back(held);
       out.report.fits[0].residuals.push_back(left / c.noise);
     }
-    out.channels.push_back(
-        {c.name, c.unit, in.size() + beyond.size(), c.noise, rms_of(in), rms_of(beyond)});
+    out.channels.push_back({c.name, c.unit, in.size() + beyond.size(), c.noise, score(in, 1).rmse,
+                            score(beyond, 1).rmse});
   }
   out.report.fits[0].fit = score(fitted, 1);
   if (!held_out.empty()) out.report.fits[0].held_out = score(held_out, 1);

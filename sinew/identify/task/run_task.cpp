@@ -125,32 +125,33 @@ std::string RunFitFound::file(const std::string& out) const {
 
 namespace {
 
+experiment::Experiment sound_machine(const config::Node& root, const std::string& file) {
+  experiment::Experiment out = run::buildable_robot(root, file);
+  if (!out.faults.empty())
+    config::fail({file, 0, 0}, "fault", "a run in which something broke",
+                 "one of a machine that stays what it is", "a run without [[fault]]");
+  return out;
+}
+
 // A recording, and what was run.
 struct RecordedMachine {
-  std::string name;
+  std::string name, file;
+  config::Node root;
   experiment::Experiment machine;
   signals::Table recorded;
-  bool imported;
+  DrivenRun driven;
 
-  RecordedMachine(const std::string& folder, const std::string& instead,
-                  const std::vector<std::string>& sets)
-      : name(folder) {
-    const run::RecordedRun run = run::recorded_run(folder);
-    const std::string file = run::machine_of(run, instead).string();
-    const config::Node root = config::compose(file, sets);
-    machine = run::buildable_robot(root, file);
-    if (!machine.faults.empty())
-      config::fail({file, 0, 0}, "fault", "a run in which something broke",
-                   "one of a machine that stays what it is", "a run without [[fault]]");
-    imported = root.find("imported") != nullptr;
-    recorded = log::read(run.log);
-    log_ = run.log.string();
-  }
-
-  DrivenRun driven() const { return DrivenRun(machine, recorded, imported, log_); }
+  RecordedMachine(const std::string& folder, const run::RecordedRun& run,
+                  const std::string& instead, const std::vector<std::string>& sets)
+      : name(folder),
+        file(run::machine_of(run, instead).string()),
+        root(config::compose(file, sets)),
+        machine(sound_machine(root, file)),
+        recorded(log::read(run.log)),
+        driven(machine, recorded, root.find("imported") != nullptr, run.log.string()) {}
 
   // Warns of what the recording has not.
-  void warn(const DrivenRun& driven, const char* of, Report& report) const {
+  void warn(const char* of, Report& report) const {
     if (!recorded.complete)
       report.warnings.push_back(fmt::format(
           "the log was cut off or is damaged: {:.4g} s of the run are in it, and the {} "
@@ -166,20 +167,16 @@ struct RecordedMachine {
           fmt::format("edges were made from duties, as the low level makes them, of {} valves",
                       driven.rebuilt().size()));
   }
-
- private:
-  std::string log_;
 };
 
 // Scores what was found on another recording.
-void score_on(const RecordedMachine& other, const DrivenRun& driven, double from,
-              RunFitFound& out) {
+void score_on(const RecordedMachine& other, double from, RunFitFound& out) {
   std::vector<std::string> differing;
   const experiment::Experiment machine =
       scored_machine(out.result.machine, other.machine, out.result.keys, other.name, differing);
-  out.score = score_run(machine, driven, from, other.name);
+  out.score = score_run(machine, other.driven, from, other.name);
   Report& report = out.result.report;
-  other.warn(driven, "score", report);
+  other.warn("score", report);
   if (differing.empty()) return;
   constexpr std::size_t shown = 3;
   const std::size_t more = differing.size() > shown ? differing.size() - shown : 0;
@@ -193,30 +190,29 @@ void score_on(const RecordedMachine& other, const DrivenRun& driven, double from
 }  // namespace
 
 RunFitFound find(const SourceList&, const RunFitSettings& settings) {
-  RecordedMachine run(settings.run, settings.machine, all_sets(settings));
+  RecordedMachine run(settings.run, run::recorded_run(settings.run), settings.machine,
+                      all_sets(settings));
   const RunFitOptions options = options_of(settings, run.machine);
-  const DrivenRun driven = run.driven();
-  if (options.from >= driven.duration())
+  if (options.from >= run.driven.duration())
     config::fail({"from", 0, 0}, "", config::in_quotes(settings.from),
-                 fmt::format("a time within the run of {:.4g} s", driven.duration()), "\"0 s\"");
+                 fmt::format("a time within the run of {:.4g} s", run.driven.duration()),
+                 "\"0 s\"");
   std::optional<RecordedMachine> other;
-  std::optional<DrivenRun> others;
   if (!settings.score.empty()) {  // is refused before a fit, which takes its time
-    other.emplace(
-        settings.score,
-        std::filesystem::exists(run::recorded_run(settings.score).resolved) ? "" : settings.machine,
-        std::vector<std::string>());
-    others.emplace(other->driven());
+    const run::RecordedRun its = run::recorded_run(settings.score);
+    const bool described = std::filesystem::exists(its.resolved);
+    other.emplace(settings.score, its, described ? "" : settings.machine,
+                  std::vector<std::string>());
     std::vector<std::string> differing;
     (void)scored_machine(run.machine, other->machine, {}, other->name, differing);
   }
-  RunFitFound out{fit_run(run.machine, driven, options), settings.base,
+  RunFitFound out{fit_run(run.machine, run.driven, options), settings.base,
                   "identified from " + settings.run};
-  run.warn(driven, "fit", out.result.report);
+  run.warn("fit", out.result.report);
   if (other)
-    score_on(*other, *others, options.from, out);
+    score_on(*other, options.from, out);
   else if (options.hold_out == 1)
-    out.score = score_run(out.result.machine, driven, options.from, settings.run);
+    out.score = score_run(out.result.machine, run.driven, options.from, settings.run);
   return out;
 }
 
