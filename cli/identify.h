@@ -47,6 +47,7 @@ void print_more(const identify::DynamicFound& found, const PrintOptions& how);
 void print_more(const identify::JointFound& found, const PrintOptions& how);
 void print_more(const identify::PairFound& found, const PrintOptions& how);
 void print_more(const identify::Checkup& found, const PrintOptions& how);
+void print_more(const identify::RunFitFound& found, const PrintOptions& how);
 void print_more(const identify::ScaleFound& found, const PrintOptions& how);
 void print_more(const identify::PlanFound& found, const PrintOptions& how);
 

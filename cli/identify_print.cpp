@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cli/settings.h"
 #include "cli/terminal.h"
@@ -26,6 +27,10 @@ config::UnitsToShow si_or_asked(const PrintOptions& how) {
   return units_asked(how.units, units::UnitSet::si);
 }
 
+std::string digits(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
+}
+
 // --- a report: its laws, and the parameters of the chosen one ---
 
 void print_models(const identify::Report& report) {
@@ -41,10 +46,10 @@ void print_models(const identify::Report& report) {
   TextTable table(head, align);
 
   const auto rmse = [](const std::optional<identify::Score>& score) {
-    return score ? fmt::format("{:.2f} %", score->rmse_percent) : std::string("-");
+    return score && score->points > 0 ? fmt::format("{:.2f} %", score->rmse_percent) : "-";
   };
   const auto most = [](const std::optional<identify::Score>& score) {
-    return score ? fmt::format("{:.2f} %", score->max_percent) : std::string("-");
+    return score && score->points > 0 ? fmt::format("{:.2f} %", score->max_percent) : "-";
   };
   for (std::size_t i = 0; i < report.fits.size(); ++i) {
     const identify::Fit& f = report.fits[i];
@@ -85,6 +90,7 @@ std::string error_at(double times) {
 }
 
 void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
+  if (fit.parameters.empty()) return;
   using enum TextTable::Align;
   const bool profiled = std::ranges::any_of(
       fit.parameters, [](const identify::Estimate& e) { return e.profile.has_value(); });
@@ -154,13 +160,15 @@ void print_combinations(const identify::JointResult& found) {
   fmt::print("\n{}", table.text());
 }
 
-// How much of the variance each law explains.
+// How much of the variance each law explains, and how what was held out compares with its range.
 void print_explained(const identify::Report& report) {
-  TextTable table({"model", "R2", "held out"}, {Align::left, Align::right, Align::right});
+  TextTable table({"model", "R2", "held out", "nrmse", "r"},
+                  {Align::left, Align::right, Align::right, Align::right, Align::right});
   for (const identify::Fit& f : report.fits) {
     if (!f.refused.empty()) continue;
-    table.add({f.model, fmt::format("{:.4f}", f.fit.explained),
-               f.held_out ? fmt::format("{:.4f}", f.held_out->explained) : "-"});
+    const identify::Score unseen = f.held_out.value_or(identify::Score{});
+    table.add({f.model, fmt::format("{:.4f}", f.fit.explained), digits(unseen.explained, "{:.4f}"),
+               digits(unseen.nrmse, "{:.4f}"), digits(unseen.correlation, "{:.4f}")});
   }
   fmt::print("\n{}", table.text());
 }
@@ -191,10 +199,6 @@ void print_air(const identify::PairResult& found) {
                : !std::isfinite(e.high) ? "not identifiable"
                                         : fmt::format("+- {:.2g}", 0.5 * (e.high - e.low))});
   fmt::print("{}", table.text());
-}
-
-std::string digits(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
 std::string percent(double share) { return digits(100 * share, "{:.2f} %"); }
@@ -407,6 +411,35 @@ void print_more(const identify::PairFound& found, const PrintOptions& how) {
   print_explained(found.result.report);
   print_stiffness(found.result, si_or_asked(how));
   print_air(found.result);
+}
+
+void print_more(const identify::RunFitFound& found, const PrintOptions& how) {
+  if (found.score.empty()) return;
+  const config::UnitsToShow asked = si_or_asked(how);
+  // The units of a protractor and a gauge, where none were chosen.
+  const auto shown = [&](const std::string& unit) {
+    if (asked.asked) return asked.units.of(unit);
+    if (unit == "Pa diff") return units::ShownUnit{"kPa", 1e-3};
+    if (unit == "m") return units::ShownUnit{"mm", 1e3};
+    if (unit == "N") return units::ShownUnit{"N", 1};
+    return units::ShownUnit{unit == "rad" ? "deg" : "deg/s", 180 / std::numbers::pi};
+  };
+  TextTable table({"score", "", "rms", "", "nrmse", "r", "R2"},
+                  {Align::left, Align::left, Align::right, Align::left, Align::right, Align::right,
+                   Align::right});
+  for (const identify::Report& part : found.score) {
+    const units::ShownUnit unit = shown(part.unit);
+    const auto add = [&](const std::string& name, const identify::Score& s) {
+      table.add({part.quantity, name, fmt::format("{:.4g}", unit.of(s.rmse)), unit.name,
+                 digits(s.nrmse, "{:.4f}"), digits(s.correlation, "{:.5f}"),
+                 digits(s.explained, "{:.5f}")});
+    };
+    const auto& parts = part.errors[0].parts;
+    for (const identify::PartError& one : parts) add(one.name, one.score);
+    if (parts.size() > 1) add(fmt::format("all {}", parts.size()), *part.best().held_out);
+  }
+  fmt::print("\nopen loop, by the valve commands alone: {}\n{}", found.score[0].held_out_is,
+             table.text());
 }
 
 void print_more(const identify::GeometryFound& found, const PrintOptions& how) {

@@ -83,7 +83,8 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
         fmt::format("diameter: found {}; expected one of a muscle [m]", *diameter));
   identify::CheckInput input =
       input_of(length, pressure, force, rest_length, fitted, diameter.value_or(0), source);
-  identify::StaticOptions options{.model = model, .hold_out = hold_out_of(hold_out)};
+  identify::StaticOptions options{
+      .diameter = input.diameter, .model = model, .hold_out = hold_out_of(hold_out)};
   options.subject = "static law from " + source;
   std::optional<identify::StaticResult> found;
   std::atomic<bool> unstoppable = false;
@@ -94,8 +95,9 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
   py::list files;
   for (std::size_t i = 0; i < found->muscles.size(); ++i)
     files.append(identify::static_file(*found, found->muscles[i], name, source, ""));
-  return py::make_tuple(
-      py::module_::import("json").attr("loads")(identify::to_json(found->report).text()), files);
+  Json report = identify::to_json(found->report);
+  report["air_at_rest"] = identify::to_json(found->air);
+  return py::make_tuple(py::module_::import("json").attr("loads")(report.text()), files);
 }
 
 }  // namespace

@@ -29,6 +29,15 @@ class Found:
         """The name of the law that was chosen."""
         return str(self.report["chosen"])
 
+    @property
+    def score(self) -> Sequence[Dict[str, Any]]:
+        """How a machine in simulation meets a run that was not fitted, driven by its valve commands alone.
+
+        One of each quantity, "angle" [rad], "tension" [N], "pressure" [Pa]: "parts" has rmse, nrmse,
+        correlation and r_squared of each joint or muscle, "all" those of all of them. Empty: not scored.
+        """
+        return list(self.report.get("score", []))
+
     def text(self, path: Path = "") -> str:
         """Return the parameter file, as it would stand at `path`: a base is named from there.
 

@@ -135,7 +135,8 @@ def static(
     pressure and load (None: the longest length; several say which points are of which muscle). fitted:
     False for points that are held out, to score what was not seen; hold_out does that with every second
     "pressure" or each "length" once. model: that law alone; else the data choose. source: where the data
-    are from, for the file. diameter [m] without pressure, to compare the force with. The points are checked
+    are from, for the file. diameter [m] of the air without pressure: gives its volume, and the force is
+    compared with it. The points are checked
     first, as by check(): what is red is refused, unless they are to be fitted anyway; then it is among the
     report's warnings, as suspicions are.
 
@@ -152,8 +153,8 @@ def static(
 def static_from(
     data: Any, *, rest_length: Optional[Quantity] = None, actuator: Optional[Path] = None,
     branch: Optional[str] = None, fit_where: Texts = (), hold_out: Any = "", model: str = "",
-    name: Optional[str] = None, diameter: Optional[Quantity] = None, anyway: bool = False,
-    predict: Quantities = (),
+    name: Optional[str] = None, diameter: Optional[Quantity] = None, volume: Optional[Quantity] = None,
+    anyway: bool = False, predict: Quantities = (),
 ) -> Static:  # fmt: skip
     """Return the static law of an actuator from tables, or recordings with a column of time.
 
@@ -302,9 +303,11 @@ def pair(
 def run(
     run: Path, *, fit: Texts = (), machine: Optional[Path] = None, sets: Texts = (), priors: Texts = (),
     freeze: Texts = (), hold_out: Optional[Quantity] = None, begin: Optional[Quantity] = None,
-    threads: Optional[int] = None, base: Optional[Path] = None,
+    score: Optional[Path] = None, threads: Optional[int] = None, base: Optional[Path] = None,
 ) -> Found:  # fmt: skip
     """Return friction, damping, dead times, volumes and leaks of a robot from a run of it.
+
+    score: another run, which the machine that was found is compared with: see Found.score.
 
     The result is the same with any number of threads. A leg that walks has no intervals: "intervals" of the
     report is False, "no_intervals_because" says why, and "low" and "high" are None.

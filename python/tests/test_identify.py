@@ -132,8 +132,10 @@ class Checks(unittest.TestCase):
             static(length, pressure, force, rest_length=0.23, model="saturating", anyway=True),
             tables(columns, rest_length=0.23, model="saturating", anyway=True),
         ):
-            (warning,) = found.report["warnings"]
+            warning, air = found.report["warnings"]
             self.assertIn("108.7 %", warning)
+            self.assertIn("by the force alone", air)
+            self.assertLess(found.report["air_at_rest"]["low_m3"], found.report["air_at_rest"]["volume_m3"])
         with self.assertRaisesRegex(refusal, "force unit"):
             static(length, pressure, force, rest_length=0.25, diameter=0.04)
         with self.assertRaisesRegex(ValueError, "diameter: found -1"):

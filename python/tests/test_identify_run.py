@@ -25,6 +25,21 @@ class Run(unittest.TestCase):
             self.assertFalse(found.report["rough"])
             self.assertTrue(found.report["intervals"])
             self.assertEqual(found.report["landings"], 0)
+            other = pathlib.Path(place) / "other"
+            changed = ("joint.lever.dry_friction=0.07 N m", "seed=5", "control.stiffness.lever=9 lbf in/rad")
+            sinew.run(experiment, changed, folder=other, report=False)
+            scored = identify.run(folder, fit="joint.lever.dry_friction", score=other, threads=1)
+            angle = scored.score[0]
+            self.assertEqual((angle["quantity"], angle["unit"]), ("angle", "rad"))
+            self.assertEqual(angle["parts"][0]["name"], "lever")
+            self.assertLess(angle["parts"][0]["rmse"], 0.001)
+            self.assertGreater(angle["all"]["correlation"], 0.9999)
+            self.assertEqual(found.score, [])
+            as_it_is = identify.run(other, sets="joint.lever.dry_friction=0.05 N m", hold_out=1)
+            self.assertGreater(as_it_is.score[0]["all"]["rmse"], 3 * angle["all"]["rmse"])
+            self.assertEqual(as_it_is.report["parameters"], [])
+            with self.assertRaisesRegex(sinew.InputError, "found nothing"):
+                identify.run(folder, fit="friction", score=other / "nothing")
             with self.assertRaisesRegex((sinew.InputError, identify.RefusalError), "fit"):
                 identify.run(folder, fit="joint.elbow.dry_friction")
             with self.assertRaisesRegex((sinew.InputError, identify.RefusalError), "a share of the run"):

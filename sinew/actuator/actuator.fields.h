@@ -288,6 +288,14 @@ void fields(Visitor& v, Wall& wall) {
            wall.thickness);
 }
 
+template <class Visitor>
+void fields(Visitor& v, AirVolume& air) {
+  v.number({.name = "offset",
+            .unit = "m3",
+            .doc = "V_a, added to the volume of the braid; below 0: a thick wall or an insert"},
+           air.offset);
+}
+
 // Reads or shows two ends, the lower first.
 template <class Visitor>
 void ends(Visitor& v, const char* name, const char* unit, const char* doc, const char* example,
@@ -488,6 +496,8 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.taper); });
   v.group({.name = "wall", .optional = true, .doc = "of the tube, by Chou and Hannaford"},
           [&](auto& g) { fields(g, a.wall); });
+  v.group({.name = "air", .optional = true, .doc = "volume beside that of the braid"},
+          [&](auto& g) { fields(g, a.air); });
   v.group({.name = "series", .optional = true, .doc = "ends that give way under the tension"},
           [&](auto& g) { fields(g, a.series); });
   v.group({.name = "toe", .optional = true, .doc = "a slack muscle that begins to pull softly"},
@@ -497,6 +507,9 @@ void fields(Visitor& v, Actuator& a) {
   } else if (a.long_end.length < shortest_length(a)) {
     units::complain(v, "long_end", "a greatest length below the shortest, thread_length / sqrt 3",
                     "a length between that and the thread's");
+  } else if (a.air.offset < 0 && !(volume(a, a.long_end.length) > 0)) {
+    units::complain(v, "air", "an offset that leaves no air at long_end.length",
+                    "one above the volume of the braid there, less than 0");
   }
   v.group({.name = "hysteresis", .optional = true, .doc = "friction that turns with the pressure"},
           [&](auto& g) { fields(g, a.hysteresis); });

@@ -101,6 +101,11 @@ struct Creep {
   std::array<double, most> time{};   // t_i [s]
 };
 
+// Of the air beside that of the braid; not in the thesis, see body.h.
+struct AirVolume {
+  double offset = 0;  // V_a [m3], below 0: a thick wall or an insert takes it
+};
+
 // What gives way between a muscle's clamps and its braid; not in the thesis, see series.h.
 struct Series {
   double compliance = 0;  // C_s [m/N]
@@ -136,6 +141,7 @@ struct Actuator {
   Caps caps;
   Taper taper;
   Wall wall;
+  AirVolume air;
   Series series;
   Toe toe;
   Hysteresis hysteresis;

@@ -8,7 +8,9 @@
 //                                                        Kerscher et al. (2006)
 //   V = V_braid(L_b) - pi h_w L_b (D - h_w)              h_w  thickness of the wall [m], the air
 //                                                        is within it; D of the braid at L_b [m]
-//   A_t = pi h_w (D_0 (2 sin(theta) - 1/sin(theta)) - h_w)   tension per pressure of the wall [m2]:
+//   V + V_a                            V_a  air beside that of the braid, the same at each length
+//   [m3] A_t = pi h_w (D_0 (2 sin(theta) - 1/sin(theta)) - h_w)   tension per pressure of the wall
+//   [m2]:
 //                                      the virtual work of V, Chou and Hannaford (1996)
 //   D_0 = b/(n pi), sin(theta) = D/D_0
 //
@@ -81,17 +83,23 @@ inline double wall_area_slope(const Actuator& a, double x) {
   return -std::numbers::pi * t * widest_diameter(a.braid) * (2.0 + 1.0 / (s * s)) * x / (b * b * s);
 }
 
-// Of the air in one actuator  [m3].
+// Of the air in one actuator  [m3], never below 0.
 inline double volume(const Actuator& a, double length) {
   const double x = length - a.caps.length, t = a.wall.thickness;
-  if (!(t > 0)) return volume(a.braid, x);
-  const double inside = widest_diameter(a.braid) * braid_sine(a.braid, x) - 2.0 * t;
-  return inside > 0 ? 0.25 * std::numbers::pi * x * inside * inside : 0.0;
+  double braid = t > 0 ? 0.0 : volume(a.braid, x);
+  if (t > 0) {
+    const double inside = widest_diameter(a.braid) * braid_sine(a.braid, x) - 2.0 * t;
+    if (inside > 0) braid = 0.25 * std::numbers::pi * x * inside * inside;
+  }
+  if (a.air.offset == 0) return braid;
+  const double sum = braid + a.air.offset;
+  return sum > 0 ? sum : 0.0;
 }
 
 // dV/dL  [m2].
 inline double volume_slope(const Actuator& a, double length) {
   const double x = length - a.caps.length;
+  if (a.air.offset < 0 && !(volume(a, length) > 0)) return 0.0;
   return volume_slope(a.braid, x) - wall_area(a, x);
 }
 

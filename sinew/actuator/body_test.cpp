@@ -60,8 +60,9 @@ TEST(Body, NeutralIsTheBraidToTheBit) {
 }
 
 TEST(Body, EachTermIsNoLongerPlain) {
-  for (int term = 0; term < 10; ++term) {
+  for (int term = 0; term < 11; ++term) {
     Actuator a = thesis_actuator();
+    if (term == 10) a.air.offset = 1e-6;
     if (term == 0) a.effectiveness.threshold = 1;
     if (term == 1) a.caps.length = 1e-3;
     if (term == 2) a.taper.gain = 1.1;
@@ -73,6 +74,18 @@ TEST(Body, EachTermIsNoLongerPlain) {
     if (term == 8) a.series.compliance = 1e-6;
     if (term == 9) a.toe.tension = 1;
     EXPECT_FALSE(is_plain(a)) << term;
+  }
+}
+
+// The same at each length, down to no air.
+TEST(Body, AirBesideTheBraidIsAdded) {
+  Actuator a = thesis_actuator();
+  for (const double offset : {3e-6, -3e-6}) {
+    a.air.offset = offset;
+    for (double l = 0.03; l < 0.11; l += 1e-3) {
+      EXPECT_EQ(volume(a, l), std::max(0.0, volume(a.braid, l) + offset));
+      EXPECT_EQ(volume_slope(a, l), volume(a, l) > 0 ? volume_slope(a.braid, l) : 0.0);
+    }
   }
 }
 

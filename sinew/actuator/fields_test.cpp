@@ -44,6 +44,7 @@ FieldVisitor leg() {
       {"taper.extra_pressure", {1e5}},
       {"taper.rest_length", {0.098}},
       {"wall.thickness", {0.0008}},
+      {"air.offset", {2e-6}},
       {"hysteresis.half_width", {2500}},
       {"hysteresis.width_per_pressure", {0.004}},
       {"hysteresis.width_per_contraction", {4e4}},

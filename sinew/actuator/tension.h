@@ -35,13 +35,14 @@ constexpr double long_end_tension(const LongEnd& end, double length, double velo
   return length > end.length ? force : 0.0;
 }
 
-// Is there nothing but the thesis's law and a linear bladder?
+// Is there nothing but the thesis's law of force and volume, and a linear bladder?
 constexpr bool is_plain(const Actuator& a) {
   const Bladder none;
   return a.effectiveness.threshold == 0 && a.caps.length == 0 && !tapers(a.taper) &&
-         a.wall.thickness == 0 && a.series.compliance == 0 && a.toe.tension == 0 &&
-         a.bladder.quadratic == 0 && a.bladder.cubic == 0 && a.bladder.saturating_tension == 0 &&
-         a.bladder.valid_from == none.valid_from && a.bladder.valid_to == none.valid_to;
+         a.wall.thickness == 0 && a.air.offset == 0 && a.series.compliance == 0 &&
+         a.toe.tension == 0 && a.bladder.quadratic == 0 && a.bladder.cubic == 0 &&
+         a.bladder.saturating_tension == 0 && a.bladder.valid_from == none.valid_from &&
+         a.bladder.valid_to == none.valid_to;
 }
 
 // Returns what bladder and toe add to what the braid pulls with  [N].

@@ -96,7 +96,7 @@ class Part {
     });
     this.evidence.replaceChildren(left_out(report, this.spec.charts[0], units), errors(report, units));
     this.plan.replaceChildren(further(report, units));
-    this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
+    if (rows.length) this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
       table('Values', ['', 'value', '95 %', '', ...(profiled ? ['error at half', 'at twice', ''] : []), ''], rows),
       profiled ? element('p', { class: 'hint' },
         'Error at half, at twice: times as large, with that value and all others fitted again; a value near zero is moved by its scale.') : '');

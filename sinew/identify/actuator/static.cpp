@@ -219,8 +219,8 @@ using Points = std::vector<StaticPoint>;
 // At their bounds these do not make another law of a law. Zero is an answer for branches that lie
 // on each other and for ends that take nothing or do not give way. The braid's thread at the
 // shortest that a braid can have still fits where the data are; describe() tells it.
-constexpr std::string_view may_be_at_bound[] = {"half_width", "end_loss", "thread_length",
-                                                "series_compliance"};
+constexpr std::string_view may_be_at_bound[] = {"half_width", "width_per_pressure", "end_loss",
+                                                "thread_length", "series_compliance"};
 
 // A muscle whose rest length nobody said has its longest length.
 void give_rest_length(Points& points, Report& report) {
@@ -522,6 +522,36 @@ void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points
   }
 }
 
+// Gives the law the volume of air that is known, and reports it.
+void set_air(const StaticOptions& options, StaticResult& out) {
+  actuator::Actuator& a = out.fit.setting.actuator;
+  const double rest = out.scales.rest_length;
+  out.air = air_by_force(a, rest);
+  const double by_force = out.air.volume;
+  const double known =
+      options.volume > 0 ? options.volume : cylinder_volume(rest, options.diameter);
+  if (!(known > 0)) {
+    if (options.braid) return;  // its geometry is
+    out.report.warnings.push_back(fmt::format(
+        "the air at rest, {:.3g} cm3 by the force alone, is known from {:.3g} to {:.3g} cm3 only, "
+        "and so are fill times and the use of air: state the diameter of the muscle at rest",
+        1e6 * out.air.volume, 1e6 * out.air.low, 1e6 * out.air.high));
+    return;
+  }
+  out.air = {.volume = known, .low = known, .high = known, .known = true};
+  const double turns = a.braid.turns;
+  out.air.kappa = give_volume(rest, known, options.braid.has_value(), a);
+  std::string how;
+  if (out.air.kappa != 1)
+    how = fmt::format(", with {:.4g} turns in place of {:.4g} at the same forces", a.braid.turns,
+                      turns);
+  if (a.air.offset != 0)
+    how += fmt::format(", with {:.3g} cm3 beside the braid", 1e6 * a.air.offset);
+  out.report.notes.push_back(fmt::format(
+      "the air at rest is {:.4g} cm3, {}; the force alone has {:.4g}{}", 1e6 * known,
+      options.volume > 0 ? "as measured" : "of a cylinder of this diameter", 1e6 * by_force, how));
+}
+
 void check_model(const std::string& name) {
   if (name.empty()) return;
   std::string all;
@@ -571,6 +601,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   out.fit = *found[report.chosen].fit;
   out.spread = found[report.chosen].spread;
   out.scales = found[report.chosen].scales;
+  set_air(options, out);
   out.muscles = muscles_of(out.fit, out.scales, s.fitted);
   out.points = s.fitted;
   note_muscles(out.fit, out.scales, points, report);

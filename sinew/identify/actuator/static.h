@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/actuator/static_air.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_spread.h"
@@ -31,6 +32,8 @@ struct StaticOptions {
   std::string subject = "static law";
   double atmosphere = units::atmosphere;  // [Pa]
   std::optional<actuator::Braid> braid;   // known from elsewhere
+  double volume = 0;                      // of the reference's air at rest [m3]; 0: unknown
+  double diameter = 0;                    // of each muscle at rest [m]; 0: unknown
   std::string model;                      // this one alone; empty: all
   HoldOut hold_out = HoldOut::none;       // beside what the points say
 
@@ -56,6 +59,7 @@ struct StaticResult {
   StaticFit fit;                    // the chosen one, to all points that were to be fitted
   StaticSpread spread;              // how far it was off where it had not seen the points
   std::vector<StaticPoint> points;  // that were fitted
+  AirAtRest air;                    // of the reference
 };
 
 // Throws Refusal where the data support no model, std::invalid_argument for a model that there is

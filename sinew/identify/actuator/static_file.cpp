@@ -8,6 +8,7 @@
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -82,8 +83,11 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   if (result.scales.braid)
     for (const char* key : {"braid.thread_length", "braid.turns"})
       provenance.given(path + key, braid_source);
+  const std::string by_air = result.air.kappa != 1 ? "; with the volume of air at rest" : "";
+  if (result.air.kappa != 1) provenance.given(path + "braid.turns", source + by_air);
+  if (a.air.offset != 0) provenance.given(path + "air.offset", "the volume of air at rest");
   provenance.fitted(path + "effectiveness.polynomial", "1", std::nan(""),
-                    polynomial_source(result.fit, source));
+                    polynomial_source(result.fit, source) + by_air);
   if (a.effectiveness.scale != 1)
     provenance.given(path + "effectiveness.scale", source + "; the rest length's effect");
 
@@ -100,6 +104,10 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   if (!actuator::tapers(a.taper)) a.taper = {};
   if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
   add_ends(std::max(longest, muscle.file_length), path, a, provenance);
+  if (!(actuator::volume(a, a.long_end.length) > 0))
+    throw Refusal("volume",
+                  fmt::format("no air that is left at {:.4g} mm", 1e3 * a.long_end.length),
+                  "more air at rest than stretching takes away", "another diameter or volume");
   a.prediction = prediction_of(result, muscle);
   add_rest_length(result, muscle, path, source, provenance);
   for (const char* key : {"lengths", "pressures"})

@@ -239,7 +239,7 @@ const Estimate* rest_length_estimate(const StaticFit& fit, double labelled) {
 double law_force(const actuator::Actuator& a, double length, const StaticPoint& point,
                  double atmosphere) {
   double p = point.pressure;
-  if (a.hysteresis.half_width > 0)
+  if (actuator::has_hysteresis(a.hysteresis))
     p -= static_cast<int>(point.branch) * actuator::half_width(a, length, p);
   return actuator::clamped_tension(a, length, 0, p, atmosphere);
 }

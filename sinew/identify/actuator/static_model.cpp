@@ -102,6 +102,7 @@ constexpr std::array infos = {
     Info{"taper_extra_pressure", "taper.extra_pressure", "Pa diff"},
     Info{"wall_thickness", "wall.thickness", "m"},
     Info{"half_width", "hysteresis.half_width", "Pa diff"},
+    Info{"width_per_pressure", "hysteresis.width_per_pressure", "1"},
     Info{"end_loss", "", "m"},
     Info{"series_compliance", "series.compliance", "m/N"},
     Info{"toe_tension", "toe.tension", "N"},
@@ -172,6 +173,8 @@ double& value_of(StaticSetting& setting, Knob knob) {
       return a.wall.thickness;
     case half_width:
       return a.hysteresis.half_width;
+    case width_per_pressure:
+      return a.hysteresis.width_per_pressure;
     case series:
       return a.series.compliance;
     case toe:
@@ -230,6 +233,8 @@ Parameter parameter_of(Knob knob, const StaticScales& s) {
       return make(0.005 * l, 0, 0.05 * l, 0.005 * l);
     case half_width:
       return make(0.01 * p, 0, 0.3 * p, 0.01 * p);
+    case width_per_pressure:
+      return make(0.01, 0, 0.3, 0.01);
     case end_loss:
       return make(0, -0.3 * l, 0.15 * l, 0.02 * l);
     case series:
@@ -310,7 +315,7 @@ actuator::Actuator like(const actuator::Actuator& actuator, double from, double 
   a.effectiveness.scale = 1 - (1 - a.effectiveness.scale) / r;
   for (double* size : {&a.braid.thread_length, &a.braid.turns, &a.bladder.saturation_length,
                        &a.bladder.rest_length, &a.taper.rest_length, &a.long_end.length,
-                       &a.bladder.valid_from, &a.bladder.valid_to})
+                       &a.bladder.valid_from, &a.bladder.valid_to, &a.air.offset})
     *size *= r;
   a.bladder.stiffness /= r;
   a.toe.tension /= r;

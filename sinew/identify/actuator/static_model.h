@@ -52,6 +52,7 @@ enum class Knob {
   taper_extra_pressure,
   wall,
   half_width,
+  width_per_pressure,
   end_loss,
   series,
   toe

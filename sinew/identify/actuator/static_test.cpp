@@ -183,10 +183,11 @@ TEST(Static, OutliersCountLittle) {
 // A slipped decimal in few points must not decide for a law that is wrong for all others.
 TEST(Static, WildPointsDoNotChangeTheChoice) {
   std::vector<StaticPoint> points = measured(truth(), 11, real_noise(), many);
-  const StaticResult clean = identify(points);
+  const StaticOptions options{.diameter = actuator::diameter(truth().actuator.braid, rest)};
+  const StaticResult clean = identify_static({.points = points}, options);
   EXPECT_TRUE(clean.report.warnings.empty());
   for (const std::size_t i : {20u, 33u, 47u}) points[i].force *= 3;
-  const StaticResult wild = identify(points);
+  const StaticResult wild = identify_static({.points = points}, options);
   EXPECT_EQ(wild.report.best().model, clean.report.best().model);
   EXPECT_LT(wild.report.best().fit.rmse_percent, 1.1 * clean.report.best().fit.rmse_percent);
   EXPECT_NEAR(wild.report.full_scale, clean.report.full_scale, 0.01 * clean.report.full_scale);
@@ -242,6 +243,59 @@ TEST(Static, HalfWidthOfTheHysteresisComesBack) {
     const Estimate& e = found.fit.solution["half_width"];
     EXPECT_NEAR(e.value, 4000, noise.force > 0 ? 2 * (e.high - e.value) : 40);
     EXPECT_EQ(found.muscles[0].actuator.hysteresis.half_width, e.value);
+  }
+}
+
+// Both branches of a muscle, by what a branch does to a point.
+template <class Branched>
+StaticResult of_both_branches(Branched branched) {
+  std::vector<StaticPoint> points;
+  for (const Branch branch : {Branch::fill, Branch::vent})
+    for (StaticPoint p : measured(truth(), 20 + static_cast<unsigned>(branch), {}, many)) {
+      p.branch = branch;
+      branched(p);
+      points.push_back(p);
+    }
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0, 0.002 * 540);
+  for (StaticPoint& p : points) p.force += noise(random);
+  return identify(points, "saturating-elastic");
+}
+
+// Friction of 2.5 % of the pressure lies within an interval of a fifth of it; without friction
+// there is none.
+TEST(Static, HysteresisThatGrowsWithThePressureComesBack) {
+  for (const double share : {0.025, 0.0}) {
+    StaticSetting s = truth();
+    s.actuator.hysteresis.width_per_pressure = share;
+    const StaticResult found =
+        of_both_branches([&](StaticPoint& p) { p.force = predicted(s, {.rest_length = rest}, p); });
+    const Estimate& e = found.fit.solution["width_per_pressure"];
+    EXPECT_LE(e.low, share);
+    EXPECT_GE(e.high, share);
+    EXPECT_LE(e.high - e.low, 0.2 * 0.025);
+    EXPECT_EQ(found.muscles[0].actuator.hysteresis.width_per_pressure, e.value);
+  }
+}
+
+// Friction of 2.5 % of the force is a share of the pressure as far as the braid pulls: the file's
+// loop is that of the muscle within a third, and is not zero.
+TEST(Static, HysteresisThatGrowsWithTheForceIsSeen) {
+  const StaticResult found =
+      of_both_branches([](StaticPoint& p) { p.force *= 1 - 0.025 * static_cast<int>(p.branch); });
+  const Estimate& e = found.fit.solution["width_per_pressure"];
+  EXPECT_GT(e.low, 0.015);
+  EXPECT_LT(e.high, 0.025);
+  for (const double contraction : {0.0, 0.05, 0.12}) {
+    StaticPoint p{.length = rest * (1 - contraction), .pressure = 6 * bar, .rest_length = rest};
+    const double loop = 0.05 * predicted(truth(), {.rest_length = rest}, p);
+    double found_loop = 0;
+    for (const Branch branch : {Branch::fill, Branch::vent}) {
+      p.branch = branch;
+      found_loop -= static_cast<int>(branch) *
+                    law_force(found.muscles[0].actuator, p.length, p, units::atmosphere);
+    }
+    EXPECT_NEAR(found_loop, loop, 0.33 * loop) << contraction;
   }
 }
 

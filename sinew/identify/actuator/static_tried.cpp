@@ -176,7 +176,7 @@ Tried::Tried(const StaticModel& model, const StaticScales& scales, const Points&
   }
   const bool gives_way = std::ranges::find(knobs_, Knob::series) != knobs_.end();
   if (muscles.size() > 1 && !gives_way) knobs_.push_back(Knob::end_loss);
-  if (fill && vent) knobs_.push_back(Knob::half_width);
+  if (fill && vent) knobs_.insert(knobs_.end(), {Knob::half_width, Knob::width_per_pressure});
   if (count_of(length_groups(points)) > 1) return;
   if (!scales.braid)
     throw Refusal("lengths", "one length only", "several lengths, or a braid that is known",

@@ -257,6 +257,8 @@ Json to_json(const Score& score) {
            {"rmse_percent", score.rmse_percent},
            {"max_percent", score.max_percent}};
   if (std::isfinite(score.explained)) out["r_squared"] = score.explained;
+  if (std::isfinite(score.nrmse)) out["nrmse"] = score.nrmse;
+  if (std::isfinite(score.correlation)) out["correlation"] = score.correlation;
   return out;
 }
 
@@ -286,7 +288,7 @@ Json to_json(const Fit& fit) {
   }
   out["parameters"] = Json::array();
   for (const Estimate& e : fit.parameters) out["parameters"].push_back(to_json(e));
-  out["fit"] = to_json(fit.fit);
+  if (fit.fit.points > 0) out["fit"] = to_json(fit.fit);
   if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
   if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
   if (fit.extrapolated) out["extrapolated"] = to_json(*fit.extrapolated);

@@ -21,6 +21,29 @@ Score score(std::span<const double> residuals, double full_scale) {
   return out;
 }
 
+Score score(std::span<const double> residuals, double full_scale,
+            std::span<const double> measured) {
+  Score out = score(residuals, full_scale);
+  if (measured.empty()) return out;
+  const auto n = static_cast<double>(measured.size());
+  double mean = 0, left = 0, mean_left = 0;
+  for (const double y : measured) mean += y / n;
+  for (const double r : residuals) left += r * r, mean_left += r / n;
+  double all = 0, predicted = 0, both = 0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const double y = measured[i] - mean, x = y + residuals[i] - mean_left;
+    all += y * y;
+    predicted += x * x;
+    both += x * y;
+  }
+  if (!(all > 0)) return out;
+  const auto [least, most] = std::ranges::minmax(measured);
+  out.explained = 1 - left / all;
+  out.nrmse = out.rmse / (most - least);
+  if (predicted > 0) out.correlation = both / std::sqrt(all * predicted);
+  return out;
+}
+
 double half_width_of(std::span<const double> residuals, double chance) {
   std::vector<double> sorted;
   for (const double r : residuals) sorted.push_back(std::abs(r));

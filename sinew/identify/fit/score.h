@@ -19,12 +19,20 @@ struct Score {
   // These are shares of `full_scale`, for instance the muscle's largest force  [%].
   double rmse_percent = 0, max_percent = 0;
 
-  // R^2, the share of the variance of what was measured that is explained; NaN: not told.
+  // These compare with how much the measured values vary; NaN where that is unknown or zero: R^2,
+  // the share of their variance that is explained, so that rmse is sqrt(1 - R^2) of their standard
+  // deviation; rmse as a share of their range, largest less smallest; and Pearson's correlation of
+  // measured and predicted values.
   double explained = std::numeric_limits<double>::quiet_NaN();
+  double nrmse = std::numeric_limits<double>::quiet_NaN();
+  double correlation = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Returns it; `full_scale` is what 100 % are, in the residuals' unit.
 Score score(std::span<const double> residuals, double full_scale);
+
+// The same of residuals, predicted less measured, together with the comparison with `measured`.
+Score score(std::span<const double> residuals, double full_scale, std::span<const double> measured);
 
 // Returns the k-th smallest |residual|, k = ceil(chance (n + 1)): one more residual of the same
 // kind lies within it with that chance, of (0, 1) (split-conformal prediction). Of fewer than

@@ -90,5 +90,17 @@ TEST(ErrorBy, OfNoRowsThereIsNoPart) {
   EXPECT_TRUE(error_by("length", "m", {}, {}, {}, 100).parts.empty());
 }
 
+// A prediction of 2 y + 1 for y = 0, 1, 2, 3 is perfectly correlated, and far off.
+TEST(Score, ComparesWithHowMuchTheMeasuredValuesVary) {
+  const std::vector<double> measured{0, 1, 2, 3}, residuals{1, 2, 3, 4};
+  const Score s = score(residuals, 3, measured);
+  EXPECT_NEAR(s.rmse, std::sqrt(30.0 / 4), 1e-12);
+  EXPECT_NEAR(s.nrmse, std::sqrt(30.0 / 4) / 3, 1e-12);
+  EXPECT_NEAR(s.correlation, 1, 1e-12);
+  EXPECT_NEAR(s.explained, 1 - 30.0 / 5, 1e-12);
+  EXPECT_TRUE(std::isnan(score(residuals, 3, std::vector<double>(4, 2)).nrmse));
+  EXPECT_TRUE(std::isnan(score(residuals, 3).correlation));
+}
+
 }  // namespace
 }  // namespace sinew::identify::score_test

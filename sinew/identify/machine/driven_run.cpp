@@ -221,24 +221,49 @@ bool is_of_rows(const signals::Series& edges, const std::vector<RunChannel>& cha
   });
 }
 
+// Adds the edge from which a valve is open to the end although its duty is zero: the vent that ends
+// a run is in no duty, and a table has it to one of its rows.
+void add_last_vent(const signals::Series& open, const signals::Series& duty, std::size_t valve,
+                   std::vector<signals::Edge>& out) {
+  constexpr std::size_t rows = 3;  // more than a pulse
+  std::size_t idle = duty.time_ns.size(), opened = open.time_ns.size();
+  while (idle > 0 && duty.columns[0][idle - 1] == 0) --idle;
+  while (opened > 0 && open.columns[0][opened - 1] > 0) --opened;
+  if (idle + rows > duty.time_ns.size() || opened == open.time_ns.size()) return;
+  const std::int64_t from = std::max(open.time_ns[opened], duty.time_ns[idle]);
+  if (from <= duty.time_ns[duty.time_ns.size() - rows])
+    out.push_back(
+        {.at = nearest_tick(from), .valve = {static_cast<std::uint8_t>(valve)}, .open = true});
+}
+
 }  // namespace
 
 DrivenRun::DrivenRun(const Experiment& e, const signals::Table& recorded, bool imported,
                      const std::string& name)
     : channels_(run_channels(e, recorded, imported, name)) {
   signals::Table table = recorded;
+  std::vector<signals::Edge> vents;
   const std::vector<std::string> edges = run::edge_topics(e), duties = run::duty_topics(e);
   for (std::size_t v = 0; v < edges.size(); ++v) {
     const signals::Series* series = recorded.find(edges[v]);
     if (!imported || !series || series->time_ns.empty() || !is_of_rows(*series, channels_))
       continue;
-    if (recorded.find(duties[v]))  // which says when within the period it was
+    if (const signals::Series* duty = recorded.find(duties[v])) {  // exact within the period
+      add_last_vent(*series, *duty, v, vents);
       std::erase_if(table.series, [&](const auto& s) { return s.topic.name == edges[v]; });
-    else
+    } else {
       coarse_.push_back(edges[v]);
+    }
   }
   run::ValveCommands commands = run::valve_commands(e, table, name);
   edges_ = std::move(commands.edges);
+  for (const signals::Edge& vent : vents) {
+    std::erase_if(edges_, [&](const signals::Edge& one) {
+      return one.valve.index == vent.valve.index && one.at >= vent.at;
+    });
+    edges_.push_back(vent);
+  }
+  std::ranges::stable_sort(edges_, {}, &signals::Edge::at);
   rebuilt_ = std::move(commands.rebuilt);
   for (std::size_t c = 0; c < channels_.size(); ++c)
     for (const signals::Tick at : channels_[c].at) {

@@ -141,8 +141,6 @@ std::vector<MachineNumber> machine_numbers(Experiment& e) {
   return std::move(finder.found);
 }
 
-std::span<const std::string_view> machine_groups() { return group_names; }
-
 std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::string>& asked) {
   const std::vector<MachineNumber> numbers = machine_numbers(e);
   std::vector<std::string> out;

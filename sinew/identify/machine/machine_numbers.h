@@ -34,9 +34,6 @@ struct MachineNumber {
 // Returns all numbers of the machine and of its start; they point into the description.
 std::vector<MachineNumber> machine_numbers(experiment::Experiment& experiment);
 
-// Returns the names of the groups: friction, damping, dead-time, volume, leak.
-std::span<const std::string_view> machine_groups();
-
 // Returns the keys that `asked` names: keys, and groups for those of their keys that the machine
 // has. Where nothing is asked, those of all groups. Each key stands there once.
 // Throws config::Error for a word that is neither, and for a group without a key.

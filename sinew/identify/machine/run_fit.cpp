@@ -42,22 +42,19 @@ std::vector<Parameter> parameters_of(Experiment& e, const std::vector<std::strin
 }
 
 void check_options(const RunFitOptions& options, const std::vector<std::string>& keys) {
-  if (!(options.hold_out >= 0 && options.hold_out < most_held_out))
+  if (!is_share_held_out(options.hold_out))
     config::fail({"hold_out", 0, 0}, "", fmt::format("{:g} %", 100 * options.hold_out),
                  fmt::format("a share of the run, from 0 to below {:g} %", 100 * most_held_out),
                  "20 %");
-  if (keys.empty())
+  if (options.hold_out == 1 && !(options.fit.empty() && options.priors.empty()))
+    config::fail({"hold_out", 0, 0}, "", "100 %, and numbers to fit", "one or the other",
+                 "less, or no fit and prior");
+  if (keys.empty() && options.hold_out < 1)
     config::fail({"freeze", 0, 0}, "", "all numbers that were to be fitted", "one to fit at least");
   for (const RunPrior& prior : options.priors)
     if (std::ranges::find(keys, prior.key) == keys.end())
       config::fail({"prior", 0, 0}, "", config::in_quotes(prior.key) + ", which is not fitted",
                    fmt::format("one of {}", fmt::join(keys, ", ")), "to fit it too");
-}
-
-double rms_of(std::span<const double> r) {
-  double sum = 0;
-  for (const double x : r) sum += x * x;
-  return r.empty() ? 0 : std::sqrt(sum / static_cast<double>(r.size()));
 }
 
 // Rows of the page, and how well each channel is met.
@@ -81,8 +78,8 @@ void score_channels(const DrivenRun& run, double until, double from,
       rows.held_out.push_back(held);
       out.report.fits[0].residuals.push_back(left / c.noise);
     }
-    out.channels.push_back(
-        {c.name, c.unit, in.size() + beyond.size(), c.noise, rms_of(in), rms_of(beyond)});
+    out.channels.push_back({c.name, c.unit, in.size() + beyond.size(), c.noise, score(in, 1).rmse,
+                            score(beyond, 1).rmse});
   }
   out.report.fits[0].fit = score(fitted, 1);
   if (!held_out.empty()) out.report.fits[0].held_out = score(held_out, 1);
@@ -91,8 +88,9 @@ void score_channels(const DrivenRun& run, double until, double from,
 void tell_channels(const RunFitResult& out, Fit& fit) {
   for (const ChannelScore& c : out.channels)
     fit.notes.push_back(fmt::format(
-        "{}: {:.3g} {} left of {:.3g} {} noise{}", c.name, c.fitted, c.unit, c.noise, c.unit,
-        c.held_out > 0 ? fmt::format(", held out {:.3g}", c.held_out) : std::string()));
+        "{}: {:.3g} {} left of {:.3g} {} noise{}", c.name,
+        fit.fit.points > 0 ? c.fitted : c.held_out, c.unit, c.noise, c.unit,
+        c.held_out > 0 && fit.fit.points > 0 ? fmt::format(", held out {:.3g}", c.held_out) : ""));
 }
 
 // What stands in the way of believing it.
@@ -103,7 +101,7 @@ void warn(const RunFitResult& out, Report& report, double rms) {
                     "the one that was measured, and the intervals know only what they see of that",
                     rms));
   const Fit& fit = report.fits[0];
-  if (fit.held_out && fit.held_out->rmse > 1.5 * fit.fit.rmse)
+  if (fit.fit.points > 0 && fit.held_out && fit.held_out->rmse > 1.5 * fit.fit.rmse)
     report.warnings.push_back(
         fmt::format("the end of the run, held out, is missed by {:.3g} times the noise, what was "
                     "fitted by {:.3g}: something changed, or the fit follows what is not there",
@@ -194,57 +192,72 @@ std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Par
   return out;
 }
 
-}  // namespace
-
-RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOptions& options) {
-  Experiment copy = e;
-  std::vector<std::string> keys = machine_keys(copy, options.fit);
-  std::erase_if(keys, [&](const std::string& key) {
-    return std::ranges::find(options.frozen, key) != options.frozen.end();
-  });
-  check_options(options, keys);
-  const double until = options.from + (1 - options.hold_out) * (run.duration() - options.from);
-  const double beginning = std::min(until, std::max(options.from + 4, until / 3));
-  const int threads = options.threads;
-  RunFitResult out;
-  std::vector<Parameter> parameters = parameters_of(copy, keys);
+// Fits the numbers to the run up to `until` [s]: writes the machine, what is known of its numbers,
+// and what the search took. Returns the rms of what is left there, in noises.
+double search_numbers(const Experiment& e, const DrivenRun& run, const RunFitOptions& options,
+                      double until, std::vector<Parameter> parameters, RunFitResult& out) {
   parameters = felt(RunResiduals(e, run, parameters, options, until), parameters, out.undetermined);
   if (parameters.empty())
     throw Refusal("the run", "readings that depend on none of the numbers",
                   "a run in which they matter", "other numbers to fit");
-
+  const double beginning = std::min(until, std::max(options.from + 4, until / 3));
   const RunResiduals first(e, run, parameters, options, beginning);
   const RunResiduals whole(e, run, parameters, options, until);
   std::vector<double> start;
   for (const Parameter& p : parameters) start.push_back(p.start);
   out.at_start = std::sqrt(2 * whole.cost(start) / static_cast<double>(whole.count()));
-  const RunSearched found = search_run(first, whole, parameters, options, threads);
-  RunJudged s = judge_run(whole, parameters, found, threads);
+  const RunSearched found = search_run(first, whole, parameters, options, options.threads);
+  RunJudged s = judge_run(whole, parameters, found, options.threads);
   for (std::string& direction : open_directions(s, parameters))
     out.undetermined.push_back(std::move(direction));
   out.machine = whole.machine(found.p);
   judge_intervals(run, until, s.roughness, out, s.estimates);
+  out.report.fits[0].parameters = s.estimates;
+  out.simulations = first.simulations() + whole.simulations();
+  return s.rms;
+}
 
+}  // namespace
+
+RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOptions& options) {
+  RunFitResult out;
+  const bool fits = options.hold_out < 1;
+  out.machine = e;
+  if (fits) out.keys = machine_keys(out.machine, options.fit);
+  std::erase_if(out.keys, [&](const std::string& key) {
+    return std::ranges::find(options.frozen, key) != options.frozen.end();
+  });
+  check_options(options, out.keys);
+  const double until =
+      fits ? options.from + (1 - options.hold_out) * (run.duration() - options.from) : -1;
   Report& report = out.report;
   report = {.subject = fmt::format("{} from a run of {:.4g} s", e.robot.name, run.duration()),
             .quantity = "readings",
             .unit = "1",
             .full_scale = 1,
             .full_scale_is = "each sensor's noise"};
-  if (options.hold_out > 0) report.held_out_is = fmt::format("the run from {:.4g} s on", until);
-  report.fits.push_back({.model = "plant",
-                         .law = "the machine in simulation, driven by the recorded valve commands",
-                         .parameters = s.estimates});
+  report.unseen = {"what this run did not excite: other speeds, loads and pressures"};
+  if (options.hold_out > 0)
+    report.held_out_is = fits ? fmt::format("the run from {:.4g} s on", until)
+                              : "all of the run; nothing was fitted";
+  report.fits.push_back(
+      {.model = "plant",
+       .law = "the machine in simulation, driven by the recorded valve commands"});
+  double rms = 0;
+  if (fits) rms = search_numbers(e, run, options, until, parameters_of(out.machine, out.keys), out);
   std::vector<double> mean(run.samples());
-  (void)run.predict(out.machine, mean, run.duration());
+  if (!run.predict(out.machine, mean, run.duration()) && !fits)
+    throw Refusal("the machine, driven by the recorded valve commands",
+                  "that it does not reach the end of the run in finite numbers",
+                  "a machine that can do what was recorded", "other numbers");
   score_channels(run, until, options.from, mean, out);
   tell_channels(out, report.fits[0]);
-  out.simulations = first.simulations() + whole.simulations();
-  report.fits[0].notes.push_back(
-      fmt::format("with the numbers as they stood {:.4g} times the noise was left; {} simulations",
-                  out.at_start, out.simulations));
+  if (fits)
+    report.fits[0].notes.push_back(fmt::format(
+        "with the numbers as they stood {:.4g} times the noise was left; {} simulations",
+        out.at_start, out.simulations));
   report.rule = "the only one";
-  warn(out, report, s.rms);
+  warn(out, report, rms);
   return out;
 }
 

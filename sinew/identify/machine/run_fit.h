@@ -38,14 +38,19 @@ struct RunPrior {
   double value = 0, standard_deviation = 0;  // in SI
 };
 
-// The run needs the rest for its fit.
+// The run needs the rest for its fit, unless all of it is held out and nothing is fitted.
 inline constexpr double most_held_out = 0.9;
+constexpr bool is_share_held_out(double share) {
+  return (share >= 0 && share < most_held_out) || share == 1;
+}
 
 // Says which numbers a fit to a run searches, and how hard.
 struct RunFitOptions {
   std::vector<std::string> fit;     // keys and groups (machine_numbers.h); empty: all groups
   std::vector<std::string> frozen;  // keys of these that are not searched after all
-  double hold_out = 0.2;            // share of the run, at its end, that scores what was found
+  // Share of the run, at its end, that scores what was found; 1: nothing is fitted, and the machine
+  // is scored as it is described.
+  double hold_out = 0.2;
   std::vector<RunPrior> priors;
   int threads = 0;  // simulations at once; 0: as many as the computer has processors
   int rounds = 12;  // of trying other dead times, at most
@@ -64,6 +69,7 @@ struct ChannelScore {
 // Holds the numbers that a run told of its machine.
 struct RunFitResult {
   Report report;
+  std::vector<std::string> keys;  // of the numbers that were to be fitted
   std::vector<ChannelScore> channels;
   std::vector<std::string> undetermined;  // combinations of numbers, in words
   experiment::Experiment machine;         // with what was found

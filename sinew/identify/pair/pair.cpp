@@ -472,9 +472,7 @@ class Pair {
     std::vector<double> measured;
     for (std::size_t k = 0; k < records.size(); ++k)
       for (const std::size_t i : rows[k]) measured.push_back(records[k].effort[i]);
-    Score out = score(r, full_scale_);
-    out.explained = pair_explained(r, measured);
-    return out;
+    return score(r, full_scale_, measured);
   }
 
   // Each block of time predicted from the others, in all recordings at once.
@@ -507,8 +505,7 @@ class Pair {
       measured.insert(measured.end(), other.effort.begin(), other.effort.end());
     }
     if (all.empty()) return;
-    out.fit.held_out = score(all, full_scale_);
-    out.fit.held_out->explained = pair_explained(all, measured);
+    out.fit.held_out = score(all, full_scale_, measured);
   }
 
   // Physics and the sensors of its rig as they were found; its bias, its start and the sensors of a

@@ -1,7 +1,5 @@
 #include "sinew/identify/pair/pair_rows.h"
 
-#include <limits>
-
 namespace sinew::identify {
 
 PairRows pair_rows(const PairRecord& record, double from, double to, bool inside) {
@@ -31,14 +29,6 @@ PairRecord pair_thinned(const PairRecord& record) {
     thin(*values);
   for (std::vector<double>& p : out.pressure) thin(p);
   return out;
-}
-
-double pair_explained(std::span<const double> residuals, std::span<const double> measured) {
-  double mean = 0, all = 0, left = 0;
-  for (const double y : measured) mean += y / static_cast<double>(measured.size());
-  for (const double y : measured) all += (y - mean) * (y - mean);
-  for (const double r : residuals) left += r * r;
-  return all > 0 ? 1 - left / all : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace sinew::identify

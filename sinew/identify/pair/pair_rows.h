@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "sinew/identify/pair/pair_record.h"
@@ -24,9 +23,5 @@ PairRows pair_block(const PairRows& rows, std::size_t k, bool inside);
 // Returns the recording with every k-th sample, about 2000: more of a smooth series say nothing
 // new.
 PairRecord pair_thinned(const PairRecord& record);
-
-// Returns the share of the variance of `measured` that the residuals leave explained, R^2; NaN
-// where nothing varies.
-double pair_explained(std::span<const double> residuals, std::span<const double> measured);
 
 }  // namespace sinew::identify

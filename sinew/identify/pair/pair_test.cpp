@@ -184,6 +184,8 @@ TEST(Pair, PredictsTheUnseenHalfOfAMeasuredRecording) {
   };
   const Fit& best = found.report.best();
   EXPECT_GE(best.held_out->explained, 0.97) << found.report.rule;
+  EXPECT_LT(best.held_out->nrmse, 0.055);
+  EXPECT_GT(best.held_out->correlation, 0.99);
   std::size_t in = 0, all = 0;
   for (std::size_t i = 0; i < best.residuals.size(); ++i) {
     if (!found.report.rows.held_out[i]) continue;

@@ -156,6 +156,7 @@ struct ScaleFound {
 struct RunFitFound {
   RunFitResult result;
   std::string base, source;
+  std::vector<Report> score = {};  // on a recording that was not fitted; empty: not scored
 
   // The robot's file, as it would stand at `out`. Throws config::Error.
   std::string file(const std::string& out) const;
@@ -268,6 +269,7 @@ using Reports = std::vector<const Report*>;
 Reports reports_of(const GeometryFound& found);
 Reports reports_of(const SensorFound& found);
 Reports reports_of(const PairFound& found);
+Reports reports_of(const RunFitFound& found);
 inline Reports reports_of(const CreepResult& found) { return {&found.report}; }
 inline Reports reports_of(const Checkup&) { return {}; }
 inline Reports reports_of(const ScaleFound&) { return {}; }

@@ -1,8 +1,10 @@
 #include "sinew/identify/task/methods.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -12,7 +14,9 @@
 #include "sinew/config/setting.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/machine/machine_numbers.h"
+#include "sinew/identify/machine/run_score.h"
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
@@ -78,9 +82,10 @@ std::vector<std::string> frozen_keys(const std::vector<std::string>& texts,
 
 // Returns the share of the run that is held out, which `text` gave.
 double share_of(const std::string& text, double share) {
-  if (share >= 0 && share < most_held_out) return share;
+  if (is_share_held_out(share)) return share;
   config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
-               fmt::format("a share of the run, from 0 to below {:g} %", 100 * most_held_out),
+               fmt::format("a share of the run, from 0 to below {:g} %, or 100 % to fit nothing",
+                           100 * most_held_out),
                share > 1 && share < 100 * most_held_out
                    ? fmt::format("\"{:g} %\" or \"{:g}\"", share, share / 100)
                    : "\"20 %\"");
@@ -112,45 +117,122 @@ std::vector<std::string> all_sets(const RunFitSettings& settings) {
 }  // namespace
 
 std::string RunFitFound::file(const std::string& out) const {
+  if (result.keys.empty())
+    throw Refusal("the run", "that all of it was held out, so that nothing was identified",
+                  "a part that is fitted, for a file", "no file, or to hold out less");
   return run_file(result, source, robot_over(base, out));
 }
 
-RunFitFound find(const SourceList&, const RunFitSettings& settings) {
-  const run::RecordedRun run = run::recorded_run(settings.run);
-  const std::string machine = run::machine_of(run, settings.machine).string();
-  const config::Node root = config::compose(machine, all_sets(settings));
-  experiment::Experiment e = run::buildable_robot(root, machine);
-  if (!e.faults.empty())
-    config::fail({machine, 0, 0}, "fault", "a run in which something broke",
+namespace {
+
+experiment::Experiment sound_machine(const config::Node& root, const std::string& file) {
+  experiment::Experiment out = run::buildable_robot(root, file);
+  if (!out.faults.empty())
+    config::fail({file, 0, 0}, "fault", "a run in which something broke",
                  "one of a machine that stays what it is", "a run without [[fault]]");
-  const bool imported = root.find("imported") != nullptr;
-  const RunFitOptions options = options_of(settings, e);
-  const signals::Table recorded = log::read(run.log);
-  const DrivenRun driven(e, recorded, imported, run.log.string());
-  if (options.from >= driven.duration())
+  return out;
+}
+
+// A recording, and what was run.
+struct RecordedMachine {
+  std::string name, file;
+  config::Node root;
+  experiment::Experiment machine;
+  signals::Table recorded;
+  DrivenRun driven;
+
+  RecordedMachine(const std::string& folder, const run::RecordedRun& run,
+                  const std::string& instead, const std::vector<std::string>& sets)
+      : name(folder),
+        file(run::machine_of(run, instead).string()),
+        root(config::compose(file, sets)),
+        machine(sound_machine(root, file)),
+        recorded(log::read(run.log)),
+        driven(machine, recorded, root.find("imported") != nullptr, run.log.string()) {}
+
+  // Warns of what the recording has not.
+  void warn(const char* of, Report& report) const {
+    if (!recorded.complete)
+      report.warnings.push_back(fmt::format(
+          "the log was cut off or is damaged: {:.4g} s of the run are in it, and the {} "
+          "is over these",
+          driven.duration(), of));
+    if (!driven.coarse().empty())
+      report.warnings.push_back(
+          fmt::format("the recording knows when {} valves switch to one of its rows only, and "
+                      "pulses are shorter: their duties, or edges at their own times, would tell",
+                      driven.coarse().size()));
+    if (!driven.rebuilt().empty())
+      report.notes.push_back(
+          fmt::format("edges were made from duties, as the low level makes them, of {} valves",
+                      driven.rebuilt().size()));
+  }
+};
+
+// Scores what was found on another recording.
+void score_on(const RecordedMachine& other, double from, RunFitFound& out) {
+  std::vector<std::string> differing;
+  const experiment::Experiment machine =
+      scored_machine(out.result.machine, other.machine, out.result.keys, other.name, differing);
+  out.score = score_run(machine, other.driven, from, other.name);
+  Report& report = out.result.report;
+  other.warn("score", report);
+  if (differing.empty()) return;
+  constexpr std::size_t shown = 3;
+  const std::size_t more = differing.size() > shown ? differing.size() - shown : 0;
+  differing.resize(differing.size() - more);
+  report.warnings.push_back(fmt::format(
+      "{} has other values of {}{}, which were not fitted; the score is of the machine without "
+      "them",
+      other.name, fmt::join(differing, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
+}
+
+}  // namespace
+
+RunFitFound find(const SourceList&, const RunFitSettings& settings) {
+  RecordedMachine run(settings.run, run::recorded_run(settings.run), settings.machine,
+                      all_sets(settings));
+  const RunFitOptions options = options_of(settings, run.machine);
+  if (options.from >= run.driven.duration())
     config::fail({"from", 0, 0}, "", config::in_quotes(settings.from),
-                 fmt::format("a time within the run of {:.4g} s", driven.duration()), "\"0 s\"");
-  RunFitFound out{fit_run(e, driven, options), settings.base, "identified from " + settings.run};
-  if (!recorded.complete)
-    out.result.report.warnings.push_back(
-        fmt::format("the log was cut off or is damaged: {:.4g} s of the run are in it, and the fit "
-                    "is over these",
-                    driven.duration()));
-  if (!driven.coarse().empty())
-    out.result.report.warnings.push_back(
-        fmt::format("the recording knows when {} valves switch to one of its rows only, and pulses "
-                    "are shorter: their duties, or edges at their own times, would tell",
-                    driven.coarse().size()));
-  if (!driven.rebuilt().empty())
-    out.result.report.notes.push_back(
-        fmt::format("edges were made from duties, as the low level makes them, of {} valves",
-                    driven.rebuilt().size()));
+                 fmt::format("a time within the run of {:.4g} s", run.driven.duration()),
+                 "\"0 s\"");
+  std::optional<RecordedMachine> other;
+  if (!settings.score.empty()) {  // is refused before a fit, which takes its time
+    const run::RecordedRun its = run::recorded_run(settings.score);
+    const bool described = std::filesystem::exists(its.resolved);
+    other.emplace(settings.score, its, described ? "" : settings.machine,
+                  std::vector<std::string>());
+    std::vector<std::string> differing;
+    (void)scored_machine(run.machine, other->machine, {}, other->name, differing);
+  }
+  RunFitFound out{fit_run(run.machine, run.driven, options), settings.base,
+                  "identified from " + settings.run};
+  run.warn("fit", out.result.report);
+  if (other)
+    score_on(*other, options.from, out);
+  else if (options.hold_out == 1)
+    out.score = score_run(out.result.machine, run.driven, options.from, settings.run);
+  return out;
+}
+
+Reports reports_of(const RunFitFound& found) {
+  Reports out{&found.result.report};
+  for (const Report& part : found.score) out.push_back(&part);
   return out;
 }
 
 Json to_json(const RunFitFound& found) {
   Json out = to_json(found.result.report);
   out.update(describe(found.result));
+  for (const Report& part : found.score) {
+    const Json all = to_json(part);
+    out["score"].push_back({{"quantity", part.quantity},
+                            {"unit", part.unit},
+                            {"of", part.held_out_is},
+                            {"all", all["held_out"]},
+                            {"parts", all["errors"][0]["parts"]}});
+  }
   return out;
 }
 

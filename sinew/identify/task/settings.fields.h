@@ -302,7 +302,7 @@ struct StaticSettings {
   std::string rest_length, actuator, branch = "both";
   std::vector<std::string> fit_where;
   HeldOut hold_out;
-  std::string diameter;
+  std::string diameter, volume;
   bool anyway = false;
   std::vector<std::string> predict;
   std::string model, name = "bpa";
@@ -332,8 +332,10 @@ void table_fields(Visitor& v, StaticSettings& s) {
               "pressure (every second), length or muscle (each once) or another FILE, to score "
               "what was not seen"},
              s.hold_out);
-  v.quantity({"diameter", "of the muscle without pressure and load, to compare its force with", "m",
-              config::above_zero(1, "of a muscle")},
+  v.quantity({"diameter",
+              "of the air in the muscle without pressure and load: gives its volume, and the force "
+              "is compared with it",
+              "m", config::above_zero(1, "of a muscle")},
              s.diameter);
 }
 
@@ -342,6 +344,10 @@ void fields(Visitor& v, StaticSettings& s) {
   v.method({"static", "the static law of an actuator from force, length and pressure",
             Tables::needed, static_models().size()});
   table_fields(v, s);
+  v.quantity({"volume",
+              "of the air in the (longest) muscle without pressure and load, where it was measured",
+              "m3", config::above_zero(1, "of a muscle")},
+             s.volume);
   v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
   v.texts({"predict",
            "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own", "m"},
@@ -404,7 +410,7 @@ struct RunFitSettings {
   std::vector<std::string> fit;
   std::string machine;
   std::vector<std::string> sets, priors, freeze;
-  std::string hold_out = "20 %", from = "0 s";
+  std::string hold_out = "20 %", from = "0 s", score;
   int threads = 0;
   std::string base;
   std::function<void(const std::string&)> progress;  // is given a line now and then; empty: nothing
@@ -431,7 +437,16 @@ void fields(Visitor& v, RunFitSettings& s) {
               "prior"),
           s.priors);
   v.texts({"freeze", "KEY=VALUE: a number that is known and not fitted"}, s.freeze);
-  v.quantity({"hold_out", "of the run, at its end: scores and is not fitted", "1"}, s.hold_out);
+  v.quantity({"hold_out",
+              "of the run, at its end: scores and is not fitted; 100 %: nothing is fitted, and the "
+              "machine is scored as it is",
+              "1"},
+             s.hold_out);
+  v.file(
+      {"score",
+       "another run of the machine: its valve commands alone drive what was identified, and rms, "
+       "nrmse and correlation are reported"},
+      s.score);
   v.quantity(Setting{"from", "what is before is not compared", "s",
                      config::from_zero(1e6, "a time of the run")}
                  .in_python("begin"),

@@ -75,9 +75,12 @@ void keep_branch(const std::string& word, StaticData& data) {
 }
 
 StaticOptions options_of(const std::vector<Source>& sources, const StaticSettings& settings,
-                         const std::optional<actuator::Braid>& braid) {
-  StaticOptions out{.atmosphere = sources[0].atmosphere,
-                    .braid = braid,
+                         const CheckInput& read) {
+  const SettingValues values(settings, read.atmosphere);
+  StaticOptions out{.atmosphere = read.atmosphere,
+                    .braid = read.braid,
+                    .volume = values.given(settings.volume).value_or(0),
+                    .diameter = read.diameter,
                     .model = settings.model,
                     .tried = settings.tried};
   out.subject = "static law from " + sources[0].path;
@@ -187,8 +190,7 @@ StaticFound find(const SourceList& sources, const StaticSettings& settings) {
     lengths.push_back(predicted_length(setting, sources[0].atmosphere));
   heed(check_static(read), settings.anyway, read.data.warnings);
 
-  StaticFound out{
-      identify_static(read.data, options_of(sources, settings, read.braid)), {}, {}, {}};
+  StaticFound out{identify_static(read.data, options_of(sources, settings, read)), {}, {}, {}};
   Report& report = out.result.report;
   report.title = title_of(sources, settings, out.result.muscles);
   report.further = further_measurements(out.result, sources[0].atmosphere, read.braid);
@@ -203,6 +205,10 @@ Checkup find(const SourceList& sources, const CheckSettings& settings) {
   return check_up(read_tables(sources, settings.how, Unreadable::is_red));
 }
 
-Json to_json(const StaticFound& found) { return to_json(found.result.report); }
+Json to_json(const StaticFound& found) {
+  Json out = to_json(found.result.report);
+  out["air_at_rest"] = to_json(found.result.air);
+  return out;
+}
 
 }  // namespace sinew::identify
