@@ -3,7 +3,7 @@
 //
 //   minimise  sum rho(r_i(p)^2)/2     by Levenberg-Marquardt (Ceres), p within bounds
 //
-//   J     dr/dp by central differences at the solution, rows weighted as the loss weighs them
+//   J     dr/dp at the solution, rows weighted as the loss weighs them
 //   s^2   sum w r^2/(n - k)           n residuals, k parameters that are free
 //   cov   s^2 (J^T J)^-1              by singular values; directions that J does not see are left
 //                                     out and every parameter in them counts as not identifiable
@@ -37,6 +37,11 @@ struct Parameter {
 // answer there: the step is then refused.
 using Residuals = std::function<bool(std::span<const double> p, std::span<double> r)>;
 
+// Writes the residuals of the parameters p as Residuals does, and their derivatives by each
+// parameter: dr_i/dp_k is by[k * r.size() + i].
+using Slopes =
+    std::function<bool(std::span<const double> p, std::span<double> r, std::span<double> by)>;
+
 struct SolverOptions {
   // Residuals beyond it are taken for outliers, in units of the residuals; 0: none is (rho = r^2).
   // Cauchy's rho grows with their logarithm only.
@@ -52,6 +57,8 @@ struct SolverOptions {
   // Step of the derivatives, in the parameters' scales. By default the cube root of the roundoff; a
   // model that integrates with steps of its own has kinks of that size and needs more.
   double difference = 6e-6;
+  // Derivatives in closed form of the same residuals; empty: they are central differences.
+  Slopes slopes;
 };
 
 // A number that was found, and how sure it is.

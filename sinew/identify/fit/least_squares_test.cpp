@@ -105,6 +105,28 @@ TEST(LeastSquares, OutliersDoNotMoveARobustFit) {
   EXPECT_LT(robust.standard_deviation, 0.3);
 }
 
+TEST(LeastSquares, DerivativesInClosedFormLeadToTheSameSolution) {
+  for (const double outlier : {0.0, 0.3}) {
+    Line line(7);
+    for (const std::size_t i : {2u, 9u, 15u}) line.y[i] += 30;
+    SolverOptions options{.outlier = outlier};
+    const Solution differences =
+        least_squares(line.residuals(), line.x.size(), line_parameters, options);
+    options.slopes = [&](std::span<const double> p, std::span<double> r, std::span<double> by) {
+      for (std::size_t i = 0; i < r.size(); ++i) by[i] = 1, by[r.size() + i] = line.x[i];
+      return line.residuals()(p, r);
+    };
+    const Solution closed =
+        least_squares(line.residuals(), line.x.size(), line_parameters, options);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(closed.values[k], differences.values[k], 1e-8);
+      EXPECT_NEAR(closed.estimates[k].standard_error, differences.estimates[k].standard_error,
+                  1e-8);
+    }
+    EXPECT_EQ(closed.steps, differences.steps);
+  }
+}
+
 TEST(LeastSquares, ABoundHoldsAndSaysSo) {
   const Line line(9);
   Parameter parameters[] = {line_parameters[0], line_parameters[1]};
