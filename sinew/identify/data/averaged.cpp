@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
+#include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "sinew/identify/data/quality.h"
@@ -83,16 +86,62 @@ Measured settings_averaged(Measured data, std::string_view response) {
   return settings_averaged(std::move(data), response, of_one_kind);
 }
 
-Measured times_averaged(Measured data, std::size_t most) {
+QuickChange quickest_change(std::span<const double> time, std::span<const double> values) {
+  const double half = 0.5 * (largest(values) - smallest(values));
+  QuickChange out{time.front(), time.back() - time.front()};
+  std::deque<std::size_t> highest, lowest;  // of the rows from `first` on
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    while (!highest.empty() && values[highest.back()] <= values[i]) highest.pop_back();
+    while (!lowest.empty() && values[lowest.back()] >= values[i]) lowest.pop_back();
+    highest.push_back(i);
+    lowest.push_back(i);
+    while (first < i && values[highest.front()] - values[lowest.front()] >= half) {
+      if (time[i] - time[first] < out.duration) out = {time[first], time[i] - time[first]};
+      ++first;
+      if (highest.front() < first) highest.pop_front();
+      if (lowest.front() < first) lowest.pop_front();
+    }
+  }
+  return out;
+}
+
+Measured times_averaged(Measured data, std::size_t most,
+                        const std::optional<QuickChange>& quickest) {
   const std::size_t rows = data.rows();
   if (!data.has("time") || rows <= most) return data;
-  const std::size_t each = (rows + most - 1) / most;
-  RowGroups groups{std::vector<std::size_t>(rows), (rows + each - 1) / each};
-  for (std::size_t row = 0; row < rows; ++row) groups.of_row[row] = row / each;
+  std::size_t each = (rows + most - 1) / most;
+  std::string kept;
+  if (quickest) {
+    constexpr double averages = 25;  // in the change
+    const std::vector<double>& time = data["time"];
+    const double step = (time.back() - time.front()) / static_cast<double>(rows - 1);
+    const double longest = std::max(1.0, quickest->duration / (averages * step));
+    each = std::min(each, static_cast<std::size_t>(std::min(longest, 1e9)));
+    if (const std::size_t count = most * each; count < rows) {
+      const auto at = std::ranges::lower_bound(time, quickest->from) - time.begin();
+      const std::size_t before = std::min(static_cast<std::size_t>(at), count / 10);
+      const std::size_t from = std::min(static_cast<std::size_t>(at) - before, rows - count);
+      std::vector<std::size_t> some(count);
+      std::iota(some.begin(), some.end(), from);
+      kept = fmt::format(" of those from {:.4g} to {:.4g} s, as more would not show its changes",
+                         time[from], time[from + count - 1]);
+      data = data.subset(some);
+    }
+  }
+  const std::size_t used = data.rows();
+  RowGroups groups{std::vector<std::size_t>(used), (used + each - 1) / each};
+  for (std::size_t row = 0; row < used; ++row) groups.of_row[row] = row / each;
   average(groups, data);
   data.notes.push_back(
-      fmt::format("{} rows are averaged to {}, each of {} rows", rows, data.rows(), each));
+      fmt::format("{} rows are averaged to {}, each of {} rows{}", rows, data.rows(), each, kept));
   return data;
+}
+
+Measured times_averaged(Measured data, std::size_t most, std::string_view watched) {
+  if (!data.has("time") || data.rows() <= most) return data;
+  const QuickChange quickest = quickest_change(data["time"], data[watched]);
+  return times_averaged(std::move(data), most, quickest);
 }
 
 }  // namespace sinew::identify

@@ -2,6 +2,9 @@
 // no more of a law than some thousands of averages, and take hundreds of times as long to fit.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,8 +24,22 @@ Measured settings_averaged(Measured data, std::string_view response);
 // row and then that of each average. Empty: there is one kind.
 Measured settings_averaged(Measured data, std::string_view response, std::vector<bool>& kinds);
 
+// When something changes, and in what time  [s].
+struct QuickChange {
+  double from = 0, duration = 0;
+};
+
+// Returns the shortest stretch of time in which values change by half of their range. `time`
+// ascends, and there are as many values, two at least.
+QuickChange quickest_change(std::span<const double> time, std::span<const double> values);
+
 // Returns a recording of more than `most` rows as averages of as many consecutive rows each as
-// leave no more than `most`, with a note. A shorter one is returned as it is.
-Measured times_averaged(Measured data, std::size_t most = most_rows);
+// leave no more than `most`, with a note; a shorter one is returned as it is. With a quickest
+// change, no average lasts longer than a 25th of it, and where that leaves more than `most`, only
+// so many are kept, from shortly before the change on.
+Measured times_averaged(Measured data, std::size_t most,
+                        const std::optional<QuickChange>& quickest = {});
+// Does the same with the quickest change of a column of it.
+Measured times_averaged(Measured data, std::size_t most, std::string_view watched);
 
 }  // namespace sinew::identify

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -76,14 +78,31 @@ TEST(Averaged, RowsOfTwoKindsAreNotMixed) {
 TEST(Averaged, ARecordingBecomesAveragesOfConsecutiveRows) {
   std::vector<double> time(10001);
   std::iota(time.begin(), time.end(), 0.0);
-  const Measured m = times_averaged(table_of({{.name = "time", .values = time}}));
+  const Measured m = times_averaged(table_of({{.name = "time", .values = time}}), 4000);
   ASSERT_EQ(m.rows(), 3334u);
   EXPECT_EQ(m.notes[0], "10001 rows are averaged to 3334, each of 3 rows");
   EXPECT_EQ(m["time"][0], 1);
   EXPECT_EQ(m["time"][3332], 9997);
   EXPECT_EQ(m["time"][3333], 9999.5);
   EXPECT_EQ(m.lines[1], 5);
-  EXPECT_EQ(times_averaged(table_of({{.name = "force", .values = time}})).rows(), time.size());
+  EXPECT_EQ(times_averaged(table_of({{.name = "force", .values = time}}), 4000).rows(),
+            time.size());
+}
+
+TEST(Averaged, ARecordingKeepsItsQuickestChange) {
+  std::vector<double> time(100000), pressure;
+  for (std::size_t i = 0; i < time.size(); ++i) time[i] = 1e-3 * static_cast<double>(i);
+  for (const double t : time) pressure.push_back(std::clamp((t - 50) / 0.2, 0.0, 1.0));
+  const QuickChange quickest = quickest_change(time, pressure);
+  EXPECT_NEAR(quickest.duration, 0.1, 2e-3);
+  EXPECT_NEAR(quickest.from, 50, 0.101);
+  const Measured m = times_averaged(
+      table_of({{.name = "time", .values = time}, {.name = "pressure", .values = pressure}}), 1000,
+      quickest);
+  EXPECT_EQ(m.rows(), 1000u);
+  EXPECT_EQ(m.notes[0],
+            "100000 rows are averaged to 1000, each of 4 rows of those from 49.6 to 53.6 s, as "
+            "more would not show its changes");
 }
 
 }  // namespace
