@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "python/binding/numbers.h"
+#include "sinew/host/stop.h"
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/check/check.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/json/json.h"
@@ -61,11 +63,12 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
             throw std::invalid_argument(fmt::format("{}: found {} m; expected {} to {} m",
                                                     column.name, x, wanted.least, wanted.most));
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
-  const std::vector<double> fit = each(fitted, "fitted", points);
+  std::vector<bool> is_fitted;
+  for (const double x : each(fitted, "fitted", points)) is_fitted.push_back(x != 0);
   identify::CheckInput out{.diameter = diameter};
-  out.add({std::move(table), {}});
+  out.add({identify::settings_averaged(std::move(table), "force", is_fitted), {}});
   std::vector<identify::StaticPoint>& all = out.data.points;
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = fit[i] != 0;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = is_fitted[i];
   return out;
 }
 
@@ -83,8 +86,9 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
   identify::StaticOptions options{.model = model, .hold_out = hold_out_of(hold_out)};
   options.subject = "static law from " + source;
   std::optional<identify::StaticResult> found;
-  std::atomic<bool> unstoppable = false;
-  do_interruptibly(unstoppable, [&] {
+  std::atomic<bool> stop = false;
+  do_interruptibly(stop, [&] {
+    const host::Stoppable stoppable(&stop);
     identify::heed(identify::check_static(input), anyway, input.data.warnings);
     found = identify::identify_static(input.data, options);
   });

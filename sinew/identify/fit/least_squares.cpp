@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sinew/host/stop.h"
 #include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -42,11 +43,12 @@ class Scaled {
   double low(std::size_t i) const { return parameters_[i].low / parameters_[i].scale; }
   double high(std::size_t i) const { return parameters_[i].high / parameters_[i].scale; }
 
-  // Writes the residuals at u. False where the model has no answer, or none in numbers.
+  // Writes the residuals at u. False where the model has no answer, or none in numbers, or where
+  // the search is stopped.
   bool operator()(const double* u, double* r) const {
     set_parameters(u);
     const std::span<double> out(r, count_);
-    return residuals_(p_, out) && are_finite(out);
+    return !host::is_stopped() && residuals_(p_, out) && are_finite(out);
   }
 
   // Writes the residuals at u and d r/d u. False where the model has no answer.
@@ -59,7 +61,9 @@ class Scaled {
     }
     set_parameters(u.data());
     const std::span<double> out(r, count_);
-    if (!slopes_(p_, out, {by.column(0).data(), count_ * size()}) || !are_finite(out)) return false;
+    if (host::is_stopped() || !slopes_(p_, out, {by.column(0).data(), count_ * size()}))
+      return false;
+    if (!are_finite(out)) return false;
     for (std::size_t i = 0; i < size(); ++i)
       for (double& x : by.column(i)) x *= parameters_[i].scale;
     return by.is_finite();
@@ -262,12 +266,18 @@ class Cost final : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* u, double* r, double** jacobians) const override {
-    if (!jacobians || !jacobians[0]) return model_(u[0], r);
-    Matrix by(model_.count(), model_.size());
-    if (!model_.linearised({u[0], u[0] + model_.size()}, r, by)) return false;
-    double* row = jacobians[0];
-    for (std::size_t k = 0; k < model_.count(); ++k)
-      for (std::size_t i = 0; i < model_.size(); ++i) *row++ = by(k, i);
+    double* row = jacobians ? jacobians[0] : nullptr;
+    bool found = row || model_(u[0], r);
+    if (row) {
+      Matrix by(model_.count(), model_.size());
+      found = model_.linearised({u[0], u[0] + model_.size()}, r, by);
+      for (std::size_t k = 0; k < model_.count(); ++k)
+        for (std::size_t i = 0; i < model_.size(); ++i) *row++ = by(k, i);
+    }
+    if (!host::is_stopped()) return found;
+    // Nothing is left to improve, so that Ceres ends without a message.
+    std::fill_n(r, model_.count(), 0.0);
+    if (row) std::fill_n(jacobians[0], model_.count() * model_.size(), 0.0);
     return true;
   }
 
@@ -358,6 +368,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
   for (const Parameter& p : parameters) u.push_back(p.start / p.scale);
   Solution out;
   out.residuals.resize(count);
+  if (host::is_stopped()) throw host::Stopped();
   if (!plain(u.data(), out.residuals.data()))
     throw Refusal("model", "no answer at its start values", "finite residuals",
                   "other start values");
@@ -387,6 +398,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
     out.steps = static_cast<int>(summary.iterations.size());
   }
 
+  if (host::is_stopped()) throw host::Stopped();
   plain(u.data(), out.residuals.data());
   for (std::size_t i = 0; i < u.size(); ++i)
     out.values.push_back(

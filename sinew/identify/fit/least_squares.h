@@ -90,7 +90,8 @@ struct Solution {
   const Estimate& operator[](std::string_view name) const;  // throws std::out_of_range
 };
 
-// Throws std::invalid_argument for bounds that contain no start, and Refusal where there are fewer
+// Throws host::Stopped where the calling thread is stopped (host/stop.h) before the search ends,
+// std::invalid_argument for bounds that contain no start, and Refusal where there are fewer
 // residuals than parameters or the model has no answer at the start.
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options = {});

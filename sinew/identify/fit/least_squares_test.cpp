@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
+#include "sinew/host/side_by_side.h"
+#include "sinew/host/stop.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -125,6 +128,20 @@ TEST(LeastSquares, DerivativesInClosedFormLeadToTheSameSolution) {
     }
     EXPECT_EQ(closed.steps, differences.steps);
   }
+}
+
+TEST(LeastSquares, ASearchThatIsStoppedEndsAtItsNextTrial) {
+  const Line line(3);
+  std::atomic<bool> stop = false;
+  int trials = 0;
+  const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
+    stop = ++trials == 4;
+    return line.residuals()(p, r);
+  };
+  const host::Stoppable stoppable(&stop);
+  EXPECT_THROW(least_squares(residuals, line.x.size(), line_parameters), host::Stopped);
+  EXPECT_EQ(trials, 4);
+  EXPECT_THROW(host::side_by_side(3, [](std::size_t) {}), host::Stopped);
 }
 
 TEST(LeastSquares, ABoundHoldsAndSaysSo) {
