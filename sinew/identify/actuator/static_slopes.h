@@ -1,13 +1,6 @@
-// identify/actuator/static_slopes.h - the force of a static law with its derivatives by everything
-// that a fit sets free, for one muscle.
-//
-//   B(x, p)   pull of braid and bladder, pull.h        F = F_t(B)       x = L - C F, series.h
-//
-//   dF/dq = s dB/dq       s = F_t'/(1 + C F_t' dB/dx)       dF/dL = s dB/dx
-//   dF/dC = -F dF/dL      dF/dF_toe = (F - F_t' B)/F_toe / (1 + C F_t' dB/dx)
-//
-//   q  a parameter of the muscle's own actuator, or the pressure. A law of several muscles has the
-//      parameters of the reference, of which the muscle's are multiples (static_model.h).
+// identify/actuator/static_slopes.h - the force of a static law for one muscle, with its
+// derivatives by everything that a fit sets free: those of the tension (actuator/tension_slopes.h),
+// as the muscle's parameters are multiples of the reference's (static_model.h).
 #pragma once
 
 #include "sinew/identify/actuator/static_data.h"
