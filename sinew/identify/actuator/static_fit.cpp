@@ -31,22 +31,15 @@ namespace {
 //
 // The first of `count` residuals are measurements, whose settings these are, the others what is
 // known beforehand. A residual beyond `outlier` scatters counts as that many.
-void widen(const Residuals& residuals, std::span<const Parameter> parameters, std::size_t count,
+void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::size_t count,
            std::span<const int> settings, double scatter, double outlier, Solution& solution) {
   const std::size_t n = solution.values.size();
   if (n == 0) return;
-  Matrix j(count, n);
-  std::vector<double> at = solution.values, up(count), down(count);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (solution.estimates[i].at_bound) continue;
-    const double h = 1e-5 * parameters[i].scale;
-    at[i] = solution.values[i] + h;
-    residuals(at, up);
-    at[i] = solution.values[i] - h;
-    residuals(at, down);
-    at[i] = solution.values[i];
-    for (std::size_t r = 0; r < count; ++r) j(r, i) = (up[r] - down[r]) / 2e-5;  // per scale
-  }
+  std::vector<double> left(count);
+  Matrix j(count, n);  // per scale
+  slopes(solution.values, left, {j.column(0).data(), count * n});
+  for (std::size_t i = 0; i < n; ++i)
+    for (double& x : j.column(i)) x *= solution.estimates[i].at_bound ? 0 : parameters[i].scale;
   const Matrix pull = product(j, inverse_where_seen(transposed_product(j, j)));
   const std::size_t points = settings.size();
   const auto setting = [&](std::size_t r) {
@@ -192,10 +185,7 @@ class Problem {
         law.write_slopes(length, point, f, slopes);
         for (std::size_t k = 0; k < knobs_.size(); ++k)
           by[k * r.size() + i] = value_of(slopes.by_knob, knobs_[k]);
-        if (label.doubted())
-          by[own * r.size() + i] =
-              slopes.by_rest_length +
-              (at_rest(point.length, point.rest_length) ? slopes.by_length : 0);
+        if (label.doubted()) by[own * r.size() + i] = slopes.by_label(point);
       }
       own += label.doubted() ? 1 : 0;
     }
@@ -324,8 +314,8 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
                                 .slopes = problem.slopes(out.scatter)});
   out.setting = problem.setting(out.solution.values);
   if (!start)
-    widen(problem.residuals(out.scatter), problem.parameters(), problem.count(), settings,
-          out.scatter, outlier, out.solution);
+    widen(problem.slopes(out.scatter), problem.parameters(), problem.count(), settings, out.scatter,
+          outlier, out.solution);
   out.solution.residuals.resize(points.size());
   for (const double r : out.solution.residuals) out.outliers += std::abs(r) > outlier * out.scatter;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_model.h"
 
 namespace sinew::identify {
@@ -13,6 +14,11 @@ struct ForceSlopes {
   StaticSetting by_knob;      // in the place of each knob (value_of)
   double by_length = 0;       // at one rest length [N/m]
   double by_rest_length = 0;  // at one length of the muscle [N/m]
+
+  // Returns that by the error of the muscle's label, which the mount at rest has as well  [N/m].
+  double by_label(const StaticPoint& point) const {
+    return by_rest_length + (at_rest(point.length, point.rest_length) ? by_length : 0);
+  }
 };
 
 // The law of one muscle.
