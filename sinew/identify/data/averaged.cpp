@@ -113,7 +113,7 @@ Measured times_averaged(Measured data, std::size_t most,
   std::size_t each = (rows + most - 1) / most;
   std::string kept;
   if (quickest) {
-    constexpr double averages = 25;  // in the change
+    constexpr double averages = 100;  // in the change
     const std::vector<double>& time = data["time"];
     const double step = (time.back() - time.front()) / static_cast<double>(rows - 1);
     const double longest = std::max(1.0, quickest->duration / (averages * step));
@@ -124,7 +124,7 @@ Measured times_averaged(Measured data, std::size_t most,
       const std::size_t from = std::min(static_cast<std::size_t>(at) - before, rows - count);
       std::vector<std::size_t> some(count);
       std::iota(some.begin(), some.end(), from);
-      kept = fmt::format(" of those from {:.4g} to {:.4g} s, as more would not show its changes",
+      kept = fmt::format(", those from {:.4g} to {:.4g} s: longer averages hide its changes",
                          time[from], time[from + count - 1]);
       data = data.subset(some);
     }
@@ -133,8 +133,10 @@ Measured times_averaged(Measured data, std::size_t most,
   RowGroups groups{std::vector<std::size_t>(used), (used + each - 1) / each};
   for (std::size_t row = 0; row < used; ++row) groups.of_row[row] = row / each;
   average(groups, data);
-  data.notes.push_back(
-      fmt::format("{} rows are averaged to {}, each of {} rows{}", rows, data.rows(), each, kept));
+  const std::string count =
+      each > 1 ? fmt::format("{} rows are averaged to {}, each of {} rows", rows, data.rows(), each)
+               : fmt::format("{} of {} rows are used", data.rows(), rows);
+  data.notes.push_back(count + kept);
   return data;
 }
 

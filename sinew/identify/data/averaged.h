@@ -35,8 +35,8 @@ QuickChange quickest_change(std::span<const double> time, std::span<const double
 
 // Returns a recording of more than `most` rows as averages of as many consecutive rows each as
 // leave no more than `most`, with a note; a shorter one is returned as it is. With a quickest
-// change, no average lasts longer than a 25th of it, and where that leaves more than `most`, only
-// so many are kept, from shortly before the change on.
+// change, no average lasts longer than a hundredth of it, and where that leaves more than `most`,
+// only so many are kept, from shortly before the change on.
 Measured times_averaged(Measured data, std::size_t most,
                         const std::optional<QuickChange>& quickest = {});
 // Does the same with the quickest change of a column of it.

@@ -92,17 +92,17 @@ TEST(Averaged, ARecordingBecomesAveragesOfConsecutiveRows) {
 TEST(Averaged, ARecordingKeepsItsQuickestChange) {
   std::vector<double> time(100000), pressure;
   for (std::size_t i = 0; i < time.size(); ++i) time[i] = 1e-3 * static_cast<double>(i);
-  for (const double t : time) pressure.push_back(std::clamp((t - 50) / 0.2, 0.0, 1.0));
+  for (const double t : time) pressure.push_back(std::clamp((t - 50) / 0.8, 0.0, 1.0));
   const QuickChange quickest = quickest_change(time, pressure);
-  EXPECT_NEAR(quickest.duration, 0.1, 2e-3);
-  EXPECT_NEAR(quickest.from, 50, 0.101);
+  EXPECT_NEAR(quickest.duration, 0.4, 2e-3);
+  EXPECT_NEAR(quickest.from, 50, 0.401);
   const Measured m = times_averaged(
       table_of({{.name = "time", .values = time}, {.name = "pressure", .values = pressure}}), 1000,
       quickest);
   EXPECT_EQ(m.rows(), 1000u);
   EXPECT_EQ(m.notes[0],
-            "100000 rows are averaged to 1000, each of 4 rows of those from 49.6 to 53.6 s, as "
-            "more would not show its changes");
+            "100000 rows are averaged to 1000, each of 4 rows, those from 49.6 to 53.6 s: longer "
+            "averages hide its changes");
 }
 
 }  // namespace

@@ -61,16 +61,16 @@ bool has_column_of_volumes(const Source& source) {
   return column_called(grid, called_in(source, "added_volume")).has_value();
 }
 
-constexpr std::size_t most_samples = 20000;  // longer recordings are averaged
+constexpr std::size_t most_samples = 20000, most_of_pulses = 15000;  // more are averaged
 
 // Averages long pulses over their time, so that the shortest one stays whole.
 Measured pulses_averaged(const Measured& data) {
-  if (data.rows() <= most_samples) return data;
+  if (data.rows() <= most_of_pulses) return data;
   const std::vector<Opening> edges = edges_of(data).edges;
   QuickChange shortest{edges.front().time, data["time"].back() - data["time"].front()};
   for (std::size_t i = 1; i < edges.size(); ++i)
     shortest.duration = std::min(shortest.duration, edges[i].time - edges[i - 1].time);
-  return times_averaged(data, most_samples, shortest);
+  return times_averaged(data, most_of_pulses, shortest);
 }
 
 // One for each source, between commas.
