@@ -424,15 +424,18 @@ auto find(const Options<Settings>& options, const identify::MethodRow& row) {
       return identify::find(sources, settings);
     });
   } else {
-    if constexpr (requires { settings.progress; })
+    constexpr bool reports_progress = requires { settings.progress; };
+    if constexpr (reports_progress)
       settings.progress = [&](const std::string& what) {
         Messages(options.result.quiet).note(what);
       };
+    const ProgressBar bar(options.result.quiet || reports_progress);
     return identify::find(sources, settings);
   }
 }
 
 auto find(const Options<identify::PlanSettings>& options, const identify::MethodRow&) {
+  const ProgressBar bar(options.result.quiet);
   return identify::find(sources_of(options.data), options.settings,
                         identify::atmosphere_setting(options.data.atmosphere));
 }

@@ -84,8 +84,12 @@ std::string in_red(std::string_view text) { return in_color(STDOUT_FILENO, text,
 
 ProgressBar::ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps,
                          bool quiet)
-    : now_(now), end_(end), steps_(steps) {
+    : now_(&now), end_(end), steps_(steps) {
   if (!quiet && end > 0 && on_terminal()) thread_ = std::thread([this] { watch(); });
+}
+
+ProgressBar::ProgressBar(bool quiet) {
+  if (!quiet && on_terminal()) thread_ = std::thread([this] { watch(); });
 }
 
 ProgressBar::~ProgressBar() {
@@ -100,7 +104,9 @@ void ProgressBar::watch() {
   constexpr auto look = std::chrono::milliseconds(20);
   for (int looks = 1; !done_; ++looks) {
     std::this_thread::sleep_for(look);
-    if (looks % 5 == 0 && !done_) draw(now_.load(std::memory_order_relaxed));
+    if (done_) continue;
+    if (now_ && looks % 5 == 0) draw(now_->load(std::memory_order_relaxed));
+    if (!now_ && looks % 50 == 0) to_stderr(fmt::format("\rworking, {} s", looks / 50));
   }
 }
 

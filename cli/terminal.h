@@ -56,6 +56,8 @@ struct Steps {
 class ProgressBar {
  public:
   ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps, bool quiet);
+  // Shows the seconds of work of which the end is unknown.
+  explicit ProgressBar(bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -64,8 +66,8 @@ class ProgressBar {
   void watch();
   void draw(std::int64_t now) const;
 
-  const std::atomic<std::int64_t>& now_;
-  std::int64_t end_;
+  const std::atomic<std::int64_t>* now_ = nullptr;  // null: seconds are shown
+  std::int64_t end_ = 0;
   Steps steps_;
   std::atomic<bool> done_{false};
   std::thread thread_;

@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "python/binding/numbers.h"
+#include "sinew/host/stop.h"
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/check/check.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
@@ -62,13 +64,13 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
             throw std::invalid_argument(fmt::format("{}: found {} m; expected {} to {} m",
                                                     column.name, x, wanted.least, wanted.most));
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
-  std::vector<bool> fit;
-  for (const double x : each(fitted, "fitted", points)) fit.push_back(x != 0);
-  table = identify::each_row_once(std::move(table), fit);
+  std::vector<bool> is_fitted;
+  for (const double x : each(fitted, "fitted", points)) is_fitted.push_back(x != 0);
+  table = identify::each_row_once(std::move(table), is_fitted);
   identify::CheckInput out{.diameter = diameter};
-  out.add({std::move(table), {}});
+  out.add({identify::settings_averaged(std::move(table), "force", is_fitted), {}});
   std::vector<identify::StaticPoint>& all = out.data.points;
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = fit[i];
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = is_fitted[i];
   return out;
 }
 
@@ -87,8 +89,9 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
       .diameter = input.diameter, .model = model, .hold_out = hold_out_of(hold_out)};
   options.subject = "static law from " + source;
   std::optional<identify::StaticResult> found;
-  std::atomic<bool> unstoppable = false;
-  do_interruptibly(unstoppable, [&] {
+  std::atomic<bool> stop = false;
+  do_interruptibly(stop, [&] {
+    const host::Stoppable stoppable(&stop);
     identify::heed(identify::check_static(input), anyway, input.data.warnings);
     found = identify::identify_static(input.data, options);
   });

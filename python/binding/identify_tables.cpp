@@ -8,6 +8,7 @@
 
 #include "python/binding/recording.h"
 #include "python/binding/settings.h"
+#include "sinew/host/stop.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/task/inputs.h"
@@ -97,8 +98,9 @@ Identified found_by(Method settings, const Sources& sources, const py::dict& giv
   keywords.refuse_others();
   using Found = decltype(identify::find(sources, settings));
   std::shared_ptr<const Found> found;
-  std::atomic<bool> unstoppable = false;
-  do_interruptibly(unstoppable, [&] {
+  std::atomic<bool> stop = false;
+  do_interruptibly(stop, [&] {
+    const host::Stoppable stoppable(&stop);
     found = std::make_shared<const Found>(identify::find(sources, settings));
   });
   Identified out{.report = identify::to_json(*found).text(),

@@ -2,9 +2,12 @@
 
 import csv
 import os
+import signal
 import tempfile
+import threading
+import time
 import unittest
-from typing import Any, Tuple
+from typing import Any, Callable, Tuple
 
 import numpy
 
@@ -24,6 +27,44 @@ def measured() -> Tuple[Any, Any, Any]:
         rows = [row for row in csv.reader(file) if row and row[0][:1].isdigit()]
     table = numpy.array(rows, float)
     return table[:, 1], table[:, 0], table[:, 2]
+
+
+class Interrupted(unittest.TestCase):
+    def seconds_to_stop(self, work: Callable[[], object]) -> float:
+        """Return how long the work still takes after a Ctrl-C in its first second."""
+        # What is started in the background by a shell ignores Ctrl-C.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        sent = []
+
+        def interrupt() -> None:
+            sent.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Timer(0.7, interrupt).start()
+        with self.assertRaises(KeyboardInterrupt):
+            work()
+        return time.monotonic() - sent[0]
+
+    def test_ctrl_c_ends_a_static_law_at_once(self) -> None:
+        # Some seconds of work: six muscles of a law that none of the models is.
+        random = numpy.random.default_rng(1)
+        rest = random.choice(numpy.arange(0.1, 0.4, 0.05), 3000)
+        length = rest * random.uniform(0.8, 1, 3000)
+        pressure = random.uniform(1e5, 6e5, 3000)
+        force = pressure * 1e-3 * (length / rest - 0.7) * (1 + 0.05 * random.standard_normal(3000))
+        static = sinew.identify.static
+        took = self.seconds_to_stop(lambda: static(length, pressure, force, rest_length=rest, anyway=True))
+        self.assertLess(took, 0.5)
+
+    def test_ctrl_c_ends_a_method_that_reads_tables(self) -> None:
+        random = numpy.random.default_rng(1)
+        time_s = numpy.arange(20000) * 0.01
+        pressure = 3e5 + 1e5 * numpy.sin(time_s / 5) + 1e3 * random.standard_normal(20000)
+        force = 1e-3 * pressure + 5 * random.standard_normal(20000)
+        table = {"time [s]": time_s, "pressure [Pa gauge]": pressure, "force [N]": force}
+        took = self.seconds_to_stop(lambda: sinew.identify.creep(table))
+        self.assertLess(took, 0.5)
 
 
 class Static(unittest.TestCase):

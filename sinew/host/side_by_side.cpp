@@ -5,6 +5,8 @@
 #include <thread>
 #include <vector>
 
+#include "sinew/host/stop.h"
+
 namespace sinew::host {
 
 int threads_of(int asked) {
@@ -15,10 +17,13 @@ void side_by_side(std::size_t count, const std::function<void(std::size_t)>& wor
                   int threads) {
   std::vector<std::exception_ptr> failed(count);
   std::atomic<std::size_t> begun = 0;
+  const std::atomic<bool>* const stop = Stoppable::flag();
   const auto some = [&] {
+    const Stoppable stoppable(stop);
     for (std::size_t i = begun++; i < count; i = begun++) {
       const std::size_t k = count - 1 - i;
       try {
+        if (is_stopped()) throw Stopped();
         work(k);
       } catch (...) {
         failed[k] = std::current_exception();

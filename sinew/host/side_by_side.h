@@ -18,7 +18,8 @@ int threads_of(int asked);
 // on as many as there are cores. The last begins first: lists go from the simplest on, and the
 // dearest takes longest. A piece may depend on its number alone and writes to places of its own, so
 // the results are the same for any number of threads. Throws what the first piece that failed has
-// thrown, when all are done.
+// thrown, when all are done; pieces that have not begun when the caller's thread is stopped
+// (stop.h) throw Stopped.
 void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work,
                   Tally* done = nullptr, int threads = 0);
 

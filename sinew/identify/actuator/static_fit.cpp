@@ -13,6 +13,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
+#include "sinew/identify/actuator/static_slopes.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/least_squares.h"
 #include "sinew/identify/fit/matrix.h"
@@ -31,22 +32,15 @@ namespace {
 //
 // The first of `count` residuals are measurements, whose settings these are, the others what is
 // known beforehand. A residual beyond `outlier` scatters counts as that many.
-void widen(const Residuals& residuals, std::span<const Parameter> parameters, std::size_t count,
+void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::size_t count,
            std::span<const int> settings, double scatter, double outlier, Solution& solution) {
   const std::size_t n = solution.values.size();
   if (n == 0) return;
-  Matrix j(count, n);
-  std::vector<double> at = solution.values, up(count), down(count);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (solution.estimates[i].at_bound) continue;
-    const double h = 1e-5 * parameters[i].scale;
-    at[i] = solution.values[i] + h;
-    residuals(at, up);
-    at[i] = solution.values[i] - h;
-    residuals(at, down);
-    at[i] = solution.values[i];
-    for (std::size_t r = 0; r < count; ++r) j(r, i) = (up[r] - down[r]) / 2e-5;  // per scale
-  }
+  std::vector<double> left(count);
+  Matrix j(count, n);  // per scale
+  slopes(solution.values, left, {j.column(0).data(), count * n});
+  for (std::size_t i = 0; i < n; ++i)
+    for (double& x : j.column(i)) x *= solution.estimates[i].at_bound ? 0 : parameters[i].scale;
   const Matrix pull = product(j, inverse_where_seen(transposed_product(j, j)));
   const std::size_t points = settings.size();
   const auto setting = [&](std::size_t r) {
@@ -128,19 +122,19 @@ class Problem {
 
   Residuals residuals(double scatter) const {
     return [this, scatter](std::span<const double> values, std::span<double> r) {
-      fill(setting(values), std::max(slack_below * scales_.full_scale, outlier * scatter), r);
-      for (std::size_t i = 0; i < priors_.size(); ++i) {
-        double& out = r[points_.size() + i];
-        out = 0;
-        if (!priors_[i]) continue;
-        const Prior& prior = *priors_[i];
-        const double off =
-            prior.logarithmic ? std::log(values[i] / prior.mean) : values[i] - prior.mean;
-        out = scatter * off / prior.deviation;
-      }
-      if (has_labels()) r.back() = scatter * in_common(values) / common_deviation;
+      fill(values, scatter, r, {});
       return std::all_of(r.begin(), r.end(), [](double x) { return std::isfinite(x); });
     };
+  }
+
+  // The same with their derivatives.
+  Slopes slopes(double scatter) const {
+    return
+        [this, scatter](std::span<const double> values, std::span<double> r, std::span<double> by) {
+          std::ranges::fill(by, 0);
+          fill(values, scatter, r, by);
+          return true;
+        };
   }
 
  private:
@@ -155,18 +149,46 @@ class Problem {
     return sum;
   }
 
+  // Writes the residuals and, unless `by` is empty, their derivatives.
+  void fill(std::span<const double> values, double scatter, std::span<double> r,
+            std::span<double> by) const {
+    fill_points(values, std::max(slack_below * scales_.full_scale, outlier * scatter), r, by);
+    const std::size_t n = points_.size();
+    for (std::size_t i = 0; i < priors_.size(); ++i) {
+      r[n + i] = 0;
+      if (!priors_[i]) continue;
+      const Prior& prior = *priors_[i];
+      r[n + i] = scatter * prior.away(values[i]) / prior.deviation;
+      if (!by.empty()) by[i * r.size() + n + i] = scatter / prior.deviation_at(values[i]);
+    }
+    if (!has_labels()) return;
+    r.back() = scatter * in_common(values) / common_deviation;
+    std::size_t i = knobs_.size();
+    for (const RestLengthError& label : labels_)
+      if (label.doubted() && !by.empty())
+        by[++i * r.size() - 1] = scatter / (label.labelled * common_deviation);
+  }
+
   // Points below `slack` may be slack: a law that pushes there is no worse than one that ends.
-  void fill(const StaticSetting& setting, double slack, std::span<double> r) const {
-    double labelled = 0;
-    actuator::Actuator a;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const StaticPoint& point = points_[i];
-      if (point.rest_length != labelled) {
-        labelled = point.rest_length;
-        a = scaled(setting, scales_, labelled);
+  void fill_points(std::span<const double> values, double slack, std::span<double> r,
+                   std::span<double> by) const {
+    const StaticSetting at = setting(values);
+    ForceSlopes slopes;
+    std::size_t i = 0, own = knobs_.size();  // of the parameters, the error of the muscle's label
+    for (const RestLengthError& label : labels_) {
+      const MuscleLaw law(at, scales_, label.labelled);
+      for (; i < points_.size() && points_[i].rest_length == label.labelled; ++i) {
+        const StaticPoint& point = points_[i];
+        const double length = fitted_length(at, point), f = law.force(length, point);
+        const bool counts = point.force > slack || f > 0;
+        r[i] = (counts ? f : 0.0) - point.force;
+        if (by.empty() || !counts) continue;
+        law.write_slopes(length, point, f, slopes);
+        for (std::size_t k = 0; k < knobs_.size(); ++k)
+          by[k * r.size() + i] = value_of(slopes.by_knob, knobs_[k]);
+        if (label.doubted()) by[own * r.size() + i] = slopes.by_label(point);
       }
-      const double f = law_force(a, fitted_length(setting, point), point, scales_.atmosphere);
-      r[i] = (point.force > slack ? f : std::max(f, 0.0)) - point.force;
+      own += label.doubted() ? 1 : 0;
     }
   }
 
@@ -280,17 +302,21 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   } else {
     const Solution first =
         least_squares_from(problem.residuals(first_scatter * scales.full_scale), problem.count(),
-                           from, starts_of(from, knobs), {.tolerance = std::max(tolerance, 1e-9)});
+                           from, starts_of(from, knobs),
+                           {.tolerance = std::max(tolerance, 1e-9),
+                            .slopes = problem.slopes(first_scatter * scales.full_scale)});
     out.scatter = scatter_of(first.residuals, points, scales);
     for (std::size_t i = 0; i < from.size(); ++i) from[i].start = first.values[i];
   }
-  out.solution =
-      least_squares(problem.residuals(out.scatter), problem.count(), from,
-                    {.outlier = outlier * out.scatter, .correlated = true, .tolerance = tolerance});
+  out.solution = least_squares(problem.residuals(out.scatter), problem.count(), from,
+                               {.outlier = outlier * out.scatter,
+                                .correlated = true,
+                                .tolerance = tolerance,
+                                .slopes = problem.slopes(out.scatter)});
   out.setting = problem.setting(out.solution.values);
   if (!start)
-    widen(problem.residuals(out.scatter), problem.parameters(), problem.count(), settings,
-          out.scatter, outlier, out.solution);
+    widen(problem.slopes(out.scatter), problem.parameters(), problem.count(), settings, out.scatter,
+          outlier, out.solution);
   out.solution.residuals.resize(points.size());
   for (const double r : out.solution.residuals) out.outliers += std::abs(r) > outlier * out.scatter;
 
@@ -298,8 +324,7 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
     Estimate& e = out.solution.estimates[i];
     const auto& prior = problem.prior(i);
     if (!prior || e.at_bound) continue;
-    const double deviation = prior->logarithmic ? prior->deviation * e.value : prior->deviation;
-    if (e.standard_error < prior_rules * deviation) continue;
+    if (e.standard_error < prior_rules * prior->deviation_at(e.value)) continue;
     e.identifiable = false;
     out.unknown.push_back(knobs[i]);
   }
@@ -324,6 +349,10 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
                  .data = points.size()};
   out.residuals = [held, residuals = held->problem.residuals(fit.scatter)](
                       std::span<const double> p, std::span<double> r) { return residuals(p, r); };
+  out.options.slopes = [held, slopes = held->problem.slopes(fit.scatter)](
+                           std::span<const double> p, std::span<double> r, std::span<double> by) {
+    return slopes(p, r, by);
+  };
   return {std::move(out), fit.solution};
 }
 

@@ -21,6 +21,7 @@
 // say something, that wins.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -90,6 +91,11 @@ struct StaticScales {
 struct Prior {
   double mean = 0, deviation = 0;
   bool logarithmic = false;  // deviation of ln(value/mean)
+
+  // Returns how far a value lies from the mean, as the deviation counts it, and the deviation of
+  // the value itself about there.
+  double away(double value) const { return logarithmic ? std::log(value / mean) : value - mean; }
+  double deviation_at(double value) const { return logarithmic ? deviation * value : deviation; }
 };
 
 struct StaticModel {

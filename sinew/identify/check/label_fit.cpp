@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
+#include "sinew/identify/actuator/static_slopes.h"
 #include "sinew/identify/check/curves.h"
 #include "sinew/identify/fit/least_squares.h"
 
@@ -65,44 +67,54 @@ class LabelProblem {
     return out;
   }
 
-  bool operator()(std::span<const double> values, std::span<double> r) const {
+  // Writes the residuals and, unless `by` is empty, their derivatives.
+  bool operator()(std::span<const double> values, std::span<double> r, std::span<double> by) const {
+    std::ranges::fill(by, 0);
     StaticSetting setting = setting_of(scales_);
     for (std::size_t i = 0; i < knobs_.size(); ++i) value_of(setting, knobs_[i]) = values[i];
     const double shift = doubted_ ? values[knobs_.size()] : 0;
+    ForceSlopes slopes;
     std::size_t at = 0, gain = knobs_.size() + (doubted_ ? 1 : 0);
     for (const auto& [rest, largest] : full_) {
       const bool mine = doubted_ && doubted_->rest_length == rest;
-      const double now = mine && !doubted_->mount ? rest + shift : rest;
-      const actuator::Actuator a = scaled(setting, scales_, now);
-      const double factor = full_.size() > 1 ? 1 + values[gain++] : 1;
-      for (; at < points_.size() && points_[at].rest_length == rest; ++at)
-        r[at] = miss(a, points_[at], mine ? shift : 0, factor, largest);
+      const bool is_rest_doubted = mine && !doubted_->mount;
+      const MuscleLaw law(setting, scales_, is_rest_doubted ? rest + shift : rest);
+      const double factor = full_.size() > 1 ? 1 + values[gain] : 1;
+      for (; at < points_.size() && points_[at].rest_length == rest; ++at) {
+        const StaticPoint& point = points_[at];
+        const bool moves = mine && at_rest(point.length, doubted_->mount.value_or(rest));
+        const double length = point.length + (moves ? shift : 0);
+        const double force = law.force(length, point);
+        const bool counts = !(point.force < slack_share * largest) || factor * force > 0;
+        r[at] = ((counts ? factor * force : 0.0) - point.force) / largest;
+        if (by.empty() || !counts) continue;
+        law.write_slopes(length, point, force, slopes);
+        const auto column = [&](std::size_t k) -> double& { return by[k * r.size() + at]; };
+        for (std::size_t k = 0; k < knobs_.size(); ++k)
+          column(k) = factor * value_of(slopes.by_knob, knobs_[k]) / largest;
+        if (mine)
+          column(knobs_.size()) =
+              factor *
+              ((is_rest_doubted ? slopes.by_rest_length : 0) + (moves ? slopes.by_length : 0)) /
+              largest;
+        if (full_.size() > 1) column(gain) = force / largest;
+      }
+      gain += full_.size() > 1 ? 1 : 0;
     }
-    add_priors(values, r);
+    add_priors(values, r, by);
     return std::ranges::all_of(r, [](double x) { return std::isfinite(x); });
   }
 
  private:
-  double miss(const actuator::Actuator& a, const StaticPoint& p, double shift, double factor,
-              double largest) const {
-    double length = p.length;
-    const double label = doubted_ ? doubted_->mount.value_or(doubted_->rest_length) : 0;
-    if (shift != 0 && at_rest(length, label)) length += shift;
-    double force = factor * law_force(a, length, p, scales_.atmosphere);
-    if (p.force < slack_share * largest) force = std::max(force, 0.0);
-    return (force - p.force) / largest;
-  }
-
-  void add_priors(std::span<const double> values, std::span<double> r) const {
+  void add_priors(std::span<const double> values, std::span<double> r, std::span<double> by) const {
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
-      double& out = r[points_.size() + i];
-      out = 0;
-      if (parameters_[i].name == "gain") out = usual_misfit * values[i] / gain_deviation;
-      if (i >= knobs_.size()) continue;
-      if (const auto prior = prior_of(knobs_[i], scales_))
-        out = usual_misfit *
-              (prior->logarithmic ? std::log(values[i] / prior->mean) : values[i] - prior->mean) /
-              prior->deviation;
+      std::optional<Prior> prior;
+      if (parameters_[i].name == "gain") prior = Prior{0, gain_deviation};
+      if (i < knobs_.size()) prior = prior_of(knobs_[i], scales_);
+      const std::size_t row = points_.size() + i;
+      r[row] = prior ? usual_misfit * prior->away(values[i]) / prior->deviation : 0;
+      if (prior && !by.empty())
+        by[i * r.size() + row] = usual_misfit / prior->deviation_at(values[i]);
     }
   }
 
@@ -117,11 +129,11 @@ class LabelProblem {
 LabelFit solved_labels(const LabelProblem& problem, const std::vector<std::vector<double>>& starts,
                        std::size_t points, std::size_t knobs, bool doubted) {
   const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
-    return problem(p, r);
+    return problem(p, r, {});
   };
-  const Solution found =
-      least_squares_from(residuals, problem.count(), problem.parameters(), starts,
-                         {.outlier = far_misfit, .correlated = true, .most_steps = 60});
+  const Solution found = least_squares_from(
+      residuals, problem.count(), problem.parameters(), starts,
+      {.outlier = far_misfit, .correlated = true, .most_steps = 60, .slopes = std::cref(problem)});
   LabelFit out;
   double square = 0;
   for (std::size_t i = 0; i < points; ++i) square += found.residuals[i] * found.residuals[i];

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <numeric>
 #include <vector>
 
 #include "sinew/config/quantity.h"
@@ -120,17 +120,24 @@ void refuse_clipped(const Measured& data, std::string_view column, std::string_v
 
 Measured each_row_once(Measured m, std::vector<bool>& kinds) {
   if (m.has("time")) return m;
-  const auto values = [&](std::size_t row) {
-    std::vector<double> out{kinds.empty() || kinds[row] ? 1.0 : 0.0};
-    for (const Column& c : m.columns) out.push_back(c.values[row]);
-    return out;
+  std::vector<std::size_t> order(m.rows());
+  std::iota(order.begin(), order.end(), 0);
+  const auto compared = [&](std::size_t a, std::size_t b) {
+    if (!kinds.empty() && kinds[a] != kinds[b]) return kinds[a] ? 1 : -1;
+    for (const Column& c : m.columns)
+      if (c.values[a] != c.values[b]) return c.values[a] > c.values[b] ? 1 : -1;
+    return 0;
   };
-  std::set<std::vector<double>> seen;
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+    const int sign = compared(a, b);
+    return sign == 0 ? a < b : sign < 0;
+  });
   std::vector<std::size_t> first;
-  for (std::size_t row = 0; row < m.rows(); ++row)
-    if (seen.insert(values(row)).second) first.push_back(row);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (i == 0 || compared(order[i - 1], order[i]) != 0) first.push_back(order[i]);
   const std::size_t repeated = m.rows() - first.size();
   if (repeated == 0) return m;
+  std::ranges::sort(first);
   m = m.subset(first);
   std::vector<bool> left;
   for (const std::size_t row : first)

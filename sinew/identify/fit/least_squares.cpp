@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sinew/host/stop.h"
 #include "sinew/identify/fit/matrix.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -25,10 +26,12 @@ namespace {
 // The residuals over scaled parameters, for Ceres and for the covariance alike.
 class Scaled {
  public:
-  // `count` residuals; `difference` is the derivatives' step, in the parameters' scales.
-  Scaled(const Residuals& residuals, std::size_t count, std::span<const Parameter> parameters,
-         double difference)
+  // `count` residuals; `difference` is the derivatives' step, in the parameters' scales, where
+  // `slopes` is empty.
+  Scaled(const Residuals& residuals, const Slopes& slopes, std::size_t count,
+         std::span<const Parameter> parameters, double difference)
       : residuals_(residuals),
+        slopes_(slopes),
         count_(count),
         parameters_(parameters),
         difference_(difference),
@@ -40,13 +43,30 @@ class Scaled {
   double low(std::size_t i) const { return parameters_[i].low / parameters_[i].scale; }
   double high(std::size_t i) const { return parameters_[i].high / parameters_[i].scale; }
 
-  // Writes the residuals at u. False where the model has no answer, or none in numbers.
+  // Writes the residuals at u. False where the model has no answer, or none in numbers, or where
+  // the search is stopped.
   bool operator()(const double* u, double* r) const {
-    for (std::size_t i = 0; i < p_.size(); ++i)
-      p_[i] = std::clamp(u[i] * parameters_[i].scale, parameters_[i].low, parameters_[i].high);
+    set_parameters(u);
     const std::span<double> out(r, count_);
-    if (!residuals_(p_, out)) return false;
-    return std::all_of(out.begin(), out.end(), [](double x) { return std::isfinite(x); });
+    return !host::is_stopped() && residuals_(p_, out) && are_finite(out);
+  }
+
+  // Writes the residuals at u and d r/d u. False where the model has no answer.
+  bool linearised(const std::vector<double>& u, double* r, Matrix& by) const {
+    if (!slopes_) {
+      if (!(*this)(u.data(), r)) return false;
+      for (std::size_t i = 0; i < size(); ++i)
+        if (!column(u, i, by.column(i).data())) return false;
+      return true;
+    }
+    set_parameters(u.data());
+    const std::span<double> out(r, count_);
+    if (host::is_stopped() || !slopes_(p_, out, {by.column(0).data(), count_ * size()}))
+      return false;
+    if (!are_finite(out)) return false;
+    for (std::size_t i = 0; i < size(); ++i)
+      for (double& x : by.column(i)) x *= parameters_[i].scale;
+    return by.is_finite();
   }
 
   // d r/d u_i: central, at a bound one-sided. False where the model has no answer.
@@ -64,7 +84,17 @@ class Scaled {
   }
 
  private:
+  void set_parameters(const double* u) const {
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      p_[i] = std::clamp(u[i] * parameters_[i].scale, parameters_[i].low, parameters_[i].high);
+  }
+
+  static bool are_finite(std::span<const double> values) {
+    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  }
+
   const Residuals& residuals_;
+  const Slopes& slopes_;
   std::size_t count_;
   std::span<const Parameter> parameters_;
   double difference_;
@@ -126,9 +156,15 @@ class Uncertainty {
   Matrix weighted_jacobian(const std::vector<double>& u, const std::vector<std::size_t>& free,
                            std::span<const double> residuals) const {
     Matrix j(model_.count(), free.size());
+    if (options_.slopes) {
+      Matrix all(model_.count(), model_.size());
+      std::vector<double> r(model_.count());
+      if (model_.linearised(u, r.data(), all)) j = all.chosen(free);
+    }
     for (std::size_t i = 0; i < free.size(); ++i) {
       const std::span<double> column = j.column(i);
-      if (!model_.column(u, free[i], column.data())) std::fill(column.begin(), column.end(), 0.0);
+      if (!options_.slopes && !model_.column(u, free[i], column.data()))
+        std::fill(column.begin(), column.end(), 0.0);
       for (std::size_t k = 0; k < column.size(); ++k) column[k] *= std::sqrt(weight(residuals[k]));
     }
     return j;
@@ -230,15 +266,18 @@ class Cost final : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* u, double* r, double** jacobians) const override {
-    if (!model_(u[0], r)) return false;
-    if (!jacobians || !jacobians[0]) return true;
-    const std::vector<double> at(u[0], u[0] + model_.size());
-    std::vector<double> column(model_.count());
-    for (std::size_t i = 0; i < model_.size(); ++i) {
-      if (!model_.column(at, i, column.data())) return false;
-      for (std::size_t k = 0; k < column.size(); ++k)
-        jacobians[0][k * model_.size() + i] = column[k];
+    double* row = jacobians ? jacobians[0] : nullptr;
+    bool found = row || model_(u[0], r);
+    if (row) {
+      Matrix by(model_.count(), model_.size());
+      found = model_.linearised({u[0], u[0] + model_.size()}, r, by);
+      for (std::size_t k = 0; k < model_.count(); ++k)
+        for (std::size_t i = 0; i < model_.size(); ++i) *row++ = by(k, i);
     }
+    if (!host::is_stopped()) return found;
+    // Nothing is left to improve, so that Ceres ends without a message.
+    std::fill_n(r, model_.count(), 0.0);
+    if (row) std::fill_n(jacobians[0], model_.count() * model_.size(), 0.0);
     return true;
   }
 
@@ -256,6 +295,23 @@ Residuals with_loss(const Residuals& residuals, double outlier) {
       const double s = x / outlier;
       x = std::copysign(outlier * std::sqrt(std::log1p(s * s)), x);
     }
+    return true;
+  };
+}
+
+// The same of residuals with their derivatives.
+Slopes with_loss(const Slopes& slopes, double outlier) {
+  if (outlier <= 0 || !slopes) return slopes;
+  return [&slopes, outlier](std::span<const double> p, std::span<double> r, std::span<double> by) {
+    if (!slopes(p, r, by)) return false;
+    std::vector<double> share;  // of a derivative that is left
+    for (double& x : r) {
+      const double s = x / outlier, root = std::sqrt(std::log1p(s * s));
+      share.push_back(root > 0 ? std::abs(s) / ((1 + s * s) * root) : 1);
+      x = std::copysign(outlier * root, x);
+    }
+    for (std::size_t k = 0; k < p.size(); ++k)
+      for (std::size_t i = 0; i < r.size(); ++i) by[k * r.size() + i] *= share[i];
     return true;
   };
 }
@@ -311,13 +367,15 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options) {
   check_start(parameters, count);
   const Residuals lossy = with_loss(residuals, options.outlier);
-  const Scaled model(lossy, count, parameters, options.difference);
-  const Scaled plain(residuals, count, parameters, options.difference);
+  const Slopes lossy_slopes = with_loss(options.slopes, options.outlier);
+  const Scaled model(lossy, lossy_slopes, count, parameters, options.difference);
+  const Scaled plain(residuals, options.slopes, count, parameters, options.difference);
 
   std::vector<double> u;
   for (const Parameter& p : parameters) u.push_back(p.start / p.scale);
   Solution out;
   out.residuals.resize(count);
+  if (host::is_stopped()) throw host::Stopped();
   if (!plain(u.data(), out.residuals.data()))
     throw Refusal("model", "no answer at its start values", "finite residuals",
                   "other start values");
@@ -347,6 +405,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
     out.steps = static_cast<int>(summary.iterations.size());
   }
 
+  if (host::is_stopped()) throw host::Stopped();
   plain(u.data(), out.residuals.data());
   for (std::size_t i = 0; i < u.size(); ++i)
     out.values.push_back(

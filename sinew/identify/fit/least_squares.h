@@ -3,7 +3,7 @@
 //
 //   minimise  sum rho(r_i(p)^2)/2     by Levenberg-Marquardt (Ceres), p within bounds
 //
-//   J     dr/dp by central differences at the solution, rows weighted as the loss weighs them
+//   J     dr/dp at the solution, rows weighted as the loss weighs them
 //   s^2   sum w r^2/(n - k)           n residuals, k parameters that are free
 //   cov   s^2 (J^T J)^-1              by singular values; directions that J does not see are left
 //                                     out and every parameter in them counts as not identifiable
@@ -39,6 +39,11 @@ struct Parameter {
 // answer there: the step is then refused.
 using Residuals = std::function<bool(std::span<const double> p, std::span<double> r)>;
 
+// Writes the residuals of the parameters p as Residuals does, and their derivatives by each
+// parameter: dr_i/dp_k is by[k * r.size() + i].
+using Slopes =
+    std::function<bool(std::span<const double> p, std::span<double> r, std::span<double> by)>;
+
 struct SolverOptions {
   // Residuals beyond it are taken for outliers, in units of the residuals; 0: none is (rho = r^2).
   // Cauchy's rho grows with their logarithm only.
@@ -54,6 +59,8 @@ struct SolverOptions {
   // Step of the derivatives, in the parameters' scales. By default the cube root of the roundoff; a
   // model that integrates with steps of its own has kinks of that size and needs more.
   double difference = 6e-6;
+  // Derivatives in closed form of the same residuals; empty: they are central differences.
+  Slopes slopes;
 };
 
 // How much more a law misses the data by when a parameter is moved and the others are fitted again
@@ -101,7 +108,8 @@ struct Solution {
   const Estimate& operator[](std::string_view name) const;  // throws std::out_of_range
 };
 
-// Throws std::invalid_argument for bounds that contain no start, and Refusal where there are fewer
+// Throws host::Stopped where the calling thread is stopped (host/stop.h) before the search ends,
+// std::invalid_argument for bounds that contain no start, and Refusal where there are fewer
 // residuals than parameters or the model has no answer at the start.
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options = {});

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
+#include "sinew/host/side_by_side.h"
+#include "sinew/host/stop.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -103,6 +106,42 @@ TEST(LeastSquares, OutliersDoNotMoveARobustFit) {
   EXPECT_NEAR(robust.values[0], 1.5, 0.15);
   EXPECT_NEAR(robust.values[1], -2, 0.3);
   EXPECT_LT(robust.standard_deviation, 0.3);
+}
+
+TEST(LeastSquares, DerivativesInClosedFormLeadToTheSameSolution) {
+  for (const double outlier : {0.0, 0.3}) {
+    Line line(7);
+    for (const std::size_t i : {2u, 9u, 15u}) line.y[i] += 30;
+    SolverOptions options{.outlier = outlier};
+    const Solution differences =
+        least_squares(line.residuals(), line.x.size(), line_parameters, options);
+    options.slopes = [&](std::span<const double> p, std::span<double> r, std::span<double> by) {
+      for (std::size_t i = 0; i < r.size(); ++i) by[i] = 1, by[r.size() + i] = line.x[i];
+      return line.residuals()(p, r);
+    };
+    const Solution closed =
+        least_squares(line.residuals(), line.x.size(), line_parameters, options);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(closed.values[k], differences.values[k], 1e-8);
+      EXPECT_NEAR(closed.estimates[k].standard_error, differences.estimates[k].standard_error,
+                  1e-8);
+    }
+    EXPECT_EQ(closed.steps, differences.steps);
+  }
+}
+
+TEST(LeastSquares, ASearchThatIsStoppedEndsAtItsNextTrial) {
+  const Line line(3);
+  std::atomic<bool> stop = false;
+  int trials = 0;
+  const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
+    stop = ++trials == 4;
+    return line.residuals()(p, r);
+  };
+  const host::Stoppable stoppable(&stop);
+  EXPECT_THROW(least_squares(residuals, line.x.size(), line_parameters), host::Stopped);
+  EXPECT_EQ(trials, 4);
+  EXPECT_THROW(host::side_by_side(3, [](std::size_t) {}), host::Stopped);
 }
 
 TEST(LeastSquares, ABoundHoldsAndSaysSo) {

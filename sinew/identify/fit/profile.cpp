@@ -58,7 +58,7 @@ double loss_with(const FitProblem& problem, std::size_t which, double value, dou
   };
   try {
     improve(first_steps, 1e-3);
-    if (loss < far_beyond * limit) improve(more_steps, 1e-8);
+    if (loss < far_beyond * limit) improve(more_steps, 1e-6);
   } catch (const Refusal&) {
     return unbounded;
   }

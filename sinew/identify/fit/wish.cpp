@@ -158,6 +158,27 @@ Reduced reduce(std::span<const Parameter> parameters, const Wishes& wishes) {
   return out;
 }
 
+// Derivatives by what is left to the solver: of tied parameters the sum, of the first priors each.
+Slopes slopes_of(const Slopes& slopes, std::size_t count, const Reduced& reduced,
+                 std::size_t priors, double weight) {
+  return [&slopes, count, &reduced, priors, weight](std::span<const double> p, std::span<double> r,
+                                                    std::span<double> by) {
+    const std::size_t rows = r.size();
+    std::vector<double> each(count * reduced.place.size());
+    if (!slopes(reduced.all(p), r.first(count), each)) return false;
+    std::ranges::fill(by, 0.0);
+    for (std::size_t i = 0; i < reduced.place.size(); ++i)
+      for (std::size_t k = 0; k < count && reduced.place[i] >= 0; ++k)
+        by[static_cast<std::size_t>(reduced.place[i]) * rows + k] += each[i * count + k];
+    for (std::size_t i = 0; i < priors; ++i) {
+      const Reduced::Prior& prior = reduced.priors[i];
+      r[count + i] = weight * (p[prior.place] - prior.value) / prior.deviation;
+      by[prior.place * rows + count + i] = weight / prior.deviation;
+    }
+    return true;
+  };
+}
+
 Solution solve_reduced(const Residuals& residuals, std::size_t count, const Reduced& reduced,
                        double weight, const SolverOptions& options) {
   const std::size_t priors = weight > 0 ? reduced.priors.size() : 0;
@@ -169,7 +190,9 @@ Solution solve_reduced(const Residuals& residuals, std::size_t count, const Redu
     }
     return true;
   };
-  return least_squares(all, count + priors, reduced.parameters, options);
+  SolverOptions own = options;
+  if (options.slopes) own.slopes = slopes_of(options.slopes, count, reduced, priors, weight);
+  return least_squares(all, count + priors, reduced.parameters, own);
 }
 
 // How the prior and what the data made of it compare.

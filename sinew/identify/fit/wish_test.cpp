@@ -142,5 +142,45 @@ TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
   EXPECT_EQ(checked({.tie = {"a=b"}}), "tie: found \"a=b\"; expected another parameter in N");
 }
 
+// Frozen, tied and likely values leave derivatives in closed form that are those of the rest.
+TEST(Wishes, TakeDerivativesInClosedFormAlong) {
+  const std::vector<Parameter> parameters = {{.name = "a", .unit = "1", .start = 1},
+                                             {.name = "b", .unit = "1", .start = 1},
+                                             {.name = "c", .unit = "1", .start = 1},
+                                             {.name = "d", .unit = "1", .start = 1}};
+  constexpr std::size_t rows = 12;
+  const auto x = [](std::size_t i) { return 0.1 * static_cast<double>(i); };
+  const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < rows; ++i)
+      r[i] = p[0] * std::exp(p[1] * x(i)) + p[2] * x(i) + p[3] - 3 - std::sin(5 * x(i));
+    return true;
+  };
+  int called = 0;
+  const Slopes slopes = [&](std::span<const double> p, std::span<double> r, std::span<double> by) {
+    ++called;
+    residuals(p, r);
+    for (std::size_t i = 0; i < rows; ++i) {
+      by[i] = std::exp(p[1] * x(i));
+      by[rows + i] = p[0] * x(i) * by[i];
+      by[2 * rows + i] = x(i);
+      by[3 * rows + i] = 1;
+    }
+    return true;
+  };
+  for (const WishTexts& texts :
+       {WishTexts{.freeze = {"b=0.3 SI"}, .prior = {}, .tie = {}},
+        WishTexts{.freeze = {"c=0 SI"}, .prior = {}, .tie = {"d=a"}},
+        WishTexts{.freeze = {}, .prior = {"b=0.5 SI +- 0.1 SI"}, .tie = {"c=d"}}}) {
+    const Wishes wishes(texts);
+    const Solution without = least_squares(residuals, rows, parameters, wishes);
+    const Solution with = least_squares(residuals, rows, parameters, wishes, {.slopes = slopes});
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      EXPECT_NEAR(with.values[i], without.values[i], 1e-6);
+      EXPECT_NEAR(with.estimates[i].high, without.estimates[i].high, 1e-5);
+    }
+  }
+  EXPECT_GT(called, 0);
+}
+
 }  // namespace
 }  // namespace sinew::identify::wish_test

@@ -153,7 +153,7 @@ std::vector<double> deviations_before(const ExpectedMuscle& m) {
     const Parameter range = parameter_of(knob, m.scales);
     double deviation = (range.high - range.low) / std::sqrt(12.0);  // of a value anywhere in it
     if (const auto prior = prior_of(knob, m.scales))
-      deviation = prior->deviation * (prior->logarithmic ? value_of(setting, knob) : 1.0);
+      deviation = prior->deviation_at(value_of(setting, knob));
     out.push_back(deviation / range.scale);
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -9,7 +10,8 @@
 namespace sinew::identify {
 
 CreepResult find(const SourceList& sources, const CreepSettings& settings) {
-  return identify_creep(read_measured(only_of(sources), creep_columns()), settings.tried);
+  return identify_creep(times_averaged(read_measured(only_of(sources), creep_columns()), 20000),
+                        settings.tried);
 }
 
 Json to_json(const CreepResult& found) {

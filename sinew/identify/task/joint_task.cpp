@@ -8,6 +8,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
@@ -165,13 +166,20 @@ JointNames names_of(const JointSettings& settings) {
   return names;
 }
 
+// Averages a long table: poses by their settings, a motion over its time.
+Measured poses_averaged(Measured all) {
+  const std::string_view response = all.has("load") ? "load" : "torque";
+  return times_averaged(settings_averaged(std::move(all), response), 8000, "angle");
+}
+
 // All tables as one, whose rows know theirs by a column `recording`; one table stays as it is.
 Measured joined(const std::vector<Source>& sources, bool moving) {
-  Measured out = each_row_once(read_measured(sources[0], joint_columns(moving)));
+  Measured out = poses_averaged(each_row_once(read_measured(sources[0], joint_columns(moving))));
   if (sources.size() == 1) return out;
   std::vector<double> recording(out.rows(), 0.0);
   for (std::size_t k = 1; k < sources.size(); ++k) {
-    const Measured more = each_row_once(read_measured(sources[k], joint_columns(moving)));
+    const Measured more =
+        poses_averaged(each_row_once(read_measured(sources[k], joint_columns(moving))));
     for (Column& c : out.columns) {
       if (!more.has(c.name))
         throw Refusal(more.file, "no column " + c.name, "the columns of " + sources[0].path, "");
@@ -204,7 +212,7 @@ JointFound find(const SourceList& sources, const JointSettings& settings) {
   const Measured data = joined(sources, settings.moving);
   std::optional<Measured> held_out;
   for (const Source& other : held_out_tables(settings.hold_out, sources))
-    held_out = read_measured(other, joint_columns(settings.moving));
+    held_out = poses_averaged(read_measured(other, joint_columns(settings.moving)));
   JointFound out{.result = identify_joint(data, held_out, setup, settings.model,
                                           Wishes(settings.wishes), settings.tried),
                  .setup = setup,

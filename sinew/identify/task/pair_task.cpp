@@ -16,6 +16,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/refusal.h"
@@ -126,7 +127,10 @@ std::vector<PairRecord> records_of(std::vector<Source> sources, const PairSettin
   const double window = SettingValues(settings).of(settings.window);
   std::vector<PairRecord> out;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    out.push_back(pair_record(read_measured(sources[i], pair_columns()), window));
+    Measured all = read_measured(sources[i], pair_columns());
+    const std::string_view position = all.has("angle") ? "angle" : "displacement";
+    if (all.has(position)) all = times_averaged(std::move(all), 20000, position);
+    out.push_back(pair_record(all, window));
     out.back().rig = rigs[i];
     out.back().held_out =
         std::ranges::find(held_out, sources[i].path, &Source::path) != held_out.end();

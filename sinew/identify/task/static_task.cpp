@@ -11,6 +11,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/task/tables.h"
 
@@ -49,7 +50,8 @@ void read_table(const StaticSettings& settings, const StaticInput& input, const 
   // A row repeats another only where both are fitted, or neither is.
   std::vector<bool> named;
   if (input.fitted && !settings.fit_where.empty()) named = named_rows(settings, source, all);
-  all = each_row_once(std::move(all), named);
+  all = settings_averaged(each_row_once(std::move(all), named), all.has("load") ? "load" : "force",
+                          named);
   const std::size_t before = out.data.points.size();
   CheckedTable table{all, input};
   if (unreadable == Unreadable::is_red)

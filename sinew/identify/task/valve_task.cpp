@@ -9,11 +9,13 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/fit.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/valve/added_volume.h"
+#include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/timing.h"
 #include "sinew/identify/valve/valve.h"
 #include "sinew/json/json.h"
@@ -59,6 +61,18 @@ bool has_column_of_volumes(const Source& source) {
   return column_called(grid, called_in(source, "added_volume")).has_value();
 }
 
+constexpr std::size_t most_samples = 20000, most_of_pulses = 15000;  // more are averaged
+
+// Averages long pulses over their time, so that the shortest one stays whole.
+Measured pulses_averaged(const Measured& data) {
+  if (data.rows() <= most_of_pulses) return data;
+  const std::vector<Opening> edges = edges_of(data).edges;
+  QuickChange shortest{edges.front().time, data["time"].back() - data["time"].front()};
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    shortest.duration = std::min(shortest.duration, edges[i].time - edges[i - 1].time);
+  return times_averaged(data, most_of_pulses, shortest);
+}
+
 // One for each source, between commas.
 std::vector<AddedFill> fills_by_setting(const std::vector<Source>& sources,
                                         const ValveSettings& settings,
@@ -70,7 +84,8 @@ std::vector<AddedFill> fills_by_setting(const std::vector<Source>& sources,
   const std::vector<double> added = values.each(settings.added_volume, sources.size());
   std::vector<AddedFill> out;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    Measured data = read_measured(sources[i], valve_columns());
+    Measured data =
+        times_averaged(read_measured(sources[i], valve_columns()), most_samples, "pressure");
     if (data.has("added_volume"))
       config::fail({"added_volume", 0, 0}, "", config::in_quotes(settings.added_volume),
                    fmt::format("no such setting: {} has a column of that name", data.file));
@@ -116,7 +131,7 @@ std::vector<AddedFill> added_fills(const std::vector<Source>& sources,
   for (const Source& source : sources)
     for (const Source& recording : recordings_in(source))
       for (AddedFill& fill : fills_by_column(read_measured(recording, valve_columns())))
-        out.push_back(std::move(fill));
+        out.push_back({times_averaged(std::move(fill.data), most_samples, "pressure"), fill.added});
   if (out.size() == 1) return {};  // one filling, whatever was joined
   return out;
 }
@@ -162,7 +177,7 @@ ValveResult identified(const Measured& data, const ValveOptions& how, const std:
     case ValveData::chart:
       return identify_chart(data, how);
     case ValveData::pulses:
-      return identify_pulses(data, how);
+      return identify_pulses(pulses_averaged(data), how);
     case ValveData::coil:
       return identify_coil(data, how);
     case ValveData::duty:
@@ -170,9 +185,12 @@ ValveResult identified(const Measured& data, const ValveOptions& how, const std:
     case ValveData::fill:
       break;
   }
-  if (others.empty()) return identify_fill(data, how);
-  const Measured unseen = read_measured(others[0], valve_columns());
-  return identify_fill(data, how, &unseen);
+  const auto filling = [](Measured m) {
+    return times_averaged(std::move(m), most_samples, "pressure");
+  };
+  if (others.empty()) return identify_fill(filling(data), how);
+  const Measured unseen = filling(read_measured(others[0], valve_columns()));
+  return identify_fill(filling(data), how, &unseen);
 }
 
 // With fillings that tell volume and conductance, neither is known beforehand.
