@@ -6,12 +6,13 @@
 //                                      is kappa times as large
 //   kappa = kappa_0 + kappa_low exp(-P_g/P_low)          smaller as pressure fills the ends:
 //                                                        Kerscher et al. (2006)
-//   V = V_braid(L_b) - pi h_w L_b (D - h_w)              h_w  thickness of the wall [m], the air
-//                                                        is within it; D of the braid at L_b [m]
-//   V + V_a                            V_a  air beside that of the braid, the same at each length
-//   [m3] A_t = pi h_w (D_0 (2 sin(theta) - 1/sin(theta)) - h_w)   tension per pressure of the wall
-//   [m2]:
-//                                      the virtual work of V, Chou and Hannaford (1996)
+//   V = V_braid(L_b) - pi h_w L_b (D - h_w) + V_a
+//                                      h_w  thickness of the wall [m], the air is within it
+//                                      D  of the braid at L_b [m]
+//                                      V_a  air beside that of the braid, at every length [m3]
+//   A_t = pi h_w (D_0 (2 sin(theta) - 1/sin(theta)) - h_w)
+//                                      tension per pressure of the wall [m2], the virtual work of
+//                                      V: Chou and Hannaford (1996)
 //   D_0 = b/(n pi), sin(theta) = D/D_0
 //
 // For kappa there is no volume: it is no geometry, V is that of the braid at L - d. With nothing
