@@ -10,12 +10,14 @@ namespace sinew::host {
 // Thrown by work that has been stopped.
 class Stopped : public std::runtime_error {
  public:
+  // Makes it with these words.
   Stopped() : std::runtime_error("stopped") {}
 };
 
 // While it lives, is_stopped() of its thread returns whether `stop` is true.
 class Stoppable {
  public:
+  // Takes the flag, which outlives it.
   explicit Stoppable(const std::atomic<bool>* stop);
   ~Stoppable();
   Stoppable(const Stoppable&) = delete;
