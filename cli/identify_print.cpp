@@ -86,6 +86,7 @@ std::string interval(const identify::Estimate& e, double scale) {
 
 // Returns an error of a profile, in multiples of that of the chosen values.
 std::string error_at(double times) {
+  if (!std::isfinite(times)) return "-";
   return times < identify::Profile::most ? fmt::format("{:.3g}", times) : "> 10";
 }
 
@@ -106,7 +107,7 @@ void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked
                              std::string(e.profile->pinned ? "pinned" : "not pinned") +
                                  (e.profile->near_zero ? ", near zero" : "")});
     else if (profiled)
-      row.insert(row.end(), {"-", "-", e.at_bound ? "not pinned" : ""});
+      row.insert(row.end(), {"-", "-", ""});
     table.add(row);
   }
   fmt::print("{}", table.text());
@@ -475,7 +476,8 @@ void print_more(const identify::ScaleFound& found, const PrintOptions&) {
   if (found.corrected_by != 1)
     fmt::print("its reading    the law times {:.4f}\n", found.corrected_by);
   else
-    fmt::print("a reading there corrects it most: --reading \"LENGTH, PRESSURE, FORCE\"\n");
+    fmt::print("one reading    --reading \"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
+               1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (p.inside_95 > 0)
     fmt::print("68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
                actuator::widest_inside_68(p), actuator::widest_inside_95(p));

@@ -509,7 +509,7 @@ void fields(Visitor& v, Actuator& a) {
                     "a length between that and the thread's");
   } else if (a.air.offset < 0 && !(volume(a, a.long_end.length) > 0)) {
     units::complain(v, "air", "an offset that leaves no air at long_end.length",
-                    "one above the volume of the braid there, less than 0");
+                    "one that leaves some: above minus the volume of the braid there");
   }
   v.group({.name = "hysteresis", .optional = true, .doc = "friction that turns with the pressure"},
           [&](auto& g) { fields(g, a.hysteresis); });

@@ -20,7 +20,7 @@ function precise(value, half) {
   return [words(value.toFixed(decimals)), `± ${small ? words(half.toExponential(1)) : half.toFixed(decimals)}`];
 }
 
-const error_at = ({ profile }, k) => (!profile ? '–' : profile[k].error >= 10 ? '> 10' : profile[k].error.toPrecision(3));
+const error_at = ({ profile }, k) => (!profile || profile[k].error === null ? '–' : profile[k].error >= 10 ? '> 10' : profile[k].error.toPrecision(3));
 
 class Part {
   constructor(spec, page) {
@@ -91,7 +91,7 @@ class Part {
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
         cell(shown, 'number ours'), cell(interval, 'number'), cell(u.label, 'unit'),
         ...(profiled ? [cell(error_at(p, 0), 'number'), cell(error_at(p, 4), 'number'),
-                        cell(p.pinned === undefined && !p.at_bound ? '' : p.pinned ? 'pinned' : 'not pinned', p.pinned ? 'quiet' : '')] : []),
+                        cell(p.pinned === undefined ? '' : p.pinned ? 'pinned' : 'not pinned', p.pinned ? 'quiet' : '')] : []),
         element('td', {}, note ? element('span', { class: 'tag guess' }, note) : ''));
     });
     this.evidence.replaceChildren(left_out(report, this.spec.charts[0], units), errors(report, units));

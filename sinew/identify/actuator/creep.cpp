@@ -233,6 +233,7 @@ CreepResult identify_creep(const Measured& data, host::Tally* done) {
   report.unseen = {"creep and friction at other lengths"};
   report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
   conclude(report);
+  refuse_unexplained(report, 15, "the columns and their units, or a longer record");
   const Form& best = *std::ranges::find(forms, report.best().model, &Form::name);
   const std::vector<Estimate>& found = report.best().parameters;
   const std::size_t first = best.friction ? 3 : 2;

@@ -34,7 +34,7 @@ namespace {
 struct Outlier {
   std::size_t point = 0;  // its index
   double law = 0;         // force of that law there [N]
-  std::string why;        // what would explain it (static_explain.h)
+  std::string why;        // what would explain it
 };
 
 // Points that are wrong, and how far from the law a point may lie  [N].
@@ -546,7 +546,8 @@ void set_air(const StaticOptions& options, StaticResult& out) {
     how = fmt::format(", with {:.4g} turns in place of {:.4g} at the same forces", a.braid.turns,
                       turns);
   if (a.air.offset != 0)
-    how += fmt::format(", with {:.3g} cm3 beside the braid", 1e6 * a.air.offset);
+    how += fmt::format(", {:.3g} cm3 {} than in the braid", 1e6 * std::abs(a.air.offset),
+                       a.air.offset < 0 ? "less" : "more");
   out.report.notes.push_back(fmt::format(
       "the air at rest is {:.4g} cm3, {}; the force alone has {:.4g}{}", 1e6 * known,
       options.volume > 0 ? "as measured" : "of a cylinder of this diameter", 1e6 * by_force, how));

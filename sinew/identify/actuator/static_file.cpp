@@ -105,7 +105,7 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
   add_ends(std::max(longest, muscle.file_length), path, a, provenance);
   if (!(actuator::volume(a, a.long_end.length) > 0))
-    throw Refusal("volume",
+    throw Refusal("diameter or volume",
                   fmt::format("no air that is left at {:.4g} mm", 1e3 * a.long_end.length),
                   "more air at rest than stretching takes away", "another diameter or volume");
   a.prediction = prediction_of(result, muscle);

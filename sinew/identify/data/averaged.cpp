@@ -23,21 +23,46 @@ struct RowGroups {
   std::size_t count = 0;
 };
 
-// Returns groups of rows that have the same cell of each column, whose range has so many steps.
-RowGroups cells_of(const std::vector<std::span<const double>>& columns, std::size_t rows,
-                   double steps) {
+// A column by which rows are grouped: a quantity by the cells of its range, a label by its value.
+struct Setting {
+  std::span<const double> values;
+  bool is_label = false;
+};
+
+// Returns groups of rows that have the same labels, and the same cell of each quantity, whose range
+// has so many steps.
+RowGroups cells_of(const std::vector<Setting>& settings, std::size_t rows, double steps) {
   RowGroups out{std::vector<std::size_t>(rows), 1};
-  for (const std::span<const double> values : columns) {
+  for (const auto& [values, is_label] : settings) {
     const double low = smallest(values), width = (largest(values) - low) / steps;
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> groups;
+    std::map<std::pair<std::size_t, double>, std::size_t> groups;
     for (std::size_t row = 0; row < rows; ++row) {
-      const double cell = width > 0 ? std::round((values[row] - low) / width) : 0;
-      const std::pair key(out.of_row[row], static_cast<std::size_t>(cell));
+      const double cell = is_label    ? values[row]
+                          : width > 0 ? std::round((values[row] - low) / width)
+                                      : 0;
+      const std::pair key(out.of_row[row], cell);
       out.of_row[row] = groups.try_emplace(key, groups.size()).first->second;
     }
     out.count = groups.size();
   }
   return out;
+}
+
+// Returns the root mean square of what values differ from the averages of their groups by, in
+// shares of the largest.
+double scatter_within(const RowGroups& groups, std::span<const double> values) {
+  std::vector<double> sum(groups.count), count(groups.count);
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    sum[groups.of_row[row]] += values[row];
+    ++count[groups.of_row[row]];
+  }
+  double squares = 0;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    const std::size_t group = groups.of_row[row];
+    squares += std::pow(values[row] - sum[group] / count[group], 2);
+  }
+  const double freedom = static_cast<double>(values.size() - groups.count);
+  return freedom > 0 && largest(values) > 0 ? std::sqrt(squares / freedom) / largest(values) : 0;
 }
 
 // Replaces the rows by the averages of their groups; each has the line of its group's first row.
@@ -60,14 +85,16 @@ void average(const RowGroups& groups, Measured& data) {
 Measured settings_averaged(Measured data, std::string_view response, std::vector<bool>& kinds) {
   const std::size_t rows = data.rows();
   if (data.has("time") || rows <= most_rows) return data;
-  std::vector<std::span<const double>> settings;
+  std::vector<Setting> settings;
   for (const Column& c : data.columns)
-    if (c.name != response) settings.emplace_back(c.values);
+    if (c.name != response)
+      settings.push_back({c.values, c.name == "rest_length" || c.name == "branch"});
   const std::vector<double> kind(kinds.begin(), kinds.end());
-  if (!kinds.empty()) settings.emplace_back(kind);
+  if (!kinds.empty()) settings.push_back({kind, true});
   double steps = 4096;
   RowGroups groups = cells_of(settings, rows, steps);
   while (groups.count > averaged_rows && steps > 2) groups = cells_of(settings, rows, steps /= 2);
+  const double scatter = data.has(response) ? scatter_within(groups, data[response]) : 0;
   average(groups, data);
   if (!kinds.empty()) {
     std::vector<bool> of_group(groups.count);
@@ -76,8 +103,9 @@ Measured settings_averaged(Measured data, std::string_view response, std::vector
   }
   data.notes.push_back(fmt::format(
       "{} rows are averaged to {} settings: within one each column but {} differs by at most "
-      "1/{:.0f} of its range",
-      rows, data.rows(), response, steps));
+      "1/{:.0f} of its range, and that by {:.2g} % of the largest, rms: noise, or what no column "
+      "shows, such as filling and venting",
+      rows, data.rows(), response, steps, 100 * scatter));
   return data;
 }
 

@@ -16,9 +16,10 @@ namespace sinew::identify {
 inline constexpr std::size_t most_rows = 4000, averaged_rows = 2000;
 
 // Returns a table of more than 4000 rows without a time as averages, with a note that counts them:
-// of the rows of each setting, which are those in one cell of a grid over all columns but
-// `response`. The grid divides the range of each column into 4096 equal steps, or half as many
-// until there are at most 2000 settings. Other tables are returned as they are.
+// of the rows of each setting, which are those with the same rest length and branch in one cell of
+// a grid over all other columns but `response`. The grid divides the range of each column into 4096
+// equal steps, or half as many until there are at most 2000 settings. The note has the scatter of
+// the response within a setting, too. Other tables are returned as they are.
 Measured settings_averaged(Measured data, std::string_view response);
 // Does the same for rows of two kinds, of which no average is mixed; `kinds` has the kind of each
 // row and then that of each average. Empty: there is one kind.

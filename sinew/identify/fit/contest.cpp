@@ -118,6 +118,12 @@ std::vector<Split> each_part_unseen(std::span<const int> part) {
   return out;
 }
 
+std::vector<Split> each_row_unseen(std::size_t rows) {
+  std::vector<int> part(rows);
+  std::iota(part.begin(), part.end(), 0);
+  return each_part_unseen(part);
+}
+
 void contend(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
              host::Tally* done) {
   const std::size_t before = report.fits.size();

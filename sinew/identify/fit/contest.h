@@ -18,8 +18,8 @@
 
 namespace sinew::identify {
 
-// Writes what a law has at every row, of the parameters p. Returns false where it has no answer. It
-// holds what it reads.
+// Writes what a law has at every row, of the parameters p. Returns false where it has no answer.
+// What it refers to lives until conclude() returns.
 using Prediction = std::function<bool(std::span<const double> p, std::span<double> values)>;
 
 // A law of a contest.
@@ -30,7 +30,7 @@ struct Candidate {
   std::vector<std::vector<double>> starts;  // the best counts; empty: the parameters' own
   SolverOptions options;
   std::vector<std::string_view> may_be_at_bound;  // parameters that mean something there
-  std::string refused;  // known before a fit; empty: nothing speaks against it
+  std::string refused;                            // known before a fit; empty: it is fitted
 };
 
 // Rows that a law is fitted to, by number, and rows that it then predicts.
@@ -40,6 +40,8 @@ struct Split {
 
 // Returns a split for each part, in which its rows are unseen. `part` has the part of each row.
 std::vector<Split> each_part_unseen(std::span<const int> part);
+// Returns a split for each row, which is unseen in it.
+std::vector<Split> each_row_unseen(std::size_t rows);
 
 // What all candidates are fitted to and tried on.
 struct Trial {

@@ -43,18 +43,11 @@ Report report_of(const Line& data) {
   return {.full_scale = 1, .rows = {.x = "x", .x_unit = "1", .at = data.x, .measured = data.y}};
 }
 
-std::vector<int> each(std::size_t rows) {
-  std::vector<int> out;
-  for (std::size_t i = 0; i < rows; ++i) out.push_back(static_cast<int>(i));
-  return out;
-}
-
 // Leaving one row out has a closed form: its residual over 1 - its leverage, for a mean 1 - 1/n.
 TEST(Contest, LeavesEachRowOutOnce) {
   const Line data = line(10);
   Report report = report_of(data);
-  contend({polynomial(data.x, 0)}, {.measured = data.y, .splits = each_part_unseen(each(10))},
-          report);
+  contend({polynomial(data.x, 0)}, {.measured = data.y, .splits = each_row_unseen(10)}, report);
   const Fit& fit = report.fits[0];
   EXPECT_NEAR(fit.held_out->rmse, fit.fit.rmse / (1 - 0.1), 1e-7);
   EXPECT_FALSE(fit.cross_validated.has_value());
@@ -64,7 +57,7 @@ TEST(Contest, LeavesEachRowOutOnce) {
 TEST(Contest, TheSimplestLawThatPredictsIsChosenAndPinned) {
   const Line data = line(60);
   Report report = report_of(data);
-  Trial trial{.measured = data.y, .splits = each_part_unseen(each(60))};
+  Trial trial{.measured = data.y, .splits = each_row_unseen(60)};
   trial.cross_validates = true;
   contend({polynomial(data.x, 0), polynomial(data.x, 1), polynomial(data.x, 2)}, trial, report);
   conclude(report);

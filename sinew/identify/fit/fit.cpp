@@ -1,6 +1,7 @@
 #include "sinew/identify/fit/fit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -135,20 +136,36 @@ void choose(Report& report, double tolerance, double negligible) {
 
 namespace {
 
+// Returns whether a profile leads to a smaller error than that of the chosen values. Where outliers
+// count less, or more is known than the data, the error is not what was made small.
+bool finds_better(const FitProblem& problem, const std::optional<Profile>& profile) {
+  constexpr double less = 0.99;
+  return profile && problem.data == 0 && problem.options.outlier == 0 && problem.wishes.empty() &&
+         std::ranges::any_of(profile->error, [](double error) { return error < less; });
+}
+
 void add_profiles(Report& report) {
   Fit& fit = report.fits[report.chosen];
   if (fit.again) {
-    if (const Solution& s = fit.again->solution; !s.converged)
+    bool is_settled = fit.again->solution.converged;
+    if (!is_settled)
       report.warnings.push_back(
           fmt::format("the search for the values of {} ended after {} steps before it had settled: "
                       "better ones may exist",
-                      fit.model, s.steps));
+                      fit.model, fit.again->solution.steps));
     const std::vector<std::optional<Profile>> profiles =
         profiles_of(fit.again->problem, fit.again->solution);
     for (std::size_t i = 0; i < profiles.size(); ++i) {
       const std::string& name = fit.again->problem.parameters[i].name;
       const auto estimate = std::ranges::find(fit.parameters, name, &Estimate::name);
       if (estimate != fit.parameters.end()) estimate->profile = profiles[i];
+      if (is_settled && finds_better(fit.again->problem, profiles[i])) {
+        is_settled = false;
+        report.warnings.push_back(fmt::format(
+            "with {} at another value the law misses the data less: the search has not found the "
+            "best values",
+            name));
+      }
     }
   }
   for (Fit& each : report.fits) each.again.reset();
@@ -173,12 +190,6 @@ void add_errors_by_group(Report& report) {
   report.errors.push_back(std::move(by));
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
 // Returns the laws whose error, by which the choice goes, is at most a tenth more than the chosen
 // one's.
 std::vector<std::string> hardly_worse(const Report& report) {
@@ -201,26 +212,40 @@ void conclude(Report& report, double tolerance, double negligible) {
 std::vector<std::string> not_pinned(const Report& report) {
   std::vector<std::string> out;
   for (const Estimate& e : report.best().parameters)
-    if (e.at_bound || (e.profile && !e.profile->pinned)) out.push_back(e.name);
+    if (e.profile ? !e.profile->pinned : e.at_bound && e.free) out.push_back(e.name);
   return out;
 }
 
 std::vector<std::string> does_not_show(const Report& report) {
   std::vector<std::string> out = report.unseen;
   const Fit& best = report.best();
-  if (const std::vector<std::string> names = not_pinned(report); !names.empty())
+  std::vector<std::string> names, at_bounds;
+  for (const Estimate& e : best.parameters)
+    if (e.profile ? !e.profile->pinned : e.at_bound && e.free)
+      (e.profile ? names : at_bounds).push_back(e.name);
+  if (!at_bounds.empty())
+    out.push_back(fmt::format("the value{} of {}, at the bound of {} range",
+                              at_bounds.size() == 1 ? "" : "s", fmt::join(at_bounds, ", "),
+                              at_bounds.size() == 1 ? "its" : "their"));
+  if (!names.empty())
     out.push_back(fmt::format(
-        "the value{} of {}: with half or twice of {}, or at the end of its range, and all others "
-        "fitted again the law misses the data hardly more",
-        names.size() == 1 ? "" : "s", listed(names), names.size() == 1 ? "it" : "each"));
+        "the value{} of {}: with half or twice of {} and all others fitted again the law misses "
+        "the "
+        "data hardly more",
+        names.size() == 1 ? "" : "s", fmt::join(names, ", "), names.size() == 1 ? "it" : "each"));
   if (const std::vector<std::string> laws = hardly_worse(report); !laws.empty())
     out.push_back(fmt::format("whether {} is the true law, as {} {} at most a tenth more",
-                              best.model, listed(laws), laws.size() == 1 ? "misses" : "miss"));
+                              best.model, fmt::join(laws, ", "),
+                              laws.size() == 1 ? "misses" : "miss"));
   if (!best.held_out && !best.cross_validated)
     out.emplace_back("how large errors are where nothing was measured, as no row was left out");
   if (!report.rows.at.empty() && report.rows.x_unit != "s") {
     const units::ShownUnits units = units::UnitSet::metric;
-    const auto [least, most] = std::ranges::minmax(report.rows.at);
+    std::vector<double> fitted;
+    for (std::size_t i = 0; i < report.rows.size(); ++i)
+      if (report.rows.held_out.empty() || !report.rows.held_out[i])
+        fitted.push_back(report.rows.at[i]);
+    const auto [least, most] = std::ranges::minmax(fitted.empty() ? report.rows.at : fitted);
     out.push_back(fmt::format("what happens outside the {} that was measured, {} to {}",
                               report.rows.x, units.text(least, report.rows.x_unit),
                               units.text(most, report.rows.x_unit)));

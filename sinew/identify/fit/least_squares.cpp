@@ -380,6 +380,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
     throw Refusal("model", "no answer at its start values", "finite residuals",
                   "other start values");
 
+  out.converged = parameters.empty();
   if (!parameters.empty()) {
     ceres::Problem problem;
     problem.AddParameterBlock(u.data(), static_cast<int>(u.size()));

@@ -70,9 +70,10 @@ struct Profile {
   // value + (factor - 1) scales; not beyond its bounds.
   static constexpr std::array<double, 5> factors{0.5, 0.8, 1, 1.25, 2};
   static constexpr double most = 10;
-  std::array<double, 5> error{};  // there, as multiples of that of the value itself; up to `most`
-  bool near_zero = false;         // the value is
-  bool pinned = false;            // the data exclude the first and the last
+  // There, as multiples of that of the value itself, up to `most`; NaN: a bound is in the way.
+  std::array<double, 5> error{};
+  bool near_zero = false;  // the value is
+  bool pinned = false;     // the data exclude the first and the last, where they can be
 };
 
 // A number that was found, and how sure it is.

@@ -20,9 +20,16 @@ bool is_near_zero(const Parameter& p, double value) {
   return std::abs(value) < smallest_share * p.scale;
 }
 
-double moved(const Parameter& p, double value, double factor) {
-  const double to = is_near_zero(p, value) ? value + (factor - 1) * p.scale : factor * value;
-  return std::clamp(to, p.low, p.high);
+// Returns a parameter's value moved by a factor within its bounds, and whether it gets a quarter of
+// the way.
+struct Moved {
+  double to = 0;
+  bool is_far = false;
+};
+Moved moved(const Parameter& p, double value, double factor) {
+  const double wanted = is_near_zero(p, value) ? value + (factor - 1) * p.scale : factor * value;
+  const double to = std::clamp(wanted, p.low, p.high);
+  return {to, std::abs(to - value) > 0.25 * std::abs(wanted - value)};
 }
 
 double loss_of(const FitProblem& problem, std::span<const double> residuals) {
@@ -76,10 +83,11 @@ std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
   const double t = t_quantile(solution.freedom), s = solution.standard_deviation;
   const double limit = best + t * t * s * s * solution.inflation;
   for (std::size_t i = 0; i < n; ++i)
-    if (solution.estimates[i].free && !solution.estimates[i].at_bound)
+    if (solution.estimates[i].free)
       out[i] = {.error = {1, 1, 1, 1, 1},
                 .near_zero = is_near_zero(problem.parameters[i], solution.values[i])};
-  std::vector<double> ends(2 * n, 0);
+  constexpr double cannot_move = -1;
+  std::vector<double> ends(2 * n, cannot_move);
   host::side_by_side(2 * n, [&](std::size_t k) {
     const std::size_t i = k / 2;
     if (!out[i]) return;
@@ -88,14 +96,24 @@ std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
     std::vector<double> values = solution.values;
     for (std::size_t step = 1; step <= 2; ++step) {
       const std::size_t at = k % 2 == 0 ? middle - step : middle + step;
-      const double to = moved(own.parameters[i], solution.values[i], Profile::factors[at]);
-      ends[k] = to == solution.values[i] ? best : loss_with(own, i, to, limit, values);
+      const auto [to, is_far] = moved(own.parameters[i], solution.values[i], Profile::factors[at]);
+      if (!is_far) {
+        out[i]->error[at] = std::nan("");
+        ends[k] = cannot_move;
+        continue;
+      }
+      ends[k] = loss_with(own, i, to, limit, values);
       const double ratio = best > 0 ? std::sqrt(ends[k] / best) : ends[k] > 0 ? unbounded : 1;
       out[i]->error[at] = std::min(ratio, Profile::most);
     }
   });
-  for (std::size_t i = 0; i < n; ++i)
-    if (out[i]) out[i]->pinned = std::min(ends[2 * i], ends[2 * i + 1]) > limit;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!out[i]) continue;
+    const auto excluded = [&](double loss) { return loss == cannot_move || loss > limit; };
+    const bool moves = ends[2 * i] != cannot_move || ends[2 * i + 1] != cannot_move;
+    const bool is_cut = solution.estimates[i].at_bound && !out[i]->near_zero;
+    out[i]->pinned = moves && !is_cut && excluded(ends[2 * i]) && excluded(ends[2 * i + 1]);
+  }
   return out;
 }
 

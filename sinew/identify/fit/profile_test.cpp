@@ -104,5 +104,21 @@ TEST(Profiles, AreNoneOfFrozenValuesAndOfNoFreedom) {
   EXPECT_FALSE(profiles_of(exact, solved(exact))[0].has_value());
 }
 
+// Of a friction at its bound 0 the free side counts. Another bound pins nothing.
+TEST(Profiles, AtABoundTheFreeSideCounts) {
+  for (const double low : {0.0, 0.5}) {
+    FitProblem problem = line(1, low - 0.05, 0.01);
+    problem.parameters[1].start = 1;
+    problem.parameters[1].low = low;
+    const Solution s = solved(problem);
+    ASSERT_TRUE(s.estimates[1].at_bound);
+    const auto profile = profiles_of(problem, s)[1];
+    ASSERT_TRUE(profile.has_value());
+    EXPECT_TRUE(std::isnan(profile->error.front()));
+    EXPECT_GT(profile->error.back(), 2);
+    EXPECT_EQ(profile->pinned, low == 0);
+  }
+}
+
 }  // namespace
 }  // namespace sinew::identify::profile_test

@@ -300,12 +300,12 @@ std::string run_file(const RunFitResult& found, const std::string& source, confi
 
 Json describe(const RunFitResult& found) {
   Json out{{"simulations", found.simulations},
-           {"rms_at_start", finite_or_null(found.at_start)},
+           {"rms_at_start", found.keys.empty() ? Json() : finite_or_null(found.at_start)},
            {"not_determined", found.undetermined},
            {"rough", found.rough},
            {"roughness", finite_or_null(found.roughness)},
            {"landings", found.landings},
-           {"intervals", found.no_intervals.empty()}};
+           {"intervals", !found.keys.empty() && found.no_intervals.empty()}};
   if (!found.no_intervals.empty()) out["no_intervals_because"] = found.no_intervals;
   out["channels"] = Json::array();
   for (const ChannelScore& c : found.channels)
@@ -313,7 +313,7 @@ Json describe(const RunFitResult& found) {
                                {"unit", c.unit},
                                {"samples", c.samples},
                                {"noise", finite_or_null(c.noise)},
-                               {"rms", finite_or_null(c.fitted)},
+                               {"rms", found.keys.empty() ? Json() : finite_or_null(c.fitted)},
                                {"rms_held_out", finite_or_null(c.held_out)}});
   return out;
 }

@@ -72,6 +72,7 @@ void conclude_score(Report& out) {
   all.explained = mean(&Score::explained);
   out.fits[0].held_out = all;
   for (PartError& p : parts) {
+    if (!(out.full_scale > 0)) continue;  // nothing moved
     p.score.rmse_percent = 100 * p.score.rmse / out.full_scale;
     p.score.max_percent = 100 * p.score.max / out.full_scale;
   }

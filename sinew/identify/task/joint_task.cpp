@@ -40,7 +40,7 @@ void note_origin(const JointResult& found, std::string_view parameter_name, cons
     provenance.given(path, "given to " + source);
 }
 
-// Returns the text of a robot's file: `robot`, the beginning of one (robot_over.h), with the tables
+// Returns the text of a robot's file: `robot`, the beginning of one, with the tables
 // of the joint and its muscles. `source` says where they come from.
 std::string joint_file(const JointResult& found, const JointSetup& setup, const JointNames& names,
                        const std::string& source, config::Node robot) {

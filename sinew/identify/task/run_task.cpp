@@ -200,11 +200,19 @@ RunFitFound find(const SourceList&, const RunFitSettings& settings) {
   std::optional<RecordedMachine> other;
   if (!settings.score.empty()) {  // is refused before a fit, which takes its time
     const run::RecordedRun its = run::recorded_run(settings.score);
+    if (std::filesystem::equivalent(its.log, run::recorded_run(settings.run).log))
+      config::fail({"score", 0, 0}, "", config::in_quotes(settings.score) + ", which is fitted",
+                   "a run that nothing is fitted to", "another one, or hold_out=\"100 %\"");
     const bool described = std::filesystem::exists(its.resolved);
     other.emplace(settings.score, its, described ? "" : settings.machine,
                   std::vector<std::string>());
     std::vector<std::string> differing;
     (void)scored_machine(run.machine, other->machine, {}, other->name, differing);
+    if (options.from >= other->driven.duration())
+      config::fail(
+          {"from", 0, 0}, "", config::in_quotes(settings.from),
+          fmt::format("a time within {} of {:.4g} s", other->name, other->driven.duration()),
+          "\"0 s\"");
   }
   RunFitFound out{fit_run(run.machine, run.driven, options), settings.base,
                   "identified from " + settings.run};

@@ -111,7 +111,7 @@ Json describe(const Calibration& c, const SensorResult& r) {
           {"deviation_percent", 100 * r.deviation}};
 }
 
-// Returns the text of a robot's file: `robot`, the beginning of one (robot_over.h), with the
+// Returns the text of a robot's file: `robot`, the beginning of one, with the
 // sensors. `average`: the controller assumes one scale for all of them, as the thesis's did.
 std::string sensor_file(const Calibration& c, const CountScale& converter, bool average,
                         config::Node robot) {

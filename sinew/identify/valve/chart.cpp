@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/data/quality.h"
@@ -118,9 +117,7 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
     report.notes.emplace_back("volume flow is taken as of reference air, 20 degC and 1 bar (ANR)");
   report.unseen = {"how fast the valve switches, and its flow in the other direction"};
   Trial trial{.measured = c.flow};
-  std::vector<int> each(c.size());
-  std::iota(each.begin(), each.end(), 0);
-  trial.splits = each_part_unseen(each);
+  trial.splits = each_row_unseen(c.size());
   contend({candidate_of(false, c, options.air), candidate_of(true, c, options.air)}, trial, report);
   refuse_unseen_ratio(report.fits.back());
   report.rows = rows_of(c);

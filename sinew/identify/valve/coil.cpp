@@ -210,7 +210,8 @@ Candidate candidate_of(const CoilModel& model, const Pulses& c) {
                 .law = std::string(model.law),
                 .source = "gas/coil_current.h, 4.3",
                 .parameters = parameters_of(model, c),
-                .options = {.correlated = true, .most_steps = 80, .difference = 1e-3}};
+                .options = {.correlated = true, .most_steps = 80, .difference = 1e-3},
+                .may_be_at_bound = {"edge"}};
   out.starts = starts_of(model, c, out.parameters);
   out.predict = [&model, &c](std::span<const double> p, std::span<double> current) {
     const std::vector<gas::CurrentPiece> pieces = pieces_of(model, p);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/contest.h"
@@ -160,9 +159,7 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
   report.unseen = {"how the delays change with the pressure and with the supply's voltage"};
   report.rows = rows_of(m, straight);
   Trial trial{.measured = report.rows.measured};
-  std::vector<int> each(straight.size());
-  std::iota(each.begin(), each.end(), 0);
-  trial.splits = each_part_unseen(each);
+  trial.splits = each_row_unseen(straight.size());
   contend({candidate_of(m, straight, false), candidate_of(m, straight, true)}, trial, report);
   conclude(report);
 

@@ -144,14 +144,17 @@ std::vector<std::vector<double>> starts_of(const Unknowns& u) {
 
 Candidate candidate_of(const PulseModel& model, const Record& r, const ValveOptions& options) {
   const Unknowns u = unknowns_of(model, r, options);
-  Candidate out{
-      .model = std::string(model.name),
-      .law = std::string(model.law),
-      .source = "3.4, gas/delay.h; ISO 6358-1",
-      .parameters = u.parameters,
-      .starts = starts_of(u),
-      .options = {
-          .correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3}};
+  Candidate out{.model = std::string(model.name),
+                .law = std::string(model.law),
+                .source = "3.4, gas/delay.h; ISO 6358-1",
+                .parameters = u.parameters,
+                .starts = starts_of(u),
+                .options = {.correlated = true,
+                            .most_steps = 60,
+                            .widest_interval = 0.25,
+                            .difference = 1e-3},
+                .may_be_at_bound = {"start_pressure", "opening_delay", "closing_delay",
+                                    "critical_pressure_ratio", "polytropic_exponent"}};
   out.predict = [&model, &r, &options, u](std::span<const double> p, std::span<double> pressure) {
     const PulseCase c = case_of(model, options, u, p);
     return simulate(c.chamber, options.air, delayed(r.commands.edges, c.opening, c.closing), r.time,

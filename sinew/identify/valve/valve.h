@@ -1,10 +1,10 @@
 // identify/valve/valve.h - a valve's flow and delays, from whatever was measured of it.
 //
-//   chart    upstream, downstream, flow         area or C and b_crit       valve_chart.cpp
-//   fill     time, pressure                     C/V, exponent; C or V      valve_fill.h
-//   pulses   time, pressure, command            delays, C/V                valve_pulses.cpp
-//   coil     time, current                      opening delay              valve_coil.cpp
-//   duty     duty, delivered duty or flow       delays                     valve_duty.cpp
+//   chart    upstream, downstream, flow         area or C and b_crit       chart.cpp
+//   fill     time, pressure                     C/V, exponent; C or V      fill.h
+//   pulses   time, pressure, command            delays, C/V                pulses.cpp
+//   coil     time, current                      opening delay              coil.cpp
+//   duty     duty, delivered duty or flow       delays                     duty.cpp
 //
 // A chamber that fills knows its valve's conductance only per volume: one of the two has to be
 // measured otherwise, ValveOptions::volume or ::conductance.
