@@ -161,7 +161,7 @@ void print_combinations(const identify::JointResult& found) {
   fmt::print("\n{}", table.text());
 }
 
-// How much of the variance each law explains, and how what was held out compares with its range.
+// Prints the share of the variance that each law explains, and its scores on the held-out rows.
 void print_explained(const identify::Report& report) {
   TextTable table({"model", "R2", "held out", "nrmse", "r"},
                   {Align::left, Align::right, Align::right, Align::right, Align::right});

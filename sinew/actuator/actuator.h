@@ -101,7 +101,7 @@ struct Creep {
   std::array<double, most> time{};   // t_i [s]
 };
 
-// Of the air beside that of the braid; not in the thesis, see body.h.
+// Holds the air that a muscle has in addition to that of its braid; not in the thesis, see body.h.
 struct AirVolume {
   double offset = 0;  // V_a [m3], below 0: a thick wall or an insert takes it
 };

@@ -9,7 +9,7 @@
 //   V = V_braid(L_b) - pi h_w L_b (D - h_w) + V_a
 //                                      h_w  thickness of the wall [m], the air is within it
 //                                      D  of the braid at L_b [m]
-//                                      V_a  air beside that of the braid, at every length [m3]
+//                                      V_a  air added to that of the braid, at every length [m3]
 //   A_t = pi h_w (D_0 (2 sin(theta) - 1/sin(theta)) - h_w)
 //                                      tension per pressure of the wall [m2], the virtual work of
 //                                      V: Chou and Hannaford (1996)
@@ -84,7 +84,7 @@ inline double wall_area_slope(const Actuator& a, double x) {
   return -std::numbers::pi * t * widest_diameter(a.braid) * (2.0 + 1.0 / (s * s)) * x / (b * b * s);
 }
 
-// Of the air in one actuator  [m3], never below 0.
+// Returns the volume of the air in one actuator  [m3], never below 0.
 inline double volume(const Actuator& a, double length) {
   const double x = length - a.caps.length, t = a.wall.thickness;
   double braid = t > 0 ? 0.0 : volume(a.braid, x);

@@ -35,7 +35,8 @@ constexpr double long_end_tension(const LongEnd& end, double length, double velo
   return length > end.length ? force : 0.0;
 }
 
-// Is there nothing but the thesis's law of force and volume, and a linear bladder?
+// Returns whether the actuator has the thesis's law of force and volume, a linear bladder and
+// nothing more.
 constexpr bool is_plain(const Actuator& a) {
   const Bladder none;
   return a.effectiveness.threshold == 0 && a.caps.length == 0 && !tapers(a.taper) &&

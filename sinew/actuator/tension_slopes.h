@@ -55,7 +55,7 @@ inline TensionSlopes tension_slopes(const Actuator& a, double length, double p, 
   const double x = length - a.series.compliance * tension;
   const double kappa = taper_gain(a.taper, p), w = working_length(a, x, p);
 
-  // What braid and bladder pull with, and its slopes by the length and by the area of the braid.
+  // Holds the pull of braid and bladder, and its slopes by the length and by the area of the braid.
   const double acting = acting_pressure(e, p), eff = effectiveness(e, p, atmosphere);
   const double area = ideal_tension(a.braid, w, 1) + wall_area(a, w);
   const double by_w = acting * eff * (ideal_stiffness(a.braid, w, 1) + wall_area_slope(a, w));

@@ -1,4 +1,4 @@
-// config/diagnostics.h - what is wrong with a file, all of it at once; and one of a list by its
+// config/diagnostics.h - all faults of a file, reported at once; and one item of a list by its
 // name.
 //
 // A problem reads `file:line:col: key: found …; expected …; try …`, one line each.

@@ -20,7 +20,7 @@
 
 namespace sinew::live {
 
-// What a run records, for those who watch it: the loop pushes, a thread of the watchers' collects.
+// Holds the records of a run for its watchers: the loop pushes, a thread of the watchers collects.
 //
 // The loop never waits: where the watchers are behind by a whole ring, what comes is left out, and
 // with it the rest of its row. The log lacks nothing.

@@ -1,5 +1,5 @@
-// units/hash.h - numbers that look random, from a number; and a short number for long bytes: FNV-1a
-// of 64 bits, the same on every machine. Against mistakes, not against anybody.
+// units/hash.h - numbers that appear random, from a number; and a short number for long bytes:
+// FNV-1a of 64 bits, the same on every machine. It guards against mistakes, not against attacks.
 #pragma once
 
 #include <cstddef>

@@ -207,7 +207,7 @@ constexpr void letters(Io& io, X& x) noexcept {
 template <class M, class X>
 concept Is = std::same_as<std::remove_const_t<M>, X>;
 
-// How many members an aggregate has, so that a list of its fields notices
+// Counts the members of an aggregate, so that a list of its fields notices
 // when one is added: static_assert(members<Gains>() == 3).
 
 // Stands for a member of any type.

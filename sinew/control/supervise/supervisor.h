@@ -34,8 +34,7 @@
 
 namespace sinew::control {
 
-// What the supervisor has counted, and why it ended a run: for the log, the summary and whoever
-// asks afterwards.
+// Holds what the supervisor has counted and why it ended a run, for the log and the summary.
 
 struct SensorSeen {
   std::uint16_t counts = 0;    // as converted last, whether it was believed or not

@@ -66,7 +66,7 @@ void refuse_thick(const Measured& data, const std::vector<double>& diameter, dou
 }
 
 // Residuals are in diameters, which exist wherever the threads are longer than the mesh. One pair
-// that stands far off at the start was written down wrong: the fit hardly listens to it.
+// that stands far off at the start was written down wrong: it counts little in the fit.
 Candidate candidate_of(const std::vector<double>& length, const std::vector<double>& diameter,
                        double thread, double turns) {
   Candidate out{.model = "braid", .law = "L^2 + (n pi D)^2 = b^2", .source = "[1]-[4]"};

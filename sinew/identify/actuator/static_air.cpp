@@ -20,7 +20,7 @@ double give_volume(double rest_length, double volume, bool braid_is_known, actua
   a.braid.turns /= std::sqrt(kappa);
   a.wall.thickness *= std::sqrt(kappa);
   for (double* c : {&a.effectiveness.c0, &a.effectiveness.c1, &a.effectiveness.c2}) *c /= kappa;
-  // What rounding leaves of a difference is none.
+  // A difference that rounding leaves does not count.
   const double left = volume - actuator::volume(a, rest_length);
   if (std::abs(left) > 1e-9 * volume) a.air.offset = left;
   return kappa;

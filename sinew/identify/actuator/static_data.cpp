@@ -285,8 +285,8 @@ void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
   }
 }
 
-// Adds what a recording says of a muscle that is pulled from length to length: where the pressure
-// rests, the medians of each step of length, of each level of the pressure, on each way.
+// Adds the points of a recording of a muscle that is pulled from length to length: where the
+// pressure rests, the medians of each step of length, of each level of the pressure, on each way.
 void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
   const std::vector<double>& p = m["pressure"];
   const std::vector<double> l = length_of(m, input), f = force_of(m);

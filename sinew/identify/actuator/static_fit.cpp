@@ -127,7 +127,7 @@ class Problem {
     };
   }
 
-  // The same with their derivatives.
+  // Returns the residuals with their derivatives.
   Slopes slopes(double scatter) const {
     return
         [this, scatter](std::span<const double> values, std::span<double> r, std::span<double> by) {

@@ -3,15 +3,16 @@
 //
 // A muscle of another rest length is the like of those that were fitted (static_model.h). One
 // reading of its force corrects it: muscles of one make differ in their strength by 2 %, and the
-// law's form errs by 1 % of the largest force, so that a reading says this much of the strength,
+// law's form errs by 1 % of the largest force, so that a reading changes the strength by this,
 //
 //   factor = 1 + (F_read/F - 1) s^2/(s^2 + (0.01 F_max/F)^2)          s = 0.02
 //
-//   F_max  force at the longest mount and the highest pressure [N]: where F is near it a reading
-//          tells most
+//   F_max  force at the longest mount and the highest pressure [N]: a reading where F
+//          is near it is worth most
 //
-// What it leaves is one more muscle beside about three that were left out: it widens or narrows the
-// share of the force that they were missed by, of which two of three are within t,
+// The error that it leaves counts as one more muscle in addition to the three or so that were left
+// out: it widens or narrows the share of the force that they were missed by, of which two of three
+// are within t,
 //
 //   t^2 = (3 t^2 + (1 - F_law/F_read)^2)/4
 //
@@ -50,7 +51,7 @@ struct ForceReading {
   double length = 0, gauge_pressure = 0, force = 0;  // [m], [Pa], [N]
 };
 
-// What a reading makes of a muscle that was not measured.
+// Holds the changes that a reading makes to a muscle that was not measured.
 struct ReadingFactor {
   double law = 1;    // of the law
   double share = 1;  // of t, if that is known
@@ -68,8 +69,8 @@ actuator::Actuator stronger(actuator::Actuator actuator, double factor);
 // Returns the like of an identified actuator with another rest length, and what is known of how
 // far it is off: the share of the force that muscles were missed by that the fit had not seen,
 // more beyond the ratio of lengths over which that was tried. Throws Refusal where the actuator
-// tells neither its own rest length nor a length that was measured. The share is multiplied with
-// `share`, which a reading tells.
+// has neither its own rest length nor a length that was measured. The share is multiplied with
+// `share`, which follows from a reading.
 actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
                                     double atmosphere, double share = 1);
 

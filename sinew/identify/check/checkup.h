@@ -1,4 +1,4 @@
-// identify/check/checkup.h - all that can be said of measurements before a static law is fitted:
+// identify/check/checkup.h - everything that measurements show before a static law is fitted:
 // checks, what was recognised, and which parameters of a static law the data determine.
 #pragma once
 

@@ -110,7 +110,7 @@ void add_about_line(std::span<const double> x, std::span<const double> y, Square
 }
 
 // Adds samples that rest together, in windows. One that scatters far more than most does not rest:
-// the muscle reaches an end of its travel there, say.
+// for example, the muscle reaches an end of its travel there.
 void add_rests(const Measured& m, Squares& out) {
   constexpr double far_more = 3;  // times the middle scatter
   const bool weighs = m.has("load");

@@ -17,7 +17,7 @@ namespace sinew::identify {
 
 namespace {
 
-// Which group each row is in; the groups are counted from 0 in the order of the rows.
+// Holds the group of each row; the groups are counted from 0 in the order of the rows.
 struct RowGroups {
   std::vector<std::size_t> of_row;
   std::size_t count = 0;

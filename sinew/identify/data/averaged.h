@@ -40,7 +40,7 @@ QuickChange quickest_change(std::span<const double> time, std::span<const double
 // only so many are kept, from shortly before the change on.
 Measured times_averaged(Measured data, std::size_t most,
                         const std::optional<QuickChange>& quickest = {});
-// Does the same with the quickest change of a column of it.
+// Uses the quickest change of one of its columns.
 Measured times_averaged(Measured data, std::size_t most, std::string_view watched);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-// identify/fit/contest.h - the laws of a method beside each other: each is fitted to the rows,
+// identify/fit/contest.h - the laws of a method are compared: each is fitted to the rows,
 // predicts rows that it was not fitted to, and is scored on both.
 //
 // A candidate is a formula over the rows with its free parameters. All else is the same for every
@@ -19,7 +19,7 @@
 namespace sinew::identify {
 
 // Writes what a law has at every row, of the parameters p. Returns false where it has no answer.
-// What it refers to lives until conclude() returns.
+// The things it refers to must live until conclude() returns.
 using Prediction = std::function<bool(std::span<const double> p, std::span<double> values)>;
 
 // A law of a contest.
@@ -43,7 +43,7 @@ std::vector<Split> each_part_unseen(std::span<const int> part);
 // Returns a split for each row, which is unseen in it.
 std::vector<Split> each_row_unseen(std::size_t rows);
 
-// What all candidates are fitted to and tried on.
+// Holds the rows that all candidates are fitted to and tried on.
 struct Trial {
   std::vector<double> measured;   // at every row
   std::vector<std::size_t> rows;  // those that are fitted; empty: all

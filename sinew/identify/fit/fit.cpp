@@ -171,7 +171,8 @@ void add_profiles(Report& report) {
   for (Fit& each : report.fits) each.again.reset();
 }
 
-// Writes the errors by group, in the order in which the groups come; of one group there are none.
+// Writes the errors by group, in the order in which the groups come, if there are two groups at
+// least.
 void add_errors_by_group(Report& report) {
   const std::vector<std::string>& group = report.rows.group;
   const std::vector<double>& residuals = report.best().residuals;

@@ -41,11 +41,11 @@ struct Fit {
   std::optional<Score> extrapolated;
   // Half-widths about the model at every row; absent: not told, or by Report::curves.
   std::optional<Band> band;
-  std::vector<double> residuals;       // predicted - measured, of Report::rows; none: not told
-  std::vector<std::string> notes;      // what one should know about this fit
+  std::vector<double> residuals;       // predicted - measured, of Report::rows; empty: unknown
+  std::vector<std::string> notes;      // remarks about this fit
   std::string refused;                 // why this model cannot be had from the data; empty: it can
   std::string not_chosen;              // why it is shown and not chosen: a parameter at its bound
-  std::shared_ptr<const Refit> again;  // until the choice; empty: the fit has no profiles
+  std::shared_ptr<const Refit> again;  // until the choice; empty: it has no profiles
 };
 
 // What was measured, for a picture of it: the report's quantity at another one.

@@ -299,7 +299,7 @@ Residuals with_loss(const Residuals& residuals, double outlier) {
   };
 }
 
-// The same of residuals with their derivatives.
+// Applies the loss to residuals with their derivatives.
 Slopes with_loss(const Slopes& slopes, double outlier) {
   if (outlier <= 0 || !slopes) return slopes;
   return [&slopes, outlier](std::span<const double> p, std::span<double> r, std::span<double> by) {

@@ -63,7 +63,7 @@ struct SolverOptions {
   Slopes slopes;
 };
 
-// How much more a law misses the data by when a parameter is moved and the others are fitted again
+// Holds the growth of the error when a parameter is moved and the others are fitted again
 // (profile.h).
 struct Profile {
   // The parameter is moved to these multiples of its value, or, where that is near zero, to the

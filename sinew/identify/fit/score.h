@@ -31,7 +31,7 @@ struct Score {
 // Returns it; `full_scale` is what 100 % are, in the residuals' unit.
 Score score(std::span<const double> residuals, double full_scale);
 
-// The same of residuals, predicted less measured, together with the comparison with `measured`.
+// Returns the score of residuals, predicted less measured, with the comparison with `measured`.
 Score score(std::span<const double> residuals, double full_scale, std::span<const double> measured);
 
 // Returns the k-th smallest |residual|, k = ceil(chance (n + 1)): one more residual of the same

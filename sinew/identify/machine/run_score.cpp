@@ -118,7 +118,7 @@ std::vector<Report> score_run(const Experiment& machine, const DrivenRun& run, d
 Experiment scored_machine(Experiment machine, Experiment recorded,
                           const std::vector<std::string>& keys, const std::string& name,
                           std::vector<std::string>& differing) {
-  // What is no part of the body: conditions of a recording, its sensors and its controller.
+  // These are no part of the body: conditions of a recording, its sensors and its controller.
   constexpr std::array apart = {"start.", "air.", "sensor.", "converter.", "low_level.", "thesis."};
   const auto body = [&](Experiment& e) {
     std::vector<MachineNumber> out = machine_numbers(e);

@@ -21,10 +21,10 @@ std::vector<std::string> draw(const std::filesystem::path& folder,
 // Takes the date out of a PDF that gnuplot has drawn, so that the same figure gives the same bytes.
 void take_date_out(const std::filesystem::path& pdf);
 
-// A figure as a script for gnuplot, which draws the CSV files beside it.
+// A figure as a script for gnuplot, which draws the CSV files in the same folder.
 //
-// For print: as wide as its paper, dashes beside colors so that grey will do, the legend above the
-// data. All text comes out as it was typed. Written for gnuplot 5.4.
+// For print: as wide as its paper, with dashes in addition to colors so that grey will do, the
+// legend above the data. All text comes out as it was typed. Written for gnuplot 5.4.
 
 // The formats in which gnuplot draws.
 enum class Picture { svg, png, pdf };

@@ -23,8 +23,8 @@
 
 namespace sinew::report {
 
-// What the figures of one run have in common: its samples in shown units, what is shaded, and what
-// captions say of it.
+// Holds the common part of the figures of one run: its samples in shown units, the shaded
+// stretches, and the words of the captions.
 
 // Holds what captions and curves say of a run.
 struct RunWords {

@@ -102,7 +102,7 @@ struct Scene {
 Scene scene(const Channels& channels, const analysis::Machine& machine,
             const analysis::Record& record, signals::Table& drawn);
 
-// How the machine stood at every row of a log: the part of the scene that moves.
+// Holds the pose of the machine at every row of a log: the part of the scene that moves.
 
 struct Poses {
   std::vector<analysis::Column> angle;  // of every joint [rad]; empty: not known

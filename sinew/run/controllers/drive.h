@@ -35,7 +35,7 @@ class Drive {
   // Returns false: a run of the stand ends by its time.
   bool finished() const noexcept { return false; }
 
-  // Return the setpoint of the period, and the shares of it that were decided.
+  // Return the setpoint of the period, and the shares of the period that were decided.
   const DriveSetpoint& setpoint() const noexcept { return state_.setpoint; }
   const DriveShares& shares() const noexcept { return state_.shares; }
   // Returns how many edges of a valve it can decide before the tick `end`.

@@ -28,7 +28,7 @@ struct MuscleSetup {
   // say [m]. Pressure of its air there, absolute [Pa].
   double length = 0, pressure = 0;
 
-  std::string text;         // a file that says the same wherever it is, with every source
+  std::string text;         // a file that is complete in every folder, with every source
   std::uint64_t model = 0;  // a hash of the muscle's name and all values of the file
 };
 

@@ -124,8 +124,9 @@ RemoteBoards::RemoteBoards(Boards& shown, plant::RemoteBoard& board, int lead)
 
 void RemoteBoards::command(const MachineCommand& command) noexcept { command_ = command; }
 
-// A law goes on with its last command, so that period 0 has the plan's first one. Openings are for
-// one period: where commands are sent ahead, period 0 has none, and all others come as much later.
+// A law continues with its last command, so that period 0 has the plan's first one. Openings are
+// for one period: where commands are sent ahead, period 0 has none, and all others come as much
+// later.
 bool RemoteBoards::send(Tick t) noexcept {
   if (end_sent_) return true;
   link::CommandFor out{.from = t == 0 ? 0 : t + lead_ * period_,

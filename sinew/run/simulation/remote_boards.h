@@ -27,8 +27,8 @@ namespace sinew::run {
 // are several.
 control::Board only_board(const experiment::Experiment& experiment);
 
-// Returns what that board needs to know of the machine. The board waits for three periods, at
-// least, until it takes the host for lost.
+// Returns the description of the machine that the board needs. The board waits for three periods,
+// at least, until it takes the host for lost.
 link::Configuration configuration_of(const experiment::Experiment& experiment);
 
 // As before, for a board at a machine: where the robot bears any number of readings that do not

@@ -23,7 +23,7 @@
 //
 // Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts; contract.h
 //            says what it has to have, and what the air
-// Senses     of the mechanism: what its sensors read and what a simulation tells
+// Senses     of the mechanism: the values of its sensors and of a simulation
 // (planar/planar_mechanism.h,
 //            slide/senses.h)
 // Air        what fills the muscles: valves, masses, pressures, tensions (air/network.h,
