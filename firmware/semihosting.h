@@ -48,7 +48,7 @@ class File {
   void read(std::span<std::uint8_t> bytes) const {
     for (std::uint32_t left; !bytes.empty(); bytes = bytes.last(left)) {
       left = ask(0x06, bytes.data(), bytes.size());  // SYS_READ
-      if (left >= bytes.size()) fail("the host says nothing any more\n");
+      if (left >= bytes.size()) fail("the host sends nothing any more\n");
     }
   }
 

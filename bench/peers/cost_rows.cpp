@@ -83,7 +83,7 @@ Row beside(int lanes, int rounds) {
 Row recorder(int rounds) {
   return times_slower(
       {.name = "cost/recorded",
-       .what = "the walk with its channel table in memory, against nobody recording",
+       .what = "the walk with its channel table in memory, against no recording",
        .per = "simulated second"},
       by_turns(repeated(walk(), true, 2), repeated(walk(), false, 2), rounds, Clock::processor));
 }

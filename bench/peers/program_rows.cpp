@@ -68,7 +68,7 @@ Row timed(Row row, const Work& work, int rounds) {
 
 std::vector<Row> program_rows(const Effort& effort) {
   Row start{.name = "program/start",
-            .what = "the program from its start to its end, asked for its version",
+            .what = "the program from its start to its end, printing its version",
             .goal = 10.0,
             .per = "start"};
   Row run{.name = "program/walk",

@@ -85,7 +85,7 @@ std::vector<Accuracy> ways() {
 std::vector<Row> walk_rows(const Effort& effort) {
   Row alone{.name = "walk/mujoco-pow",
             .what =
-                "test 1 with the real controller, contacts on, actions in every period, nobody "
+                "test 1 with the real controller, contacts on, actions in every period, no "
                 "recording: ours against MuJoCo (Euler, 1 ms) with scalar pow RK4 muscles "
                 "(100 us), one machine each",
             .goal = 28.0,

@@ -112,8 +112,8 @@ Made make(const Asked& asked) {
   if (of_joint && of_muscle) refuse("found a muscle and joints; expected one of them");
   if (of_machine && (of_joint || of_muscle || kind != "experiment"))
     refuse(
-        "inputs, outputs and parameters: expected an experiment, and no muscle or joint of it; "
-        "other FMUs show all that they have");
+        "inputs, outputs and parameters: expected an experiment, not one of its muscles or joints; "
+        "other FMUs expose everything");
   if (of_joint && asked.without_valves)
     refuse("found joints without valves; expected a muscle for that");
   if (!asked.actuator.empty() && kind != "actuator")
@@ -168,7 +168,7 @@ fs::path module_of(const Made& made, const std::string& folder) {
   if (found.empty())
     throw std::runtime_error(
         made.module +
-        ": found no such module beside the program; expected it in lib/sinew of "
+        ": found no such module next to the program; expected it in lib/sinew of "
         "this installation; try cmake --build --preset all");
   return found;
 }
@@ -177,7 +177,7 @@ void add_sources(std::vector<ArchiveFile>& files, const fs::path& folder, int ve
   if (!fs::is_directory(folder))
     throw std::runtime_error(folder.string() +
                              ": found no sources of FMUs there; expected them "
-                             "beside the modules; try cmake --build --preset all");
+                             "next to the modules; try cmake --build --preset all");
   std::vector<fs::path> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) found.push_back(entry.path());

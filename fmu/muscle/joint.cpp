@@ -276,7 +276,7 @@ const char* Joint::advance(double, double step) noexcept {
     command(*pull.driven, sheet_, pull.valves, pull.commanded);
     pull.driven->advance(step, lengths[static_cast<int>(m)]);
     if (pull.driven->failed())
-      return "a muscle's state is no number any more: an angle or a parameter is beyond what the "
+      return "a muscle's state is not finite: an angle or a parameter is beyond what the "
              "laws hold for";
   }
   return nullptr;

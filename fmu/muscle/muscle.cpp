@@ -153,7 +153,7 @@ std::string Muscle::wrong(double step) const {
 const char* Muscle::advance(double, double step) noexcept {
   command(*driven_, sheet_, at_.valves, commanded_);
   driven_->advance(step, length_after(step));
-  return driven_->failed() ? "the muscle's state is no number any more: its length or its "
+  return driven_->failed() ? "the muscle's state is not finite: its length or its "
                              "parameters are beyond what the laws hold for"
                            : nullptr;
 }

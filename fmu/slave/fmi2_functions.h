@@ -186,7 +186,7 @@ Status fmi2DoStep(Component c, Real from, Real length, Boolean) {
   });
 }
 Status fmi2CancelStep(Component c) {
-  return refuse(c, __func__, "a step is done when fmi2DoStep returns: there is none to cancel");
+  return refuse(c, __func__, "a step is done when fmi2DoStep returns: no step can be cancelled");
 }
 
 // The first derivative of a muscle's length or a joint's angle is its rate. What this model has no
@@ -234,7 +234,7 @@ Status fmi2GetIntegerStatus(Component c, StatusKind, Integer*) {
 Status fmi2GetBooleanStatus(Component c, StatusKind kind, Boolean* value) {
   if (kind != StatusKind::terminated) return no_status(c, __func__, "expected fmi2Terminated");
   return call(c, __func__, [&](Slave& s) {
-    if (!value) throw std::runtime_error("found no place for the answer");
+    if (!value) throw std::runtime_error("found no place for the value");
     *value = s.instance.ended() ? 1 : 0;
   });
 }

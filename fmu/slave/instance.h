@@ -148,7 +148,7 @@ class Instance {
   const Variable& variable(std::size_t place, Variable::Type type) const {
     const Variable& v = variable(place);
     if (v.type != type)
-      throw std::runtime_error(v.name + ": is " + word(v.type) + "; asked for as " + word(type));
+      throw std::runtime_error(v.name + ": is " + word(v.type) + "; requested as " + word(type));
     return v;
   }
   const Variable& variable(std::size_t place) const {
@@ -224,7 +224,7 @@ class Instance {
       throw std::runtime_error("a saved state is cut off or spoilt");
     const Header header = take<Header>(from);
     if (header.stamp != stamp_)
-      throw std::runtime_error("a saved state is of another FMU or another version of it");
+      throw std::runtime_error("a saved state is of another FMU or of another version");
     std::vector<double> values(sheet().variables().size());
     for (double& value : values) value = take<double>(from);
 

@@ -83,7 +83,7 @@ void check_share(Visitor& v, const Effectiveness& e) {
     const double share = effectiveness(e, gauge, units::atmosphere);
     if (share >= least && share <= most) continue;
     units::complain(v, "polynomial", "a share of " + std::to_string(share) + " where it is valid",
-                    "-0.5 to 3: a share of the ideal tension", "a look at its units");
+                    "-0.5 to 3: a share of the ideal tension", "other units");
     return;
   }
 }
@@ -195,7 +195,7 @@ void fields(Visitor& v, Loss& loss) {
          loss.stick);
   if (loss.coulomb_scale == Loss::Scale::constant && !(loss.coulomb_stiffness > 0)) {
     units::complain(v, "coulomb_scale", "\"constant\" without a stiffness",
-                    "a coulomb_stiffness above zero beside it");
+                    "a coulomb_stiffness above zero with it");
   }
 }
 
@@ -242,7 +242,7 @@ void fields(Visitor& v, Bladder& bladder) {
   bladder.valid_to = valid[1];
   if (bladder.saturating_tension != 0 && !(bladder.saturation_length > 0)) {
     units::complain(v, "saturating_tension", "no way over which it is lost",
-                    "a saturation_length above zero beside it");
+                    "a saturation_length above zero with it");
   }
 }
 
@@ -278,7 +278,7 @@ void fields(Visitor& v, Taper& taper) {
            taper.rest_length);
   if (taper.extra_gain != 0 && !(taper.extra_pressure > 0)) {
     units::complain(v, "extra_gain", "no pressure over which it goes",
-                    "an extra_pressure above zero beside it");
+                    "an extra_pressure above zero with it");
   }
 }
 
@@ -496,7 +496,7 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.taper); });
   v.group({.name = "wall", .optional = true, .doc = "of the tube, by Chou and Hannaford"},
           [&](auto& g) { fields(g, a.wall); });
-  v.group({.name = "air", .optional = true, .doc = "volume beside that of the braid"},
+  v.group({.name = "air", .optional = true, .doc = "volume in addition to that of the braid"},
           [&](auto& g) { fields(g, a.air); });
   v.group({.name = "series", .optional = true, .doc = "ends that give way under the tension"},
           [&](auto& g) { fields(g, a.series); });

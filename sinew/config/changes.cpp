@@ -81,7 +81,7 @@ Format check_format(const Node& root, const Changes& changes) {
   const std::string expected = fmt::format("\"sinew.<kind>/1\", kind being {}", either(names));
   if (!node) {
     const Kind* likely = changes.find(likely_kind(root));
-    const char* who = likely ? "; sinew migrate puts it there" : "";
+    const char* who = likely ? "; sinew migrate rewrites it" : "";
     fail(root.where, "format", "nothing", expected,
          format_line(likely) + " as the first line" + who);
   }
@@ -118,8 +118,7 @@ const KeyChange* taken_away(std::string_view path, const Changes& changes) {
 std::string in_words(const KeyChange& change) {
   const std::string since = fmt::format("since sinew.{}/{}", change.kind, change.format);
   if (change.to.empty()) return fmt::format("{}; it is gone {}", change.why, since);
-  return fmt::format("{}, which stands in its place {}; sinew migrate puts it there", change.to,
-                     since);
+  return fmt::format("{}, which replaces it {}; sinew migrate rewrites it", change.to, since);
 }
 
 std::string_view likely_kind(const Node& root) {

@@ -47,7 +47,7 @@ Node gain(std::string_view key, double value, std::string_view unit, const Locat
 void put(Node& table, Node node, const std::string& path, const Node& entry) {
   if (const Node* there = table.find(node.key); there && there->where.file == entry.where.file)
     fail(there->where, path, shown(*there),
-         fmt::format("no value: files.gains = {} says it", in_quotes(entry.text)));
+         fmt::format("no value: files.gains = {} has it", in_quotes(entry.text)));
   table.put(std::move(node));
 }
 

@@ -104,7 +104,7 @@ TEST_F(GainFile, ContradictsAKeyBesideIt) {
     EXPECT_EQ(std::string(e.what()),
               path +
                   ":4:1: joint.hip.angle_gain: found \"1 %/count\"; expected no value: "
-                  "files.gains = \"gain.dat\" says it");
+                  "files.gains = \"gain.dat\" has it");
   }
 }
 

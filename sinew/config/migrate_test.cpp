@@ -156,8 +156,8 @@ TEST(Migrate, AReaderNamesTheKeyInPlaceOfOneThatIsGone) {
     what = e.what();
   }
   EXPECT_NE(what.find("muscle.a.delay: found a key that is gone"), what.npos) << what;
-  EXPECT_NE(what.find("try opening_delay, which stands in its place since sinew.robot/2; sinew "
-                      "migrate puts it there"),
+  EXPECT_NE(what.find("try opening_delay, which replaces it since sinew.robot/2; sinew "
+                      "migrate rewrites it"),
             what.npos)
       << what;
   EXPECT_NE(what.find("air.gravity of the experiment; it is gone since sinew.robot/3"), what.npos)

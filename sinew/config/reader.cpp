@@ -118,7 +118,7 @@ void Reader::number(const Field& field, double& value) {
 
 void Reader::numbers(const Field& field, std::vector<double>& values) {
   auto entry = open(field, joined(values, field.unit), field.unit,
-                    "a list, each of it " + number_text(field));
+                    "a list, each value " + number_text(field));
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     values.clear();
@@ -521,7 +521,7 @@ void Reader::read_range(const Field& field, Entry& entry, double value) {
   warnings_.push_back({entry.origin.where, entry.origin.path, shown(*entry.value),
                        fmt::format("a value in its own range {} to {}", entry.origin.range[0],
                                    entry.origin.range[1]),
-                       "a wider range, or a look at the fit"});
+                       "a wider range, or another fit"});
 }
 
 void Reader::check_uncertainty(const Field& field, const Entry& entry) {

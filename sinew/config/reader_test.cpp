@@ -161,7 +161,7 @@ TEST(Reader, AMissingKeySaysItsWordsAndItsKind) {
             "a.toml:1:1: runs: missing; expected true or false: at once\n"
             "a.toml:1:1: name: missing; expected a text: for people\n"
             "a.toml:1:1: names: missing; expected a list of texts\n"
-            "a.toml:1:1: numbers: missing; expected a list, each of it s (time), at least 0 s");
+            "a.toml:1:1: numbers: missing; expected a list, each value s (time), at least 0 s");
 }
 
 TEST(Reader, AWrongTypeIsReported) {
@@ -314,7 +314,7 @@ TEST(Reader, ATablesRangeCoversWhatHasItsUnit) {
   ASSERT_EQ(r.reader.warnings().size(), 1u);
   EXPECT_EQ(to_text(r.reader.warnings()[0]),
             "a.toml:3:1: length: found \"3 in\"; expected a value in its own range 1 in to 2 in; "
-            "try a wider range, or a look at the fit");
+            "try a wider range, or another fit");
 }
 
 TEST(Reader, ASourceDoesNotReachIntoAnotherFile) {

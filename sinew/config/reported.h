@@ -122,7 +122,7 @@ void check_class(Visitor& v, const Reported& r) {
                     "docs/evidence/evidence.md");
   }
   if (!r.accept.empty() && r.wording != Wording::another)
-    units::complain(v, "accept", "a band beside a wording, from which another follows",
+    units::complain(v, "accept", "both a band and a wording, which has a band of its own",
                     "one of the two");
   if (!r.accept.empty() && r.band_reason.empty())
     units::complain(v, "band_reason", "nothing", "why the band of " + r.key + " is as it is",

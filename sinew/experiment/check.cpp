@@ -379,7 +379,7 @@ void check_element(const Experiment& e, Findings& out) {
     out.unused(e.stand->element.external_volume > 0, "element.external_volume", "a muscle");
     if (e.stand->element.hose.law != gas::Hose::Law::none || e.stand->element.leak.area > 0 ||
         e.stand->element.leak.conductance > 0)
-      out.add("element.cylinder", "a hose or a leak beside it", "those of a muscle");
+      out.add("element.cylinder", "a cylinder with a hose or a leak", "those of a muscle");
     if (!(c.stroke > 0 && c.dead_volume > 0 && c.rod_diameter < c.bore))
       out.add("element.cylinder", "no cylinder",
               "a stroke, a dead volume, and a rod thinner than the bore");

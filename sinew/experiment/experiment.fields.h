@@ -129,7 +129,7 @@ template <class Visitor>
 void fields(Visitor& v, Log& log) {
   v.flag({.name = "enabled", .optional = true, .doc = "false: only summary.json is left"},
          log.enabled);
-  v.texts({.name = "channels", .optional = true, .doc = "topics; * stands for anything"},
+  v.texts({.name = "channels", .optional = true, .doc = "topics; * matches anything"},
           log.channels);
   v.number({.name = "period",
             .unit = "s",
@@ -245,8 +245,8 @@ void run_fields(Visitor& v, Experiment& e) {
           [&](auto& g) { config::fields(g, e.page); });
   v.list({.name = "fault", .optional = true, .doc = "what breaks while it runs"}, e.faults,
          [](auto& g, Fault& f) { fields(g, f); });
-  v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
-         [](auto& g, config::Reported& r) {
+  v.list({.name = "reported", .optional = true, .doc = "published values, printed with ours"},
+         e.reported, [](auto& g, config::Reported& r) {
            config::fields(g, r);
            config::check_class(g, r);
          });

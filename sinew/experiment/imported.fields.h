@@ -26,7 +26,7 @@ void fields(Visitor& v, std::vector<ImportedFile>& files) {
         g.integer({.name = "values", .min = 0, .doc = "that went into the log"}, f.values);
         g.integer({.name = "left_out",
                    .min = 0,
-                   .doc = "values that are no numbers, or before the log's time 0"},
+                   .doc = "values that are not finite, or before the log's time 0"},
                   f.left_out);
       });
 }

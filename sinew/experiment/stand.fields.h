@@ -119,7 +119,7 @@ void fields(Visitor& v, Stand& s) {
             .min = 1e-12,
             .max = 1e-3,
             .optional = true,
-            .doc = "of a swing, per radian of it: shorter pieces between nodes"},
+            .doc = "of a swing, per radian: shorter pieces between nodes"},
            s.accuracy);
   robot::fields(v, static_cast<robot::Stand&>(s));
   v.group({.name = "start", .optional = true, .doc = "at time 0"},

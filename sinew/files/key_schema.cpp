@@ -166,7 +166,7 @@ Json definitions() {
             {"description", "a number and its unit, as \"3.2 in\" or \"60 psi gauge\""}}},
           {"source", {{"type", "string"}, {"description", "where it comes from"}}},
           {"fit", {{"type", "boolean"}, {"description", "chosen so that something agrees"}}},
-          {"guess", {{"type", "boolean"}, {"description", "nobody published it"}}},
+          {"guess", {{"type", "boolean"}, {"description", "not published"}}},
           {"range", list_of({{"anyOf", {text, number}}})},
           {"uncertainty", {{"anyOf", {text, number}}}}};
 }

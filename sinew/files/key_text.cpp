@@ -44,7 +44,7 @@ std::string note_of(std::string_view kind) {
   if (kind == "robot" || kind == "rig")
     return "Actuators and valves may stand here too, or in files of their own.";
   if (kind == "any")
-    return "source, fit, guess and range stand beside values, or in { value = … }.";
+    return "source, fit, guess and range are written after values, or in { value = … }.";
   return "";
 }
 
@@ -190,7 +190,7 @@ std::string page_of_keys() {
       "# Every key of every file\n\n"
       "`sinew keys WORD` finds them in a terminal, `sinew.keys(\"damping\")` from Python, "
       "`files::find_keys` from C++; `sinew keys` has a JSON schema of each kind of file too, by "
-      "which editors complete and check. Units are SI; a file may say any other of the same "
+      "which editors complete and check. Units are SI; a file may use any other of the same "
       "quantity (`\"3.2 in\"`, `\"60 psi gauge\"`). `<name>` is a name of yours, `[]` a list of "
       "tables. The program writes this page from the tables by which it reads files.\n";
   for (const std::string& kind : key_kinds()) {

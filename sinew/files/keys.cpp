@@ -367,7 +367,7 @@ std::vector<Key> composed(std::string_view kind) {
   if (kind == "experiment")
     return {version, text("robot", "robot file; its tables can be changed here"), files, gains};
   if (kind == "robot")
-    return {text("name", "of the robot; beside an experiment it is robot_name", true),
+    return {text("name", "of the robot; in a resolved experiment it is robot_name", true),
             files,
             actuator,
             valves,
@@ -386,7 +386,7 @@ std::vector<Key> any_keys() {
   fit.path = "fit";
   fit.doc = "of a value, or of all in a table: chosen so that something agrees";
   guess.path = "guess";
-  guess.doc = "of a value, or of all in a table: nobody published it";
+  guess.doc = "of a value, or of all in a table: not published";
   range.type = KeyType::texts;
   range.doc = "of a value, or of all in a table: lowest and highest that it could be";
   return {text_key("any", "format", "\"sinew.<kind>/1\"", true),
@@ -636,8 +636,8 @@ std::vector<Key> find_keys(const std::vector<std::string>& words, std::string_vi
           }))
         both.push_back(key);
     if (both.empty())
-      refuse(config::in_quotes(word),
-             fmt::format("a word that a key{} has beside the others", where), "fewer words");
+      refuse(config::in_quotes(word), fmt::format("a word that a key{} has with the others", where),
+             "fewer words");
     found = std::move(both);
   }
   return found;

@@ -103,7 +103,7 @@ void read_title(const fs::path& file, std::string_view text, Listed& out) {
       if (out.title.empty() || key == std::string_view("title")) out.title = node->text;
     }
   } catch (const std::exception&) {
-    out.problem = "cannot be read: sinew check says why";
+    out.problem = "cannot be read: sinew check prints why";
   }
 }
 

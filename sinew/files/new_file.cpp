@@ -116,7 +116,7 @@ std::string with_muscle(std::string text, const std::string& file, const std::st
                   reference));
   set(text, "actuator", config::toml_string(m.name));
   set(text, "mount_length",
-      guessed(length(m.mount), "replace: half way between the lengths that the muscle knows"));
+      guessed(length(m.mount), "replace: half way between the lengths of the muscle's file"));
   set(text, "moment_arm",
       guessed(length(m.arm), "replace: 20 deg take half of the way that the muscle has there"));
   for (const std::string_view key : {"bladder_stiffness", "bladder_rest_length"}) remove(text, key);

@@ -43,7 +43,7 @@ fs::path shipped_folder() {
     if (is_it(named)) return fs::canonical(named, none);
     config::fail({named, 0, 0}, "SINEW_SHARE", "no robots/, experiments/ and data/templates/ there",
                  "the folder share/sinew of an installation, or Sinew's sources",
-                 "to unset it: then it is looked for beside the program");
+                 "to unset it: then the folder next to the program is used");
   }
   for (fs::path folder : beginnings())
     for (int up = 0; up <= furthest && !folder.empty(); ++up, folder = folder.parent_path())

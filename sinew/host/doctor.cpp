@@ -115,7 +115,7 @@ const std::vector<Kind>& kinds() {
 void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) {
   const User user = user_of(asked.root);
   const std::string why = kind.place == "serial"
-                              ? "a board is spoken to over one"
+                              ? "a board is connected by one"
                               : "a card reads the sensors and switches the valves";
   std::vector<fs::path> devices = named(asked.root / "dev", kind.names);
   // A card's device has a number alone; comedi0_subd1 is a part of it.
@@ -178,7 +178,7 @@ void look_at_limits(const DoctorAsked& asked, Findings& out) {
   const char* file = "/etc/security/limits.d/sinew.conf   # then log in again";
   out.push_back({"real-time priority", "", first ? Verdict::good : Verdict::advice,
                  first_user ? "this is root, who may" : "RLIMIT_RTPRIO is " + said(most),
-                 fmt::format("the loop asks for priority {}, before all other programs", priority),
+                 fmt::format("the loop requests priority {}, before all other programs", priority),
                  first ? "" : fmt::format("echo '@iocard - rtprio 90' | sudo tee -a {}", file)});
   out.push_back(
       {"locked memory", "", locked ? Verdict::good : Verdict::advice,
@@ -193,7 +193,7 @@ void look_at_kernel(const DoctorAsked& asked, Findings& out) {
   const bool real_time = text_of(asked.root / "sys/kernel/realtime") == "1" ||
                          version.find("PREEMPT_RT") != std::string::npos;
   out.push_back({"kernel", "", real_time ? Verdict::good : Verdict::advice,
-                 version.empty() ? "its version is not told" : version,
+                 version.empty() ? "its version is unknown" : version,
                  "one with PREEMPT_RT wakes a program within a bound, any other as a rule",
                  real_time ? "" : "sudo apt-get install linux-image-rt-amd64   # then start it"});
 
@@ -201,9 +201,9 @@ void look_at_kernel(const DoctorAsked& asked, Findings& out) {
   const std::string source = text_of(clock / "current_clocksource");
   const bool slow = source == "hpet" || source == "acpi_pm" || source == "jiffies";
   out.push_back({"clock source", "", slow ? Verdict::advice : Verdict::good,
-                 source.empty() ? "not told" : source,
+                 source.empty() ? "unknown" : source,
                  "reading hpet or acpi_pm costs a microsecond or more, tsc some nanoseconds",
-                 slow ? "sudo dmesg | grep -i tsc   # says why it was given up" : ""});
+                 slow ? "sudo dmesg | grep -i tsc   # prints why it was rejected" : ""});
 
   // Each processor has its own; the slowest of them is the one that the loop is on.
   std::string slowest;
@@ -257,7 +257,7 @@ void look_for_parts(const DoctorAsked& asked, Findings& out) {
       "runs a board's program without a board", "qemu-system-arm");
   add(has_program(asked, "arm-none-eabi-gcc"), "arm-none-eabi-gcc", "emulated",
       "compiles the board's program", "gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib");
-  add(has_library(asked, "libcomedi.so"), "libcomedi", "comedi", "speaks to the card",
+  add(has_library(asked, "libcomedi.so"), "libcomedi", "comedi", "reads and writes the card",
       "libcomedi-dev   # then cmake --preset release && cmake --build --preset all");
 }
 

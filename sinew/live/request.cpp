@@ -40,7 +40,7 @@ const Form& form_of(const Json& json) {
 }
 
 double number(const Json& json, double least, double most, bool or_zero = false) {
-  if (!json.is_number()) refuse("a value that is no number", "a number");
+  if (!json.is_number()) refuse("a value that is not a number", "a number");
   const double value = json.number();
   if ((or_zero && value == 0) || (value >= least && value <= most)) return value;
   refuse(fmt::format("{}", value), fmt::format("{}{} to {}", or_zero ? "0, or " : "", least, most));

@@ -227,8 +227,7 @@ Served served(const std::vector<std::string>& what, const std::string& machine,
   for (const std::string& file : what)
     if (what.size() > 2 || !tune::is_study(file))
       config::fail({file, 0, 0}, "", what.size() > 2 ? "a third one" : "no study's file",
-                   "one run, one study, or two studies beside each other",
-                   "sinew compare for runs");
+                   "one run, one study, or two studies", "sinew compare for runs");
   return of_studies({what[0], what[1]}, std::move(notices));
 }
 

@@ -248,7 +248,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
 
   void handle(HttpRequest request) {
     if (!server->is_ours(request, http::field::host, ""))
-      return write(request, {403, "This server answers to its own name only.\n", "text/plain"});
+      return write(request, {403, "This server accepts its own host name only.\n", "text/plain"});
     const std::string_view target(request.target().data(), request.target().size());
     if (!server->has_token(target))
       return write(request, {403,

@@ -279,7 +279,8 @@ std::string Show::answer(std::string_view text) {
         if (steering_.overridden(i)) taken = steering_.release(i) && taken;
       break;
   }
-  return taken ? "" : error("found more changes than fit into a period; try again when it goes on");
+  return taken ? ""
+               : error("found more changes than fit into a period; try again when it continues");
 }
 
 }  // namespace sinew::live

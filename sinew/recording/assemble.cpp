@@ -743,12 +743,12 @@ class Assembler {
                         some(file.unused)));
       if (file.left_out > 0)
         out_.notes.push_back(
-            fmt::format("{}: {} of {} values left out: no numbers, or before time 0", file.file,
+            fmt::format("{}: {} of {} values left out: not finite, or before time 0", file.file,
                         file.left_out, file.left_out + file.values));
     }
     if (sampled_edges_)
       out_.notes.push_back(
-          "valves: a table knows their edges to one of its rows; what they delivered, how often "
+          "valves: a table has their edges to one of its rows; what they delivered, how often "
           "they "
           "switched and their energy follow these and are no measurements");
   }

@@ -506,8 +506,8 @@ class HeaderReader {
   config::fail(
       {source.path, row.line, cell.column}, "",
       fmt::format("{}, and no number that shows what its comma is", config::in_quotes(cell.text)),
-      "decimal commas or parted thousands, and to know which",
-      "decimal=\",\" if the comma is the decimal mark, thousands=\",\" if it parts thousands");
+      "decimal commas or grouped thousands, and which of them",
+      "decimal=\",\" if the comma is the decimal mark, thousands=\",\" if it groups thousands");
 }
 
 // Commas are decimal marks where they can be nothing else, and more so than points.

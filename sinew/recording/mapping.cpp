@@ -76,10 +76,11 @@ void check_mapping(const Mapping& mapping, const std::string& file) {
   Findings findings(file);
   for (std::size_t i = 0; i < mapping.columns.size(); ++i) check_row(mapping.columns, i, findings);
   if (!mapping.clock.column.empty() && !mapping.clock.rate.empty())
-    findings.add("clock.rate",
-                 fmt::format("{} beside clock.column {}", config::in_quotes(mapping.clock.rate),
-                             config::in_quotes(mapping.clock.column)),
-                 "one of the two: a column with times, or a rate");
+    findings.add(
+        "clock.rate",
+        fmt::format("{} together with clock.column {}", config::in_quotes(mapping.clock.rate),
+                    config::in_quotes(mapping.clock.column)),
+        "one of the two: a column with times, or a rate");
   findings.finish();
 }
 
@@ -237,7 +238,7 @@ std::string text_of(const Mapping& mapping) {
   Lines out;
   out.put("format", "\"sinew.mapping/1\"");
   out.comment("What the columns of a recording mean: value = scale x number [unit] + offset.");
-  out.comment("docs/reference/keys.md tells every key.");
+  out.comment("docs/reference/keys.md has every key.");
   if (mapping.keep_others) out.head("keep_others = true  # columns without a channel: /recorded/…");
   put_table(mapping.table, out);
   put_clock(mapping.clock, out);

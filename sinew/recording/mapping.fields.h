@@ -64,10 +64,10 @@ void fields(Visitor& v, Mapping& m) {
         g.text({.name = "name", .doc = "in the recording"}, c.name);
         g.text({.name = "channel",
                 .optional = true,
-                .doc = "of the machine, /joint/elbow/angle; absent: what the name says"},
+                .doc = "of the machine, /joint/elbow/angle; absent: by the name"},
                c.channel);
         g.text(
-            {.name = "unit", .optional = true, .doc = "of its numbers, where its header says none"},
+            {.name = "unit", .optional = true, .doc = "of its numbers, where its header has none"},
             c.unit);
         g.number({.name = "scale",
                   .unit = "1",

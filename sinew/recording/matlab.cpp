@@ -35,7 +35,7 @@ std::uint32_t word(std::string_view bytes, std::size_t at, bool big) {
 [[noreturn]] void cut_off(const std::string& path, std::size_t size) {
   config::fail({path, 0, 0}, "",
                fmt::format("a MAT file that ends within a variable, after {} bytes", size),
-               "a whole one", "to copy it again, or to save it anew");
+               "a whole one", "to copy it again, or to save it again");
 }
 
 // Elements stand one behind the other: a type, how many bytes, these bytes; within a matrix each
@@ -156,7 +156,7 @@ Variables variables_of(const std::string& path) {
                      (words.empty() ? "" : ": " + words),
                  "a whole one, or version 7", "save('file.mat', '-v7') in MATLAB");
   config::fail({path, 0, 0}, "", words.empty() ? "a MAT file that is damaged" : words,
-               "a whole MAT file", "save(…, '-v7') anew");
+               "a whole MAT file", "save(…, '-v7') again");
 }
 
 // --- which vector is the clock of which matrix ---
@@ -222,7 +222,7 @@ class Columns {
     for (const double t : m.values) {
       if (!std::isfinite(t) || std::abs(t * unit) > 9e18)
         config::fail({out_.file, 0, 0}, m.name, fmt::format("the time {}", t),
-                     "finite times, in s or as clock.unit says");
+                     "finite times, in s or in clock.unit");
       clock.time_ns.push_back(std::llround(t * unit));
     }
     out_.clocks.push_back(std::move(clock));
@@ -286,8 +286,8 @@ class Columns {
     const auto note = [&](const std::vector<std::string>& names, const char* why) {
       if (!names.empty()) out_.notes.push_back(fmt::format("{}: left out: {}", joined(names), why));
     };
-    note(single_, "a single number is no recording");
-    note(other_length_, "no vector of times beside it has as many values");
+    note(single_, "a single number is not a recording");
+    note(other_length_, "no vector of times has as many values");
     note(in_.other, "only vectors and matrices of real numbers are read");
   }
 

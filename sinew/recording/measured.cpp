@@ -630,7 +630,7 @@ class Table {
     std::string columns;
     for (const auto& [name, count] : missing_)
       columns += fmt::format("{}{} in {}", columns.empty() ? "" : ", ", count, name);
-    out.notes.push_back(fmt::format("{} of {} rows left out: cells that are no numbers ({})",
+    out.notes.push_back(fmt::format("{} of {} rows left out: cells that are not numbers ({})",
                                     dropped_, rows, columns));
   }
 

@@ -425,9 +425,9 @@ class RawReader {
     const double step = out.time.back() / static_cast<double>(out.time.size() - 1);
     if (!whole || step < 2) return;
     const std::string& name = grid_.headings()[*numbers_].name;
-    out.notes.push_back(fmt::format(
-        "{}: a row every {:.4g} s, {:.3g} h in all; if it counts ms, units.{}=ms says so", name,
-        step, out.time.back() / 3600, name));
+    out.notes.push_back(
+        fmt::format("{}: a row every {:.4g} s, {:.3g} h in all; if it counts ms, give units.{}=ms",
+                    name, step, out.time.back() / 3600, name));
   }
 
   void tell_missing(RawTable& out) const {

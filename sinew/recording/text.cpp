@@ -49,7 +49,7 @@ constexpr Known known_files[] = {
     {"\x93NUMPY"sv, "an array of NumPy (.npy)", "numpy.savetxt with a header and delimiter=','"},
     {"%PDF"sv, "a PDF", "the table that it shows, saved as CSV"},
     {"#ROSBAG"sv, "a ROS bag", "its topics, exported as CSV"},
-    {"ULog"sv, "a ULog of PX4", "ulog2csv, which writes tables of it"},
+    {"ULog"sv, "a ULog of PX4", "ulog2csv, which writes tables"},
     {"<!DOCTYPE"sv, "a web page", "the table that it shows, saved as CSV"},
     {"<html"sv, "a web page", "the table that it shows, saved as CSV"},
     {"<?xml"sv, "an XML file", save_as_csv},
@@ -216,7 +216,7 @@ void refuse_other_encodings(const std::string& utf8, const std::string& file) {
   config::fail(place_of(file, utf8, at), "",
                fmt::format("a byte {:02x} that is no UTF-8", static_cast<unsigned char>(utf8[at])),
                "a table in UTF-8",
-               is_shift_jis(utf8) ? "iconv -f SHIFT_JIS -t UTF-8, as it looks like Shift-JIS"
+               is_shift_jis(utf8) ? "iconv -f SHIFT_JIS -t UTF-8, as it appears to be Shift-JIS"
                                   : "encoding=latin1, or iconv -f LATIN1 -t UTF-8");
 }
 

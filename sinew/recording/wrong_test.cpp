@@ -99,9 +99,9 @@ TEST(Wrong, NumbersThatCanBeTwoThingsAreNotGuessed) {
   expect_table_refused({
       {header + "1,000;1,234\n2,000;2,345\n",
        "lab.csv:2:1: found \"1,000\", and no number that shows what its comma is; expected decimal "
-       "commas or parted thousands, and to know which; try decimal=\",\" if the comma is the "
+       "commas or grouped thousands, and which of them; try decimal=\",\" if the comma is the "
        "decimal "
-       "mark, thousands=\",\" if it parts thousands"},
+       "mark, thousands=\",\" if it groups thousands"},
       {header + "0,5;1.234\n0,6;12,5\n",
        "lab.csv:2:5: F: found \"1.234\"; expected a number; try thousands=\".\" if the point parts "
        "thousands"},
@@ -348,8 +348,7 @@ TEST(Wrong, WhatIsLeftOutIsNoted) {
   std::string slow = "time [s],F [N]\n";
   for (int i = 0; i < 30; ++i) slow += std::to_string(10 * i) + ",1\n";
   EXPECT_EQ(notes(slow),
-            "time: a row every 10 s, 0.0806 h in all; if it counts ms, units.time=ms "
-            "says so\n");
+            "time: a row every 10 s, 0.0806 h in all; if it counts ms, give units.time=ms\n");
 }
 
 }  // namespace

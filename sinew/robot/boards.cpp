@@ -217,7 +217,7 @@ void check_boards(const Robot& robot, std::vector<Contradiction>& out) {
                      std::to_string(joints) + " joints on board " + number +
                          (loop ? ", the cylinder's loop included" : ""),
                      "at most " + std::to_string(board_joints) + " joints on a board",
-                     "another board, or no board at all: the next that has room"});
+                     "another board, or no board: then the next with room is taken"});
     if (board.sensors.size() > static_cast<std::size_t>(board_channels))
       out.push_back({"sensor." + robot.sensors[at(board.sensors[at(board_channels)])].name,
                      std::to_string(board.sensors.size()) + " sensors on board " + number,

@@ -34,7 +34,7 @@ void fields(Visitor& v, Trolley& trolley) {
             .unit = "kg",
             .min = 0,
             .optional = true,
-            .doc = "rides on the trolley, beside the total mass"},
+            .doc = "rides on the trolley, in addition to the total mass"},
            trolley.payload);
 }
 
@@ -118,7 +118,7 @@ void fields(Visitor& v, Cylinder& c) {
             .min = 0,
             .least = 1e-9,
             .why = "a body that moves weighs a microgram",
-            .doc = "moves up and down beside links and foot; part of the total mass"},
+            .doc = "moves up and down, apart from links and foot; part of the total mass"},
            c.body_mass);
   v.number({.name = "friction", .unit = "N", .min = 0, .doc = "of piston and bearings, dry"},
            c.friction);

@@ -531,7 +531,7 @@ void check_masses(const Robot& robot, List& out) {
   for (std::size_t l = 0; l < std::max<std::size_t>(1, robot.legs.size()); ++l)
     stands = stands || foot_of(robot, l).present;
   if (robot.ground.present && !stands)
-    out.push_back({"ground.present", "true", "a foot to stand on it",
+    out.push_back({"ground.present", "true", "a foot that touches it",
                    "[foot] with present = true, or ground.present = false"});
   for (const Link& link : robot.links)
     if (link.mass <= 0 || link.inertia <= 0)

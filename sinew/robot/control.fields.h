@@ -49,7 +49,7 @@ void observer_fields(Visitor& v, Velocity& velocity) {
             .min = 0,
             .max = 1000,
             .optional = true,
-            .doc = "kalman: of the angle, beside its rounding"},
+            .doc = "kalman: of the angle, in addition to its rounding"},
            velocity.noise);
   if (observer && velocity.inertia <= 0 && (velocity.tensions || velocity.damping > 0))
     units::complain(v, "inertia", "none", "the joint's, for damping or tensions",

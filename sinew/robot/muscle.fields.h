@@ -66,7 +66,7 @@ void fields(Visitor& v, Joint& joint) {
             .unit = "N m s/rad",
             .min = 0,
             .optional = true,
-            .doc = "of a rotary damper beside it, 7.3"},
+            .doc = "of a rotary damper at the joint, 7.3"},
            joint.damper);
   v.number({.name = "spring", .unit = "N m/rad", .min = 0, .optional = true, .doc = "about it"},
            joint.spring);

@@ -126,7 +126,7 @@ void fields(Visitor& v, Sensor& sensor) {
             sensor.tick);
   v.group({.name = "real", .doc = "what the hardware does"},
           [&](auto& g) { real_fields(g, sensor); });
-  v.group({.name = "assumed", .optional = true, .doc = "what the controller believes"},
+  v.group({.name = "assumed", .optional = true, .doc = "calibration that the controller uses"},
           [&](auto& g) { assumed_fields(g, sensor); });
   limit_fields(v, sensor);
 }

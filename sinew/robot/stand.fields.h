@@ -86,7 +86,8 @@ void fields(Visitor& v, Stand::Load& load) {
   size(v, "mass", "kg", least_mass, mass, "hanging", load.mass);
   points(v, "weights", {.name = "mass", .unit = "kg", .min = least_mass, .why = mass},
          "hanging: what hangs from an instant on", load.weights);
-  amount(v, "force", "N", -1e6, "hanging: on the mass beside its weight, down > 0", load.force);
+  amount(v, "force", "N", -1e6, "hanging: on the mass in addition to its weight, down > 0",
+         load.force);
   points(v, "forces", {.name = "force", .unit = "N"}, "hanging: the same over time", load.forces);
   size(v, "length", "m", least_length, length, "driven", load.length);
   points(v, "lengths", {.name = "length", .unit = "m", .min = least_length, .why = length},

@@ -19,7 +19,8 @@ Figure parse_figure(std::string_view text, std::string_view setting) {
   const std::string si = analysis::unit_of_key(out.key);
   out.unit = si;
   if (out.key.empty() || out.key.find(' ') != out.key.npos)
-    refuse(setting, text, "a key of summary.json, and a unit in brackets if another is wanted",
+    refuse(setting, text,
+           "a key of summary.json, and in brackets the unit to print it in, if another",
            "\"trolley.distance_m [in]\"");
   if (bracket == text.npos) return out;
   if (!text.ends_with(']')) refuse(setting, text, "a bracket that closes");

@@ -97,8 +97,8 @@ std::vector<std::string> warnings(const std::vector<Row>& rows) {
         fmt::format("{} of {} rows lack a figure; their status names it", part, rows.size()));
   const auto bad = std::ranges::count_if(rows, [](const Row& row) { return !row.ok; });
   if (bad > 0)
-    out.push_back(
-        fmt::format("{} of {} rows have no figures; their status says why", bad, rows.size()));
+    out.push_back(fmt::format("{} of {} rows have no figures; their status has the reason", bad,
+                              rows.size()));
   const auto ended =
       std::ranges::count_if(rows, [](const Row& row) { return row.notes.stop_reached; });
   if (ended > 0)

@@ -237,7 +237,7 @@ TEST(Serial, ABringUpThatAsksEndsWithCtrlC) {
   int status = 0;
   ::waitpid(host, &status, 0);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
-  EXPECT_THAT(read_text(w / "out"), HasSubstr("Stopped. The same command goes on from here."));
+  EXPECT_THAT(read_text(w / "out"), HasSubstr("Stopped. The same command continues from here."));
 }
 
 TEST(Serial, AHostThatDiesIsHeldThenVented) {

@@ -161,7 +161,7 @@ Exhibit figure_2_13(const Sources& from) {
   e.claims = {
       judge(put_in, {.where = "2.3, [32]",
                      .says = "Beyond the greatest length the threads stretch: a spring that is "
-                             "very stiff beside the actuator",
+                             "very stiff compared with the actuator",
                      .theirs = {},
                      .quantity = "least ratio of the slopes beyond and before L_max",
                      .ours = least_ratio,

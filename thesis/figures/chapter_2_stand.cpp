@@ -155,7 +155,7 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
       {.name = "2-8",
        .title = "Force over length with the air shut in",
        .caption = "0 to 15 lb and back in steps of 1 lb at four nominal pressures. The thesis's "
-                  "measurements are lost: our stand stands in their place. 45 and 75 psi are "
+                  "measurements are lost: our stand replaces them. 45 and 75 psi are "
                   "guesses, 60 and 90 psi are named in 2.3.",
        .plots = {{.x = {"length", "in"}, .y = {"force", "lbf"}, .curves = curves}}},
       {judge(put_in, {.where = "2.3",

@@ -105,7 +105,7 @@ Exhibit figure_4_8(const Sources& from) {
                    gone, "ms", analysis::about(0.5), as_chosen),
        text.number(by_construction, "Nothing in the current tells when it shuts", "no kick",
                    "largest rise after the edge", rise, "A",
-                   analysis::negligible(report::greatest(trace(at_supply))), "our coil knows none"),
+                   analysis::negligible(report::greatest(trace(at_supply))), "our coil has none"),
        text.number(put_in, "Its largest audible frequency exceeds", "400 Hz",
                    "half a period lasts as long as the slower delay",
                    largest_frequency(from.inlet, 100), "Hz", analysis::at_least(400),

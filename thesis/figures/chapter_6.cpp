@@ -197,7 +197,7 @@ Exhibit figure_6_6(const LegRun& run) {
       over_time(run, "joint stiffness", "lbf in/rad", of_joints(run, "/stiffness", true));
   return {{.name = "6-6",
            .title = "Desired and actual stiffness",
-           .caption = run.caption("As the controller believes it, [27] and [60]."),
+           .caption = run.caption("As the controller computes it, [27] and [60]."),
            .plots = {std::move(plot)}},
           {judge(predicted,
                  {.where = "6.3",
@@ -294,7 +294,7 @@ Exhibit figure_6_9(const LegRun& run) {
   return {
       {.name = "6-9",
        .title = "Trolley position and velocity",
-       .caption = run.caption("The forces of 6-8 integrated twice, as 6.3 does, beside the "
+       .caption = run.caption("The forces of 6-8 integrated twice, as 6.3 does, and the "
                               "trolley itself, which the thesis did not measure."),
        .plots = std::move(plots)},
       run.verdicts({"trolley.distance_m", "trolley.mean_speed", "trolley.distance_from_torques"})};

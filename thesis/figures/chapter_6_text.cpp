@@ -169,12 +169,11 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
   };
   add_run("6-3", "zero-gap", "trolley.distance_m", "With no gap to the table the leg goes nowhere");
   add_run("6-3", "zero-gap", "foot.slip", "With no gap the foot slides across the table");
-  add("6-4",
-      text.number(predicted, "The angles follow late, as proportional control does", "slight",
-                  "how much later the hip passes 280 deg, as a share of swing", lag(run), "%",
-                  analysis::small(100),
-                  "most of it is the exhausts' dead time: below 7 % nothing passes them, which is "
-                  "15 deg at the hip's gain"));
+  add("6-4", text.number(predicted, "The angles follow late, as proportional control does",
+                         "slight", "how much later the hip passes 280 deg, as a share of swing",
+                         lag(run), "%", analysis::small(100),
+                         "mostly the exhausts' dead time: below 7 % nothing passes them, which is "
+                         "15 deg at the hip's gain"));
   const double excursion = run.summary("joints.hip.excursion_rad");
   add("6-4", text.number(predicted, "The hip oscillates in each swing", "",
                          "turning points of its error, the fewest in a swing",

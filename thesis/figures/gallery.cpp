@@ -19,12 +19,12 @@ report::Gallery gallery(const Sources& from, std::atomic<std::int64_t>& done) {
   report::Gallery out{
       .title = "The figures of Colbrunn (2000)",
       .lead =
-          "Every plot of the thesis that can be computed, numbered as there, beside what its "
-          "text says of it. Curves are computed by the thesis's laws or by our simulation. "
-          "What was measured is lost: where a synthetic curve stands in its place, it is our "
-          "own stand's and says so. Each verdict is computed from the curves as they are "
+          "Every plot of the thesis that can be computed, numbered as there, with what its "
+          "text says. Curves are computed by the thesis's laws or by our simulation. "
+          "What was measured is lost: where a synthetic curve replaces it, it is our "
+          "own stand's and is marked so. Each verdict is computed from the curves as they are "
           "drawn, or from the run's summary, within a band that follows from the wording. Its "
-          "class says what agreement is worth: only what is predicted tests the model. What was "
+          "class shows what agreement is worth: only what is predicted tests the model. What was "
           "fitted (docs/calibration.md) shows that one leg can do all of it at once; agreement of "
           "what was put in, is true by construction or is the same equations twice shows only "
           "that nothing is broken (docs/evidence/evidence.md).",

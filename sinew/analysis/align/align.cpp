@@ -308,7 +308,7 @@ void require_clear(const Found& found, const std::string& channels) {
   if (found.fall < least_fall)
     refuse(fmt::format("a correlation of {:.3f} that hardly changes with the shift, of {}", found.r,
                        channels),
-           "a motion that can be told from itself later", "another channel, or an event");
+           "a motion that does not repeat itself", "another channel, or an event");
 }
 
 [[noreturn]] void repeats(const Clock& one, const Clock& other, const std::string& channels) {

@@ -75,15 +75,15 @@ Band another(double lowest, double highest) { return {lowest, highest, Wording::
 std::string_view rule_of(Wording wording) {
   switch (wording) {
     case Wording::measured:
-      return "a measured number: half its last digit, or 5 % of it where that is more";
+      return "a measured number: half its last digit, or 5 % of the number where that is more";
     case Wording::percentage:
-      return "a percentage: 2 points, at most a quarter of it";
+      return "a percentage: 2 points, at most a quarter of the number";
     case Wording::about:
       return "\"about\": 10 %";
     case Wording::negligible:
       return "negligible: under 5 % of the range";
     case Wording::noticeable:
-      return "said to be there: not under 5 % of the range";
+      return "named as present: not under 5 % of the range";
     case Wording::small:
       return "small, slight: not substantial, under 20 %";
     case Wording::substantial:

@@ -219,7 +219,7 @@ void control_fields(Visitor& v, Plan& plan) {
             .optional = true,
             .doc = "of the high level, a multiple of the low level's"},
            plan.brain_period);
-  v.group({.name = "stiffness", .doc = "K_des [58], until a phase says otherwise"}, [&](auto& g) {
+  v.group({.name = "stiffness", .doc = "K_des [58], until a phase sets another"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
       if (joint.driven)
         g.number({.name = joint.name,
@@ -233,7 +233,7 @@ void control_fields(Visitor& v, Plan& plan) {
   v.group(
       {.name = "joint_range",
        .optional = true,
-       .doc = "desired angles stay within it, whatever a phase asks for"},
+       .doc = "desired angles are limited to it in every phase"},
       [&](auto& g) {
         for (JointPlan& joint : plan.joints)
           if (joint.driven)
@@ -279,7 +279,7 @@ void fields(Visitor& v, Change& c) {
 
 template <class Visitor>
 void fields(Visitor& v, Plan& plan) {
-  v.group({.name = "control", .doc = "what holds until a phase says otherwise"},
+  v.group({.name = "control", .doc = "defaults of all phases"},
           [&](auto& g) { control_fields(g, plan); });
   v.group({.name = "sequence", .doc = "the phases of a step"}, [&](auto& g) {
     g.texts({.name = "phases", .doc = "in their order"}, plan.sequence);

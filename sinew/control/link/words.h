@@ -11,9 +11,9 @@ constexpr const char* in_words(Code code) noexcept {
     case Code::done:
       return "nothing is wrong";
     case Code::version:
-      return "it speaks another version of the protocol";
+      return "it uses another version of the protocol";
     case Code::type:
-      return "it does not know this message";
+      return "it has no such message";
     case Code::length:
       return "the message has not the length of its type";
     case Code::value:
@@ -43,7 +43,7 @@ constexpr const char* in_words(Code code) noexcept {
     case Code::nonce:
       return "it has another configuration, or has been reset since";
   }
-  return "an answer that this program does not know";
+  return "an unknown reply";
 }
 
 constexpr const char* in_words(control::BoardFault fault) noexcept {
@@ -70,9 +70,9 @@ constexpr const char* in_words(control::BoardFault fault) noexcept {
     case BoardFault::not_empty:
       return "something was still under pressure after the longest vent";
     case BoardFault::asked:
-      return "a host has asked for it";
+      return "a host has requested it";
   }
-  return "a reason that this program does not know";
+  return "an unknown reason";
 }
 
 }  // namespace sinew::link

@@ -217,7 +217,7 @@ std::string to_text(const Trip& trip, const robot::Robot& robot, int board) {
     return fmt::format(
         "the board{} at {:.4f} s: all valves were shut for {:g} s, as long as they may be", on, at,
         limit);
-  if (trip.cause == asked) return fmt::format("shut down{} at {:.4f} s, as was asked", on, at);
+  if (trip.cause == asked) return fmt::format("shut down{} at {:.4f} s, as requested", on, at);
   if (trip.cause == command) {
     const std::size_t j = trip.joint;
     const std::string name =

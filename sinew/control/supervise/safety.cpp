@@ -47,7 +47,7 @@ const char* safety_problem(const JointControllerConfig& machine) noexcept {
     if (timing.closing[duty] < timing.closing[duty - 1] ||
         timing.opening[duty] > timing.opening[duty - 1])
       return "the timing table is cut off or not monotone: a longer duty must not end sooner";
-  if (machine.conversions == 0) return "a board without sensors cannot tell what it does";
+  if (machine.conversions == 0) return "a board without sensors cannot observe its machine";
   return nullptr;
 }
 

@@ -52,9 +52,10 @@ void refuse_poor(const Measured& data) {
     throw Refusal(data.file, "a mesh that is wider than long in every row",
                   "lengths above the diameters", "the columns, they may be swapped");
   const std::vector<double>& length = data["length"];
-  refuse_constant(data, "length", 0.05 * largest(length),
-                  "lengths that differ by more than 5 %: one length does not tell b from n",
-                  "the mesh pulled long and pushed short");
+  refuse_constant(
+      data, "length", 0.05 * largest(length),
+      "lengths that differ by more than 5 %: one length does not determine both b and n",
+      "the mesh pulled long and pushed short");
 }
 
 void refuse_thick(const Measured& data, const std::vector<double>& diameter, double thickness) {

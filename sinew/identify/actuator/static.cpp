@@ -237,7 +237,7 @@ void give_rest_length(Points& points, Report& report) {
                   "rest_length=LENGTH, or a column rest_length");
   for (StaticPoint& p : points) p.rest_length = longest;
   report.notes.push_back(
-      fmt::format("no rest length given: the longest, {:.4g} mm, stands for it", 1e3 * longest));
+      fmt::format("no rest length given: the longest, {:.4g} mm, is taken for it", 1e3 * longest));
 }
 
 // A law that is used elsewhere must grow with the pressure.
@@ -263,14 +263,15 @@ void tell_labels(const StaticFit& fit, Fit& out) {
     if (e->at_bound)
       out.notes.push_back(
           muscle +
-          fmt::format(" would be {} by more than {:.2g} mm beside the others, the bound of "
-                      "what is believed: its label, or another's, is probably wrong",
+          fmt::format(" would be {} by more than {:.2g} mm than the others imply, the bound of "
+                      "what is assumed: its label, or another's, is probably wrong",
                       r.error > 0 ? "longer" : "shorter", 1e3 * std::abs(r.error)));
     else if (std::abs(r.error) > 0.5 * (e->high - e->low))
       out.notes.push_back(
-          muscle + fmt::format(" pulls as one of {:.4g} +- {:.2g} mm beside the others, for its "
-                               "label or for a law that is not quite theirs",
-                               1e3 * (r.labelled + r.error), 500 * (e->high - e->low)));
+          muscle +
+          fmt::format(" pulls as one of {:.4g} +- {:.2g} mm compared with the others, for its "
+                      "label or for a law that is not quite theirs",
+                      1e3 * (r.labelled + r.error), 500 * (e->high - e->low)));
   }
   if (rest_length_estimate(fit, fit.setting.rest_lengths.back().labelled))
     out.notes.push_back(fmt::format("parameters are those of a muscle of exactly {:.4g} mm",
@@ -288,8 +289,8 @@ void describe(const StaticFit& fit, Fit& out) {
   for (const Estimate& e : out.parameters)
     if (e.name == "thread_length" && e.at_bound)
       out.notes.push_back(
-          "thread_length stands at the shortest that a braid can have: the law holds for the "
-          "lengths that were measured, and says little of the air in the muscle");
+          "thread_length is at the shortest that a braid can have: the law holds for the "
+          "lengths that were measured, and shows little of the air in the muscle");
   tell_labels(fit, out);
   for (const std::string& unseen : fit.solution.unseen)
     out.notes.push_back("not determined: " + unseen);
@@ -334,7 +335,7 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
           .source = std::string(model.source)};
   try {
     if (model.name == "effectiveness" && !scales.braid)
-      throw Refusal("braid", "no geometry", "a braid that is known: here turns stand for it", "");
+      throw Refusal("braid", "no geometry", "a braid that is known: here only turns are", "");
     const Tried tried(model, scales, s.fitted);
     const StaticFit fit = tried.fit(s.fitted);
     refuse_falling(fit, scales);

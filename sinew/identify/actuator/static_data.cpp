@@ -147,7 +147,7 @@ void check(const Measured& m, const std::vector<double>& force, const std::vecto
   const bool is_one_of_several = pressure != m.columns.end() && pressure->is_stated;
   if (!is_one_of_several && !is_sweep(m, length))
     refuse_constant(m, "pressure", same_pressure * largest(m["pressure"]),
-                    "several pressures: a static law says how force grows with them",
+                    "several pressures: a static law describes how force grows with them",
                     "fill the muscle step by step");
   if (m.has("time")) refuse_full(m, "pressure", m["pressure"]);
   if (m.has("time")) refuse_full(m, "force", force);

@@ -116,7 +116,7 @@ std::vector<ErrorBy> errors_of(const Report& report, const Points& points) {
     const std::vector<int> parts = branch_parts(points);
     return std::set<int>(parts.begin(), parts.end());
   }();
-  constexpr const char* names[] = {"filling", "venting", "not told"};
+  constexpr const char* names[] = {"filling", "venting", "not given"};
   std::size_t k = 0;
   for (const int branch : branches) out.back().parts[k++].name = names[branch];
   std::erase_if(out, [](const ErrorBy& e) { return e.parts.size() < 2; });

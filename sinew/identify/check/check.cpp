@@ -39,9 +39,10 @@ Check whole_numbers(const std::vector<CheckedTable>& tables) {
       }
   if (seen.empty()) return {"counts", Light::green, "The forces are those of loads.", ""};
   if (seen.size() < 20 || *seen.rbegin() < 1000)
-    return {"counts", Light::grey,
-            "Not checked: too few different forces to tell counts of a converter from newtons.",
-            "If they are counts, `sinew identify sensor` makes newtons of them."};
+    return {
+        "counts", Light::grey,
+        "Not checked: too few different forces to distinguish counts of a converter from newtons.",
+        "If they are counts, `sinew identify sensor` makes newtons of them."};
   return {"counts", Light::yellow,
           fmt::format("All forces are whole numbers, up to {:.5g}.", *seen.rbegin()),
           "If they are counts, `sinew identify sensor` makes newtons of them."};
@@ -77,7 +78,7 @@ std::vector<Check> check_static(const CheckInput& input) {
                    ""});
   for (const std::string& warning : data.warnings)
     out.push_back(
-        {"recording", Light::yellow, warning, "Look at the beginning of the recording.", true});
+        {"recording", Light::yellow, warning, "Examine the beginning of the recording.", true});
   out.push_back(repeated(input.tables));
   out.push_back(whole_numbers(input.tables));
   if (data.points.empty()) return out;
@@ -106,10 +107,11 @@ void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string
       ++count;
     }
   if (count > 0 && !anyway)
-    throw Refusal(reds + fmt::format("check: found {} red, above; expected what a fit can be right "
-                                     "about; try what is said there, or anyway=true to fit it as "
-                                     "it is",
-                                     count));
+    throw Refusal(reds +
+                  fmt::format("check: found {} red, above; expected what a fit can be right "
+                              "about; try what is advised there, or anyway=true to fit it as "
+                              "it is",
+                              count));
   for (const Check& c : checks)
     if (c.light == Light::red || (c.light == Light::yellow && !c.told_by_fit))
       warnings.push_back(all_words(c));

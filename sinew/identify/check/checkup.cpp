@@ -69,7 +69,7 @@ Determined one_determined(const Estimate& e, bool leans) {
   } else if (std::isfinite(share) && share < 1) {
     out.words = fmt::format("its size at best, to +-{:.2g} %", 100 * share);
   } else {
-    out.words = "not at all: zero would do as well";
+    out.words = "no: zero would do as well";
   }
   out.advice = measurement_for(e.name);
   return out;
@@ -106,7 +106,7 @@ void add_parameters(const StaticFit& fit, DeterminedLaw& out) {
   }
   if (!branches)
     out.parameters.push_back(
-        unasked("half_width", "Pa diff", "not at all: there is one branch, or none is told"));
+        unasked("half_width", "Pa diff", "no: there is one branch, or the branch is not given"));
 }
 
 }  // namespace
@@ -209,7 +209,7 @@ Json json_of_law(const DeterminedLaw& law) {
 Checkup check_up(const CheckInput& input) {
   Checkup out{.checks = check_static(input), .recognised = recognise(input)};
   if (has_red(out.checks))
-    out.determined.refused = "a check is red: what the data say would be wrong";
+    out.determined.refused = "a check is red: what the data show would be wrong";
   else
     out.determined = determine(input);
   return out;

@@ -178,7 +178,7 @@ std::optional<Check> mount_off(const Believed& own, const Doubt* rest) {
   if (rest && best.doubted > 0.75 * rest->doubted) return {};
   return Check{
       "labels", Light::yellow,
-      fmt::format("The mount labelled {:.4g} mm behaves like {} beside the others of its "
+      fmt::format("The mount labelled {:.4g} mm behaves like {} among the others of its "
                   "muscle: what they leave falls from {:.2g} to {:.2g} % of the largest "
                   "force.",
                   1e3 * best.labelled(), best.words(), 100 * best.believed, 100 * best.doubted),

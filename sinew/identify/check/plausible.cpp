@@ -63,7 +63,7 @@ Check mounts_in_order(const std::vector<ForceCurve>& curves) {
              fmt::format("The mount of {:.4g} mm pulls less than that of {:.4g} mm at {} of {} "
                          "pressures.",
                          1e3 * b.length, 1e3 * a.length, d.below, d.shared),
-             "Look whether the lengths of the two are exchanged, or the columns of force and "
+             "Check whether the lengths of the two are exchanged, or the columns of force and "
              "pressure, or their muscles differ."};
   }
   return worst;
@@ -129,8 +129,8 @@ Check branches(const std::vector<ForceCurve>& curves) {
             fmt::format("Readings of one length, pressure and branch are {:.2g} % apart.",
                         100 * gap / force),
             pairs > 0
-                ? "Look whether all of them are of one muscle, and of the branch that is told."
-                : "Say in a column branch which rows are fill and which are vent."};
+                ? "Check whether all of them are of one muscle, and of the branch that is given."
+                : "Add a column branch with fill or vent in each row."};
   return {
       "branches", Light::green,
       force > 0 ? "Readings of one branch agree." : "Rows called vent pull no less than others.",
@@ -204,9 +204,10 @@ void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<C
   const bool fill = std::ranges::any_of(fitted, is_of(Branch::fill)),
              vent = std::ranges::any_of(fitted, is_of(Branch::vent));
   const auto lengths = static_cast<std::size_t>(count_of(length_groups(fitted)));
-  out.push_back(count("lengths", lengths, braid_is_known ? 1 : 2, 3,
-                      "Measure more mounts: five tell the braid from the bladder. With one alone "
-                      "actuator=FILE has to give the braid's geometry."));
+  out.push_back(
+      count("lengths", lengths, braid_is_known ? 1 : 2, 3,
+            "Measure more mounts: five separate the braid from the bladder. With one alone "
+            "actuator=FILE has to give the braid's geometry."));
   out.push_back(
       count("pressures", pressures_of(fitted), 3, 5, "Measure more pressures: ten are good."));
   if (fill && vent)
@@ -215,7 +216,7 @@ void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<C
     out.push_back({"both ways", Light::yellow,
                    fill   ? "It was only filled."
                    : vent ? "It was only vented."
-                          : "No column says whether it was filled or vented.",
+                          : "No column states whether it was filled or vented.",
                    "The hysteresis stays unknown; measure on the way up and down.", true});
 }
 
@@ -321,7 +322,7 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
         "zero of force", Light::yellow,
         fmt::format("The force cell read {:.4g} N where the muscle is slack; that is taken off.",
                     taken_off),
-        "Zero the cell before a measurement, and look whether it drifts.", true};
+        "Zero the cell before a measurement, and check whether it drifts.", true};
   double sum = 0, n = 0;
   for (const StaticPoint& p : data.points)
     if (p.pressure < 0.03 * r.top) sum += p.force, n += 1;
@@ -364,7 +365,7 @@ Check cross_section(const Reach& r, double diameter) {
   if (implied < 0.002 || implied > 0.09) return {"force unit", Light::red, text + ".", advice};
   // Nothing but the diameter tells a thick muscle in lbf from a thin one in N: see check.h.
   return {"force unit", Light::yellow,
-          fmt::format("{}, of {:.3g} mm if the numbers are lbf; nothing here tells which.", text,
+          fmt::format("{}, of {:.3g} mm if the numbers are lbf; nothing here decides which.", text,
                       1e3 * implied * std::sqrt(newtons_per_lbf)),
           "Give the muscle's diameter, diameter=LENGTH, and it is compared.", true};
 }
@@ -402,7 +403,7 @@ Check rest_length(const StaticData& data) {
   if (most > 1.03)
     return {
         "rest length", Light::red, text,
-        "No muscle is stretched by more than 3 %: measure its rest length again, and look whether "
+        "No muscle is stretched by more than 3 %: measure its rest length again, and check whether "
         "all lengths are of this muscle."};
   if (most > 1.005)
     return {"rest length", Light::yellow, text,

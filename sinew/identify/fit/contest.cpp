@@ -38,7 +38,7 @@ void start_at(const Solution& solution, FitProblem& problem) {
 std::vector<double> misses(const Candidate& candidate, const std::vector<double>& measured,
                            std::span<const double> p) {
   std::vector<double> out(measured.size());
-  if (!candidate.predict(p, out)) throw Refusal("model", "no answer", "a value at every row", "");
+  if (!candidate.predict(p, out)) throw Refusal("model", "no value", "a value at every row", "");
   for (std::size_t i = 0; i < out.size(); ++i) out[i] -= measured[i];
   return out;
 }

@@ -99,7 +99,7 @@ TEST(Contest, RefusesAndFreezesWithAReason) {
   contend({known, bound, silent}, {.measured = data.y}, report);
   EXPECT_EQ(report.fits[0].refused, "it takes four pressures");
   EXPECT_EQ(report.fits[1].not_chosen, "b at the bound of its range");
-  EXPECT_NE(report.fits[2].refused.find("no answer at its start values"), std::string::npos);
+  EXPECT_NE(report.fits[2].refused.find("no value at its start values"), std::string::npos);
   conclude(report);
   EXPECT_EQ(not_pinned(report), std::vector<std::string>{"b"});
   const std::vector<std::string> unseen = does_not_show(report);

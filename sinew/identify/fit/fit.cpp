@@ -128,7 +128,7 @@ void choose(Report& report, double tolerance, double negligible) {
       : by == By::cross_validation ? "cross-validated error"
       : by == By::held_out         ? "held-out error"
                                    : "fit error",
-      near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
+      near < negligible ? fmt::format("below {:.2g} %, where it decides nothing", negligible)
                         : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
       chosen->model, free_in(*chosen), error_of(*chosen, by), smallest, fits.front()->model,
       runners_up(fits, *chosen, by));

@@ -377,7 +377,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
   out.residuals.resize(count);
   if (host::is_stopped()) throw host::Stopped();
   if (!plain(u.data(), out.residuals.data()))
-    throw Refusal("model", "no answer at its start values", "finite residuals",
+    throw Refusal("model", "no value at its start values", "finite residuals",
                   "other start values");
 
   out.converged = parameters.empty();

@@ -244,7 +244,7 @@ Wishes::Wishes(const WishTexts& texts) {
     for (const std::string& text : *lists[kind]) {
       Wish wish = parse_wish(static_cast<Wish::Kind>(kind), text);
       if (std::ranges::find(all_, wish.name, &Wish::name) != all_.end())
-        fail_wish(wish, "one wish for a parameter");
+        fail_wish(wish, "one setting for a parameter");
       all_.push_back(std::move(wish));
     }
 }

@@ -129,7 +129,7 @@ TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
   EXPECT_EQ(told([] { Wishes({.prior = {"a=3 N"}}); }),
             "prior: found \"a=3 N\"; expected NAME=VALUE±DEVIATION");
   EXPECT_EQ(told([] { Wishes({.freeze = {"a=3 N"}, .tie = {"a=b"}}); }),
-            "tie: found \"a=b\"; expected one wish for a parameter");
+            "tie: found \"a=b\"; expected one setting for a parameter");
   EXPECT_EQ(checked({.freeze = {"c=3 N"}}),
             "freeze: found \"c\"; expected a parameter: a or b of x.csv");
   EXPECT_EQ(

@@ -324,7 +324,7 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
 }
 
 std::string error_text(const Combination& c) {
-  if (!std::isfinite(c.relative_error)) return c.text + " not at all";
+  if (!std::isfinite(c.relative_error)) return c.text + " is not determined";
   return fmt::format("{} +- {:.2g} %", c.text, 100 * c.relative_error);
 }
 
@@ -338,7 +338,7 @@ std::string inseparable(const Solved& solved) {
       which += (which.empty() ? "" : ", ") + e.name;
   }
   if (which.empty() && solved.ambiguous.empty()) return "";
-  std::string out = which.empty() ? solved.ambiguous : which + " cannot be told apart";
+  std::string out = which.empty() ? solved.ambiguous : which + " cannot be separated";
   const std::vector<Combination> all = combinations_of(s);
   if (!all.empty() && std::isfinite(all.front().relative_error))
     out += "; determined is " + error_text(all.front());
@@ -388,7 +388,7 @@ void refuse_without_torque(const Measured& data, const JointSetup& setup) {
     throw Refusal(data.file, "no time", "it, of a joint that moves", "names.time=NAME");
   const bool one = !data.has("recording") || largest(data["recording"]) == 0;
   if (setup.torque_gain && one && !setup.keep_force)
-    throw Refusal(data.file, "one recording whose gain is asked for",
+    throw Refusal(data.file, "one recording whose gain is to be found",
                   "a force that is known: the gain of a torque is that of the force",
                   "keep_force=true, or another recording");
 }
@@ -463,7 +463,7 @@ void refuse_if_all_are(const Report& report, const std::string& file) {
     reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", fit.model, fit.refused);
   }
   throw Refusal(file, "no model whose values the data determine (" + reasons + ")",
-                "poses that tell arm, length and force apart",
+                "poses that separate arm, length and force",
                 "larger excursions, moment_arm=LENGTH, flexor_length=LENGTH, or keep_force=true");
 }
 

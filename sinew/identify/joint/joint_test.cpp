@@ -1,5 +1,5 @@
 // Force law and arm of a joint from angles, pressures and loads: back from joints that are known,
-// and an answer of its own where they cannot be told apart.
+// and an answer of its own where they cannot be separated.
 #include "sinew/identify/joint/joint.h"
 
 #include <gtest/gtest.h>

@@ -96,10 +96,10 @@ void tell_channels(const RunFitResult& out, Fit& fit) {
 // What stands in the way of believing it.
 void warn(const RunFitResult& out, Report& report, double rms) {
   if (rms > more_than_noise)
-    report.warnings.push_back(
-        fmt::format("what is left is {:.3g} times the sensors' noise: this machine is not quite "
-                    "the one that was measured, and the intervals know only what they see of that",
-                    rms));
+    report.warnings.push_back(fmt::format(
+        "what is left is {:.3g} times the sensors' noise: this machine is not quite "
+        "the one that was measured, and the intervals hold only a part of that difference",
+        rms));
   const Fit& fit = report.fits[0];
   if (fit.fit.points > 0 && fit.held_out && fit.held_out->rmse > 1.5 * fit.fit.rmse)
     report.warnings.push_back(
@@ -126,11 +126,11 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
       out.landings > 0
           ? fmt::format(
                 "a foot comes down on the ground {} times, a little earlier or later with other "
-                "numbers, and after each time everything lies elsewhere; the search ends near what "
-                "it looks for, and how near is not known. A run in the air has intervals",
+                "numbers, and after each time everything lies elsewhere; the search ends near the "
+                "optimum, and how near is not known. A run in the air has intervals",
                 out.landings)
-          : "the readings jump where a number changes a little; the search ends near what it looks "
-            "for, and how near is not known. Another run may have no such jumps";
+          : "the readings jump where a number changes a little; the search ends near the optimum, "
+            "and how near is not known. Another run may have no such jumps";
   for (Estimate& e : estimates) {
     e.standard_error = unbounded;
     e.low = -unbounded;

@@ -310,7 +310,7 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
   tell("searched in all of the run", best.rms);
   settle_cells(whole, parameters, threads, best);
   search_open_cells(whole, parameters, threads, best);
-  tell("beside neighbouring dead times", best.rms);
+  tell("neighbouring dead times", best.rms);
   return best;
 }
 

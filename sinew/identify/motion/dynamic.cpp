@@ -306,9 +306,10 @@ void refuse_memory(const DecayRecord& record) {
                     a.hysteresis.width_per_contraction > 0;
   const bool creeps = a.creep.share[0] > 0 || a.creep.share[1] > 0;
   if (lags || creeps)
-    throw Refusal(fmt::format("actuator {}", a.name), lags ? "a hysteresis" : "creep",
-                  "an actuator whose only loss is to be found: these trajectories know none",
-                  "a file without it");
+    throw Refusal(
+        fmt::format("actuator {}", a.name), lags ? "a hysteresis" : "creep",
+        "an actuator without it: the loss to be found is the only one of these trajectories",
+        "a file without it");
 }
 
 std::string held_out_is(std::span<const DecayRecord> records, bool marked) {
@@ -370,7 +371,7 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
   for (const Estimate& e : report.best().parameters)
     if (e.name.starts_with("tension") && std::abs(e.value - 1) > 0.05)
       report.warnings.push_back(
-          fmt::format("{}: rest and period ask for {:.3f} times the tension of the actuator's file",
+          fmt::format("{}: rest and period require {:.3f} times the tension of the actuator's file",
                       e.name, e.value));
   return out;
 }

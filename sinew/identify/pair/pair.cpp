@@ -544,7 +544,7 @@ class Pair {
         unknown += (unknown.empty() ? "" : " and ") + e.name;
       if (e.name == "presliding" && e.free && (e.at_bound || !(e.low > 0)))
         fit.notes.push_back(
-            "presliding: not told from none; it slips within what the position resolves");
+            "presliding: not distinguished from none; it slips within what the position resolves");
       if (e.name == "fade_time")
         fit.notes.push_back(
             "fade_time: how soon nothing is known of the friction of a pair that "
@@ -555,7 +555,7 @@ class Pair {
         (!unknown.empty() || at_bound.find("stiffness") != at_bound.npos ||
          at_bound.find("area") != at_bound.npos))
       fit.not_chosen =
-          "stiffness and area cannot be told apart: the pressures follow the position; "
+          "stiffness and area cannot be separated: the pressures follow the position; "
           "freeze one of them";
   }
 
@@ -627,16 +627,18 @@ void refuse_mixed(std::span<const PairRecord> records) {
 void tell_what_is_apart(const PairResult& found, Report& report) {
   if (found.sensors.size() == 1 || report.fits.empty())
     report.notes.push_back(
-        "gain: that of one rig cannot be told from its stiffness, friction and losses; it counts "
+        "gain: that of one rig cannot be separated from its stiffness, friction and losses; it "
+        "counts "
         "as 1");
   if (!found.air) return;
   const bool apart = found.law.air && found.law.spring;
   if (!apart)
-    report.notes.push_back(fmt::format(
-        "elastic and trapped-air stiffness are told together only, {:.4g} {}: the pressures follow "
-        "the position by {:.4g} Pa/{}; freeze area or stiffness to part them",
-        found.stiffness.value, found.rotary ? "N m/rad" : "N/m", found.air->per_position,
-        found.rotary ? "rad" : "m"));
+    report.notes.push_back(
+        fmt::format("elastic and trapped-air stiffness are known together only, {:.4g} {}: the "
+                    "pressures follow "
+                    "the position by {:.4g} Pa/{}; freeze area or stiffness to separate them",
+                    found.stiffness.value, found.rotary ? "N m/rad" : "N/m",
+                    found.air->per_position, found.rotary ? "rad" : "m"));
 }
 
 }  // namespace

@@ -210,7 +210,7 @@ void read_off(Records records, const Selection& rows, PairAir& out) {
   if (muscles == 2 && out.falls[0] == out.falls[1])
     out.report.warnings.push_back(
         "both pressures go the same way with the position: one muscle of a pair is stretched as "
-        "the other shortens; look at the columns");
+        "the other shortens; check the columns");
 }
 
 }  // namespace

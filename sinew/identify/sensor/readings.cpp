@@ -64,7 +64,7 @@ class Finder {
     for (const std::string& name : only) refuse_missing(name, layout);
     if (layout.sensors.empty())
       config::fail(header(), "sensor", "no column in volts or counts among " + all_names(),
-                   "at least one beside " + layout.known_heading->name,
+                   "at least one in addition to " + layout.known_heading->name,
                    "its unit in the header, `gage [V]`, or units.gage=V");
     return layout;
   }

@@ -168,7 +168,8 @@ void refuse_poor(const SensorData& data, const SensorReadings& s, const Usable& 
     refuse(data, s.name,
            fmt::format("one known value throughout, {}",
                        config::format_quantity(u.known.front(), facts.unit, facts.unit, 5)),
-           "two or more: one does not tell scale from offset", "another load, angle or pressure");
+           "two or more: one does not determine both scale and offset",
+           "another load, angle or pressure");
   const double low = smallest(u.output), high = largest(u.output);
   const double finest =
       std::isfinite(u.step) ? u.step : 1e-6 * std::max(std::abs(low), std::abs(high));

@@ -88,10 +88,10 @@ GeometryFound find(const SourceList& sources, const GeometrySettings& settings) 
   const SettingValues values(settings);
   if (!settings.trapezoids.empty()) {
     if (!sources.empty())
-      config::fail({"data", 0, 0}, "", "a file beside trapezoids",
+      config::fail({"data", 0, 0}, "", "a file together with trapezoids",
                    "either a file of lengths and diameters, or trapezoids");
     if (settings.side.empty())
-      config::fail({"side", 0, 0}, "", "nothing", "the side of one trapezoid, beside trapezoids");
+      config::fail({"side", 0, 0}, "", "nothing", "the side of one trapezoid, with trapezoids");
     return count_geometry(settings, values.of(settings.side));
   }
   const Source& source = only_of(sources);

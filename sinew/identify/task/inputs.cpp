@@ -78,12 +78,12 @@ constexpr std::array pair_tables{
               "0,0.01,0,350,351\n0.001,0.05,0.1,350,351\n0.002,0.11,0.3,349,352\n"}};
 
 constexpr std::array calibration_tables{
-    TableKind{"force", "a known load, and what the sensors make of it", "load|force|tension",
+    TableKind{"force", "a known load, and the sensors' readings", "load|force|tension",
               "load [kg],gage_1 [V],gage_2 [V]",
               "0,0.52,0.49\n2,1.10,1.06\n4,1.69,1.64\n2,1.11,1.07\n0,0.52,0.49\n"},
     TableKind{"angle", "a known angle, and the converter's counts", "angle",
               "angle [deg],hip_angle [count]", "-40,612\n-20,1130\n0,1648\n20,2166\n40,2684\n"},
-    TableKind{"pressure", "a known pressure, and what the sensor makes of it", "pressure",
+    TableKind{"pressure", "a known pressure, and the sensor's reading", "pressure",
               "pressure [kPa gauge],pressure_1 [V]", "0,0.50\n200,1.30\n400,2.11\n600,2.91\n"}};
 
 constexpr std::array valve_tables{
@@ -99,7 +99,7 @@ constexpr std::array valve_tables{
     TableKind{"coil", "a sample of the coil's current as it is switched on", "time,current",
               "time [s],current [A],command",
               "0,0,0\n0.0005,0.04,1\n0.001,0.09,1\n0.0015,0.12,1\n0.002,0.11,1\n0.0025,0.14,1\n"},
-    TableKind{"duty", "a duty that was commanded, and what came of it",
+    TableKind{"duty", "a duty that was commanded, and what was delivered",
               "duty,delivered|flow|mass_flow", "duty [%],delivered [%],frequency [Hz]",
               "5,0,25\n10,1.2,25\n20,11.1,25\n50,41,25\n90,81.2,25\n98,100,25\n"}};
 
@@ -129,11 +129,11 @@ const std::array all_inputs{
     MethodInputs{"dynamic",
                  columns_in<decay_columns>,
                  swing_tables,
-                 {"Without pressure, pressure=\"60 psi gauge\" says it."}},
+                 {"Without a column pressure, give pressure=\"60 psi gauge\"."}},
     MethodInputs{"joint",
                  columns_of_joint,
                  pose_tables,
-                 {"Where one load hangs all the time, load=\"1 kg\" says it."}},
+                 {"Where one load hangs all the time, give load=\"1 kg\"."}},
     MethodInputs{"pair",
                  columns_in<pair_columns>,
                  pair_tables,
@@ -143,7 +143,7 @@ const std::array all_inputs{
                  valve_tables,
                  {"Rows of several valves in one table: where=\"valve=inlet\" takes those of one.",
                   "added_volume is the same in all rows of a file: two fillings with different "
-                  "ones tell conductance and volume apart."}},
+                  "ones separate conductance and volume."}},
     MethodInputs{"static",
                  columns_in<static_columns>,
                  point_tables,
@@ -156,7 +156,7 @@ const std::array all_inputs{
     MethodInputs{"plan",
                  columns_in<static_columns>,
                  point_tables,
-                 {"A table is not needed: with one, it says what to measure next.",
+                 {"A table is not needed: with one, the plan is what to measure next.",
                   advice_of_length, advice_of_rest, advice_of_time}}};
 
 // --- as text ---

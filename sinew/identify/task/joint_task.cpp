@@ -201,7 +201,7 @@ JointFound find(const SourceList& sources, const JointSettings& settings) {
   (void)SettingValues(settings, sources[0].atmosphere);
   if (settings.keep_force && settings.model.ends_with("pressure"))
     config::fail({"model", 0, 0}, "", settings.model + " with keep_force=true",
-                 "round or hinge beside it");
+                 "round or hinge with it");
   const JointNames names = names_of(settings);
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a =

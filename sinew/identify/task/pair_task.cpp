@@ -72,7 +72,7 @@ std::string pair_file(const PairResult& found, const std::string& joint, const s
                   "torque and angle of a joint: in a robot's file muscles move joints, and these "
                   "alone have dry_friction and damping. Of a slide N/m and N s/m have no place "
                   "there, as long as no lever turns them into N m",
-                  "no file: the report and its JSON have all of it");
+                  "no file: the report and its JSON have all values");
   Provenance provenance;
   std::vector<JointLosses> joints{{.name = joint}};
   const std::string path = "joint." + joint + ".";

@@ -112,7 +112,7 @@ void give_longest(std::vector<StaticPoint>& points, std::vector<std::string>& no
     p.rest_length = longest;
   }
   notes.push_back(
-      fmt::format("No rest length given: the longest, {:.4g} mm, stands for it.", 1e3 * longest));
+      fmt::format("No rest length given: the longest, {:.4g} mm, is taken for it.", 1e3 * longest));
 }
 
 Json json_of_error(const PlanError& error) {

@@ -118,7 +118,7 @@ std::vector<std::string> all_sets(const RunFitSettings& settings) {
 
 std::string RunFitFound::file(const std::string& out) const {
   if (result.keys.empty())
-    throw Refusal("the run", "that all of it was held out, so that nothing was identified",
+    throw Refusal("the run", "that it was held out whole, so that nothing was identified",
                   "a part that is fitted, for a file", "no file, or to hold out less");
   return run_file(result, source, robot_over(base, out));
 }
@@ -159,8 +159,8 @@ struct RecordedMachine {
           driven.duration(), of));
     if (!driven.coarse().empty())
       report.warnings.push_back(
-          fmt::format("the recording knows when {} valves switch to one of its rows only, and "
-                      "pulses are shorter: their duties, or edges at their own times, would tell",
+          fmt::format("the recording has when {} valves switch to one of its rows only, and "
+                      "pulses are shorter: their duties, or edges at their own times, are needed",
                       driven.coarse().size()));
     if (!driven.rebuilt().empty())
       report.notes.push_back(

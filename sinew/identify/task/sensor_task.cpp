@@ -155,8 +155,8 @@ void warn_below_zero(Calibration& c) {
   for (const SensorResult& r : c.sensors)
     if (r.at_rest < 0)
       c.warnings.push_back(fmt::format(
-          "{}: {:.3g} V at rest, below what a converter reads: the file says 0 count; rest=VALUE "
-          "tells where rest is",
+          "{}: {:.3g} V at rest, below what a converter reads: the file has 0 count; rest=VALUE "
+          "sets where rest is",
           r.name, r.at_rest));
 }
 

@@ -350,7 +350,7 @@ void fields(Visitor& v, StaticSettings& s) {
              s.volume);
   v.flag({"anyway", "fit where a check is red, too; see `sinew identify check`"}, s.anyway);
   v.texts({"predict",
-           "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own", "m"},
+           "rest_length=LENGTH: also a muscle that was not measured, in a file of its own", "m"},
           s.predict);
   v.text({"model", "this one alone"}, s.model);
   v.text({"name", "of the actuator"}, s.name);
@@ -504,7 +504,7 @@ void aim_fields(Visitor& v, PlanSettings& s) {
       {"law_error", "that the law itself is off by, of the largest force; no measurement lowers it",
        "1", config::from_zero(0.5, "of the largest force")},
       s.law_error);
-  v.quantity({"error", "wanted, of the largest force", "1",
+  v.quantity({"error", "to reach, of the largest force", "1",
               config::above_zero(0.5, "of the largest force")},
              s.error);
   v.choice({"criterion",
@@ -513,8 +513,9 @@ void aim_fields(Visitor& v, PlanSettings& s) {
            s.criterion, {"mean", "worst"});
   v.quantity({"mount_time", "to change the length", "s", time}, s.mount_time);
   v.quantity({"step_time", "to change the pressure, wait and read", "s", time}, s.step_time);
-  v.quantity({"shortest", "length at which the law is wanted", "m", length}, s.shortest);
-  v.quantity({"longest", "length at which it is; absent: the rest length", "m", length}, s.longest);
+  v.quantity({"shortest", "length from which the law is to hold", "m", length}, s.shortest);
+  v.quantity({"longest", "length up to which it is to hold; absent: the rest length", "m", length},
+             s.longest);
   v.quantity({"lowest", "pressure at which it is", "Pa gauge",
               config::above_zero(5e6, "above the room's, in a muscle")},
              s.lowest);
@@ -583,7 +584,7 @@ void fields(Visitor& v, TransducerSettings& s) {
   v.integer({"bits", "of the converter", "", {1, 24, "of a converter"}}, s.bits);
   v.quantity({"load", "at the free end", "N", config::above_zero(1e9, "at the beam's free end")},
              s.load);
-  v.quantity({"sensitivity", "wanted: gives where the gages must be", "V/N",
+  v.quantity({"sensitivity", "to reach: gives where the gages must be", "V/N",
               config::above_zero(1e9, "output by load")},
              s.sensitivity);
 }

@@ -71,7 +71,7 @@ void keep_branch(const std::string& word, StaticData& data) {
     if (p.branch == other) left_out.push_back(p);
   std::erase_if(data.points, [=](const StaticPoint& p) { return p.branch == other; });
   if (left_out.empty()) return;
-  StaticOmitted& omitted = data.omitted("of the other branch", "branch=" + word + " was asked for");
+  StaticOmitted& omitted = data.omitted("of the other branch", "branch=" + word + " was given");
   omitted.count = left_out.size();
   omitted.points = std::move(left_out);
 }
@@ -147,7 +147,7 @@ void add_predicted(const std::vector<double>& lengths, const StaticSettings& set
     else
       found.result.report.warnings.push_back(
           what +
-          "how far off it is cannot be told, as no muscle could be left out; "
+          "how far off it is stays unknown, as no muscle could be left out; "
           "measure muscles of two rest lengths, or one force of this muscle");
     found.predicted.push_back(muscle);
     found.predicted_files.push_back(static_file(found.result, muscle, settings.name,

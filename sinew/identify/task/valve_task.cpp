@@ -201,13 +201,13 @@ void refuse_beside_added(const ValveSettings& s, const std::vector<Source>& othe
   if (!s.kind.empty() && s.kind != "fill")
     refuse("kind", config::in_quotes(s.kind), "fill: volumes are joined to a chamber that fills");
   if (!s.volume.empty())
-    refuse("volume", config::in_quotes(s.volume), "none beside added volumes: they tell it");
+    refuse("volume", config::in_quotes(s.volume), "none with added volumes, which determine it");
   if (!s.conductance.empty())
     refuse("conductance", config::in_quotes(s.conductance),
-           "none beside added volumes: they tell it");
+           "none with added volumes, which determine it");
   if (!others.empty())
     refuse("hold_out", config::in_quotes(others[0].path),
-           "none beside added volumes: every second tenth of each curve is held out");
+           "none with added volumes: every second tenth of each curve is held out");
 }
 
 }  // namespace

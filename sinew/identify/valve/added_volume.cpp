@@ -202,7 +202,7 @@ Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
     out.fit.parameters = s.estimates;
     for (const Estimate& e : std::span(s.estimates).first(2))
       if (e.at_bound || !std::isfinite(e.high))
-        throw Refusal(e.name, "nothing in the curves that tells it", "an interval",
+        throw Refusal(e.name, "nothing in the curves that determines it", "an interval",
                       "a larger added volume");
     out.fit.fit = score(s.residuals, range);
     out.fit.residuals = s.residuals;
@@ -235,7 +235,8 @@ void reach_over(std::span<const Tried> tried, Report& report) {
   }
   if (!names.empty())
     chosen.notes.push_back(
-        "the curves do not tell the chamber from others, whose values the intervals cover: " +
+        "the curves do not distinguish the chamber from others, whose values the intervals "
+        "cover: " +
         names);
 }
 
@@ -348,7 +349,7 @@ std::vector<std::string> ways_to_separate(double half, double over_models) {
   out.push_back(fmt::format(
       "C and V apart: fill once more with a known volume joined, added_volume=\"0 L,0.5 L\" with "
       "both files. As these data are, with as much volume again C would be known to +- {} and V to "
-      "+- {}, with a fifth of it to +- {} and +- {}.",
+      "+- {}, with a fifth as much to +- {} and +- {}.",
       percent(equal.conductance), percent(equal.volume), percent(fifth.conductance),
       percent(fifth.volume)));
   const double water = std::hypot(half, 0.005), meter = std::hypot(half, 0.02);
@@ -359,7 +360,7 @@ std::vector<std::string> ways_to_separate(double half, double over_models) {
   if (over_models > 1.5 * half)
     out.push_back(fmt::format(
         "What the chamber may be otherwise, an exponent above all, leaves C/V open by +- {} "
-        "beside that. It moves both fillings alike: it stays in C, and not in a volume from two "
+        "in addition. It moves both fillings alike: it stays in C, and not in a volume from two "
         "fillings.",
         percent(over_models)));
   return out;

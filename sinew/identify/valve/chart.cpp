@@ -123,7 +123,7 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   report.rows = rows_of(c);
   conclude(report);
   refuse_unexplained(report, worst_chart,
-                     "where=\"valve=inlet\", if rows of several valves stand in one table");
+                     "where=\"valve=inlet\", if rows of several valves are in one table");
   tell_choking(c, report);
 
   const bool iso = report.chosen == 1;

@@ -250,7 +250,7 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   if (!coil_models[report.chosen].dip)
     throw Refusal(data.file + ": current", "no dip in its rise: a coil without a moving shutter",
                   "the back-EMF of the opening shutter",
-                  "a faster sampling, and whether the valve opens at all");
+                  "a faster sampling, and whether the valve opens");
 
   for (const Estimate& e : report.best().parameters)
     if (e.name == "opening_delay") {
@@ -262,7 +262,7 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
     }
   report.notes.push_back(fmt::format(
       "closing_delay is not in the current{}: a closing shutter gives no sign once the current has "
-      "gone (4.3); a pressure record tells it",
+      "gone (4.3); a pressure record shows it",
       std::isfinite(c.gone)
           ? fmt::format(", which has gone {:.3g} ms after it is switched off", 1e3 * c.gone)
           : ""));

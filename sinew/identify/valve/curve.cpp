@@ -127,7 +127,7 @@ void refuse_alternating(const Measured& data, const Curve& c) {
     if (next > 4 * way(lag))
       throw Refusal(data.file + ": pressure", fmt::format("{} curves whose rows take turns", lag),
                     "the rows of one filling or venting",
-                    "where=\"valve=inlet\", with the column that says whose a row is");
+                    "where=\"valve=inlet\", with the column that names the valve of a row");
 }
 
 void refuse_to_and_fro(const Measured& data, const Curve& c) {
@@ -143,7 +143,7 @@ void refuse_to_and_fro(const Measured& data, const Curve& c) {
       fmt::format("a fall back by more than 15 % of the way, to {}",
                   pressure_text(c.pressure[where])),
       "one filling or one venting",
-      "where=\"valve=inlet\", if a column says whose a row is; or a column `command`, for "
+      "where=\"valve=inlet\", if a column names the valve of a row; or a column `command`, for "
       "pulses");
 }
 

@@ -183,7 +183,7 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
     out.refused = fmt::format(
         "opening_delay: found its difference from closing_delay alone, {:.4g} ms; expected a duty "
         "that delivers nothing or a smaller one than 1 that delivers everything: the straight part "
-        "of the map does not tell the delays apart; try smaller and larger duties, or a higher "
+        "of the map does not separate the delays; try smaller and larger duties, or a higher "
         "frequency",
         1e3 * difference.value);
   return out;

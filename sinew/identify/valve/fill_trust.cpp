@@ -75,7 +75,8 @@ void reach_over_models(std::span<const Tried> tried, Report& report) {
   k.standard_error = 0.25 * (k.high - k.low);
   k.identifiable = half_of(k) <= well_known;
   chosen.notes.push_back(
-      "the curve does not tell the chamber from others, and the interval of C/V covers them: " +
+      "the curve does not distinguish the chamber from others, and the interval of C/V covers "
+      "them: " +
       names);
 }
 

@@ -70,7 +70,7 @@ std::vector<double> predict(const FillModel& model, const Curve& c, const ValveO
   const Opening opening{fill.opening, true};
   std::vector<double> out(c.time.size());
   if (!simulate(fill.chamber, options.air, {&opening, 1}, c.time, out))
-    throw Refusal("model", "no answer", "a pressure", "");
+    throw Refusal("model", "no value", "a pressure", "");
   return out;
 }
 
@@ -123,11 +123,11 @@ void tell_correlations(const Solution& s, Fit& fit) {
       if (of_the_record(s.estimates[i].name) || of_the_record(s.estimates[k].name)) continue;
       const double r = cov(i, k) / std::sqrt(cov(i, i) * cov(k, k));
       if (std::isfinite(r) && std::abs(r) > 0.95)
-        fit.notes.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
+        fit.notes.push_back(fmt::format("{} and {} can hardly be separated: correlation {:.3f}",
                                         s.estimates[i].name, s.estimates[k].name, r));
     }
   for (const std::string& unseen : s.unseen)
-    fit.notes.push_back("the curve does not tell " + unseen);
+    fit.notes.push_back("the curve does not determine " + unseen);
 }
 
 // C/V with what is known beside it.
@@ -179,7 +179,7 @@ void describe(const Curve& c, const ValveOptions& options, const Estimate& alone
   if (!options.port)
     r.notes.push_back(fmt::format(
         "the pressure on the valve's other side is fitted as a constant, {}; a supply that droops "
-        "or an unknown zero of the sensor looks like another b or n",
+        "or an unknown zero of the sensor has the effect of another b or n",
         c.fills() ? "for a supply" : "for a room"));
   if (options.volume) r.notes.emplace_back("the volume is taken as exact");
   const Estimate& k = r.best().parameters.front();
@@ -187,8 +187,8 @@ void describe(const Curve& c, const ValveOptions& options, const Estimate& alone
     const std::vector<std::string> ways = ways_to_separate(half_of(alone), half_of(k));
     r.notes.insert(r.notes.end(), ways.begin(), ways.end());
     out.refused = fmt::format(
-        "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
-        "not tell C from V; try volume=\"0.5 L\", conductance=C in place of the volume, "
+        "sonic conductance: found C/V = {} alone; expected the volume too: one curve does "
+        "not separate C from V; try volume=\"0.5 L\", conductance=C in place of the volume, "
         "added_volume=\"0 L,0.5 L\" with a second file, or per_volume=true where C/V is enough",
         config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
   }
@@ -212,7 +212,8 @@ Tried try_fill(const FillModel& model, const Curve& c, const ValveOptions& optio
   fit.law = model.law;
   fit.source = model.source;
   if (model.leak && !options.port) {
-    fit.refused = "a leak and the port's pressure look the same; port=PRESSURE tells them apart";
+    fit.refused =
+        "a leak and the port's pressure have the same effect; port=PRESSURE separates them";
     return out;
   }
   const bool named = options.exponent == 1.0 || options.exponent == gas::heat_capacity_ratio;
@@ -259,7 +260,7 @@ void refuse_poor_fit(const Measured& data, const Report& report, double worst) {
                   report.best().fit.rmse_percent, report.best().model),
       fmt::format("at most {:g} %: one valve, one constant port pressure, one chamber behind it",
                   worst),
-      "a rigid chamber near the valve, the pressure of the supply beside it");
+      "a rigid chamber near the valve, the pressure of the supply recorded with it");
 }
 
 ValveResult identify_fill(const Measured& data, const ValveOptions& options,

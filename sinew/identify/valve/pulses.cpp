@@ -59,7 +59,7 @@ struct Unknowns {
 
 Record record_of(const Measured& data) {
   Record r{.time = data["time"], .pressure = data["pressure"], .commands = edges_of(data)};
-  refuse_constant(data, "pressure", 5e3, "a pressure that answers to the command by 5 kPa or more",
+  refuse_constant(data, "pressure", 5e3, "a pressure that follows the command by 5 kPa or more",
                   "the columns, and the valve");
   refuse_clipped(data, "pressure", "a sensor with a larger range, or shorter pulses");
   r.shortest = r.time.back() - r.time.front();
@@ -226,8 +226,8 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   }
   if (!out.opening_known || !out.closing_known)
     out.refused = fmt::format(
-        "{}: found no instant the pressure determines; expected pulses that the pressure answers "
-        "to; try more pulses, a smaller volume, or a faster sampling",
+        "{}: found no instant the pressure determines; expected pulses that the pressure follows; "
+        "try more pulses, a smaller volume, or a faster sampling",
         out.opening_known ? "closing_delay" : "opening_delay");
   return out;
 }

@@ -43,7 +43,7 @@ void refuse_contradictions(const StandSetup& s) {
     refuse("nothing that breaks changes a prescribed pressure");
   if (!(s.start.pressure > 0)) refuse("the pressure at the start must be above 0");
   if (driven && (s.start.displacement != 0 || s.start.length != 0))
-    refuse("a driven load starts where its length says");
+    refuse("a driven load starts at its prescribed length");
   if (s.cylinder && s.cylinder->mode != air::Cylinder::Mode::single_acting)
     refuse("its cylinder is single-acting");
   if (!s.cylinder && !(s.muscle.actuator.braid.turns > 0)) refuse("its muscle has no braid");

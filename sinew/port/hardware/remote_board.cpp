@@ -38,8 +38,8 @@ const char* in_words(BoardState latched) noexcept {
 }
 
 [[noreturn]] void refuse_version(std::uint8_t version) {
-  throw BoardError(fmt::format("the board speaks version {} of the protocol, this program {}",
-                               version, link::protocol_version));
+  throw BoardError(fmt::format("the board has version {} of the protocol, this program {}", version,
+                               link::protocol_version));
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ link::Answer RemoteBoard::ask(const M& message) {
     }
   }
   throw BoardError(
-      fmt::format("board {} does not answer: is it on this line, at this rate?", number_));
+      fmt::format("board {} does not reply: is it on this line, at this rate?", number_));
 }
 
 void RemoteBoard::refuse(const link::Answer& answer, const std::string& what) const {
@@ -182,12 +182,11 @@ link::Identity RemoteBoard::identify() {
   if (other_version_) refuse_version(*other_version_);
   const link::LineCount& came = decoder_.line();
   if (came.frames > 0)
-    throw BoardError(
-        fmt::format("there are boards on the line, board {} is none of them", number_));
+    throw BoardError(fmt::format("board {} is not among the boards on the line", number_));
   if (came.skipped > 0)
     throw BoardError(
         "what comes over the line are no frames of ours: is it another rate, or another device?");
-  throw BoardError("nobody answers: is the board powered, and this its line?");
+  throw BoardError("no reply: is the board powered, and this its line?");
 }
 
 // Sends one transfer, up to the first message that is refused. Returns the last reply.
@@ -268,7 +267,7 @@ void RemoteBoard::refuse_as_found(const link::Identity& who) const {
   }
   if (is_latched(who.state) && is_grave(who.fault) && !may_clear_)
     throw BoardError(
-        fmt::format("the board is in {}: {}; look for the cause, then say clear_fault, or switch "
+        fmt::format("the board is in {}: {}; find the cause, then send clear_fault, or switch "
                     "the board off and on",
                     in_words(who.state), link::in_words(who.fault)));
 }
@@ -283,7 +282,7 @@ link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
   configure(configuration);
   clear_fault();
   const link::Answer edges = ask(link::EdgesWanted{true});
-  if (edges.code != Code::done) refuse(edges, "to tell of its edges");
+  if (edges.code != Code::done) refuse(edges, "to report its edges");
   arm();
   has_run_ = false;
   beginning_.reset();

@@ -33,7 +33,7 @@ struct Parrot {
   double time = 0;
 };
 
-constexpr const char* goes_on = "board 1 does not answer: is it on this line, at this rate?";
+constexpr const char* goes_on = "board 1 does not reply: is it on this line, at this rate?";
 
 std::string refusal_of(
     const link::Bytes& says, const std::function<void(RemoteBoard&)>& with = [](RemoteBoard&) {}) {
@@ -56,7 +56,7 @@ std::string refusal(
 }
 
 TEST(RemoteBoard, AnotherVersionOfTheProtocolIsRefused) {
-  EXPECT_EQ(refusal({.protocol = 3}), "the board speaks version 3 of the protocol, this program 2");
+  EXPECT_EQ(refusal({.protocol = 3}), "the board has version 3 of the protocol, this program 2");
   // The first version's identity as it came over the wire: 51 bytes.
   link::Bytes old = {0xaa, 0x55, 0x81, 0, 6 + 51, 1, 1};
   old.resize(old.size() + 51);
@@ -66,7 +66,7 @@ TEST(RemoteBoard, AnotherVersionOfTheProtocolIsRefused) {
   };
   put(signals::crc32(std::span(old).subspan(2)), 4);
   put(signals::crc16(std::span(old).subspan(2)), 2);
-  EXPECT_EQ(refusal_of(old), "the board speaks version 1 of the protocol, this program 2");
+  EXPECT_EQ(refusal_of(old), "the board has version 1 of the protocol, this program 2");
 }
 
 // Coils would have current while the board rests, and none while it drives.
@@ -94,7 +94,7 @@ TEST(RemoteBoard, AGraveFaultIsClearedOnlyWhereThatIsAllowed) {
   for (const auto fault : {watchdog, parameters, control::BoardFault::state, not_empty}) {
     const link::Identity who{.state = BoardState::dump, .fault = fault};
     EXPECT_EQ(refusal(who), std::string("the board is in dump: ") + link::in_words(fault) +
-                                "; look for the cause, then say clear_fault, or switch the board "
+                                "; find the cause, then send clear_fault, or switch the board "
                                 "off and on");
     EXPECT_EQ(refusal(who, 1, allow), goes_on);
     EXPECT_EQ(fault_found(who), std::string("the board was in dump: ") + link::in_words(fault));
@@ -120,12 +120,12 @@ TEST(RemoteBoard, ABoardThatRunsAlreadyIsLeftAlone) {
 
 TEST(RemoteBoard, AnotherNumberOnTheLineIsSaidToBeSo) {
   EXPECT_EQ(refusal({.protocol = link::protocol_version}, 2),
-            "there are boards on the line, board 1 is none of them");
+            "board 1 is not among the boards on the line");
 }
 
 TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
   EXPECT_EQ(refusal({.protocol = link::protocol_version}),
-            "board 1 does not answer: is it on this line, at this rate?");
+            "board 1 does not reply: is it on this line, at this rate?");
 }
 
 // A line that is never silent and carries only noise.

@@ -44,7 +44,7 @@ speed_t code_of(const std::string& device, std::uint32_t baud) {
   if (error == EACCES)
     todo = "; this user may not open it: sudo usermod -aG dialout $USER, then log in again";
   if (error == ENOENT || error == ENXIO || error == ENODEV)
-    todo = "; is the board plugged in? dmesg | tail says which device it is";
+    todo = "; is the board plugged in? dmesg | tail prints which device it is";
   if (error == ENOTTY) throw BoardError(device + ": this is no serial line");
   if (error == EBUSY) todo = "; another program has it: sudo lsof " + device + " names it";
   throw BoardError(device + ": " + std::strerror(error) + todo);

@@ -183,7 +183,7 @@ void Script::begin(const std::vector<Picture>& pictures) {
     formats += fmt::format("{}{}", formats.empty() ? "" : " ", ending(p));
     files += fmt::format("{}{}.{}", files.empty() ? "" : " and ", figure_.name, ending(p));
   }
-  add("# Draws {} from the CSV files beside it: gnuplot {}.gp", files, figure_.name);
+  add("# Draws {} from the CSV files in this folder: gnuplot {}.gp", files, figure_.name);
   add("reset");
   add("set encoding utf8");
   add("set datafile separator comma");

@@ -146,7 +146,7 @@ std::vector<config::Problem> unsaid(const Labels& labels, const Phrases& phrases
       if (found) continue;
       const std::vector<std::string_view> all(said.begin(), said.end());
       out.push_back({label.where, fmt::format("{}.\"{}\"", table, label.ours),
-                     "what no figure here says", "words of a figure",
+                     "the text of no figure here", "words of a figure",
                      config::closest_in_quotes(label.ours, all)});
     }
   };
@@ -192,7 +192,7 @@ std::string labels_file(const Phrases& phrases) {
       "format = \"{}\"\n"
       "decimal_comma = false  # true: 0,5 at the ticks of an axis\n"
       "\n"
-      "# What a figure says = what it is to say. Write your words on the right; a line that you\n"
+      "# Text of a figure = text that replaces it. Write yours on the right; a line that you\n"
       "# leave out stays as it is.\n"
       "[words]\n",
       labels_format);

@@ -14,7 +14,7 @@ void fields(Visitor& v, Wiring::Signal& s) {
              .min = -1,
              .max = 255,
              .optional = true,
-             .doc = "of the converter; -1: not said"},
+             .doc = "of the converter; -1: not given"},
             s.channel);
   v.flag({.name = "spare", .optional = true, .doc = "a wire without a sensor"}, s.spare);
 }

@@ -213,7 +213,7 @@ std::string wrong_with(const robot::Sensor& s, const Rest& rest,
   const bool rests_there = s.assumed_at_rest < 4 || s.assumed_at_rest > top - 4;
   if ((rest.mean < 4 || rest.mean > top - 4) && !rests_there)
     return fmt::format(
-        "{} reads {:.0f}, an end of the converter's scale: look at its cable and its "
+        "{} reads {:.0f}, an end of the converter's scale: check its cable and its "
         "supply ({})",
         s.name, rest.mean, wire);
   if (rest.mean < limits.low || rest.mean > limits.high)
@@ -225,7 +225,7 @@ std::string wrong_with(const robot::Sensor& s, const Rest& rest,
   if (has_zero && std::abs(rest.mean - s.assumed_at_rest) > share)
     return fmt::format(
         "{} reads {:.0f} at rest; expected {:.0f}, within {:.0f}: is it loaded, or "
-        "its cable another's? ({}); a robot whose sensor is so says it with "
+        "its cable another's? ({}); for a robot whose sensor reads this, set "
         "sensor.{}.assumed.at_rest",
         s.name, rest.mean, s.assumed_at_rest, share, wire, s.name);
   return "";
@@ -303,7 +303,7 @@ struct BringUp::Impl {
       out.said.push_back(fault);
     if (who.protocol != link::protocol_version)
       out.wrong.push_back(
-          fmt::format("it speaks version {} of the protocol, this program {}: flash "
+          fmt::format("it has version {} of the protocol, this program {}: flash "
                       "the firmware of this release",
                       who.protocol, link::protocol_version));
     return out;
@@ -345,7 +345,7 @@ struct BringUp::Impl {
         out.said.push_back(valve.what);
       else
         out.wrong.push_back(valve.what +
-                            " did not click alone: look at its wire, its driver and the "
+                            " did not click alone: check its wire, its driver and the "
                             "driver's supply");
     }
     return out;
@@ -418,7 +418,7 @@ struct BringUp::Impl {
     }
     if (!answer("Press the emergency stop now. Did the dump valve let the air out?"))
       out.wrong.push_back(
-          "the emergency stop does not let the air out: nobody works at this machine "
+          "the emergency stop does not let the air out: do not work at this machine "
           "until it does");
     return out;
   }
@@ -463,7 +463,7 @@ struct BringUp::Impl {
     if (!other || progress.done.empty()) return;
     const fs::path before = folder.path() / "bring-up-before.json";
     write_progress(progress, before);
-    person.tell(fmt::format("All steps are to be done again: {}; what they said is in {}", why,
+    person.tell(fmt::format("All steps are to be done again: {}; their results are in {}", why,
                             before.string()));
     progress.done.clear();
     progress.learned.clear();
@@ -529,17 +529,17 @@ bool BringUp::go() {
   try {
     for (std::size_t i = 0; i < steps.size(); ++i)
       if (!impl_->work_off(steps[i], i + 1, steps.size())) {
-        impl_->person.tell("Mend that, then run the same command again: it goes on from here.");
+        impl_->person.tell("Mend that, then run the same command again: it continues from here.");
         return false;
       }
   } catch (const Stopped&) {
-    impl_->person.tell("Stopped: the muscles were vented. The same command goes on from here.");
+    impl_->person.tell("Stopped: the muscles were vented. The same command continues from here.");
     return false;
   } catch (const NobodyAnswers&) {
-    impl_->person.tell("Stopped. The same command goes on from here.");
+    impl_->person.tell("Stopped. The same command continues from here.");
     return false;
   } catch (const plant::BoardStopped&) {
-    impl_->person.tell("Stopped. The same command goes on from here.");
+    impl_->person.tell("Stopped. The same command continues from here.");
     return false;
   }
   const fs::path out = impl_->folder.path() / "robot.toml";

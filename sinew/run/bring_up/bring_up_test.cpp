@@ -153,7 +153,7 @@ TEST(BringUp, GoesOnWhereItStopped) {
     return true;
   };
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("Stopped. The same command goes on from here."));
+  EXPECT_TRUE(day.has_said("Stopped. The same command continues from here."));
   EXPECT_FALSE(fs::exists(day.folder.path / "robot.toml"));
   day.said.clear();
   day.answers = {};

@@ -92,7 +92,7 @@ std::string wrong_with_filling(const std::vector<BenchMuscle>& all, std::size_t 
   const bool pulls = pull(m, t) > seen;
   if (!pulls && std::abs(turn) <= seen) return no_air(m);
   if (m.tension && !pulls)
-    return fmt::format("the joint moved and {} says nothing: look at its cable", m.tension_sensor);
+    return fmt::format("the joint moved and {} did not change: check its cable", m.tension_sensor);
   if (turn < -seen && !m.two_joints)  // the other joint may have moved this one
     return fmt::format("{} goes the wrong way: change the two outer wires of the potentiometer",
                        m.angle_sensor);
@@ -103,7 +103,7 @@ std::string wrong_with_holding(const BenchMuscle& m, double lost) {
   if (!m.tension || !m.has_exhaust || lost <= leak_limit) return "";
   return fmt::format(
       "it loses {:.0f} % in a second with its valves shut; expected {:.0f} % at most: "
-      "look for bubbles at its ends, fittings and the exhaust valve",
+      "search for bubbles at its ends, fittings and the exhaust valve",
       100 * lost, 100 * leak_limit);
 }
 
@@ -113,7 +113,7 @@ std::string wrong_with_emptying(const BenchMuscle& m, const Trial& t) {
   if (was <= seen || is <= std::max(left_limit * was, seen)) return "";
   return fmt::format(
       "it does not empty ({:.0f} of {:.0f} count are left after a second and a half): "
-      "look at its exhaust ({})",
+      "check its exhaust ({})",
       is, was, m.exhaust);
 }
 

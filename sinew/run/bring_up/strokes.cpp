@@ -61,7 +61,7 @@ std::vector<std::string> wrong_with_ends(const BenchJoint& joint,
     if (stroke < least_stroke)
       out.push_back(
           fmt::format("{} goes {:.0f} count from end to end; expected {:.0f} at least: is "
-                      "something in its way, or a cord loose?",
+                      "something in its way, or a tendon loose?",
                       joint.name, stroke, least_stroke));
   }
   return out;

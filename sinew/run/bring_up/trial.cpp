@@ -31,8 +31,8 @@ double mean(const std::vector<Sample>& samples, std::size_t channel, double from
 Sample sample_of(const link::Telemetry& told, std::size_t channels, double time) {
   if (told.channels != channels)
     throw plant::BoardError(
-        fmt::format("the board tells of {} sensors; expected {}: it was reset, or another program "
-                    "is at its line; the same command goes on from here",
+        fmt::format("the board reports {} sensors; expected {}: it was reset, or another program "
+                    "is at its line; the same command continues from here",
                     told.channels, channels));
   Sample out{.time = time};
   for (std::size_t i = 0; i < told.channels; ++i) {
@@ -145,7 +145,7 @@ Recording listen(plant::RemoteBoard& board, const link::Configuration& configura
   const double period = signals::tick_seconds * configuration.spine.period;
   const auto look = [&] {
     const link::Telemetry* told = board.look(1.0);
-    if (told == nullptr) throw plant::BoardError("the board does not say what its sensors read");
+    if (told == nullptr) throw plant::BoardError("the board does not report what its sensors read");
     return told;
   };
   // The scan was begun anew somewhere within a period: that period lacks the conversions before,

@@ -37,13 +37,13 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
     const std::size_t leg = at_leg.leg, i = at_leg.joint;
     out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
                [j](const Snapshot& m) { return m.measured->angle[j]; });
-    out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
+    out.scalar(at + "/stiffness", "N m/rad", "as the controller computes it, [27], [60]",
                [j](const Snapshot& m) { return m.measured->stiffness[j]; });
     out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
                [j](const Snapshot& m) { return m.measured->velocity[j]; });
-    out.scalar(want + "/angle", "rad", "desired by the brain",
+    out.scalar(want + "/angle", "rad", "desired by the gait controller",
                [=](const Snapshot& m) { return m.desired[leg].joint[i].angle; });
-    out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
+    out.scalar(want + "/stiffness", "N m/rad", "desired by the gait controller",
                [=](const Snapshot& m) { return m.desired[leg].joint[i].stiffness; });
   }
 }

@@ -33,7 +33,7 @@ void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
   const robot::Robot& robot = e.robot;
   for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
     const std::string at = "/true" + robot::topic_of_muscle(robot, i);
-    out.scalar(at + "/tension", "N", "at the cord",
+    out.scalar(at + "/tension", "N", "in the tendon",
                [i](const Snapshot& m) { return m.true_of->robot.tension[i]; });
     out.scalar(at + "/pressure", "Pa", "absolute",
                [i](const Snapshot& m) { return m.true_of->robot.pressure[i]; });

@@ -49,8 +49,8 @@ config::Node resolved_of(const RecordedRun& run) {
   if (fs::exists(run.resolved)) return config::parse_file(run.resolved.string());
   for (const auto& [key, value] : log::read_metadata(run.log))
     if (key == "resolved") return config::parse_text(value, run.log.string() + ": resolved");
-  config::fail({run.log.string(), 0, 0}, "", "a log that does not say what was run",
-               "resolved.toml beside it, or its text in the log", "sinew import");
+  config::fail({run.log.string(), 0, 0}, "", "a log without the experiment that was run",
+               "resolved.toml in its folder, or its text in the log", "sinew import");
 }
 
 report::RecordedRun recorded(const std::string& named, std::string label, const Notices& notices) {

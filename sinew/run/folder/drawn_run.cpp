@@ -152,7 +152,7 @@ std::string finish(Figures figures, const fs::path& what, const std::string& of,
                    const fs::path& folder, const DrawingRequest& request, const Notices& notices) {
   if (figures.empty())
     config::fail({what.string(), 0, 0}, "", "no samples",
-                 "a log with samples in the time that is asked for", "another time");
+                 "a log with samples in the requested time", "another time");
   tell_unsaid(figures, request.files.labels, notices);
   choose(figures, request.only, what);
   put_title(figures, request.title);
@@ -185,7 +185,7 @@ std::vector<std::string> names_of(const OverlaidRuns& asked) {
   for (const std::string& name : out)
     if (std::ranges::count(out, name) > 1)
       config::fail({"label", 0, 0}, "", config::in_quotes(name) + " for two runs",
-                   "labels that tell the runs apart", "label=A label=B");
+                   "labels that differ", "label=A label=B");
   return out;
 }
 

@@ -21,7 +21,8 @@ bool is_of_another_kind(const fs::path& file, std::string_view own) {
 
 void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs::path>& inputs,
                          std::string_view own) {
-  if (fs::is_directory(file)) refuse(file, "a folder", "the name of a file", "a name inside of it");
+  if (fs::is_directory(file))
+    refuse(file, "a folder", "the name of a file", "a name inside that folder");
   std::error_code none;
   const bool direct = log::is_written_directly(file);
   for (const fs::path& input : inputs)

@@ -99,7 +99,7 @@ OutputFolder::OutputFolder(fs::path folder) : path_(std::move(folder)) {
     return;
   }
   ::close(fd_);
-  refuse(path_, holder + ", which is writing there", "a folder that nobody else writes to",
+  refuse(path_, holder + ", which is writing there", "a folder that no other program writes to",
          "another one, or to wait for it");
 }
 

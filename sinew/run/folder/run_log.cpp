@@ -33,7 +33,7 @@ void require_finished(const std::filesystem::path& log) {
   const std::string ended = ended_in(log);
   if (!ended.empty())
     throw std::runtime_error(
-        fmt::format("{}: the run was ended: {}; a run that was not finished has no numbers; sinew "
+        fmt::format("{}: the run was ended: {}; a run that was not finished has no summary; sinew "
                     "report shows what it did",
                     log.string(), ended));
 }

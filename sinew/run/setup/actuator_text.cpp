@@ -35,7 +35,7 @@ constexpr Row rows[] = {
     {"coulomb_bound_N", "dry friction, at most", &Point::coulomb_bound, "N", "lbf"},
     {"velocity_m_per_s", "velocity", &Point::velocity, "m/s", "in/s"},
     {"sliding_tension_N", "tension, sliding", &Point::sliding_tension, "N", "lbf"},
-    {"viscous_loss_N", "of it viscous", &Point::viscous_loss, "N", "lbf"},
+    {"viscous_loss_N", "viscous part", &Point::viscous_loss, "N", "lbf"},
     {"stiffness_at_constant_pressure_N_per_m", "stiffness, constant pressure",
      &Point::stiffness_at_constant_pressure, "N/m", "lbf/in"},
     {"stiffness_sealed_N_per_m", "stiffness, valves shut", &Point::stiffness_sealed, "N/m",

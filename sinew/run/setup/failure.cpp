@@ -33,7 +33,7 @@ std::string in_words(const air::Failure& failure, const std::string& who,
   std::string what = "the motion";
   if (failure.of == Of::air) what = "the air of " + who;
   if (failure.of == Of::cylinder) what = "the air of the cylinder";
-  what += fmt::format(" was no number any more at {:.4f} s: ", failure.time);
+  what += fmt::format(" was not finite at {:.4f} s: ", failure.time);
   const std::string remedy = "less stiffness or damping, or a smaller " + step;
   const double thread = actuator.braid.thread_length;
   const bool near = failure.length > -thread && failure.length < 2 * thread;

@@ -66,7 +66,8 @@ std::string doubt_of(const gas::Valve& valve, const gas::ValveFlow& f) {
   if (!f.linear) return "";
   return fmt::format(
       "{}: the pressures are {:.2g} % apart, less than linear_below, {:.2g} %: there the flow is a "
-      "straight line through zero, so that it can be integrated; the law itself gives {:.3g} times "
+      "straight line through zero, so that the integrator can follow; the law itself gives {:.3g} "
+      "times "
       "as much",
       valve.name, 100 * (1 - f.ratio), 100 * valve.flow.linear_below, f.law_flow / f.mass_flow);
 }

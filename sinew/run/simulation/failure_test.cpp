@@ -89,7 +89,7 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
     EXPECT_EQ(out.failure.of, air::Failure::Of::air) << name;
     const std::string cause = cause_of(e, out);
     expect_says(cause, "the air of muscle knee_");
-    expect_says(cause, " was no number any more at 0.0000 s: it was ");
+    expect_says(cause, " was not finite at 0.0000 s: it was ");
     // Nothing goes on from there.
     for (const signals::Series& s : out.table.series) EXPECT_EQ(s.time_ns.size(), 0u) << name;
   }

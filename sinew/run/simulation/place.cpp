@@ -133,7 +133,7 @@ std::string problem_of_place(const std::string& place) {
   for (const std::string_view kind : {serial, emulated, lock_step, comedi})
     if (text.starts_with(kind) && text.size() > kind.size()) {
       if (kind != serial || device_of(text.substr(kind.size())).good) return "";
-      return fmt::format("found \"{}\", of which the rate is no number; {}", place, expected);
+      return fmt::format("found \"{}\", whose rate is not a number; {}", place, expected);
     }
   return fmt::format("found \"{}\"; {}", place, expected);
 }

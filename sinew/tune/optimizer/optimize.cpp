@@ -174,7 +174,7 @@ void Generation::require_own(const Row& row, const std::vector<Value>& values) c
   for (std::size_t i = 0; i < values.size(); ++i)
     if (row.cells[i] != values[i].cell)
       throw std::runtime_error(fmt::format(
-          "point {} has {} = {}; expected {}, which the method asks for here; try another file: "
+          "point {} has {} = {}; expected {}, which the method proposes here; try another file: "
           "another version of pagmo, or another kind of computer, wrote this one",
           row.point, runs_.sample->ranges[i].axis.heading(), row.cells[i], values[i].cell));
 }

@@ -17,7 +17,7 @@ void fields(Visitor& v, Case& one) {
             .min = 1e-6,
             .max = 1e6,
             .optional = true,
-            .doc = "how much it counts beside the others"},
+            .doc = "weight relative to the others"},
            one.weight);
 }
 
@@ -63,7 +63,7 @@ void method_fields(Visitor& v, TuningFile& f) {
             .min = 0.001,
             .max = 1,
             .optional = true,
-            .doc = "cmaes: how far it looks at first, a share of each range"},
+            .doc = "cmaes: first step, a share of each range"},
            f.step);
 }
 

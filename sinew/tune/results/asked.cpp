@@ -189,7 +189,7 @@ void require_same(const std::filesystem::path& file, const Asked& held, const As
   const Difference d = difference(held.text, asked.text);
   if (d.first.starts_with("sinew = ") && d.second.starts_with("sinew = ")) refuse_version(file, d);
   run::refuse(file, "another study, with " + config::in_quotes(d.first),
-              config::in_quotes(d.second) + ", as it is asked for now", "another name");
+              config::in_quotes(d.second) + ", as now requested", "another name");
 }
 
 }  // namespace sinew::tune

@@ -83,7 +83,7 @@ std::int64_t Database::number(const std::string& sql) {
 }
 
 void Database::fail(int code) const {
-  const char* const stays = "make room, or let it be written; what stands in it stays";
+  const char* const stays = "make room, or let it be written; its rows are kept";
   const int error = handle_ ? sqlite3_system_errno(handle_) : 0;
   const std::string words = error != 0 ? log::system_words(error) : sqlite3_errmsg(handle_);
   switch (code & 0xff) {
@@ -97,7 +97,7 @@ void Database::fail(int code) const {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw log::Error(file_, "another program is writing into it",
-                       "let that one end, then the same again; what stands in it stays");
+                       "let that one end, then repeat the command; its rows are kept");
     case SQLITE_NOTADB:
       refuse_other_file(file_);
     case SQLITE_CORRUPT:

@@ -118,7 +118,7 @@ void judge(const std::vector<Row>& rows, const Sweep& s, std::size_t points,
     throw std::runtime_error(
         fmt::format("interrupted: {} of {} points are done{}{}", rows.size(), points,
                     kept.empty() ? "" : " and kept in " + kept,
-                    goes_on ? "; the same command goes on with the others" : ""));
+                    goes_on ? "; the same command continues with the others" : ""));
   try {
     refuse_empty_columns(rows, s);
   } catch (const std::exception& e) {
@@ -362,7 +362,7 @@ Asked study_of(Database& database, const fs::path& file) {
   const bool tuning = !out.of_candidates.empty();
   if (hash_of(out) != value_of(database, "hash") || out.points > most_points ||
       checksum_of(database, tuning) != value_of(database, "checksum"))
-    throw log::Error(file, "is damaged: what it was asked for cannot be read",
+    throw log::Error(file, "is damaged: its study cannot be read",
                      "keep a copy, and choose another name");
   return out;
 }
@@ -531,7 +531,7 @@ void Results::require_place() const {
                         there.st_dev == held.st_dev && there.st_ino == held.st_ino;
   if (!is_there)
     throw log::Error(file_, "was removed or replaced while the study was written into it",
-                     "leave the file where it is; the same command begins the study anew");
+                     "leave the file where it is; the same command starts the study again");
 }
 
 bool Results::add(const Row& row) noexcept {

@@ -169,7 +169,7 @@ TEST_F(ResultsTest, RefusesAnotherStudyAndSaysWhatDiffers) {
   EXPECT_NE(refusal(other).find(begin + "\"[joint.lever] damping"), std::string::npos)
       << refusal(other);
   EXPECT_NE(refusal(study(5)).find("\"vary = seed: 1, 2, 3, 4\"; expected \"vary = seed: 1, 2, 3, "
-                                   "4, 5\", as it is asked for now"),
+                                   "4, 5\", as now requested"),
             std::string::npos)
       << refusal(study(5));
   other = study();

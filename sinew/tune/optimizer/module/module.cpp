@@ -46,7 +46,7 @@ struct Costs {
       return Point(costs, 0.0);
     }
     if (g.next >= g.points.size() || g.points[g.next] != x)
-      throw std::logic_error("pagmo evaluates other points than it was asked for");
+      throw std::logic_error("pagmo evaluates other points than it proposed");
     return g.costs[g.next++];
   }
 };
