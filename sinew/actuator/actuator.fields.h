@@ -1,7 +1,7 @@
 // actuator/actuator.fields.h - the keys of robots/*/actuator.toml: name, unit, range, meaning.
 //
-// See units/field.h for what a visitor has. What no single key can know - that the braid is given
-// at all, that L_max lies where it should - is in check.h.
+// units/field.h describes the visitor. Checks that involve several keys (the braid is given, L_max
+// is in its range) are in check.h.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace sinew::actuator {
 
-// Thread length and turns, or the opened mesh they follow from. The mesh is not kept: what is
-// written back has the former.
+// Visits thread length and turns, or the opened mesh that determines them. The mesh is not stored:
+// a file that is written has length and turns.
 template <class Visitor>
 void fields(Visitor& v, Braid& braid) {
   v.number({.name = "thread_length",
@@ -75,7 +75,7 @@ void fields(Visitor& v, Braid& braid) {
   if (mesh) braid = braid_from_trapezoids(lengthwise, around, side);
 }
 
-// A polynomial that has run away at the ends of its range is no share of anything.
+// Rejects a polynomial whose share is implausible at the ends of its range.
 template <class Visitor>
 void check_share(Visitor& v, const Effectiveness& e) {
   constexpr double least = -0.5, most = 3;  // a line through a threshold begins below 0
@@ -296,7 +296,7 @@ void fields(Visitor& v, AirVolume& air) {
            air.offset);
 }
 
-// Reads or shows two ends, the lower first.
+// Visits a range as two numbers, the lower first.
 template <class Visitor>
 void ends(Visitor& v, const char* name, const char* unit, const char* doc, const char* example,
           double& low, double& high) {
@@ -442,7 +442,7 @@ void fields(Visitor& v, Hysteresis& h) {
 
 template <class Visitor>
 void fields(Visitor& v, Creep& creep) {
-  // Only the elements that are there.
+  // Shows only the elements that are set.
   std::vector<double> share, time;
   for (std::size_t i = 0; i < creep.share.size(); ++i) {
     if (creep.share[i] == 0) continue;
@@ -477,7 +477,7 @@ void fields(Visitor& v, Creep& creep) {
   }
 }
 
-// The name is the key of the table that holds this one.
+// The actuator's name is the key of the table that contains this one.
 template <class Visitor>
 void fields(Visitor& v, Actuator& a) {
   v.group({.name = "braid", .doc = "geometry of the mesh"}, [&](auto& g) { fields(g, a.braid); });
@@ -521,7 +521,7 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.prediction); });
 }
 
-// All of a file's actuators.
+// Visits all actuators of a file.
 template <class Visitor>
 void fields(Visitor& v, std::vector<Actuator>& actuators) {
   v.each({.name = "actuator", .doc = "actuators, by name"}, actuators,

@@ -1,5 +1,5 @@
-// actuator/body.h - what a real tube has beside its braid: rigid ends within its length, a taper
-// towards them, a wall. The braid works at another length and holds less air.
+// actuator/body.h - parts of a real tube other than its braid: rigid ends within its length, a
+// taper towards them, a wall. With them the braid works at another length and holds less air.
 //
 //   L_b = L - d                        Tondu (2012): caps and clamps, of L d does not contract [m]
 //   L_b = L_0 - kappa (L_0 - L)        Tondu and Lopez (2000): tapering ends as a contraction that
@@ -15,8 +15,8 @@
 //                                      V: Chou and Hannaford (1996)
 //   D_0 = b/(n pi), sin(theta) = D/D_0
 //
-// For kappa there is no volume: it is no geometry, V is that of the braid at L - d. With nothing
-// set everything here is that of braid.h, to the bit.
+// No volume belongs to kappa, which is not geometric: V is that of the braid at L - d. Without
+// these parameters all results equal those of braid.h to the bit.
 #pragma once
 
 #include <cmath>
@@ -28,17 +28,18 @@
 
 namespace sinew::actuator {
 
-// kappa  [-].
+// Returns kappa [-].
 constexpr double taper_gain(const Taper& taper, double gauge_pressure) {
   if (!(taper.extra_gain != 0)) return taper.gain;
   const double x = gauge_pressure > 0 ? -gauge_pressure / taper.extra_pressure : 0.0;
   return taper.gain + taper.extra_gain * units::exp(x > -700 ? x : -700);
 }
 
-// Does the tube narrow at its ends? Else the taper changes nothing.
+// Returns whether the tube narrows at its ends; otherwise the taper has no effect.
 constexpr bool tapers(const Taper& taper) { return taper.gain != 1 || taper.extra_gain != 0; }
 
-// Returns L_b, at which the braid pulls  [m]. A taper ends at 0, far below where it pushes.
+// Returns L_b, the length at which the braid works [m]. With a taper it is limited to 0, far below
+// the range in which the braid pulls.
 constexpr double working_length(const Actuator& a, double length, double gauge_pressure) {
   const double braid = length - a.caps.length;
   if (!tapers(a.taper)) return braid;
@@ -47,7 +48,8 @@ constexpr double working_length(const Actuator& a, double length, double gauge_p
   return x > 0 ? x : 0.0;
 }
 
-// The length at which the braid is at its shortest, b/sqrt 3; of a taper at high pressure  [m].
+// Returns the length at which the braid is at its shortest, b/sqrt 3; with a taper, at high
+// pressure [m].
 inline double shortest_length(const Actuator& a) {
   const double braid = shortest_length(a.braid);
   if (!tapers(a.taper)) return braid + a.caps.length;
@@ -55,19 +57,19 @@ inline double shortest_length(const Actuator& a) {
   return rest - (rest - braid) / a.taper.gain + a.caps.length;
 }
 
-// D_0, of threads across the axis  [m].
+// Returns D_0, the diameter with threads across the axis [m].
 constexpr double widest_diameter(const Braid& braid) {
   return braid.thread_length / (braid.turns * std::numbers::pi);
 }
 
-// sin(theta) at L_b; kept off zero, where a wall would have no room  [-].
+// Returns sin(theta) at L_b, at least 0.1, since a wall has no room near zero [-].
 inline double braid_sine(const Braid& braid, double x) {
   const double cosine = x / braid.thread_length;
   const double square = 1.0 - cosine * cosine;
   return square > 0.01 ? std::sqrt(square) : 0.1;
 }
 
-// A_t  [m2].
+// Returns A_t [m2].
 inline double wall_area(const Actuator& a, double x) {
   const double t = a.wall.thickness;
   if (!(t > 0)) return 0.0;
@@ -75,7 +77,7 @@ inline double wall_area(const Actuator& a, double x) {
   return std::numbers::pi * t * (widest_diameter(a.braid) * (2.0 * s - 1.0 / s) - t);
 }
 
-// dA_t/dL_b  [m].
+// Returns dA_t/dL_b [m].
 inline double wall_area_slope(const Actuator& a, double x) {
   const double t = a.wall.thickness, b = a.braid.thread_length;
   if (!(t > 0)) return 0.0;
@@ -97,7 +99,7 @@ inline double volume(const Actuator& a, double length) {
   return sum > 0 ? sum : 0.0;
 }
 
-// dV/dL  [m2].
+// Returns dV/dL [m2].
 inline double volume_slope(const Actuator& a, double length) {
   const double x = length - a.caps.length;
   if (a.air.offset < 0 && !(volume(a, length) > 0)) return 0.0;

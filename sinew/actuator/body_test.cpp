@@ -1,4 +1,4 @@
-// What a real tube has beside its braid: caps, taper, wall, threshold, a bladder that is no spring.
+// Parts of a real tube other than its braid: caps, taper, wall, threshold, a nonlinear bladder.
 
 #include "sinew/actuator/body.h"
 
@@ -21,7 +21,7 @@ double uniform(std::mt19937_64& random, double from, double to) {
   return std::uniform_real_distribution<>(from, to)(random);
 }
 
-// The thesis's actuator with every term that stands beside the braid.
+// The thesis's actuator with every term other than the braid.
 Actuator full(std::mt19937_64& random) {
   Actuator a = thesis_actuator();
   a.effectiveness.valid_from = -1e6;
@@ -77,7 +77,7 @@ TEST(Body, EachTermIsNoLongerPlain) {
   }
 }
 
-// The same at each length, down to no air.
+// The same volume offset at each length, down to no air.
 TEST(Body, AirBesideTheBraidIsAdded) {
   Actuator a = thesis_actuator();
   for (const double offset : {3e-6, -3e-6}) {
@@ -195,7 +195,7 @@ TEST(Body, StiffnessIsTheSlopeOfTheWholeTension) {
   }
 }
 
-// Whatever the parameters, within the lengths at which the braid pulls.
+// For any parameters, within the lengths at which the braid pulls.
 TEST(Body, TensionGrowsWithPressure) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 200; ++i) {

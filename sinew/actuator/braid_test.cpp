@@ -72,7 +72,7 @@ TEST(Braid, DoesNotDependOnHowTheMeshIsCounted) {
   EXPECT_DOUBLE_EQ(coarse.turns, fine.turns);
 }
 
-// [10]: what the air does at constant gauge pressure, the tension takes up.
+// [10]: the work of the air at constant gauge pressure equals that of the tension.
 TEST(Braid, IdealTensionIsTheVirtualWorkOfTheAir) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<> pressure(-1e5, 8e5);

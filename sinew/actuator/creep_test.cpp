@@ -1,4 +1,4 @@
-// Tension that comes late: its limits, its closed form, and what it must not do.
+// Delayed tension: its limits, its closed form, and its invariants.
 #include "sinew/actuator/creep.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,8 @@ double total(const Actuator& a, double length, double p, double late0, double la
          creep_tension(a, a.creep.share[1], length, late1, thesis_atmosphere);
 }
 
-// In the end what the pressure does is 1 + sum c_i times what it did, whatever else pulls.
+// In the end the pressure's part of the tension is 1 + sum c_i times its initial value, whatever
+// else pulls.
 TEST(Creep, EndsAtOnePlusItsShares) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> pressures(0.1 * bar, 7 * bar), lengths(0.6, 0.9);
@@ -50,7 +51,7 @@ TEST(Creep, NoShareIsNone) {
   EXPECT_EQ(creep_tension(a, 0, 3 * inch, 4 * bar, thesis_atmosphere), 0);
 }
 
-// The rate's solution is the exponential that the header promises.
+// The rate's solution is the exponential in the header.
 TEST(Creep, IsExponentialWhereTheEffectivenessIsConstant) {
   Actuator a = thesis_actuator();
   a.effectiveness = {.c0 = 0.9};

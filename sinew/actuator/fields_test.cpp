@@ -1,4 +1,4 @@
-// The field table of actuator.toml: its keys, its units, and what does not go together.
+// Field table of actuator.toml: its keys, its units, and keys that exclude each other.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using tests::FieldVisitor;
 
-// What robots/*/actuator.toml may hold, in SI.
+// Possible values of robots/*/actuator.toml, in SI.
 FieldVisitor leg() {
   FieldVisitor v;
   v.numbers_given = {

@@ -1,5 +1,5 @@
-// actuator/hysteresis.h - friction that does not ask how fast: more pressure must be let in before
-// the mesh moves, and let out before it moves back.
+// actuator/hysteresis.h - rate-independent friction of the mesh: the pressure has to change by a
+// certain amount before the mesh moves or reverses.
 //
 //   F = F(L, P_e)       P_e = P_g - P_f                     fill: P_f = w, vent: P_f = -w
 //   P_f = P_x - z       z the play that follows P_x = P_g + P_V V/V_max, |P_x - z| <= w
@@ -7,20 +7,20 @@
 //
 //   P_g, P_e  gauge pressure, effective pressure of the mesh [Pa]     w_0, w_eps, P_V [Pa]
 //   P_f       friction, as a pressure [Pa]                            w_P [-], below 1
-//   z         the only state [Pa]       L, L_max  length, that of straight threads [m]
-//   V, V_max  volume of the braid, its greatest (braid.h) [m3]
+//   z         the only state [Pa]       L, L_max  length, with straight threads [m]
+//   V, V_max  volume of the braid, its maximum (braid.h) [m3]
 //
-// With P_V = 0 only the pressure turns the friction: a loop of pressure at one length, none of
-// length at one pressure. With P_V a change of volume turns it as well, by P_V/V_max per volume:
-// friction then opposes the motion, whatever the pressure does. It takes the work P_f dV. Over a
-// closed loop of length at one pressure that is never negative, and 2 w for every volume if P_V is
-// large; loops of both at once keep to it within w V_max/P_V times the change of pressure. With
-// P_V = 0 a muscle that is stretched at high pressure and released at low pressure gives that much
-// back: state P_V where muscles brake.
+// With P_V = 0 only the pressure reverses the friction: a cycle of pressure at constant length has
+// a loop, a cycle of length at constant pressure has none. With P_V a change of volume reverses it
+// too, by P_V/V_max per volume: the friction then opposes the motion, whatever the pressure does.
+// The friction dissipates the work P_f dV. Over a closed loop of length at constant pressure that
+// work is never negative, and is 2 w for every volume if P_V is large; for loops of both this holds
+// to within w V_max/P_V times the change of pressure. With P_V = 0 a muscle that is stretched at
+// high pressure and released at low pressure returns that much energy: set P_V where muscles brake.
 //
 // Not in the thesis, which draws the loops (figure 2-8) and models those of length by dry friction
-// ([33], loss.h). Valid for any pressure; bounded by w; P_e grows with the pressure. The play
-// forgets how it was reached: any steps through the same turning points lead to the same z.
+// ([33], loss.h). Valid for any pressure; bounded by w; P_e grows with the pressure. The play does
+// not depend on the path: any steps through the same turning points lead to the same z.
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -28,12 +28,12 @@
 
 namespace sinew::actuator {
 
-// Is there any friction that the pressure turns?
+// Returns whether there is friction that depends on the pressure's direction.
 constexpr bool has_hysteresis(const Hysteresis& h) {
   return h.half_width > 0 || h.width_per_pressure > 0 || h.width_per_contraction > 0;
 }
 
-// w, the bound of the friction  [Pa]. Below the atmosphere that of the atmosphere.
+// Returns w, the bound of the friction [Pa]; below the atmosphere that at the atmosphere.
 constexpr double half_width(const Actuator& a, double length, double gauge_pressure) {
   const Hysteresis& h = a.hysteresis;
   const double contraction = 1.0 - length / a.long_end.length;
@@ -41,19 +41,20 @@ constexpr double half_width(const Actuator& a, double length, double gauge_press
          (contraction > 0 ? h.width_per_contraction * contraction : 0.0);
 }
 
-// P_x, which the play follows  [Pa].
+// Returns P_x, which the play follows [Pa].
 inline double drive(const Hysteresis& h, const Braid& braid, double length, double gauge_pressure) {
   if (!(h.volume_pressure > 0)) return gauge_pressure;
   const double greatest = volume(braid, shortest_length(braid));
   return gauge_pressure + h.volume_pressure * volume(braid, length) / greatest;
 }
 
-// Play of half-width w: z stays while P_x moves within it and is dragged along beyond  [Pa].
+// Returns the play z of half-width w: it is constant while P_x is within w and dragged along beyond
+// [Pa].
 constexpr double play(double z, double x, double w) {
   return z < x - w ? x - w : z > x + w ? x + w : z;
 }
 
-// What the mesh feels at this length and pressure, and the play that goes with it.
+// Effective pressure of the mesh at this length and pressure, and its play.
 struct Felt {
   double gauge_pressure = 0;  // [Pa]
   double play = 0;            // z [Pa]
@@ -64,7 +65,7 @@ inline Felt felt(const Actuator& a, double length, double gauge_pressure, double
   return {gauge_pressure - (x - now), now};
 }
 
-// z of a muscle that feels what it has: no friction.
+// Returns z without friction, where the effective pressure is the gauge pressure.
 inline double play_at_rest(const Actuator& a, double length, double gauge_pressure) {
   return drive(a.hysteresis, a.braid, length, gauge_pressure);
 }

@@ -1,4 +1,4 @@
-// The play: where it ends does not depend on the steps, loops close, and friction takes.
+// The play: its end does not depend on the steps, loops close, and friction dissipates.
 #include "sinew/actuator/hysteresis.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Point {
   double length = 0, gauge_pressure = 0;
 };
 
-// From one point to the next in n equal steps; tells the work that friction takes on the way.
+// Moves from one point to the next in n equal steps and returns the work that friction dissipates.
 double go(const Actuator& a, Point from, Point to, int n, double& z) {
   double taken = 0;
   double volume_before = volume(a.braid, from.length);
@@ -61,7 +61,7 @@ TEST(Hysteresis, NoWidthIsNoFriction) {
   }
 }
 
-// Filling the mesh feels w less, venting w more, and between the two it feels nothing new.
+// Filling reduces the effective pressure by w, venting raises it by w; in between it is constant.
 TEST(Hysteresis, FillAndVentStandTwoWidthsApart) {
   const Actuator a = with({.half_width = 0.02 * bar, .width_per_pressure = 0.01});
   const double l = 3.2 * inch;
@@ -70,7 +70,7 @@ TEST(Hysteresis, FillAndVentStandTwoWidthsApart) {
   EXPECT_NEAR(felt(a, l, 4 * bar, z).gauge_pressure, 3.94 * bar, 1e-6);
   go(a, {l, 4 * bar}, {l, 6 * bar}, 7, z);
   go(a, {l, 6 * bar}, {l, 5.95 * bar}, 3, z);
-  EXPECT_NEAR(felt(a, l, 5.95 * bar, z).gauge_pressure, 5.92 * bar, 1e-6);  // what it felt at 6 bar
+  EXPECT_NEAR(felt(a, l, 5.95 * bar, z).gauge_pressure, 5.92 * bar, 1e-6);  // as at 6 bar
   go(a, {l, 5.95 * bar}, {l, 4 * bar}, 50, z);
   EXPECT_NEAR(felt(a, l, 4 * bar, z).gauge_pressure, 4.06 * bar, 1e-6);
 }
@@ -128,7 +128,7 @@ TEST(Hysteresis, IsBoundedAndGrowsWithThePressure) {
   }
 }
 
-// Once it has gone round, a loop of pressure or of length comes back to where it was.
+// After one cycle, a loop of pressure or of length is closed.
 TEST(Hysteresis, LoopsClose) {
   const Actuator a = with({.half_width = 0.04 * bar, .volume_pressure = 10 * bar});
   for (const auto& [one, other] :
@@ -147,8 +147,8 @@ TEST(Hysteresis, LoopsClose) {
   }
 }
 
-// At one pressure friction takes from every closed loop of length, and 2 w per volume from a wide
-// one: twice w (DV - 2 w/K') with K' = K/V_max, for it gives way by 2 w/K' at each turn.
+// At constant pressure friction dissipates in every closed loop of length, and 2 w per volume in a
+// wide one: twice w (DV - 2 w/K') with K' = K/V_max, for it yields by 2 w/K' at each reversal.
 TEST(Hysteresis, LoopsOfLengthTake) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> lengths(2.45, 4.0);
@@ -161,7 +161,7 @@ TEST(Hysteresis, LoopsOfLengthTake) {
     for (int i = 0; i < 6; ++i) corners.push_back({lengths(random) * inch, p});
     const Actuator& one = trial % 2 ? wider : a;
     double z = play_at_rest(one, corners[0].length, p), taken = 0;
-    for (int round = 0; round < 2; ++round) {  // the first finds the loop
+    for (int round = 0; round < 2; ++round) {  // the first reaches the loop
       taken = 0;
       for (std::size_t i = 0; i < corners.size(); ++i)
         taken += go(one, corners[i], corners[(i + 1) % corners.size()], 300, z);
@@ -181,7 +181,7 @@ TEST(Hysteresis, LoopsOfLengthTake) {
   EXPECT_NEAR(taken / (2 * w * (dv - 2 * w / per_volume)), 1, 1e-3);
 }
 
-// Loops of both: never less than -w V_max/K times the way of the pressure.
+// Loops of both: never less than -w V_max/K times the total change of pressure.
 TEST(Hysteresis, LoopsOfBothGiveBackNoMoreThanIsSaid) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> lengths(2.45, 4.0), pressures(0.5 * bar, 7 * bar);
@@ -204,7 +204,7 @@ TEST(Hysteresis, LoopsOfBothGiveBackNoMoreThanIsSaid) {
   }
 }
 
-// At one pressure the mesh pulls harder while it is stretched than while it shortens.
+// At constant pressure the mesh pulls harder while it is stretched than while it shortens.
 TEST(Hysteresis, StretchingPullsHarder) {
   const Actuator a = with({.half_width = 0.1 * bar, .volume_pressure = 40 * bar});
   const double p = 4 * bar, l = 3.2 * inch;

@@ -1,10 +1,10 @@
-// actuator/loss.h - the bound of the dry friction between bladder and mesh, [33], [34].
+// actuator/loss.h - bound of the dry friction between bladder and mesh, [33], [34].
 //
 //   |F_coulomb| <= Q k,  Q = mu F_n/k [m]
 //
 // k is the secant stiffness [34] as printed, or the sealed stiffness that Q was identified with
-// ([45]), or a constant. Below the bound the mesh sticks; which of the two it does is solved for
-// once per step by whoever integrates the body (docs/theory/actuator.md, "Losses").
+// ([45]), or a constant. Below the bound the mesh sticks. The integrator of the body decides
+// between stick and slip once per step (docs/theory/actuator.md, "Losses").
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,11 @@
 
 namespace sinew::actuator {
 
-// [34] as F/(L - L_min), written without its 0/0 at L_min:
+// Returns [34], F/(L - L_min), in a form without its 0/0 at L_min:
+//
 //   k = 3 P_g Eff (L + L_min)/(4 pi n^2)   [N/m]
-// of the braid alone, without a wall.
+//
+// It is the stiffness of the braid alone, without a wall.
 inline double secant_stiffness(const Actuator& a, double length, double gauge_pressure,
                                double atmosphere) {
   return 3.0 * acting_pressure(a.effectiveness, gauge_pressure) *
@@ -26,7 +28,8 @@ inline double secant_stiffness(const Actuator& a, double length, double gauge_pr
          braid_factor(a.braid);
 }
 
-// Largest dry friction  [N], never negative. `sealed_stiffness` is used by Scale::sealed only.
+// Returns the largest dry friction [N], never negative. `sealed_stiffness` is used by Scale::sealed
+// only.
 inline double coulomb_bound(const Actuator& a, double length, double gauge_pressure,
                             double atmosphere, double sealed_stiffness) {
   const bool short_of = length < shortest_length(a);
@@ -40,10 +43,11 @@ inline double coulomb_bound(const Actuator& a, double length, double gauge_press
   return bound > 0 ? bound : 0.0;
 }
 
-// [33] while the length changes at `velocity` = dL/dt, below 0 where the muscle contracts  [N]: the
-// static tension, what flows (c v and the ends' own damping), and the dry friction at its bound,
-// which holds a muscle back that contracts and pulls with one that is drawn out. At rest the dry
-// friction is anything within its bound, and here 0. Never below 0: a muscle cannot push.
+// Returns the tension [33] while the length changes at `velocity` = dL/dt, negative when the muscle
+// contracts [N]: the static tension, the viscous terms (c v and the ends' damping), and the dry
+// friction at its bound, which reduces the tension in contraction and increases it in extension. At
+// rest the dry friction may have any value within its bound; 0 is used. Never negative, since a
+// muscle cannot push.
 inline double sliding_tension(const Actuator& a, double length, double velocity,
                               double gauge_pressure, double atmosphere, double sealed_stiffness) {
   const double flowing = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);

@@ -11,9 +11,9 @@ namespace sinew::actuator {
 
 // The surroundings of the actuator's air.
 struct Surroundings {
-  double atmosphere = 0;           // that gauges read against [Pa]
-  double polytropic_exponent = 0;  // of the air when valves are shut
-  double external_volume = 0;      // of hose and fittings up to the valves [m3]
+  double atmosphere = 0;           // pressure to which gauge pressures refer [Pa]
+  double polytropic_exponent = 0;  // exponent of the air when valves are shut
+  double external_volume = 0;      // hose and fittings up to the valves [m3]
 };
 
 struct OperatingPoint {
@@ -22,20 +22,19 @@ struct OperatingPoint {
   double length = 0, gauge_pressure = 0;  // [m], [Pa]
   double tension = 0;                     // at rest, without losses [N]
   double effectiveness = 0;
-  double coulomb_bound = 0;                            // of the dry friction [N]
-  double velocity = not_asked;                         // of the length [m/s]
-  double sliding_tension = not_asked;                  // with its losses, [33] [N]
-  double viscous_loss = not_asked;                     // of it [N]
+  double coulomb_bound = 0;                            // bound of the dry friction [N]
+  double velocity = not_asked;                         // rate of the length [m/s]
+  double sliding_tension = not_asked;                  // tension with losses, [33] [N]
+  double viscous_loss = not_asked;                     // its viscous part [N]
   double stiffness_at_constant_pressure = 0;           // [26] [N/m]
   double stiffness_sealed = 0, passive_stiffness = 0;  // valves shut, and without air [N/m]
-  double volume = 0, diameter = 0, braid_angle = 0;    // [m3], [m], [rad]; NaN: there is none
-  double half_68 = not_asked, half_95 = not_asked;     // of the measured force about it [N]; NaN:
-                                                       // nobody knows, see prediction.h
-  std::vector<std::string> beyond;                     // where the model ends, in words
+  double volume = 0, diameter = 0, braid_angle = 0;    // [m3], [m], [rad]; NaN: not defined
+  double half_68 = not_asked, half_95 = not_asked;     // measured forces about the law [N];
+                                                       // NaN: unknown, see prediction.h
+  std::vector<std::string> beyond;  // limits of the model that are exceeded, as text
 };
 
-// Evaluates the laws at `length` [m] and `gauge` pressure [Pa], and at `velocity` [m/s] where it is
-// asked for.
+// Evaluates the laws at `length` [m] and `gauge` pressure [Pa], and at `velocity` [m/s] if given.
 OperatingPoint operating_point(const Actuator& a, double length, double gauge,
                                const Surroundings& around,
                                double velocity = OperatingPoint::not_asked);

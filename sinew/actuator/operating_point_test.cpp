@@ -1,4 +1,4 @@
-// All laws at one point are the laws one by one, and what is said of the model's ends is so.
+// operating_point() has the results of the separate laws, and reports the model's limits.
 #include "sinew/actuator/operating_point.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ TEST(OperatingPoint, DrawnOutItPullsWithItsLossesAndContractingWithoutThem) {
     EXPECT_EQ(rest.tension, tension(a, l, 0.0, p, thesis_atmosphere));
     EXPECT_TRUE(std::isnan(rest.velocity) && std::isnan(rest.sliding_tension));
 
-    // The viscous part changes its sign with the velocity, the dry one is the bound each way.
+    // The viscous part changes its sign with the velocity; the dry part is the bound in either
+    // direction.
     EXPECT_NEAR(out.viscous_loss, -in.viscous_loss, 1e-9 * out.viscous_loss);
     EXPECT_NEAR(out.sliding_tension, rest.tension + out.viscous_loss + rest.coulomb_bound,
                 1e-9 * out.sliding_tension);
@@ -43,7 +44,7 @@ TEST(OperatingPoint, SaysWhereTheModelEndsAndOnlyThere) {
   EXPECT_TRUE(operating_point(a, 0.085, 4e5, around).beyond.empty());
   EXPECT_EQ(operating_point(a, 0.99 * shortest_length(a), 4e5, around).beyond.size(), 1u);
   EXPECT_EQ(operating_point(a, a.long_end.length + 1e-4, 4e5, around).beyond.size(), 1u);
-  // Beyond its thread the braid has no angle either.
+  // Beyond its thread's length the braid has no angle.
   const OperatingPoint torn = operating_point(a, a.braid.thread_length + 1e-4, 4e5, around);
   EXPECT_EQ(torn.beyond.size(), 2u);
   a.effectiveness.valid_to = 3e5;

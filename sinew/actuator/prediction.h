@@ -1,19 +1,18 @@
-// actuator/prediction.h - within which distance of the law's force a measured one lies.
+// actuator/prediction.h - interval about the law's force that contains measured forces.
 //
 //   half-width = base + max((beyond - inside) d/0.2, (above - inside) e/0.2, 0)
 //   base^2     = inside^2 + (between^2 - inside^2) a^2
 //
 //   inside, between, beyond, above  half-widths that hold 68 or 95 % of measured forces: at a
-//   length
-//      that was measured, halfway in the widest gap between two, a fifth of the range beyond the
-//      lengths, and a fifth of it beyond the pressures [N]
-//   a  distance of the nearest length that was measured, in parts of half the widest gap; 0 beyond
-//      the ends [-]
-//   d, e  how far beyond the lengths and the pressures, in parts of their ranges [-]
+//       measured length, halfway in the widest gap between two, a fifth of the range beyond the
+//       lengths, and a fifth of the range beyond the pressures [N]
+//   a  distance to the nearest measured length, relative to half the widest gap; 0 beyond the
+//      ends [-]
+//   d, e  distance beyond the lengths and the pressures, relative to their ranges [-]
 //
-// The identification that wrote them counted the forces that it had not seen
-// (identify/actuator/static_spread.h). Beyond one range further nothing is known, nor beyond the
-// longest mount of a muscle of which none was within 1 % of its rest length.
+// The half-widths are counted by the identification from forces that its fit had not seen
+// (identify/actuator/static_spread.h). Nothing is known further than one range beyond, nor beyond
+// the longest mount of a muscle that has no mount within 1 % of its rest length.
 #pragma once
 
 #include <algorithm>
@@ -26,17 +25,17 @@
 
 namespace sinew::actuator {
 
-// Lengths that differ by less, in shares of the longest, are one mount  [-].
+// Relative difference of lengths, to the longest, below which they are one mount [-].
 inline constexpr double same_length = 0.004;
 
 // Half-widths at a point  [N].
 struct ForceInterval {
   double half_68 = 0, half_95 = 0;
-  bool known = false;    // false: nobody measured so far from there, or at all
-  bool measured = true;  // false: beyond what was measured
+  bool known = false;    // false: too far from any measurement, or no measurements
+  bool measured = true;  // false: outside the measured range
 };
 
-// Returns how far x lies beyond the ends, in parts of their range  [-].
+// Returns the distance of x beyond the ends, relative to their range [-].
 inline double beyond_ends(double x, double low, double high) {
   const double range = high - low;
   const double off = std::max({low - x, x - high, 0.0});
@@ -44,27 +43,27 @@ inline double beyond_ends(double x, double low, double high) {
   return off > 1e-9 * range ? off / range : 0.0;
 }
 
-// Returns how far the nearest of some lengths is  [m]; infinite where there are none.
+// Returns the distance to the nearest of some lengths [m]; infinity without lengths.
 inline double nearest_length(const std::vector<double>& lengths, double length) {
   double out = std::numeric_limits<double>::infinity();
   for (const double l : lengths) out = std::min(out, std::abs(l - length));
   return out;
 }
 
-// Returns the widest gap between two neighbours of some lengths in ascending order  [m].
+// Returns the widest gap between neighbours of some lengths in ascending order [m].
 inline double widest_gap(const std::vector<double>& lengths) {
   double out = 0;
   for (std::size_t i = 1; i < lengths.size(); ++i) out = std::max(out, lengths[i] - lengths[i - 1]);
   return out;
 }
 
-// Says whether a muscle whose longest mount that is has shown the first pull of its bladder, which
-// is steepest just below the rest length: shorter mounts do not tell it, whatever the law.
+// Returns whether a muscle with this longest mount has shown the first pull of its bladder, which
+// is steepest just below the rest length: shorter mounts do not determine it, whatever the law.
 inline bool first_pull_seen(double longest, double rest_length) {
   return longest >= 0.99 * rest_length;
 }
 
-// Return the widest half-widths within what was measured  [N]; 0: none is known.
+// Return the widest half-widths within the measured range [N]; 0: unknown.
 inline double widest_inside_68(const Prediction& p) { return std::max(p.inside_68, p.between_68); }
 inline double widest_inside_95(const Prediction& p) { return std::max(p.inside_95, p.between_95); }
 

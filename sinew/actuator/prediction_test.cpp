@@ -1,4 +1,4 @@
-// Intervals of measured forces: narrowest where it was measured, wider between and beyond.
+// Intervals of measured forces: narrowest at measured lengths, wider between and beyond.
 #include "sinew/actuator/prediction.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Prediction, BetweenLengthsSquaresGrowWithTheSquareOfTheDistance) {
   }
 }
 
-// Whichever end one leaves by, and from wherever, the interval never shrinks.
+// In either direction and from any start beyond the ends, the interval never shrinks.
 TEST(Prediction, NothingShrinksOnTheWayOut) {
   const Prediction p = known();
   for (const double length : {0.2, 0.205, 0.225, 0.25})
@@ -91,7 +91,7 @@ TEST(Prediction, WhatNobodyTriedIsNotKnown) {
   EXPECT_FALSE(force_interval({}, 0.2, 3e5).known);
 }
 
-// Of a muscle that was never mounted at its rest length nobody knows how steep it gets there.
+// For a muscle that was never mounted at its rest length the slope near that length is unknown.
 TEST(Prediction, BeyondTheLongestNothingIsKnownWithoutAMountAtRest) {
   Prediction p = known();
   p.rest_length = 0.254;
@@ -101,7 +101,7 @@ TEST(Prediction, BeyondTheLongestNothingIsKnownWithoutAMountAtRest) {
   EXPECT_TRUE(force_interval(p, 0.252, 3e5).known);
 }
 
-// One length: nothing is known of others.
+// One length: the interval at others is unknown.
 TEST(Prediction, OneLengthSpeaksForItself) {
   Prediction p = known();
   p.lengths = {0.0762};

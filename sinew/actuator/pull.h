@@ -1,10 +1,9 @@
-// actuator/pull.h - what braid and bladder pull with at the length that the braid has, and how that
-// grows with the length.
+// actuator/pull.h - tension of braid and bladder at the braid's own length, and its slope.
 //
 //   B = P_act Eff(p) (b^2/(4 pi n^2) (3 L_b^2/b^2 - 1) + A_t(L_b)) + bladder(L_s)
 //
-//   L_s  length of the muscle without what its ends give way, series.h [m]
-//   L_b  length at which the braid works, of L_s as body.h has it [m]      P_act, Eff  below
+//   L_s  length of the muscle without the stretch of its ends, series.h [m]
+//   L_b  length at which the braid works, from L_s by body.h [m]      P_act, Eff  below
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -14,7 +13,8 @@
 
 namespace sinew::actuator {
 
-// [30]  [-]. Constant outside the fitted range of pressures: a polynomial is no law there.
+// Returns Eff, [30] [-]. It is constant outside the fitted pressures, since a polynomial does not
+// extrapolate.
 constexpr double effectiveness(const Effectiveness& e, double gauge_pressure, double atmosphere) {
   const double low = gauge_pressure < e.valid_from ? e.valid_from : gauge_pressure;
   const double inside = low > e.valid_to ? e.valid_to : low;
@@ -22,25 +22,25 @@ constexpr double effectiveness(const Effectiveness& e, double gauge_pressure, do
   return e.scale * (e.c0 + p * (e.c1 + p * e.c2));
 }
 
-// P_act, what is left of the gauge pressure to widen the mesh: the bladder takes the threshold
-// before it touches. Vacuum pulls the mesh in at once  [Pa].
+// Returns P_act, the part of the gauge pressure that widens the mesh [Pa]: the bladder takes the
+// threshold before it touches the mesh. Vacuum acts on the mesh without a threshold.
 constexpr double acting_pressure(const Effectiveness& e, double gauge_pressure) {
   if (gauge_pressure > e.threshold) return gauge_pressure - e.threshold;
   return gauge_pressure < 0 ? gauge_pressure : 0.0;
 }
 
-// [22]: the ideal tension  [N].
+// Returns the ideal tension, [22] [N].
 constexpr double ideal_tension(const Braid& braid, double length, double gauge_pressure) {
   const double b2 = braid.thread_length * braid.thread_length;
   return gauge_pressure * (3.0 * length * length - b2) * braid_factor(braid);
 }
 
-// [26] as printed, without Eff  [N/m].
+// Returns [26] as printed, without Eff [N/m].
 constexpr double ideal_stiffness(const Braid& braid, double length, double gauge_pressure) {
   return 6.0 * gauge_pressure * length * braid_factor(braid);
 }
 
-// [22] times Eff, of the braid and its body at L_s  [N].
+// Returns [22] times Eff for the braid and its body at L_s [N].
 inline double braid_pull(const Actuator& a, double x, double gauge_pressure, double atmosphere) {
   const double acting = acting_pressure(a.effectiveness, gauge_pressure);
   const double w = working_length(a, x, gauge_pressure);
@@ -48,7 +48,7 @@ inline double braid_pull(const Actuator& a, double x, double gauge_pressure, dou
          effectiveness(a.effectiveness, gauge_pressure, atmosphere);
 }
 
-// Its slope, [26] of the effective tension [31], at a constant pressure  [N/m].
+// Returns its slope, [26] of the effective tension [31], at constant pressure [N/m].
 inline double braid_pull_slope(const Actuator& a, double x, double gauge_pressure,
                                double atmosphere) {
   const double acting = acting_pressure(a.effectiveness, gauge_pressure);

@@ -1,4 +1,4 @@
-// The actuator's numbers in data/reference.json: what the thesis prints and what follows from it.
+// Values of the actuator in data/reference.json: printed ones and those derived from them.
 
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(ReferenceActuator, EffectivenessByGaugeAndByAbsolutePressure) {
   }
 }
 
-// 4.2: "about 15 lb", and what two of them reach at full length.
+// 4.2: "about 15 lb", and the force of two actuators at full length.
 TEST(ReferenceActuator, GreatestTension) {
   const Actuator a = thesis_actuator();
   const double gauge = 100 * psi;
@@ -127,7 +127,7 @@ TEST(ReferenceActuator, GreatestTension) {
   EXPECT_NEAR(clamped_tension(two, si("L_max"), 0, gauge, atmosphere) / pound_force, 71, 0.5);
 }
 
-// Length at which a load hangs still on an actuator held at a gauge pressure.
+// Returns the length at which a load is in equilibrium on an actuator at a gauge pressure.
 double hanging_length(const Actuator& a, double load, double gauge) {
   double low = shortest_length(a.braid), high = a.long_end.length;
   while (high - low > 1e-15) {
@@ -138,7 +138,7 @@ double hanging_length(const Actuator& a, double load, double gauge) {
 }
 
 // Section 3.4, air trapped: the "nominal pressure" is the gauge pressure with the load at rest, so
-// neither the air's exponent nor the external volume decides where it hangs.
+// neither the air's exponent nor the external volume affects the equilibrium.
 TEST(ReferenceActuator, EquilibriaOfTheTrappedAirTests) {
   struct Setup {
     const char* name;

@@ -1,4 +1,4 @@
-// Ends that give way: a spring in series with braid and bladder.
+// Elastic ends: a spring in series with braid and bladder.
 #include "sinew/actuator/series.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,10 @@ double between(std::mt19937_64& random, double from, double to) {
   return std::uniform_real_distribution<>(from, to)(random);
 }
 
-// An actuator whose bladder loses tension steeply, where the iteration has most to do.
+// An actuator whose bladder loses tension steeply, which is hardest for the iteration.
 Actuator steep() {
   Actuator a = thesis_actuator();
-  a.long_end.length = 1;  // its threads lie beside the spring, not behind it
+  a.long_end.length = 1;  // its threads are parallel to the spring, not behind it
   a.bladder = {
       .stiffness = 300, .rest_length = 0.098, .saturating_tension = 20, .saturation_length = 2e-3};
   return a;
@@ -55,7 +55,7 @@ TEST(Series, NothingGivesWayWithoutCompliance) {
   }
 }
 
-// Two linear springs behind each other: 1/k + C.
+// Two linear springs in series: 1/k + C.
 TEST(Series, ALinearBladderHasItsClosedForm) {
   Actuator a = thesis_actuator();
   a.bladder = {.stiffness = 5000, .rest_length = 0.08};
@@ -64,7 +64,7 @@ TEST(Series, ALinearBladderHasItsClosedForm) {
     EXPECT_NEAR(clamped_tension(a, l, 0, 0, atmosphere), (l - 0.08) / (1 / 5000.0 + 1e-4), 1e-9);
 }
 
-// To first order the tension falls by C F times its slope; what is left over falls with C squared.
+// To first order the tension falls by C F times its slope; the rest falls with C squared.
 TEST(Series, LittleComplianceCostsItsFirstOrder) {
   Actuator a = steep();
   const double l = 0.085, p = 4e5, f = clamped_tension(a, l, 0, p, atmosphere);
@@ -80,7 +80,7 @@ TEST(Series, LittleComplianceCostsItsFirstOrder) {
   }
 }
 
-// Ends that give way never pull or push more, and more pressure never pulls less.
+// Elastic ends never increase pull or push, and more pressure never reduces the pull.
 TEST(Series, TensionFallsAsEndsGiveWayAndGrowsWithPressure) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 300; ++i) {

@@ -1,4 +1,4 @@
-// Stiffness is the slope of tension, whatever happens to the air meanwhile.
+// Stiffness is the slope of tension, for constant pressure and for sealed air.
 
 #include "sinew/actuator/stiffness.h"
 
@@ -16,7 +16,7 @@ namespace {
 const double atmosphere = thesis_atmosphere;
 constexpr double psi = 6894.757293168361, inch = 0.0254;
 
-// The actuator with both readings of Eff, a scale, and a range of pressures that is not left.
+// The actuator with both readings of Eff, a scale, and a range of pressures that is not exceeded.
 Actuator some_actuator(bool absolute) {
   Actuator a = thesis_actuator();
   a.effectiveness.scale = 0.91;
@@ -36,7 +36,7 @@ Point any_point(std::mt19937_64& random) {
           Uniform(1, 1.4)(random)};
 }
 
-// Absolute pressure of the same air at another length.
+// Returns the absolute pressure of the same air at another length.
 double trapped(const Braid& braid, const Point& at, double length) {
   const double ratio =
       (volume(braid, at.length) + at.external) / (volume(braid, length) + at.external);
@@ -87,7 +87,7 @@ TEST(Stiffness, SealedPressureSlopeIsThatOfTrappedAir) {
 }
 
 TEST(Stiffness, SealedExceedsConstantPressureByASquare) {
-  // F = -P_g V' Eff: with Eff held, the difference is n P Eff V'^2/(V + V_ext), never negative.
+  // F = -P_g V' Eff: with constant Eff the difference is n P Eff V'^2/(V + V_ext), never negative.
   std::mt19937_64 random(4);
   for (int i = 0; i < 500; ++i) {
     const Actuator a = some_actuator(i % 2);
@@ -113,7 +113,7 @@ TEST(Stiffness, BothAgreeAtTheShortestLengthAndWithEndlessVolume) {
               stiffness_at_constant_pressure(a, 0.08, p - atmosphere, atmosphere), 1e-5);
 }
 
-// docs/evidence/departures.md, [25]: adiabatic, without Eff, hoses of both set-ups of chapter 3.
+// docs/evidence/departures.md, [25]: adiabatic, without Eff, hoses of both setups of chapter 3.
 TEST(Stiffness, SealedIs123To185OfTheThesisStiffness) {
   Actuator a = thesis_actuator();
   a.effectiveness = {};

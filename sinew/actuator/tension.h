@@ -1,20 +1,19 @@
-// actuator/tension.h - what one actuator pulls with, [22], [30]-[32], [35].
+// actuator/tension.h - tension of one actuator, [22], [30]-[32], [35].
 //
 //   F = P_g b^2/(4 pi n^2) (3 L^2/b^2 - 1) Eff(p) + ends + bladder + c v          [31], [33]
 //
 //   P_g  gauge pressure [Pa]        L  length [m]         v  dL/dt [m/s]
 //
-// Beyond the thesis, all of it neutral where nothing is set: a threshold of the pressure (here),
-// caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h), a soft beginning
-// and ends that give way (series.h):
+// Beyond the thesis, and without effect unless set: a threshold of the pressure (here), caps, taper
+// and wall (body.h), a nonlinear bladder (bladder.h), a soft beginning and elastic ends (series.h):
 //
 //   F = P_act Eff(p) (b^2/(4 pi n^2) (3 L_b^2/b^2 - 1) + A_t(L_b)) + ...
 //
-// The dry friction of [33] is not in here: it is a force of the step, see loss.h.
-// Departures: P - P_atm keeps its sign (appendix A takes |P - 14.7|, so that vacuum would pull);
-// below the shortest length an end stop, or zero as printed, or appendix A's other line:
+// The dry friction of [33] is not included: it is a force of the step, see loss.h. Departures: P -
+// P_atm keeps its sign (appendix A takes |P - 14.7|, so that vacuum would pull). Below the shortest
+// length an end stop acts, or the tension is zero as printed, or appendix A's other line holds:
 //
-//   F <- 5 F + 10 F_damping,  F with the damping in it: 5 of the pull, 15 of what is lost
+//   F <- 5 F + 10 F_damping,  F with the damping included: 5 times the pull, 15 times the losses
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -26,10 +25,10 @@
 
 namespace sinew::actuator {
 
-// ShortEnd::Law::empirical: times the pull, and times viscous and dry friction  [-].
+// ShortEnd::Law::empirical: factors of the pull, and of viscous and dry friction [-].
 inline constexpr double empirical_pull = 5, empirical_loss = 15;
 
-// [32], [35]: the stretched threads  [N], zero up to L_max.
+// Returns the tension of the stretched threads, [32], [35] [N]; zero up to L_max.
 constexpr double long_end_tension(const LongEnd& end, double length, double velocity) {
   const double force = end.stiffness * (length - end.length) + end.damping * velocity;
   return length > end.length ? force : 0.0;
@@ -46,14 +45,14 @@ constexpr bool is_plain(const Actuator& a) {
          a.bladder.valid_to == none.valid_to;
 }
 
-// Returns what bladder and toe add to what the braid pulls with  [N].
+// Returns the tension that bladder and toe add to the braid's [N].
 inline double beside_the_braid(const Actuator& a, double x, double pull) {
   const double bladder = bladder_tension(a.bladder, x);
   return a.toe.tension > 0 ? toe_tension(a.toe, pull + bladder) - pull : bladder;
 }
 
-// [31], [33] without dry friction: an actuator clamped at both ends, so the result is negative
-// where it pushes  [N].
+// Returns [31], [33] without dry friction for an actuator clamped at both ends: negative where it
+// pushes [N].
 inline double clamped_tension(const Actuator& a, double length, double velocity,
                               double gauge_pressure, double atmosphere) {
   const double x = braid_length(a, length, gauge_pressure, atmosphere);
@@ -69,8 +68,8 @@ inline double clamped_tension(const Actuator& a, double length, double velocity,
   return inside + a.short_end.stiffness * (length - shortest) + a.short_end.damping * velocity;
 }
 
-// Returns the tension of a muscle whose ends are free to come together  [N]. It cannot push: where
-// the clamped actuator would, the tension is 0.
+// Returns the tension of a muscle whose ends are free to approach [N]. It cannot push: where the
+// clamped actuator would, the tension is 0.
 inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
                       double atmosphere) {
   const double both_ways = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);

@@ -23,8 +23,8 @@ struct TensionSlopes {
   double by_length = 0, by_pressure = 0;
 };
 
-// Writes the derivatives by thread length, turns and thickness of what the wall adds; `per_area` is
-// that of the tension by its area  [N/m2].
+// Writes the derivatives of the wall's tension by thread length, turns and thickness. `per_area` is
+// the derivative of the tension by its area [N/m2].
 inline void add_wall_slopes(const Actuator& a, double x, double per_area, Actuator& by) {
   const double t = a.wall.thickness, b = a.braid.thread_length, d = widest_diameter(a.braid);
   const double s = braid_sine(a.braid, x), shape = 2 * s - 1 / s,
@@ -35,8 +35,8 @@ inline void add_wall_slopes(const Actuator& a, double x, double per_area, Actuat
   by.braid.turns -= each * t * d * shape / a.braid.turns;
 }
 
-// Writes the derivatives by the bladder's parameters but its rest length; `share` is that of the
-// tension by the bladder's.
+// Writes the derivatives by the bladder's parameters except its rest length. `share` is the
+// derivative of the tension by the bladder's tension.
 inline void write_bladder_slopes(const Bladder& b, double x, double share, Bladder& by) {
   const double u = held(b, x) - b.rest_length, v = u / b.saturation_length;
   const double e = v < 0 ? units::exp(v > -700 ? v : -700) : 1;
@@ -47,15 +47,15 @@ inline void write_bladder_slopes(const Bladder& b, double x, double share, Bladd
   by.saturation_length = -share * b.saturating_tension * e * v / b.saturation_length;
 }
 
-// Returns the slopes of `tension`, which is clamped_tension() there, and writes its derivative by
-// each parameter in the place of that in `by`.
+// Returns the slopes of `tension`, which must be clamped_tension() at this point, and writes its
+// derivative by each parameter to that parameter's place in `by`.
 inline TensionSlopes tension_slopes(const Actuator& a, double length, double p, double atmosphere,
                                     double tension, Actuator& by) {
   const Effectiveness& e = a.effectiveness;
   const double x = length - a.series.compliance * tension;
   const double kappa = taper_gain(a.taper, p), w = working_length(a, x, p);
 
-  // Holds the pull of braid and bladder, and its slopes by the length and by the area of the braid.
+  // Pull of braid and bladder, and its slopes over the length and over the area of the braid.
   const double acting = acting_pressure(e, p), eff = effectiveness(e, p, atmosphere);
   const double area = ideal_tension(a.braid, w, 1) + wall_area(a, w);
   const double by_w = acting * eff * (ideal_stiffness(a.braid, w, 1) + wall_area_slope(a, w));

@@ -80,7 +80,7 @@ TEST(Tension, ShortEndStopsOrLetsGo) {
 // Appendix A's commented line: 5 F + 10 F_damping, F with the damping in it.
 TEST(Tension, EmpiricalShortEndIsAppendixAsOtherLine) {
   Actuator a = thesis_actuator();
-  Actuator open = a;  // as if there were no end
+  Actuator open = a;  // as without an end
   a.short_end = {.law = ShortEnd::Law::empirical};
   open.short_end = {};
   const double p = 4e5, shortest = shortest_length(a.braid);
@@ -170,7 +170,7 @@ TEST(Loss, BoundFollowsItsScaleAndIsNeverNegative) {
   EXPECT_DOUBLE_EQ(coulomb_bound(a, l, p, atmosphere, sealed), q * 3000);
 }
 
-// [33]: losses take from what moves, and the tension at rest lies halfway between in and out.
+// [33]: losses dissipate power, and the tension at rest is halfway between both directions.
 TEST(SlidingTension, LosesBothWaysAndOnlyWhileItMoves) {
   const Actuator a = thesis_actuator();
   std::mt19937 random(33);

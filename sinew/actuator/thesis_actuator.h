@@ -1,5 +1,5 @@
 // actuator/thesis_actuator.h - the actuator of Colbrunn (2000) with the equations' constants, for
-// tests and examples that have no file at hand. Robots read robots/*/actuator.toml.
+// tests and examples without a file. Robots read robots/*/actuator.toml.
 #pragma once
 
 #include "sinew/actuator/actuator.h"

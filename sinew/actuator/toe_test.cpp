@@ -1,4 +1,4 @@
-// A slack muscle that begins to pull softly.
+// Soft beginning of the tension of a slack muscle.
 #include "sinew/actuator/series.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ double between(std::mt19937_64& random, double from, double to) {
   return std::uniform_real_distribution<>(from, to)(random);
 }
 
-// From where nothing is left of the pull to where nothing is left of the toe.
+// From where the pull is negligible to where the toe is negligible.
 TEST(Toe, IsItsClosedFormToRounding) {
   for (const double s : {0.1, 3.0, 40.0})
     for (double b = -60; b <= 60; b += 0.37) {
@@ -57,7 +57,7 @@ TEST(Toe, StaysFiniteHoweverFarAMuscleIsSlack) {
 }
 
 // A muscle with a toe never pushes, never pulls less than one without, and more pressure never
-// pulls less.
+// reduces the pull.
 TEST(Toe, AMuscleOnlyPulls) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 500; ++i) {
@@ -76,7 +76,7 @@ TEST(Toe, AMuscleOnlyPulls) {
   }
 }
 
-// With ends that give way as well, the spring behind the clamps is stretched by the soft tension.
+// With elastic ends as well, the spring behind the clamps is stretched by the soft tension.
 TEST(Toe, TheSpringIsStretchedByTheSoftTension) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 300; ++i) {

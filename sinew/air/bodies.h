@@ -1,8 +1,8 @@
-// air/bodies.h - the bodies of air of a machine: chambers of muscles and of a cylinder, hoses, a
-// tank; what of each is state, how they start, what they hold, and how fast they settle.
+// air/bodies.h - the bodies of air of a machine: chambers of muscles and of a cylinder, hoses and a
+// tank. Computes their initial state, their content and how fast they settle.
 //
 // The state of a body of air is its mass, [40], and its energy where walls are warm. The muscles'
-// masses are a row of their own; all else is numbered among the others.
+// masses form an array of their own; all other states are numbered in AirState::other.
 #pragma once
 
 #include <algorithm>
@@ -30,14 +30,14 @@
 
 namespace sinew::air {
 
-// Step times rate of a decay that RK4 can bear: 2.78 at the limit.
+// Largest product of step and decay rate that is used with RK4, which is stable up to 2.78.
 inline constexpr double stable_decay = 2.5;
 
 namespace quick {
-inline constexpr double from_rate = 2.5;  // rate times step from which a body of air goes ahead
+inline constexpr double from_rate = 2.5;  // rate times step from which a body is integrated ahead
 }
 
-// The bodies of air of a machine: of its muscles, hoses and cylinder, with the valves that join
+// All bodies of air of a machine (of its muscles, hoses and cylinder) with the valves that join
 // them.
 template <int Most>
 class BodiesOfAir : public ValveBank<Most> {
@@ -47,66 +47,70 @@ class BodiesOfAir : public ValveBank<Most> {
   using typename ValveBank<Most>::Answer, typename ValveBank<Most>::Memory,
       typename ValveBank<Most>::State, typename ValveBank<Most>::Valves;
 
-  // How many muscles there are, and how many bodies of air beside theirs.
+  // Return the number of muscles, and the number of states other than their masses.
   int muscles() const noexcept { return size_; }
   int others() const noexcept { return others_; }
   double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
 
-  // For steps in which densities leave the reach of their series as a rule.
+  // Selects a table for densities outside the series' range, for steps that often leave that range.
   void take_long_steps() { braids_.go_by_table(); }
 
-  // The first returns whether the machine has nothing but muscles between valves on a constant
-  // supply. The second also excludes later faults and valves that open gradually: for such machines
-  // plain_air.h calculates in lanes, with the numbers below.
+  // plain() returns whether the machine has only muscles between valves on a constant supply.
+  // plain_for_good() also excludes later faults and valves that open gradually: plain_air.h
+  // integrates such machines in lanes, with the values below.
   bool plain() const noexcept { return plain_; }
   bool plain_for_good() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
   const BraidLanes& braids() const noexcept { return braids_; }
   double supply_y() const noexcept { return supply_y_; }  // (P/P_atm)^(1/7) of the supply [-]
 
-  // Volume of the air in muscle i  [m^3], and its mass at this pressure and length [kg].
+  // Return the volume of the air in muscle i [m^3], and its mass at this pressure and length [kg].
   double volume(int i, double length) const noexcept;
   double mass_at(int i, double pressure, double length) const noexcept {
     return density(pressure) * volume(i, length);
   }
 
-  // All muscles at one absolute pressure and at rest, air at the wall's temperature.
+  // Returns the state with all muscles at rest at one absolute pressure, air at the wall's
+  // temperature.
   State initial(double pressure, const Lanes& length, double travel) const;
 
-  // Meshes that have stood at this pressure and length for long; the series stand on no base yet.
+  // Returns the memory after a long rest at this pressure and length, before the series have a
+  // base.
   Memory memory_at_rest(double pressure, const Lanes& length) const;
 
-  // Chambers and hoses of the muscles, and of a single-acting cylinder, filled to one absolute
-  // pressure, air at the wall's temperature: what an ideal regulator does.
+  // Sets chambers and hoses of the muscles, and of a single-acting cylinder, to one absolute
+  // pressure with air at the wall's temperature, as an ideal regulator would.
   void hold(double pressure, const Lanes& length, double travel, State& state) const noexcept;
 
-  // Sets the rates of what hold() sets to 0: it does not move by itself.
+  // Sets the rates of the states that hold() sets to 0.
   void hold_still(Answer& look) const noexcept;
 
-  // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
-  // or a leak.
+  // Returns the mass of the air in chambers, hoses and tank [kg]. It decreases only by what leaves
+  // through exhausts and leaks.
   double total_mass(const State& state, double travel) const noexcept;
 
-  // Does anything flow, warm or creep, or can it without a valve that moves?
+  // Returns whether air flows, warms or creeps, or can start to do so without a change of a valve.
   bool flowing(const Valves& valves) const noexcept {
     return restless_ || ramping_ || valves.open_count > 0 || valves.leaking;
   }
 
-  // At a node, with the look at it: the references of the series follow, the plays of the
-  // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
-  // does not turn between them. Answers what of the air is no number.
+  // Updates the memory at a node from the evaluation there: the references of the series and the
+  // plays of the hysteresis. Evaluations between two nodes use the memory of the last one, which is
+  // exact as long as no pressure reverses between them. Returns the first part of the air that is
+  // not finite or not physical.
   Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
 
-  // Muscles that always have a course while air flows: behind hoses that hold air and, while
-  // nothing is broken, behind regulators that are quick at any length.
+  // Returns the muscles, a bit each, that are always integrated ahead while air flows: those behind
+  // hoses that hold air and, while nothing is broken, behind regulators that are quick at any
+  // length.
   std::uint64_t always_ahead(const Valves& valves) const noexcept {
     return valves.broken ? behind_hoses_ : behind_hoses_ | behind_regulators_;
   }
 
-  // Returns the air of muscle i, and what has passed its valves and leaks since the start  [kg].
+  // Returns the air in muscle i, and the masses that have passed its valves and leaks so far [kg].
   Account account(const State& s, int i) const noexcept {
     return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
   }
-  // Pressure behind the valves of muscle i: its own, or that before a hose  [Pa].
+  // Returns the pressure behind the valves of muscle i: its own, or that before a hose [Pa].
   double manifold(const Answer& a, int i, const Valves& valves) const noexcept {
     return line(i).more || valves.broken ? a.manifold[i] : a.pressure[i];
   }
@@ -122,27 +126,28 @@ class BodiesOfAir : public ValveBank<Most> {
   double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
     return a.cylinder_pressure[static_cast<std::size_t>(side)];
   }
-  // `past_tank`: what the supply has given while a fault had cut it from its tank; below 0 it has
-  // taken more.
+  // Returns the supply's state. `past_tank` is the mass that the supply has delivered while a fault
+  // had cut it from its tank; it is negative if air has flowed back.
   SupplyState supply_state(const State& s, const Answer& a) const noexcept {
     return {a.supply_pressure, a.tank_pressure, cut_ == none ? 0.0 : other(s, cut_)};
   }
 
-  // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
-  // infinity [s]. Without a place, wherever the piston stands. With one, muscles that never seal
-  // are in it too: behind a regulator or a hose's chamber, or with a leak. Muscles behind shutters
-  // are not.
+  // Returns the longest step for which RK4 is stable: by the fastest chamber, lag or wall that an
+  // option adds, or infinity [s]. The first overload holds for every position of the piston. The
+  // second is for given positions and includes muscles that never seal (behind a regulator or a
+  // hose's chamber, or with a leak), but not muscles behind shutters.
   double longest_step() const noexcept;
   double longest_step(const Ends& ends, const Valves& valves) const noexcept;
 
-  // Returns the same for what goes through no step ahead of the body: warm walls, lags, creep, and
-  // what leaks behind a hose that holds no air.
+  // Returns the longest stable step of all that is never integrated ahead of the body: warm walls,
+  // lags, creep, and leaks behind a hose that holds no air [s].
   double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
 
-  // Returns the longest step in which the air of the cylinder's chambers changes little: its
-  // spring, gamma P A^2/V, moves the body by half a radian at most, and the piston takes an eighth
-  // of the room that it leaves. As a chamber vanishes both grow without bound; infinite without
-  // chambers. `lift_per_force`: acceleration of the body per force of the piston [1/kg].
+  // Returns the longest step in which the air of the cylinder's chambers changes little [s]: its
+  // spring, gamma P A^2/V, moves the body by half a radian at most, and the piston covers at most
+  // an eighth of the remaining volume. Both rates grow without bound as a chamber vanishes. Returns
+  // infinity without chambers. `lift_per_force`: acceleration of the body per force of the piston
+  // [1/kg].
   double longest_step_of_piston(const Ends& ends, const Answer& look,
                                 double lift_per_force) const noexcept;
 
@@ -153,15 +158,16 @@ class BodiesOfAir : public ValveBank<Most> {
       Bank::other, Bank::ramping_, Bank::rate_of, Bank::slope_of_faults, Bank::taps_;
   using typename Bank::Flows, typename Bank::Now, typename Bank::Tap;
 
-  // A line lies between a muscle's valves and its air; its numbers are among the others.
+  // The parts between a muscle's valves and its air, with the indices of their states; none: no
+  // state.
   struct Line {
-    int energy = none, hose = none, hose_energy = none;  // no hose's mass: it holds no air
-    bool resists = false, more = false;                  // a hose; more than valves
+    int energy = none, hose = none, hose_energy = none;  // a hose without volume has no mass
+    bool resists = false, more = false;                  // it has a hose; it has more than valves
     gas::HoseConstants hose_flow;
     gas::LeakConstants leak;
-    bool plays = false;                                          // it has hysteresis
-    std::array<int, actuator::Creep::most> late = {none, none};  // of the creep
-    double settling = 0;  // n R T times the slope of what never shuts; 0: all of it does [m^3/s]
+    bool plays = false;                                          // has hysteresis
+    std::array<int, actuator::Creep::most> late = {none, none};  // states of the creep
+    double settling = 0;  // n R T times the slope of the flow that never shuts, else 0 [m^3/s]
   };
   struct Slot {
     int mass = none, energy = none;
@@ -170,13 +176,13 @@ class BodiesOfAir : public ValveBank<Most> {
   struct Room {
     double volume = 0, rate = 0;  // [m^3], [m^3/s]
   };
-  // The line to the inlets.
+  // The line to the inlets: y = (P/P_atm)^(1/7).
   struct Inlets {
     double y = 1;
     bool cut = false;  // a fault has cut it from its tank
   };
 
-  // Makes the bodies of a machine, with what is broken on purpose.
+  // Builds the bodies of a machine, with its list of faults.
   BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
               const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults);
 
@@ -193,29 +199,29 @@ class BodiesOfAir : public ValveBank<Most> {
 
   int size_ = 0, others_ = 0;
   gas::Supply supply_;
-  double supply_y_ = 0;  // of its set pressure
+  double supply_y_ = 0;  // at its set pressure
   std::vector<Muscle> muscles_;
   BraidLanes braids_;
   RegulatorLanes regulators_;
-  bool in_lanes_ = false;  // all muscles go by braids_
-  bool plain_ = false;     // there is nothing but muscles between valves on a constant supply
+  bool in_lanes_ = false;  // all muscles are evaluated by braids_
+  bool plain_ = false;     // the machine has only muscles between valves on a constant supply
   std::optional<Cylinder> cylinder_;
 
   std::vector<Line> lines_;
-  std::vector<int> more_;      // the muscles whose line is more than valves
-  std::array<Slot, 2> sides_;  // of the cylinder
-  std::vector<int> lagging_;   // regulators whose outlet is a state: their valves
-  std::vector<int> held_;      // the others that hold() sets
+  std::vector<int> more_;      // muscles whose line has more than valves
+  std::array<Slot, 2> sides_;  // the cylinder's
+  std::vector<int> lagging_;   // valves of the regulators whose outlet pressure is a state
+  std::vector<int> held_;      // indices of the other states that hold() sets
   int tank_ = none;
   bool restless_ = false;
-  int cut_ = none;           // state: air from a line that is cut from its tank
-  double spring_ = 0;        // n R T: a chamber of volume V follows a slope G at n R T G/V
-  double lag_rate_ = 0;      // of the quickest lag or creep [1/s]
-  double longest_step_ = 0;  // of all that has the same rate wherever the machine stands [s]
-  std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
-  std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // that always go ahead
-  std::uint64_t beside_ = 0;                                // that go ahead by regulators_
-  bool settles_ = false;                                    // a line has `settling`
+  int cut_ = none;           // index of the state: mass from a line that is cut from its tank
+  double spring_ = 0;        // n R T: a chamber of volume V behind a slope G settles at n R T G/V
+  double lag_rate_ = 0;      // rate of the quickest lag or creep [1/s]
+  double longest_step_ = 0;  // for all parts whose rate does not depend on the position [s]
+  std::array<double, 2> side_settling_{};  // `settling` of the cylinder's chambers [m^3/s]
+  std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // always integrated ahead
+  std::uint64_t beside_ = 0;                                // integrated ahead by regulators_
+  bool settles_ = false;                                    // a line has a `settling` above 0
 
  private:
   void add_muscle(const Muscle& muscle);
@@ -266,7 +272,8 @@ BodiesOfAir<Most>::BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& 
   limit_step();
 }
 
-// A 3-way valve and a regulator serve both ways; no other valve stands beside them.
+// Adds a muscle with its valves. A 3-way valve and a regulator serve both ways and have no exhaust
+// valve.
 template <int Most>
 void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
   this->add_tap(m.inlet);
@@ -281,7 +288,7 @@ void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
   lines_.push_back(line);
 }
 
-// Makes room for what the mesh of muscle i remembers.
+// Allocates the states of hysteresis and creep of muscle i.
 template <int Most>
 void BodiesOfAir<Most>::add_memory(int i) {
   const actuator::Actuator& a = muscle(i).actuator;
@@ -309,8 +316,8 @@ void BodiesOfAir<Most>::add_cylinder() {
   }
 }
 
-// Finds what flows, warms or creeps although every valve is shut, and the lines with more than
-// valves.
+// Determines whether anything flows, warms or creeps although every valve is shut, and which lines
+// have more than valves.
 template <int Most>
 void BodiesOfAir<Most>::classify() {
   restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
@@ -354,7 +361,7 @@ double BodiesOfAir<Most>::hose_slope(const Line& line) const {
   return gas::hose_flow_y(line.hose_flow, y, y_less) / (1e-3 * p);
 }
 
-// A chamber of volume V whose flow has the slope G decays at n R T G/V.
+// Sets the longest step. A chamber of volume V whose flow has the slope G settles at n R T G/V.
 template <int Most>
 void BodiesOfAir<Most>::limit_step() {
   double rate = air_.wall_time > 0 ? 1.0 / air_.wall_time : 0.0;
@@ -386,8 +393,8 @@ void BodiesOfAir<Most>::limit_step() {
   longest_step_ = rate > 0 ? stable_decay / rate : never;
 }
 
-// Is muscle i, behind a regulator alone, quick for a step of a millisecond even where it holds most
-// air?
+// Returns whether muscle i, behind a regulator alone, is quick for a step of a millisecond even at
+// its largest volume.
 template <int Most>
 bool BodiesOfAir<Most>::always_quick(int i) const {
   const bool regulated = regulates(taps_[static_cast<std::size_t>(2 * i)].valve);
@@ -396,7 +403,7 @@ bool BodiesOfAir<Most>::always_quick(int i) const {
   return line(i).settling * 1e-3 > quick::from_rate * most;
 }
 
-// With the piston at the end of its stroke a chamber is the dead volume alone.
+// With the piston at the end of its stroke a chamber consists of the dead volume alone.
 template <int Most>
 double BodiesOfAir<Most>::longest_step() const noexcept {
   double fastest = stable_decay / longest_step_;
@@ -406,8 +413,8 @@ double BodiesOfAir<Most>::longest_step() const noexcept {
   return fastest > 0 ? stable_decay / fastest : never;
 }
 
-// Rates of a hose's chamber and of the muscle behind it add up, at most. A cylinder's chamber with
-// its valves shut has none. A fault that leaks may leak from either chamber of a muscle.
+// The rates of a hose's chamber and of the muscle behind it add up, at most. A cylinder's chamber
+// with its valves shut has no rate. A leak by a fault may be in either chamber of a muscle.
 template <int Most>
 double BodiesOfAir<Most>::longest_step(const Ends& ends, const Valves& valves) const noexcept {
   if (plain_ && !valves.leaking) return never;
@@ -464,7 +471,7 @@ double BodiesOfAir<Most>::longest_step_of_piston(const Ends& ends, const Answer&
   return longest;
 }
 
-// Returns the density of air at rest, by the chamber's law  [kg/m^3].
+// Returns the density of air at rest, by the chamber's law [kg/m^3].
 template <int Most>
 double BodiesOfAir<Most>::density(double pressure) const noexcept {
   return air_.wall_time > 0 ? pressure / (air_.gas_constant * air_.temperature)
@@ -547,8 +554,6 @@ double BodiesOfAir<Most>::total_mass(const State& state, double travel) const no
   return sum;
 }
 
-// The muscles whose lines are asked one by one: those with more than valves, and all of them while
-// something is broken.
 template <int Most>
 template <class Visit>
 void BodiesOfAir<Most>::each_line(const Valves& valves, Visit visit) const noexcept {
@@ -558,7 +563,7 @@ void BodiesOfAir<Most>::each_line(const Valves& valves, Visit visit) const noexc
     for (const int i : more_) visit(i);
 }
 
-// Returns y of the line to the inlets behind a tank  [-].
+// Returns y of the line to the inlets behind a tank [-].
 template <int Most>
 double BodiesOfAir<Most>::line_of_tank(const State& state, const Memory& memory,
                                        Answer& out) const noexcept {
@@ -569,7 +574,7 @@ double BodiesOfAir<Most>::line_of_tank(const State& state, const Memory& memory,
              : supply_y_;
 }
 
-// The pressure before the inlets, by tank and faults.
+// Returns the line before the inlets, which depends on tank and faults.
 template <int Most>
 auto BodiesOfAir<Most>::inlets(const State& state, const Valves& valves, const Memory& memory,
                                Answer& out) const noexcept -> Inlets {

@@ -1,4 +1,4 @@
-// Tubes that are more than a braid, in a network: they pull and hold air by actuator/body.h.
+// Actuators with more than a braid in a network: tension and volume follow actuator/body.h.
 #include "sinew/actuator/body.h"
 
 #include <gtest/gtest.h>

@@ -26,7 +26,7 @@ BraidLanes::BraidLanes(std::span<const Muscle> muscles, const gas::Air& air)
       inverse_reference_density_(1.0 / gas::density_at_atmosphere(air)),
       muscles_(muscles.begin(), muscles.end()),
       constants_(static_cast<std::size_t>(padded_ / lanes)) {
-  // Lanes beyond the last muscle repeat it: harmless numbers, never read.
+  // Lanes beyond the last muscle repeat it; their values are harmless and never read.
   for (int i = 0; i < padded_; i += lanes) {
     Constants& k = constants_[static_cast<std::size_t>(i / lanes)];
     std::array<BraidConstants<double>, lanes> each;
@@ -62,7 +62,7 @@ int BraidLanes::follow(const double* drift, double* y_ref, double* inverse_sigma
   int failed = -1;
   for (int i = 0; i < size_; ++i) {
     if (drift[i] < PowerSeries::rebase && drift[i] > -PowerSeries::rebase)
-      continue;  // what is no number goes on
+      continue;  // a NaN does not pass this test and fails below
     const double sigma = (drift[i] + 1.0) / inverse_sigma[i];
     if (!is_density(sigma) && failed < 0) failed = i;
     y_ref[i] = exact_y(sigma);
@@ -82,7 +82,7 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
     const BraidState<S> at{S(four(in.length + i)), S(four(in.rate + i)), S(four(in.mass + i)),
                            S(four(in.y_ref + i)), S(four(in.inverse_sigma + i))};
     const auto far = [&](const auto&, const S& x, S& y) __attribute__((always_inline)) {
-      // One by one out and in: a wide load would have to wait for narrow stores.
+      // Scalar stores and loads: a wide load after narrow stores would stall.
       double one[lanes] = {y[0], y[1], y[2], y[3]};
       far_roots(x.lanes, k.reach, in.inverse_sigma + i, one);
       y = S(Four{one[0], one[1], one[2], one[3]});
@@ -102,8 +102,8 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
   if (!all_stick_) loose_signs(in, out);
 }
 
-// Puts y beyond the reach of the series. Lanes beyond the last muscle go anywhere between two
-// nodes.
+// Writes y of the lanes that are outside the series' range. Between two nodes the lanes beyond the
+// last muscle may be anywhere.
 void BraidLanes::far_roots(const Four& drift, const Four& reach, const double* inverse_sigma,
                            double* root) const noexcept {
   for (int k = 0; k < lanes; ++k) {
@@ -118,7 +118,7 @@ void BraidLanes::sealed_mesh(const Given& in, const Filled& out) const noexcept 
     if (bound_by_sealed(i)) out.friction_bound[i] = sealed_bound(i, in.length[i], out.pressure[i]);
 }
 
-// Q times the stiffness that it was identified with.
+// Returns Q times the stiffness that it was identified with.
 double BraidLanes::sealed_bound(int i, double length, double pressure) const noexcept {
   const Muscle& m = muscles_[static_cast<std::size_t>(i)];
   const double sealed =
@@ -128,7 +128,7 @@ double BraidLanes::sealed_bound(int i, double length, double pressure) const noe
                                            air_.atmosphere, sealed);
 }
 
-// [33] as printed, sign(v): for actuators that do not stick.
+// Applies sign(v) as printed in [33] to actuators that do not stick.
 void BraidLanes::loose_signs(const Given& in, const Filled& out) const noexcept {
   for (int i = 0; i < size_; ++i) {
     if (sticks(i)) continue;

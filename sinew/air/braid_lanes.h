@@ -1,18 +1,19 @@
-// air/braid_lanes.h - pressures and tensions of all muscles of a machine, side by side:
-// [31]-[34] and [40] in lanes of four.
+// air/braid_lanes.h - pressures and tensions of all muscles of a machine, [31]-[34] and [40] in
+// lanes of four.
 //
 // State per muscle: the mass of its air. With sigma = m/V and x = sigma/sigma_ref - 1 the pressure
-// comes from
+// follows from
 //
 //   y = (P/P_atm)^(1/7) = y_ref (1 + x)^(n/7)
 //
-// by gas/power_series.h while x is small (the reference is taken anew, exactly, at a node from
-// |x| > 0.02 on), else by units::power, or by gas/power_series.h where that is the rule. No libm,
-// no branches between lanes: one muscle alone and among others has the same bits. The reference
-// belongs to the state: who restores a state restores its reference with it.
+// The power is a series (gas/power_series.h) while x is small, else units::power, or a table after
+// go_by_table(). From |x| > 0.02 on the reference is set to the exact value at the next node. The
+// code uses no libm and no branches between lanes: a muscle has the same bits alone and among
+// others. The reference belongs to the state and is saved and restored with it.
 //
-// For muscles that lanes_hold: the thesis's law of a braid with a linear bladder. Others go by
-// actuator/tension.h, which has the same laws in words; a test holds them together.
+// Holds for muscles for which lanes_hold() is true: the thesis's law of a braid with a linear
+// bladder. Other muscles use actuator/tension.h, a direct form of the same laws; a test compares
+// both.
 #pragma once
 
 #include <optional>
@@ -33,14 +34,14 @@ class BraidLanes {
   BraidLanes(std::span<const Muscle> muscles, const gas::Air& air);
 
   int size() const { return size_; }
-  int padded() const { return padded_; }  // to whole lanes, which repeat the last muscle
+  int padded() const { return padded_; }  // rounded up to whole lanes, which repeat the last muscle
 
-  const gas::PowerSeries& series() const { return series_; }  // y of the density
+  const gas::PowerSeries& series() const { return series_; }  // y as a function of the density
 
-  // From now on a table answers beyond the reach of the series: for steps that go there often.
+  // Selects a table for densities outside the series' range, for steps that often leave that range.
   void go_by_table() { table_.emplace(air_.polytropic_exponent / 7.0); }
 
-  // Returns what the series stand on before any look: the atmosphere.
+  // Returns the reference before the first evaluation: the density at the atmosphere.
   template <int Most>
   Reference<Most> reference() const {  // at the atmosphere
     Reference<Most> r{};
@@ -51,7 +52,7 @@ class BraidLanes {
     return r;
   }
 
-  // Lengths [m], rates [m/s] and masses [kg] give all of `out`, and y. Pure.
+  // Computes all of `out`, and y, from lengths [m], rates [m/s] and masses [kg].
   template <int Most>
   void evaluate(const Lanes<Most>& length, const Lanes<Most>& rate, const Lanes<Most>& mass,
                 const Reference<Most>& reference, Pull<Most>& out, Lanes<Most>& y) const noexcept {
@@ -61,8 +62,8 @@ class BraidLanes {
               out.friction_bound.of.data(), out.drift.of.data(), y.of.data()});
   }
 
-  // These return the constants of muscle i, whether its dry friction is bound by its sealed
-  // stiffness, and whether it sticks.
+  // Return the constants of muscle i, whether its dry friction is bounded by its sealed stiffness,
+  // and whether it sticks.
   BraidConstants<double> constants(int i) const {
     return units::lane_of<BraidConstants<double>>(
         constants_[static_cast<std::size_t>(i / lanes)].law, i % lanes);
@@ -70,27 +71,27 @@ class BraidLanes {
   bool bound_by_sealed(int i) const;
   bool sticks(int i) const;
 
-  // Returns y of a density by the power itself, for whoever is beyond the series  [-].
+  // Returns y of a density by the power itself, for densities outside the series' range [-].
   double exact_y(double density) const noexcept;
-  // Returns the bound of muscle i's dry friction by its sealed stiffness  [N].
+  // Returns the bound of muscle i's dry friction by its sealed stiffness [N].
   double sealed_bound(int i, double length, double pressure) const noexcept;
 
-  // At a node, after its evaluation: the reference follows where the density has drifted. Answers
-  // the first muscle whose density is none, or -1.
+  // Updates the references whose density has drifted; called at a node after its evaluation.
+  // Returns the first muscle whose density is not valid, or -1.
   template <int Most>
   int follow(const Lanes<Most>& drift, Reference<Most>& reference) const noexcept {
     return follow(drift.of.data(), reference.y.of.data(), reference.inverse_sigma.of.data());
   }
 
  private:
-  // Four bundles; lanes beyond the last muscle repeat it. Aligned for wide registers, whatever the
-  // file that makes it is compiled for.
+  // Four bundles; lanes beyond the last muscle repeat it. The alignment suits wide registers and
+  // does not depend on the compiler options of the including file.
   struct alignas(64) Constants {
     BraidConstants<units::Pack<lanes>> law;
-    Four reach;  // of the series; none of a lane to spare
+    Four reach;  // range of the series; infinite in lanes beyond the last muscle
   };
 
-  // evaluate() goes by the one and fills the other: whole lanes of each.
+  // Inputs and outputs of evaluate(): whole lanes of each.
   struct Given {
     const double *length, *rate, *mass, *y_ref, *inverse_sigma;
   };
@@ -111,7 +112,7 @@ class BraidLanes {
   std::optional<gas::PowerTable> table_;
   double inverse_reference_density_ = 0;
   std::vector<Muscle> muscles_;
-  std::vector<Constants> constants_;  // of each four lanes
+  std::vector<Constants> constants_;  // for each group of four lanes
   bool all_stick_ = true, any_sealed_ = false;
 };
 

@@ -23,7 +23,7 @@ BraidConstants<double> braid_constants(const Muscle& m, const gas::Air& air) {
   k.linear = k.cubic * k.thread2;
   k.external = m.external_volume;
 
-  // Absolute pressure as the argument: the polynomial about one atmosphere.
+  // For an absolute pressure as the argument, expands the polynomial about one atmosphere.
   const actuator::Effectiveness& e = a.effectiveness;
   const bool absolute = e.argument == actuator::Effectiveness::Argument::absolute;
   const double shift = absolute ? air.atmosphere : 0.0;

@@ -1,12 +1,12 @@
-// air/braid_law.h - what a bundle of braided actuators holds and pulls, [31]-[34], by its length
-// and y = (P/P_atm)^(1/7) of its air.
+// air/braid_law.h - air volume and tension of a bundle of braided actuators, [31]-[34], as
+// functions of its length and of y = (P/P_atm)^(1/7) of its air.
 //
-// actuator/tension.h and loss.h have the same laws in words, and a test holds them together. Here
-// is what can be multiplied beforehand multiplied out, and nothing branches: S is a pack
-// (units/pack.h), of a machine's muscles or of a muscle of machines side by side, or a double.
+// actuator/tension.h and loss.h have the same laws in direct form, and a test compares both. Here
+// constant products are multiplied out beforehand and nothing branches. S is a double or a pack
+// (units/pack.h) over the muscles of a machine, or over one muscle of several machines.
 //
-// For muscles that lanes_hold. Where the bound of the dry friction goes by the sealed stiffness
-// (Loss::Scale::sealed), and where nothing sticks, whoever asks finishes.
+// Holds for muscles for which lanes_hold() is true. The caller completes the dry friction where its
+// bound depends on the sealed stiffness (Loss::Scale::sealed) and where an actuator does not stick.
 #pragma once
 
 #include "sinew/air/muscle.h"
@@ -16,46 +16,46 @@
 
 namespace sinew::air {
 
-// Is there nothing of this muscle's law that lanes leave out?
+// Returns whether lanes include every part of this muscle's law.
 bool lanes_hold(const Muscle& muscle);
 
-// The count of actuators is folded in.
+// Constants of a bundle, multiplied with its number of actuators.
 template <class S>
 struct BraidConstants {
-  S thread2, cubic, linear, external;              // b^2; volume: external + l (linear - cubic l^2)
-  S c0, c1, c2, low, high;                         // effectiveness, of the gauge pressure
-  S viscous, bladder, bladder_rest;                // passive
+  S thread2, cubic, linear, external;  // b^2; volume: external + l (linear - cubic l^2)
+  S c0, c1, c2, low, high;             // effectiveness, as a function of the gauge pressure
+  S viscous, bladder, bladder_rest;    // passive
   S long_length, long_stiffness, long_damping;     // [32], [35]
   S short_length, short_stiffness, short_damping;  // end stop
-  S short_zero;                                    // 1 where [31]'s zero holds, else 0
-  S mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
+  S short_zero;                  // 1 if [31] sets the tension to 0 below the shortest length
+  S mesh_secant, mesh_constant;  // Q for [34], or the bound itself
 };
 
-// Returns a bundle's law for this air.
+// Returns the constants of a bundle for this air.
 BraidConstants<double> braid_constants(const Muscle& muscle, const gas::Air& air);
 
-// Absolute pressure [Pa]; tension of the bundle, and that of one held at both ends, negative where
-// it pushes [N]; bound of its dry friction [N].
+// Absolute pressure [Pa]; tension of the bundle, and that of a bundle held at both ends, which is
+// negative where it pushes [N]; bound of the dry friction [N].
 template <class S>
 struct BraidPull {
   S pressure, tension, clamped, friction_bound;
 };
 
-// The inputs of a bundle's pull: its length [m], the length's rate [m/s], its mass of air [kg],
-// and the reference of its density.
+// Inputs of a bundle's pull: its length [m], the length's rate [m/s], its mass of air [kg], and the
+// reference of its density.
 template <class S>
 struct BraidState {
   S length, rate, mass, y_ref, inverse_sigma;
 };
 
-// Returns the volume of the bundle's air  [m^3].
+// Returns the volume of the bundle's air [m^3].
 template <class S>
 [[gnu::always_inline]] inline S braid_volume(const BraidConstants<S>& k, const S& length) {
   const S inside = length * (k.linear - k.cubic * (length * length));
   return units::select(inside > 0.0, inside, 0.0) + k.external;
 }
 
-// Returns what a bundle pulls at a length [m], a rate of it [m/s] and y.
+// Returns the pressure and the tensions of a bundle at a length [m], its rate [m/s] and y.
 template <class S>
 [[gnu::always_inline]] inline BraidPull<S> braid_pull(const BraidConstants<S>& k,
                                                       const S& atmosphere, const S& length,
@@ -70,7 +70,7 @@ template <class S>
   const S squeezed = units::select(squeeze < 0.0, stop, 0.0);
   const S secant = k.mesh_secant * (length + k.short_length);
 
-  // Gauge pressure times effectiveness, and what it pulls with.
+  // Gauge pressure times effectiveness, and the tension.
   const S y2 = y * y, y4 = y2 * y2;
   const S pressure = (atmosphere * y4) * (y2 * y);
   const S gauge = pressure - atmosphere;
@@ -88,8 +88,8 @@ template <class S>
           .friction_bound = units::select(rub > 0.0, rub, 0.0)};
 }
 
-// Density against the reference, and y by the series: beyond its `reach` far(x, y) puts y. Returns
-// what the bundle pulls.
+// Returns the pressure and the tensions of a bundle. Also computes x, the density's deviation from
+// the reference, and y by the series; far(x, y) corrects y beyond the series' `reach`.
 template <class S, class Series, class Far>
 [[gnu::always_inline]] inline BraidPull<S> braid_at(const BraidConstants<S>& k,
                                                     const BraidState<S>& at, const S& atmosphere,

@@ -41,7 +41,7 @@ TEST(Cylinder, GeometryIsThatOfAPistonWithARod) {
   }
   EXPECT_EQ(volume(c, up, 0), c.dead_volume[up]);
   EXPECT_EQ(volume(c, down, c.stroke), c.dead_volume[down]);
-  // Both chambers open: no force, whatever the rod takes away.
+  // Both chambers open: no force, whatever the area of the rod.
   EXPECT_EQ(force(c, 1e5, 1e5, 1e5), 0);
 }
 
@@ -66,7 +66,7 @@ TEST(Cylinder, SealedItIsAGasSpring) {
   }
 }
 
-// Moved without heat it is on the adiabat, whatever exponent the air is given.
+// Without heat transfer the air is on the adiabat, whatever exponent it is given.
 TEST(Cylinder, MovedWithoutHeatItDoesItsWork) {
   const Cylinder c = thesis_cylinder();
   Air network({}, {.polytropic_exponent = 1, .wall_time = 1e7}, {}, c);
@@ -81,7 +81,7 @@ TEST(Cylinder, MovedWithoutHeatItDoesItsWork) {
   }
 }
 
-// A weight on it swings at sqrt(k/m), k = n sum P A^2/V.
+// A weight on it oscillates at sqrt(k/m), k = n sum P A^2/V.
 TEST(Cylinder, AWeightSwingsOnItAtItsFrequency) {
   const Cylinder c = thesis_cylinder();
   const gas::Air air{.polytropic_exponent = 1.4};
@@ -117,7 +117,7 @@ TEST(Cylinder, AWeightSwingsOnItAtItsFrequency) {
   EXPECT_NEAR((s - rest) / 1e-6, 1, 1e-4);
 }
 
-// 4.2: a known pressure lifts a known force, and its air is counted.
+// 4.2: a known pressure lifts a known force, and the mass of its air is counted.
 TEST(Cylinder, ARegulatorPushesWithPressureTimesArea) {
   Cylinder c = thesis_cylinder();
   c.mode = Cylinder::Mode::regulator;
@@ -136,7 +136,8 @@ TEST(Cylinder, ARegulatorPushesWithPressureTimesArea) {
   EXPECT_NEAR(hand.entered(), gas::density(air, 5e5) * area(c, down) * 0.03, 1e-15);
 }
 
-// Inlet and exhaust of one chamber open together, B.1: a pressure in between, and air that passes.
+// Inlet and exhaust of one chamber open together, B.1: a pressure in between, and air passes
+// through.
 TEST(Cylinder, BothValvesOpenSettleWhereTheirFlowsAgree) {
   const gas::Air air{.polytropic_exponent = 1};
   Air network({}, air, {}, thesis_cylinder());

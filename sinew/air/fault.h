@@ -1,16 +1,16 @@
 // air/fault.h - faults of a machine's air and their times: inputs of the air, as its valves are.
 //
-//   stuck_open, stuck_shut  the valve stands there, whatever its coil says; a 3-way valve joins its
+//   stuck_open, stuck_shut  the valve stays there, whatever its coil does; a 3-way valve joins its
 //                           muscle to the supply or to the room
 //   seat_leak               the valve does not seal: `share` of its area stays open, and `leak`
-//                           passes beside it, open or not
-//   hole                    the muscle loses air to the room, beside its own leak
+//                           bypasses it, open or not
+//   hole                    the muscle loses air to the room, in addition to its own leak
 //   blocked                 nothing passes the hose between the muscle and its valves
-//   supply                  the line to the inlets stands at `pressure`; a tank is cut off from it
+//   supply                  the line to the inlets has `pressure`; a tank is cut off from it
 //
 // A fault begins and ends at instants that are nodes, like the effective edges of valves: real
-// numbers, never rounded to ticks. At an instant at which one ends and another begins, the one ends
-// first. All of them are parts of the model; which act is state.
+// numbers, never rounded to ticks. If one fault ends at the instant at which another begins, the
+// end is applied first. The list of faults is part of the model; the set of active ones is state.
 #pragma once
 
 #include <algorithm>
@@ -24,50 +24,50 @@
 
 namespace sinew::air {
 
-// One thing that breaks, from when to when.
+// One fault with its begin and end.
 struct AirFault {
-  // Names what breaks: a valve is stuck, either way, or leaks at its seat; a muscle has a hole; a
-  // hose is blocked; the supply stands at another pressure.
+  // Names the kind: a valve is stuck, either way, or leaks at its seat; a muscle has a hole; a hose
+  // is blocked; the supply has another pressure.
   enum class What { stuck_open, stuck_shut, seat_leak, hole, blocked, supply };
 
   What what = What::stuck_open;
-  int of = 0;        // a valve, as AirNetwork numbers them, or a muscle; 0 of the supply
+  int of = 0;        // valve as numbered by AirNetwork, or muscle; 0 for the supply
   double begin = 0;  // [s]
   double end = std::numeric_limits<double>::infinity();  // [s]
   double share = 0;                                      // seat_leak: of the valve's area [-]
   gas::Leak leak;                                        // seat_leak, hole
   double pressure = 0;                                   // supply: absolute [Pa]
 
-  // Is a valve broken? Else a muscle, its hose, or the supply.
+  // Returns whether the fault is of a valve, else of a muscle, its hose, or the supply.
   bool of_valve() const { return what <= What::seat_leak; }
 };
 
-// Returns whether the fault moves the share of a valve's area and nothing else.
+// Returns whether the fault changes the open share of a valve's area and nothing else.
 inline bool is_share_of_valve(const AirFault& f) {
   return f.of_valve() && !(f.leak.area > 0) && !(f.leak.conductance > 0);
 }
 
-// The open share of the area of a valve that does not seal: its shutter covers the rest  [-].
+// Returns the open area share of a valve that does not seal: its shutter covers the rest [-].
 constexpr double open_share(double seat, double shutter) { return seat + (1.0 - seat) * shutter; }
 
-// The faults that act: the state of a schedule.
+// The active faults: the state of a schedule.
 struct ActingFaults {
-  std::uint64_t acting = 0;  // a bit each
-  std::int32_t passed = 0;   // instants of the schedule
+  std::uint64_t acting = 0;  // a bit for each fault
+  std::int32_t passed = 0;   // number of instants passed in the schedule
 
-  // Is anything broken now?
+  // Returns whether any fault is active.
   bool any() const { return acting != 0; }
 };
 
-// All faults of a machine, and which of them act at an instant.
+// All faults of a machine; determines which are active at an instant.
 class FaultSchedule {
  public:
   static constexpr std::size_t capacity = 64;
 
   FaultSchedule() = default;
 
-  // Throws std::invalid_argument for more faults than `capacity` and for one that ends before it
-  // begins.
+  // Throws std::invalid_argument for more faults than `capacity` and for a fault that ends before
+  // it begins.
   explicit FaultSchedule(std::span<const AirFault> faults) : faults_(faults.begin(), faults.end()) {
     if (faults_.size() > capacity) throw std::invalid_argument("at most 64 faults of the air");
     for (std::size_t i = 0; i < faults_.size(); ++i) {
@@ -82,16 +82,16 @@ class FaultSchedule {
   }
 
   bool empty() const noexcept { return faults_.empty(); }
-  // Returns all of them, as they were given.
+  // Returns all faults in the given order.
   const std::vector<AirFault>& all() const noexcept { return faults_; }
 
-  // The next instant at which a fault begins or ends, or infinity  [s].
+  // Returns the next instant at which a fault begins or ends, or infinity [s].
   double next(const ActingFaults& now) const noexcept {
     const auto i = static_cast<std::size_t>(now.passed);
     return i < instants_.size() ? instants_[i].at : std::numeric_limits<double>::infinity();
   }
 
-  // Passes all instants up to t, one after the other: told(fault, begins).
+  // Passes all instants up to t in order and calls told(fault, begins) for each.
   template <class Told>
   void advance(double t, ActingFaults& now, Told told) const noexcept {
     while (next(now) <= t) {
@@ -102,14 +102,14 @@ class FaultSchedule {
     }
   }
 
-  // visit(number, fault) of each that acts, in their order.
+  // Calls visit(number, fault) for each active fault in order.
   template <class Visit>
   void each(const ActingFaults& now, Visit visit) const noexcept {
     for (std::size_t i = 0; i < faults_.size() && now.acting >> i != 0; ++i)
       if ((now.acting >> i & 1) != 0) visit(i, faults_[i]);
   }
 
-  // Share of its area that a valve with a leaking seat leaves open, 0 of any other  [-].
+  // Returns the share of its area that a valve with a leaking seat leaves open, else 0 [-].
   double seat(int valve, const ActingFaults& now) const noexcept {
     double share = 0;
     if (now.any())

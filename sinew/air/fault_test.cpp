@@ -1,5 +1,4 @@
-// Each fault of the air does what it says, no air is made or lost by it, and a
-// machine without one, or before one, is what it was.
+// Each fault of the air has its effect, conserves air, and changes nothing before it begins.
 #include "sinew/air/fault.h"
 
 #include <gtest/gtest.h>
@@ -42,8 +41,8 @@ TEST(FaultSchedule, RefusesWhatItCannotHold) {
   EXPECT_THROW(FaultSchedule(std::vector<AirFault>{{.begin = 1, .end = 1}}), std::invalid_argument);
 }
 
-// Returns faults of each kind on any part, at any time, for a while or for good, of the network
-// that has everything. Faults of one part may follow each other, or come at once.
+// Returns faults of each kind on any part, at any time, temporary or permanent, for the network of
+// everything(). Faults of one part may follow each other or coincide.
 std::vector<AirFault> any_faults(std::mt19937& random) {
   std::uniform_real_distribution<double> begins(0, 0.5), lasts(1e-3, 0.2);
   const auto pick = [&](int count) {
@@ -127,7 +126,7 @@ TEST(Faults, AHoleEmptiesAsItsLawSays) {
   EXPECT_LT(hand.now.pressure[0], 5.9 * bar);
 }
 
-// Its commands go on meanwhile, and at its end it opens after the delay of an edge there.
+// Commands continue meanwhile, and at its end the valve opens after the delay of an edge there.
 TEST(Faults, AnInletThatIsStuckShutLetsNoAirIn) {
   const Broken machine;
   const Air network = machine.network({.what = What::stuck_shut, .begin = 0.01, .end = 0.05});
@@ -179,7 +178,7 @@ TEST(Faults, ABlockedHoseKeepsTheMusclesAir) {
   }
 }
 
-// The law of a valve runs both ways: what is above the line's pressure flows back into it.
+// The law of a valve holds in both directions: air above the line's pressure flows back into it.
 TEST(Faults, AFailedSupplyFillsNoFurtherAndTakesBackWhatIsAbove) {
   const gas::Supply tank{.kind = gas::Supply::Kind::tank,
                          .pressure = 6 * bar,

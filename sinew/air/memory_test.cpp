@@ -1,4 +1,4 @@
-// Meshes that remember, in a network: hysteresis and creep against their laws.
+// Hysteresis and creep of muscles in a network against their laws.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ double static_tension(const Muscle& m, double length, double gauge) {
 
 TEST(Memory, IsNothingThatLanesHold) {
   Muscle m = plain_bundle();
-  m.actuator.hysteresis.volume_pressure = 5 * bar;  // without a width it is nothing
+  m.actuator.hysteresis.volume_pressure = 5 * bar;  // without a width it has no effect
   EXPECT_TRUE(lanes_hold(m));
   m.actuator.hysteresis.half_width = 1;
   EXPECT_FALSE(lanes_hold(m));
@@ -38,7 +38,7 @@ TEST(Memory, IsNothingThatLanesHold) {
   EXPECT_FALSE(lanes_hold(m));
 }
 
-// A muscle that has stood for long starts without friction, with its creep done.
+// After a long rest a muscle starts without friction and with its creep complete.
 TEST(Memory, StartsAtRest) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis = {.half_width = 0.05 * bar, .volume_pressure = 10 * bar};
@@ -72,7 +72,7 @@ TEST(Memory, FillAndVentLoop) {
   expect_off(w);
 }
 
-// Every state's rate is set, whatever stood there before.
+// Every state's rate is set, whatever value was there before.
 TEST(Memory, RatesAreAllSet) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis = {.half_width = 0.05 * bar};
@@ -88,7 +88,7 @@ TEST(Memory, RatesAreAllSet) {
     EXPECT_EQ(out.rate[static_cast<std::size_t>(i)], 0) << i;
 }
 
-// Nodes do not matter: what is remembered depends on the turns of the pressure alone.
+// Nodes do not matter: the memory depends only on the reversals of the pressure.
 TEST(Memory, TheStepDoesNotMatterToThePlay) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis = {.half_width = 0.05 * bar, .width_per_pressure = 0.01};
@@ -108,7 +108,8 @@ TEST(Memory, TheStepDoesNotMatterToThePlay) {
   EXPECT_NEAR(last[0] / last[1], 1, 1e-6);
 }
 
-// Pressure held: the tension's last part comes exponentially. Air and the valves do not notice.
+// Constant pressure: the last part of the tension follows exponentially; air and valves are
+// unaffected.
 TEST(Memory, CreepIsExponential) {
   Muscle m = plain_bundle();
   m.actuator.effectiveness = {.c0 = 0.9};
@@ -134,7 +135,7 @@ TEST(Memory, CreepIsExponential) {
   }
 }
 
-// An element quicker than the steps is found in the longest step.
+// The longest step respects an element that is quicker than the steps.
 TEST(Memory, QuickCreepShortensTheStep) {
   Muscle m = plain_bundle();
   m.actuator.creep = {.share = {0.05, 0.01}, .time = {10, 1e-4}};
@@ -143,8 +144,8 @@ TEST(Memory, QuickCreepShortensTheStep) {
   EXPECT_TRUE(network.flowing(network.valves_at_rest()));
 }
 
-// A bundle's work on what moves it, once round a loop of length at nearly one pressure (a large
-// vessel), with the friction of pressure turned by length: what is taken is near 2 w DV.
+// The work of a bundle over a cycle of its length at nearly constant pressure (a large vessel),
+// with the friction of pressure turned by length, is a loss near 2 w DV.
 TEST(Memory, HysteresisTakesWork) {
   Muscle m = plain_bundle();
   m.actuator.loss = {};
@@ -167,7 +168,7 @@ TEST(Memory, HysteresisTakesWork) {
   }
   const double dv = m.count * (actuator::volume(m.actuator.braid, 2.7 * inch) -
                                actuator::volume(m.actuator.braid, 3.7 * inch));
-  // The friction is w of pressure, so Eff of it arrives.
+  // The friction is w in pressure, of which Eff acts.
   const double eff = actuator::effectiveness(m.actuator.effectiveness, 4 * bar - 101325, 101325) +
                      (4 * bar - 101325) * (m.actuator.effectiveness.c1 +
                                            2 * m.actuator.effectiveness.c2 * (4 * bar - 101325));

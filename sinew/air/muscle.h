@@ -1,4 +1,4 @@
-// air/muscle.h - what pulls a joint: braided actuators in parallel, their air, their valves.
+// air/muscle.h - muscle of a joint: braided actuators in parallel, their air, their valves.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ struct Muscle {
   actuator::Actuator actuator;  // one of the bundle
   int count = 1;                // in parallel, sharing one air volume
   double external_volume = 0;   // hoses and fittings of the bundle, downstream of the valves [m^3]
-  gas::Valve inlet;             // from the supply; a 3-way valve stands here and serves both ways
+  gas::Valve inlet;             // supply side; a 3-way valve or a regulator serves both ways
   gas::Valve exhaust;           // to the atmosphere
   gas::Hose hose;               // between the valves and the rest
-  gas::Leak leak;               // of the muscle
+  gas::Leak leak;               // leak of the muscle
 };
 
 }  // namespace sinew::air

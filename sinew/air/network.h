@@ -1,28 +1,29 @@
-// air/network.h - the air of a machine: bodies of air (chambers of muscles and of a cylinder,
-// hoses, a tank, the room) joined by restrictions (valves, regulators, hoses, leaks), with the
-// muscles that they fill. The air half of one ODE; world/kernel/world.h integrates it with a body:
+// air/network.h - air network of a machine: bodies of air (chambers of muscles and of a cylinder,
+// hoses, a tank, the room) joined by restrictions (valves, regulators, hoses, leaks), and the
+// tensions of the muscles that they fill. It is the air half of one ODE; world/kernel/world.h
+// integrates it together with a body:
 //
 //   lengths, rates, state, valves, memory  ->  tensions, pressures, flows
 //
-//   State    what is integrated, and what has passed the valves since the start
-//   Valves   until the next node: where valves, set points and faults stand
-//   Memory   until the next node: what the series stand on, where hysteresis stands
-//   Answer   all that one evaluation yields
+//   State    integrated quantities, and the masses that have passed the valves since the start
+//   Valves   constant until the next node: positions of valves, set points and faults
+//   Memory   constant until the next node: bases of the series, states of the hysteresis
+//   Answer   result of one evaluation
 //
-//   order    command() at t, from the look at the last node
-//            move_valves(t) at next_change() and wherever the integrator wants a node, then
-//            evaluate, and remember what the look at the node says
+//   order    command() at t, with the evaluation at the last node
+//            move_valves(t) at next_change() and wherever the integrator requires a node, then
+//            evaluate(), and remember() with that evaluation
 //
-// A network itself is constant: whoever integrates owns the state.
+// A network itself is constant; its caller owns the state.
 //
-// The state of a body of air is its mass, [40], and its energy where walls are warm. Muscles go
-// side by side by braid_lanes.h where it holds them and no wall is warm, else one after the other
-// by actuator/tension.h. What a machine does not have costs nothing: a muscle between two valves is
-// lanes and a flow per open valve; only lines with more (a hose, a leak, a regulator, a warm wall),
-// and all of them while something is broken, are evaluated one by one.
+// The state of a body of air is its mass, [40], and its energy where walls are warm. Muscles are
+// evaluated in lanes by braid_lanes.h if it supports all of them and no wall is warm, else one
+// after the other by actuator/tension.h. Parts that a machine does not have cost nothing: a muscle
+// between two valves costs a lane and a flow per open valve. Only lines with more (a hose, a leak,
+// a regulator, a warm wall), and all lines while something is broken, are evaluated one by one.
 //
 //   valve_bank.h    valves and regulators with their faults    bodies.h  the bodies of air
-//   quick_bodies.h  those that are quicker than a step         here      what flows between them
+//   quick_bodies.h  those that are quicker than a step         here      the flows between them
 //
 // The laws: gas/orifice.h, hose.h, leak.h, heat.h, supply.h, valve.h, cylinder.h,
 // actuator/hysteresis.h, creep.h.
@@ -42,7 +43,7 @@
 
 namespace sinew::air {
 
-// For at most `Most` muscles: compiled for 4, 8 and 48.
+// Air network for at most `Most` muscles: compiled for 4, 8 and 48.
 template <int Most>
 class AirNetwork : public QuickBodies<Most> {
   using Quick = QuickBodies<Most>;
@@ -58,36 +59,36 @@ class AirNetwork : public QuickBodies<Most> {
              const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {})
       : Quick(muscles, air, supply, cylinder, faults) {}
 
-  // An electrical edge of a valve at t, or a regulator's set point from t on, not before the last
-  // node. `at_node`: the look at that node, for delays and failures that depend on the pressure
-  // difference.
+  // Applies an electrical edge of a valve at t, or a regulator's set point from t on; t is not
+  // before the last node. `at_node`: the evaluation at that node, for delays and failures that
+  // depend on the pressure difference.
   void command(const signals::Edge& edge, double t, const Answer& at_node,
                Valves& valves) const noexcept {
     Quick::command(edge, t, difference(edge.valve.index, at_node, valves), valves);
   }
 
-  // At a node: valves, set points and faults move to t. `before`: the look at the last node, for
-  // the delay of a shutter that a fault lets go.
+  // Moves valves, set points and faults to the node at t. `before`: the evaluation at the last
+  // node, for the delay of a shutter that a fault releases.
   void move_valves(double t, const Answer& before, Valves& valves) const noexcept {
     if (valves.next_change > t) return;
     Quick::move(
         t, [&](int valve) { return difference(valve, before, valves); }, valves);
   }
 
-  // The law itself; t matters only to valves that ramp. `ahead`: muscles that go by a course, a bit
-  // each: their flows are nobody's affair.
+  // Evaluates the laws; t matters only to valves that ramp. `ahead`: a bit for each muscle that is
+  // integrated ahead, whose flows are not computed.
   void evaluate(double t, const Ends& ends, const State& state, const Valves& valves,
                 const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
 
-  // The stages of RK4: the state, h along the rates of one look, what has passed since the start
-  // apart (`out` is another one than `from`); and the state, by the weighted mean of four looks.
-  // What has a course goes by it.
+  // The stages of RK4. move() writes the state at h along the rates of one evaluation, without the
+  // masses passed since the start; `out` must not be `from`. finish() advances the state by the
+  // weighted mean of four evaluations. Bodies in the course take their masses from there.
   void move(State& out, const State& from, double h, const Answer& look, const Valves& valves,
             const Course& course) const noexcept;
   void finish(State& state, double h, const Answer* const (&look)[4], const Valves& valves,
               const Course& course) const noexcept;
 
-  // The second half of Heun's rule, for a peek; move() is the first.
+  // Writes the second half of Heun's rule, for a preview; move() is the first half.
   void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
                const Valves& valves, const Course& course) const noexcept;
 
@@ -132,7 +133,8 @@ class AirNetwork : public QuickBodies<Most> {
   void add_course(State& out, Mean mean, const Course& course) const noexcept;
 };
 
-// Returns how much higher the pressure is on the side that the valve holds back  [Pa].
+// Returns the pressure difference that the valve holds back, positive in its direction of flow
+// [Pa].
 template <int Most>
 double AirNetwork<Most>::difference(int valve, const Answer& at_node,
                                     const Valves& valves) const noexcept {
@@ -161,12 +163,12 @@ void AirNetwork<Most>::evaluate(double t, const Ends& ends, const State& state,
     run_options({t, supply.y, state, valves, memory, ahead}, supply.cut, ends, y, out);
 }
 
-// All that a machine has beside muscles between valves.
+// Evaluates all parts of a machine other than muscles between valves.
 template <int Most>
 void AirNetwork<Most>::run_options(const Now& now, bool cut, const Ends& ends, const Lanes& y,
                                    Answer& out) const noexcept {
   each_line(now.valves, [&](int i) {
-    if ((now.ahead >> i & 1) != 0 && line(i).hose == none) {  // flows are its course's affair
+    if ((now.ahead >> i & 1) != 0 && line(i).hose == none) {  // flows come from its course
       out.manifold[i] = out.pressure[i];
       out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
       return;
@@ -181,7 +183,7 @@ void AirNetwork<Most>::run_options(const Now& now, bool cut, const Ends& ends, c
   run_supply(now, cut, out);
 }
 
-// Flows of the muscles that have nothing but valves, which may be shut.
+// Computes the flows of the muscles that have only valves, which may be shut.
 template <int Most>
 void AirNetwork<Most>::open_taps(double t, double y_supply, const Lanes& y, const Valves& valves,
                                  Answer& out) const noexcept {
@@ -204,7 +206,7 @@ void AirNetwork<Most>::open_taps(double t, double y_supply, const Lanes& y, cons
     }
 }
 
-// Pressures and tensions of muscles that lanes do not hold.
+// Computes pressures and tensions of muscles that lanes do not support.
 template <int Most>
 void AirNetwork<Most>::one_by_one(const Ends& ends, const State& state, const Memory& memory,
                                   Answer& out, Lanes& y) const noexcept {
@@ -225,8 +227,8 @@ void AirNetwork<Most>::one_by_one(const Ends& ends, const State& state, const Me
   }
 }
 
-// Returns all of [31]-[35] but the dry friction, by the pressure that the mesh feels, and what
-// comes late  [N].
+// Returns [31]-[35] without the dry friction, at the pressure after hysteresis, and with the creep
+// [N].
 template <int Most>
 double AirNetwork<Most>::smooth_tension(int i, double length, double rate, double gauge,
                                         const State& state, const Memory& memory,
@@ -237,7 +239,7 @@ double AirNetwork<Most>::smooth_tension(int i, double length, double rate, doubl
   if (l.plays) {
     const actuator::Felt felt = actuator::felt(m.actuator, length, gauge, memory.play[i]);
     feels = felt.gauge_pressure;
-    out.play[i] = felt.play;  // moved by remember() alone
+    out.play[i] = felt.play;  // applied by remember() alone
   }
   double one = actuator::clamped_tension(m.actuator, length, rate, feels, air_.atmosphere);
   for (std::size_t k = 0; k < l.late.size(); ++k) {
@@ -251,7 +253,7 @@ double AirNetwork<Most>::smooth_tension(int i, double length, double rate, doubl
   return m.count * one;
 }
 
-// [31]-[35] of the bundle.
+// Computes [31]-[35] of the bundle.
 template <int Most>
 void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, const State& state,
                             const Memory& memory, Answer& out) const noexcept {
@@ -267,7 +269,7 @@ void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, 
   const double bound =
       m.count * actuator::coulomb_bound(m.actuator, length, gauge, air_.atmosphere, sealed);
 
-  // A cord cannot push; without stick [33] as printed, sign(v).
+  // A tendon cannot push; without stick [33] has sign(v), as printed.
   const bool stick = m.actuator.loss.stick;
   const double cord = std::max(smooth, 0.0);
   out.tension[i] = stick ? cord : std::max(cord + (rate >= 0 ? bound : -bound), 0.0);
@@ -276,8 +278,8 @@ void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, 
   out.pressure[i] = pressure;
 }
 
-// Returns m' c_p T of a flow between two bodies of air; against its arrow it has the other's
-// temperature  [W].
+// Returns m' c_p T of a flow between two bodies of air, with the temperature of the body that it
+// comes from [W].
 template <int Most>
 double AirNetwork<Most>::enthalpy(double flow, double from, double to) const noexcept {
   return flow * (gas::heat_capacity_pressure(air_) * (flow > 0 ? from : to));
@@ -290,7 +292,7 @@ double AirNetwork<Most>::warming(int energy, double mass, const State& state, do
   return gained - work + gas::heat_flow(air_, other(state, energy), mass);
 }
 
-// Flows of the valves where the hose holds no air: what they let in goes through it.
+// Returns the flows of the valves where the hose holds no air: both flows in series are equal.
 template <int Most>
 auto AirNetwork<Most>::series(int i, const Now& now, const Chamber& c, Answer& out) const noexcept
     -> Flows {
@@ -322,7 +324,7 @@ auto AirNetwork<Most>::hose(int i, const Now& now) const noexcept -> Chamber {
   return {gas::pressure_of_y(air_, y), y, air_.temperature};
 }
 
-// Air of muscle i: valves, hose, leak.
+// Computes the flows of muscle i: valves, hose, leak.
 template <int Most>
 void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const Chamber& c,
                                 Answer& out) const noexcept {
@@ -338,7 +340,7 @@ void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const C
   const double room = air_.temperature;
   const bool passes = !blocked(i, now.valves);
   Flows valves;
-  double arrives = 0, there = room;  // in the muscle [kg/s], from air of this temperature
+  double arrives = 0, there = room;  // into the muscle [kg/s], from air of this temperature
   if (l.hose != none) {
     const Chamber h = hose(i, now);
     arrives = passes ? gas::hose_flow_y(l.hose_flow, h.y, c.y) : 0.0;
@@ -376,7 +378,7 @@ template <int Most>
 void AirNetwork<Most>::run_cylinder(const Now& now, const Ends& ends, Answer& out) const noexcept {
   const Cylinder& c = *cylinder_;
   if (c.mode == Cylinder::Mode::regulator) {
-    // Held pressure: the regulator lets in or relieves what the volume asks for.
+    // Held pressure: the regulator admits or relieves the air for the change of volume.
     const double held = std::min(c.pressure, out.supply_pressure);
     const double flow = gas::density(air_, held) * volume_slope(c, down) * ends.travel_rate;
     out.cylinder_pressure = {air_.atmosphere, held};
@@ -419,7 +421,7 @@ void AirNetwork<Most>::run_cylinder(const Now& now, const Ends& ends, Answer& ou
       force(c, out.cylinder_pressure[up], out.cylinder_pressure[down], air_.atmosphere);
 }
 
-// Regulators follow their set points; the tank loses what the inlets take.
+// Computes the rates of the regulators' outlets and of the tank, which loses the inlets' flow.
 template <int Most>
 void AirNetwork<Most>::run_supply(const Now& now, bool cut, Answer& out) const noexcept {
   for (const int valve : lagging_) {
@@ -435,7 +437,7 @@ void AirNetwork<Most>::run_supply(const Now& now, bool cut, Answer& out) const n
   if (cut_ != none) rate_of(out, cut_) = cut ? taken : 0.0;
 }
 
-// Only the masses: what has passed is summed where the step ends.
+// Advances only the masses; what has passed is summed at the end of the step.
 template <int Most>
 void AirNetwork<Most>::move(State& out, const State& from, double h, const Answer& look,
                             const Valves& valves, const Course& course) const noexcept {
@@ -480,8 +482,8 @@ void AirNetwork<Most>::correct(State& out, const State& from, double h, const An
       out, from, [&](auto&& of) { return half * (of(before) + of(after)); }, valves, course);
 }
 
-// Adds the mean of every rate: mean(of) is the step's length times the mean of of(look). `out` may
-// be `from`.
+// Adds the mean of every rate: mean(of) is the step's length times the mean of of(evaluation).
+// `out` may be `from`.
 template <int Most>
 template <class Mean>
 void AirNetwork<Most>::add(State& out, const State& from, Mean mean, const Valves& valves,
@@ -512,8 +514,8 @@ void AirNetwork<Most>::add(State& out, const State& from, Mean mean, const Valve
   if (course.count > 0) add_course(out, mean, course);
 }
 
-// Puts in the place of what the looks said of a body what its course says. The supply has given
-// that, too.
+// Replaces the flows and masses of each body that was integrated ahead by those of its course, and
+// corrects the mass that the supply has delivered.
 template <int Most>
 template <class Mean>
 void AirNetwork<Most>::add_course(State& out, Mean mean, const Course& course) const noexcept {
@@ -541,7 +543,7 @@ void AirNetwork<Most>::add_course(State& out, Mean mean, const Course& course) c
       other(out, sides_[c].mass) = cell.full;
     }
     if (tank_ == none) continue;
-    // The rates of tank and of a cut line are those of all inlets: one of them is nothing.
+    // Tank and cut line sum the flows of all inlets; the line in use takes the correction.
     const bool cut = course.cut;
     other(out, cut ? cut_ : tank_) += cut ? in : -in;
   }

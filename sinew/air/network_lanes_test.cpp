@@ -1,5 +1,5 @@
-// Muscles between valves are the actuator's and the gas's laws in lanes: the same numbers, whatever
-// stands beside.
+// Muscles between valves in lanes have the results of the actuator's and the gas's laws, whatever
+// other parts the machine has.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace sinew::air::network_lanes_test {
 namespace {
 
-// A network with its valves and memory beside it, asked for any lengths and masses.
+// A network with its valves and memory, evaluated at any lengths and masses.
 class ByHand : public Air {
  public:
   ByHand(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply)
@@ -67,7 +67,7 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
     }
     Air::Answer pull;
     network.evaluate(0, length, rate, mass, pull);
-    network.follow(pull);  // from now on by the series about this state
+    network.follow(pull);  // from here on the series has this state as its base
     network.evaluate(0, length, rate, mass, pull);
     for (int i = 0; i < 6; ++i) {
       const Muscle& m = muscles[static_cast<std::size_t>(i)];
@@ -84,7 +84,7 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
   }
 }
 
-// Beyond the reach of the series, in any lane, and a new base of the series there.
+// Outside the range of the series, in any lane, and a new base of the series there.
 TEST(AirInLanes, ATableAnswersAsThePowerDoes) {
   const Machine k;
   std::vector<Muscle> muscles;
@@ -113,7 +113,7 @@ TEST(AirInLanes, ATableAnswersAsThePowerDoes) {
   }
 }
 
-// Every switch of the losses and of the short end, against the laws in words.
+// Every switch of the losses and of the short end, against the direct form of the laws.
 TEST(AirInLanes, SwitchesAreTheLawsInWords) {
   using Scale = actuator::Loss::Scale;
   using Law = actuator::ShortEnd::Law;
@@ -214,7 +214,7 @@ TEST(AirInLanes, AMuscleHasTheSameBitsAloneAndAmongOthers) {
   }
 }
 
-// A chamber of constant length: fill, then seal, then vent. Nothing but the mass moves.
+// A chamber of constant length: fill, then seal, then vent. Only the mass changes.
 TEST(AirInLanes, FlowsFollowTheValvesAndTheirDelays) {
   const Machine k;
   const std::vector<Muscle> one{bundle(0)};
@@ -224,7 +224,7 @@ TEST(AirInLanes, FlowsFollowTheValvesAndTheirDelays) {
     length[i] = 3.15 * inch;
     mass[i] = network.mass_at(0, k.air.atmosphere, length[i]);
   }
-  Air::Answer pull;  // of whoever asks, again and again: nothing old may stay in it
+  Air::Answer pull;  // reused, to show that no old value stays in it
   pull.inflow[0] = pull.outflow[0] = 7;
   const auto flows = [&](double t) {
     network.node(t);

@@ -1,4 +1,4 @@
-// With nothing switched on the network says what the bank says; what an option adds obeys its law.
+// Without options the network has the results of the braid lanes; each option follows its law.
 #include "sinew/air/network.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace sinew::air::network_test {
 namespace {
 
-// Everything that lanes hold: bundles, losses, ends, 2-way and 3-way valves, ramps.
+// Everything that lanes support: bundles, losses, ends, 2-way and 3-way valves, ramps.
 std::vector<Muscle> any_muscles(std::mt19937& random) {
   using Scale = actuator::Loss::Scale;
   using Law = actuator::ShortEnd::Law;
@@ -34,8 +34,8 @@ std::vector<Muscle> any_muscles(std::mt19937& random) {
   return muscles;
 }
 
-// Parts that stand beside them change no bit of muscles between valves; and where one of them goes
-// by its law in words, all do, to rounding.
+// Other parts change no bit of muscles between valves; if one of them needs the direct form of its
+// law, all use it, with the same results to rounding.
 TEST(AirNetwork, MusclesAreTheSameWhateverStandsBeside) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> lengths(2.2 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -45,7 +45,7 @@ TEST(AirNetwork, MusclesAreTheSameWhateverStandsBeside) {
     std::vector<Muscle> muscles = any_muscles(random);
     const Air plain(muscles, air, {});
     const Air beside(muscles, air, {}, thesis_cylinder());
-    muscles[7].actuator.hysteresis.half_width = 1e-9;  // nothing, but no lane holds it
+    muscles[7].actuator.hysteresis.half_width = 1e-9;  // negligible, but lanes do not support it
     const Air in_words(muscles, air, {});
 
     Air::Ends ends{};

@@ -27,7 +27,7 @@ double volume_of(const Muscle& m, double length) {
 
 gas::Air isothermal() { return {.polytropic_exponent = 1}; }
 
-// Whatever happens, air is in the machine or has left it.
+// In every case air is in the machine or has left it.
 TEST(AirNetwork, AirIsConserved) {
   for (const double wall_time : {0.0, 0.2}) {
     const gas::Air air{.polytropic_exponent = 1.1, .wall_time = wall_time};
@@ -69,7 +69,7 @@ TEST(AirNetwork, AnInfiniteTankIsAConstantSupply) {
   EXPECT_NEAR(without.now.pressure[0] / with.now.pressure[0], 1, 1e-9);
 }
 
-// Isothermal: in the end one pressure, all air at (V_tank + V) of it.
+// Isothermal: finally one pressure, and all air is (V_tank + V) at that pressure.
 TEST(AirNetwork, ATankSharesItsAirWithTheMuscles) {
   const std::vector<Muscle> one{ideal_bundle()};
   const gas::Supply tank{.kind = gas::Supply::Kind::tank,
@@ -144,7 +144,7 @@ TEST(AirNetwork, LinearRestrictionsInSeriesAddTheirResistances) {
   EXPECT_NEAR(hand.now.inflow[0] / (dp * g1 * g2 / (g1 + g2)), 1, 1e-9);
 }
 
-// From where the inlet is no longer choked, so that what is behind it matters.
+// Starts where the inlet is no longer choked, so that the downstream pressure matters.
 double pressure_after_filling(const Muscle& m, double step) {
   Air network(std::vector{m}, isothermal(), {});
   Hand hand(network, at_rest, 5 * bar);
@@ -173,7 +173,7 @@ TEST(AirNetwork, ASmallerHoseChamberConvergesToNone) {
   const double none = pressure_after_filling(m, 1e-5);
   double last = 0;
   for (const double volume : {1e-6, 0.5e-6, 0.25e-6, 0.125e-6}) {
-    // The same air in all: the chamber's volume comes off the muscle's.
+    // All have the same air: the chamber's volume is subtracted from the muscle's.
     m.hose.volume = volume;
     m.external_volume = 4e-6 - volume;
     const double off = std::abs(pressure_after_filling(m, 1e-6) - none);
@@ -245,7 +245,7 @@ TEST(AirNetwork, FillingWarmsAndStandingCools) {
   fill.go(0.03, 1e-4);
   EXPECT_NEAR(fill.now.pressure[0] / (1.5 * bar + 1.4 * rt * fill.entered() / v), 1, 1e-8);
 
-  // And letting out leaves the rest on the adiabat: P ~ m^1.4.
+  // Letting out leaves the rest on the adiabat: P ~ m^1.4.
   const double mass = fill.state.mass[0], p = fill.now.pressure[0];
   fill.electrical(0, false);
   fill.electrical(1, true);
@@ -292,7 +292,7 @@ TEST(AirNetwork, ARegulatorLagsAndItsFlowIsLimited) {
   const double outlet = air.atmosphere + 5 * bar;
   EXPECT_NEAR(fill.entered() / (0.05 * gas::mass_flow(1e-7, outlet, air.temperature, 0, air)), 1,
               1e-9);
-  // What comes back is relieved into the room.
+  // Air that flows back is relieved into the room.
   fill.level(0, 0.05, 0.0);
   fill.node(0.05);
   fill.go(0.06, 1e-3);
@@ -312,7 +312,7 @@ TEST(AirNetwork, ARegulatorCannotGiveMoreThanTheLine) {
   EXPECT_NEAR(hand.now.pressure[0], 4 * bar, 10);
 }
 
-// 4.3: the delay follows the pressure difference at the edge, and the coil has its limit.
+// 4.3: the delay depends on the pressure difference at the edge, and the coil has its limit.
 TEST(AirNetwork, EdgesFeelThePressureOverTheirValve) {
   Muscle m = bundle(0);
   m.inlet.opening_delay_slope = 1e-9;
@@ -327,7 +327,7 @@ TEST(AirNetwork, EdgesFeelThePressureOverTheirValve) {
     hand.edge(1, 0.1, true);
     if (over > 4 * bar) {
       EXPECT_EQ(hand.valves.next_change, std::numeric_limits<double>::infinity());
-      hand.edge(1, 0.2, false);  // no edge either
+      hand.edge(1, 0.2, false);  // has no effect either
       EXPECT_EQ(hand.valves.next_change, std::numeric_limits<double>::infinity());
     } else {
       EXPECT_NEAR(hand.valves.next_change, 0.1 + 0.3e-3 + 2e-9 * over, 1e-15);

@@ -1,10 +1,10 @@
-// air/plain_air.h - the air of W machines side by side that have nothing but muscles between
-// valves on a constant supply: network.h's law with a pack in the place of each number, and the
-// muscles one after the other. Each machine has the bits that it has alone.
+// air/plain_air.h - the air of W machines that have only muscles between valves on a constant
+// supply: the law of network.h with a pack in the place of each number, and the muscles one after
+// the other. Each machine has the same bits as alone.
 //
-// Valves, commands and failures are each network's own affair: from its valves come the shares that
-// are open until its next node. What a lane seldom needs (a power, the sealed stiffness) its own
-// network answers.
+// Valves, commands and failures are handled by each machine's own network, whose valves supply the
+// open shares until the next node. Rare operations of a lane (a power, the sealed stiffness) are
+// also done by its own network.
 #pragma once
 
 #include <array>
@@ -34,47 +34,47 @@ class PlainAir {
     Lanes mass, in, out;  // as AirState's [kg]
   };
   struct Shares {
-    Lanes inlet, exhaust;  // of the valves' areas that are open [-]
+    Lanes inlet, exhaust;  // open shares of the valves' areas [-]
   };
   using Valves = Shares;
   using Memory = Reference<Most, S>;
-  // Nothing goes ahead of a step.
+  // No muscle is integrated ahead of a step.
   struct Course {
     static constexpr std::uint64_t muscles = 0;
   };
   struct Answer : Pull<Most, S> {
-    Lanes inflow, outflow;  // from the supply, to the atmosphere [kg/s]
+    Lanes inflow, outflow;  // supply to muscle, muscle to atmosphere [kg/s]
   };
 
-  // All of them plain for good (AirNetwork::plain_for_good), with as many muscles; they are to live
-  // on.
+  // All networks must be plain (AirNetwork::plain_for_good), have the same number of muscles and
+  // outlive this object.
   explicit PlainAir(const std::array<const Network*, W>& each);
 
-  // How many muscles each machine has.
+  // Returns the number of muscles of each machine.
   int muscles() const noexcept { return size_; }
 
-  // One muscle of one machine, a little after its node.
+  // State of one muscle of one machine shortly after its node.
   struct Glimpse {
-    double pressure, tension;  // as Answer's
+    double pressure, tension;  // [Pa], [N]
   };
-  // Muscle i of the machine in a lane at h after its node, by Heun's rule from there: as a peek of
-  // world.h, of this muscle alone. Its length and rate are those at that time.
+  // Returns muscle i of the machine in a lane at h after its node by Heun's rule, as the preview of
+  // world.h but for this muscle alone. Length and rate are those at that time.
   Glimpse ahead(int lane, int i, double length, double rate, double h, const State& state,
                 const Shares& shares, const Memory& memory, const Answer& at_node) const noexcept;
 
-  // Takes over what one machine's valves let through.
+  // Copies the open shares of one machine's valves.
   void set_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
 
-  // The law itself, of all machines at once.
+  // Evaluates the laws of all machines.
   void evaluate(const S& t, const Ends& ends, const State& state, const Shares& shares,
                 const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
 
-  // At a node of the machines in `where`, with the look at it: their references follow. Answers
-  // each one's first muscle whose density is none, or -1.
+  // Updates the references of the machines in `where` at their nodes, from the evaluation there.
+  // Returns for each the first muscle whose density is not valid, or -1.
   std::array<int, W> remember(const Mask& where, const Answer& look, Memory& memory) const noexcept;
 
-  // The stages of RK4, as AirNetwork's: the masses h along one look's rates; the state, by the
-  // weighted mean of four. `h` is nothing in lanes that wait.
+  // The stages of RK4, as in AirNetwork: the masses at h along the rates of one evaluation, and the
+  // state by the weighted mean of four. `h` is 0 in lanes that wait.
   void plan(const S&, const S&, const Ends&, const State&, const Shares&, const Memory&,
             Course&) const noexcept {}
   void move(State& out, const State& from, const S& h, const Answer& look, const Shares& shares,
@@ -89,13 +89,13 @@ class PlainAir {
     BraidConstants<T> braid;
     gas::FlowConstantsOf<T> inlet, exhaust;
   };
-  // What one machine, or all of them, have in common for all muscles.
+  // Values of one machine, or of all, that its muscles have in common.
   template <class T>
   struct Room {
     gas::PowerSeriesOf<T> series;
     T atmosphere = 0, supply_y = 0;
   };
-  // The numbers of a muscle that a look goes by, and what the look yields.
+  // Inputs of a muscle's evaluation, and its results.
   template <class T>
   struct Asked : BraidState<T> {
     T inlet, exhaust;
@@ -106,8 +106,8 @@ class PlainAir {
     T drift, inflow, outflow;
   };
 
-  // far(x, y) puts the root of a density beyond the reach of the series into y; finish(pull) adds
-  // what lanes leave out.
+  // Evaluates one muscle. far(x, y) writes y of a density outside the series' range; finish(pull)
+  // adds the friction that the lanes do not have.
   template <class T, class Far, class Finish>
   [[gnu::always_inline]] static Told<T> look(const Room<T>& room, const Cell<T>& cell,
                                              const Asked<T>& at, const Far& far,
@@ -121,7 +121,7 @@ class PlainAir {
     return out;
   }
 
-  // Where some are filled and others emptied, and none both, one flow does for all.
+  // If no machine both fills and empties this muscle, one flow evaluation serves all.
   template <class T>
   [[gnu::always_inline]] static void flow(const Room<T>& room, const Cell<T>& cell,
                                           const Asked<T>& at, const T& y, Told<T>& out) {
@@ -154,8 +154,8 @@ class PlainAir {
   std::array<const Network*, W> each_;
   Room<S> room_;
   std::array<Cell<S>, Most> cells_;
-  std::array<Mask, Most> sealed_, loose_;  // bound by the sealed stiffness; it does not stick
-  // The same of each machine alone.
+  std::array<Mask, Most> sealed_, loose_;  // bounded by the sealed stiffness; does not stick
+  // Values of each machine alone.
   std::array<Room<double>, W> rooms_;
   std::array<std::array<Cell<double>, Most>, W> alone_;
 };
@@ -249,7 +249,7 @@ auto PlainAir<Most, W>::ahead(int lane, int i, double length, double rate, doubl
   return {told.pull.pressure, told.pull.tension};
 }
 
-// Beyond the reach of the series.
+// Writes y of the machines whose density is outside the series' range.
 template <int Most, int W>
 void PlainAir<Most, W>::far_roots(int i, const Mask& outside, const S& drift, const Memory& memory,
                                   S& y) const noexcept {
@@ -258,7 +258,8 @@ void PlainAir<Most, W>::far_roots(int i, const Mask& outside, const S& drift, co
     if (outside[k]) y.set(k, each_[static_cast<std::size_t>(k)]->braids().exact_y(density[k]));
 }
 
-// Loss::Scale::sealed; and [33] as printed, sign(v), for actuators that do not stick.
+// Completes the friction for Loss::Scale::sealed, and with sign(v), [33] as printed, for
+// actuators that do not stick.
 template <int Most, int W>
 void PlainAir<Most, W>::finish_friction(int i, const Ends& ends,
                                         BraidPull<S>& pull) const noexcept {
@@ -297,7 +298,7 @@ std::array<int, W> PlainAir<Most, W>::remember(const Mask& where, const Answer& 
   failed.fill(-1);
   for (int i = 0; i < size_; ++i) {
     const S x = look.drift[i];
-    // A drift that is no number is not near: it goes on, and fails below.
+    // A NaN is not near: it fails below.
     const Mask near = (x < gas::PowerSeries::rebase) & (x > -gas::PowerSeries::rebase);
     const Mask follows = where & !near;
     if (!units::any(follows)) continue;

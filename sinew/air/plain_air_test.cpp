@@ -1,4 +1,4 @@
-// Machines side by side: the air of each has the bits that it has alone.
+// Air of machines side by side: each has the same bits as alone.
 #include "sinew/air/plain_air.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ double between(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// Machines of other muscles, gas, supply and laws.
+// Machines with different muscles, gas, supply and laws.
 Network random_machine(std::mt19937& random, int muscles) {
   std::vector<Muscle> all;
   for (int i = 0; i < muscles; ++i) {
@@ -40,7 +40,7 @@ Network random_machine(std::mt19937& random, int muscles) {
   return {all, air, supply};
 }
 
-// One of them, as it goes by itself.
+// One of them, integrated alone.
 struct Alone {
   Network::State state;
   Network::Valves valves;
@@ -124,8 +124,8 @@ void put(int lane, const Alone& a, Together<W>& t, const PlainAir<most, W>& air)
   air.set_shares(lane, a.valves, t.shares);
 }
 
-// Muscles that are filled, vented, stretched and let go at random; each machine has steps of its
-// own, or none.
+// Muscles are filled, vented, stretched and released at random; each machine has its own steps, or
+// none.
 template <int W>
 void expect_machines_alone(std::mt19937& random, int& open, int& far) {
   const int muscles = 1 + static_cast<int>(random() % most);
@@ -178,7 +178,7 @@ void expect_machines_alone(std::mt19937& random, int& open, int& far) {
     for (int k = 0; k < W; ++k)
       ASSERT_NO_FATAL_FAILURE(expect_alone(t, k, alone[static_cast<std::size_t>(k)], muscles));
 
-    // Those that wait neither remember nor step.
+    // Lanes that wait neither update their memory nor step.
     const std::array<int, W> failed = air.remember(goes, t.look, t.memory);
     for (std::size_t k = 0; k < W; ++k) {
       EXPECT_EQ(failed[k], -1);
@@ -212,7 +212,7 @@ TEST(PlainAir, MachinesSideBySideAreThoseAlone) {
   expect_all_machines_alone<4>();
 }
 
-// A chamber whose air is gone is told of the machine that has it, and of no other.
+// A chamber without air is reported for the machine that has it, and for no other.
 TEST(PlainAir, ADensityThatIsNoneIsTold) {
   std::mt19937 random(3);
   const Network a = random_machine(random, 2), b = random_machine(random, 2);
@@ -227,7 +227,7 @@ TEST(PlainAir, ADensityThatIsNoneIsTold) {
   EXPECT_EQ(air.remember(both, t.look, t.memory), (std::array<int, 2>{-1, 1}));
 }
 
-// A machine whose air has more than the plain law cannot stand side by side with others.
+// A machine whose air is not plain cannot be simulated side by side with others.
 TEST(PlainAir, OnlyPlainNetworksAreFit) {
   std::vector<Muscle> muscles{bundle(0.1)};
   const gas::Air air;

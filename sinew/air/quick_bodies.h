@@ -1,17 +1,18 @@
 // air/quick_bodies.h - bodies of air that are quicker than a step of the body.
 //
 // A hose's small volume settles within 0.1 ms, a muscle behind a wide regulator or with a burst
-// wall within less; RK4 of the whole machine would have to take such steps. Instead such a body of
-// air, or two in a row (hose and muscle), goes ahead through the step on its own, by the linearly
-// implicit RODAS3 (stiff/quick.h) in steps that its error chooses, and the body's stages see its
-// masses at the half and at the end.
+// wall within less. RK4 of the whole machine would have to take such steps. Instead such a body of
+// air, or two in series (hose and muscle), is integrated ahead through the step on its own by the
+// linearly implicit RODAS3 (stiff/quick.h), with steps chosen by its error. The body's RK4 stages
+// then use its masses at the half and at the end.
 //
-// What is held while it goes ahead: the muscle's length runs on at the node's rate (V is straight
-// over the step: an error of l'' h^2/2, 1e-4 of the volume at 20 m/s^2 and 1 ms), the supply's
-// pressure stands. docs/theory/gas-and-valves.md has what this costs against steps of 5 us.
+// Two approximations are made: the muscle's length continues at the node's rate (V is linear over
+// the step: an error of l'' h^2/2, 1e-4 of the volume at 20 m/s^2 and 1 ms), and the supply's
+// pressure is constant. docs/theory/gas-and-valves.md has the resulting error against steps of 5
+// us.
 //
-// Asleep: with all valves shut and equal densities, hose and muscle are one chamber that shares its
-// air by volume, and no law of the hose is asked.
+// At rest, with all valves shut and equal densities, hose and muscle are one chamber that shares
+// its air by volume, and the law of the hose is not evaluated.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ class QuickBodies : public BodiesOfAir<Most> {
       typename BodiesOfAir<Most>::State, typename BodiesOfAir<Most>::Valves;
   using BodiesOfAir<Most>::flowing, BodiesOfAir<Most>::volume, BodiesOfAir<Most>::always_ahead;
 
-  // At the beginning of a step of length h, or of an evaluation so far ahead.
+  // Integrates ahead at the beginning of a step of length h, or of a preview of that length.
   void plan(double t, double h, const Ends& ends, const State& state, const Valves& valves,
             const Memory& memory, Course& course) const noexcept;
 
@@ -62,7 +63,7 @@ class QuickBodies : public BodiesOfAir<Most> {
                  RegulatorLanes::Ahead& ahead) const noexcept;
 };
 
-// Returns what leaves muscle i for the room but through its valves  [kg/s].
+// Returns the flow from muscle i to the room by leaks and holes [kg/s].
 template <int Most>
 gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const Now& now, double y) const noexcept {
   gas::SlopedFlow leak;
@@ -79,7 +80,8 @@ gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const Now& now, double y) 
   return leak;
 }
 
-// Does the air of muscle i, or of a chamber of the cylinder, go ahead in a step of h?
+// Returns whether the air of muscle i, or of a cylinder's chamber, is integrated ahead in a step of
+// h.
 template <int Most>
 bool QuickBodies<Most>::goes_ahead(int cell, double h, const Ends& ends,
                                    const Valves& valves) const noexcept {
@@ -102,8 +104,8 @@ bool QuickBodies<Most>::goes_ahead(int cell, double h, const Ends& ends,
   return slope * h > quick::from_rate * room;
 }
 
-// One body of air at its valves: a muscle without a hose, or a chamber of the cylinder; the third
-// of its openings is what it leaks by.
+// Integrates one body of air at its valves: a muscle without a hose, or a chamber of the cylinder;
+// the third opening is its leak.
 template <int Most>
 template <int Openings>
 void QuickBodies<Most>::run_ahead(const Now& node, double h, const Room& room,
@@ -139,7 +141,7 @@ void QuickBodies<Most>::run_ahead(const Now& node, double h, const Room& room,
   quick::fill(quick::through<1>(rates, node.t, h, {quick::muscle_error}, {mass}), cell);
 }
 
-// Valves, hose, muscle.
+// Integrates a hose and its muscle through the step.
 template <int Most>
 void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& room,
                                        Cell& cell) const noexcept {
@@ -196,7 +198,7 @@ void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& ro
               cell);
 }
 
-// Muscle `cell.of` alone.
+// Integrates muscle `cell.of` through the step on its own.
 template <int Most>
 void QuickBodies<Most>::run_muscle_ahead(const Now& node, double h, const Ends& ends,
                                          Cell& cell) const noexcept {
@@ -213,8 +215,8 @@ void QuickBodies<Most>::run_muscle_ahead(const Now& node, double h, const Ends& 
     run_ahead<3>(node, h, room, base, mass, cell);
 }
 
-// Four muscles from `first` on as if there were nothing but regulators; a lane that has none says
-// something.
+// Integrates four muscles from `first` on as if all were behind regulators; lanes without a
+// regulator return values that the caller ignores.
 template <int Most>
 void QuickBodies<Most>::go_beside(int first, const Now& node, double h, const Ends& ends,
                                   RegulatorLanes::Ahead& ahead) const noexcept {

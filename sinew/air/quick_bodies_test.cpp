@@ -1,4 +1,4 @@
-// Air that goes ahead of a step against steps that are short enough for it.
+// Air integrated ahead of a step against steps that are short enough for it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ std::vector<Case> cases() {
 
 class Quick : public ::testing::TestWithParam<Case> {
  protected:
-  // Two muscles with ideal valves, driven at random for 0.3 s: the same of both hands.
+  // Two muscles with ideal valves, driven at random for 0.3 s, the same for both.
   void drive(const std::function<void(double until)>& go,
              const std::function<void(int valve, bool open, double share)>& command) {
     std::mt19937 random(4);

@@ -17,7 +17,7 @@ using Mask = units::PackMask<lanes>;
   reinterpret_cast<Four&>(*lane) = x.lanes;
 }
 
-// y by a series about a base; lanes beyond its reach leave `near`.
+// Returns y by a series about a base; clears `near` in lanes outside its range.
 [[gnu::always_inline]] inline S root(const gas::PowerSeries& series, const S& base, const S& x,
                                      Mask& near) {
   near = near & (x < gas::PowerSeries::reach) & (x > -gas::PowerSeries::reach);
@@ -26,7 +26,7 @@ using Mask = units::PackMask<lanes>;
   return base * power;
 }
 
-// e^-x of a lag that has run for a small part of its time; other lanes leave `near`.
+// Returns e^-x of a lag for a small part of its time; clears `near` in other lanes.
 [[gnu::always_inline]] inline S decay(const S& x, Mask& near) {
   near = near & (x < quick::short_lag);
   return 1.0 - x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0)))));
@@ -99,7 +99,7 @@ SINEW_WIDE void RegulatorLanes::go(int first, double h, double y_supply, const G
   const S k3 = solve * (last + inverse_h * (k0 - k1 - (8.0 / 3.0) * k2));
   const S full = there_too + k3, bend = (0.125 * h) * (f.flow - last);
 
-  // What has come in; less what has gone out it is what is there.
+  // Mass that came in; the mass that left follows from the gain.
   const S gain = full - start;
   const Mask gives = f.flow > 0.0;
   const S in_by_mass = units::select(gives, by_mass, 0.0);

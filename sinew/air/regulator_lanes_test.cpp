@@ -54,7 +54,7 @@ class FourRegulated : public ::testing::Test {
     }
   }
 
-  // All of them through a step; lane i has muscle `of[i]`.
+  // Integrates all through a step; lane i has muscle `of[i]`.
   RegulatorLanes::Ahead ahead(const std::array<std::size_t, lanes>& of) const {
     std::vector<Muscle> muscles;
     std::vector<gas::Valve> valves;
@@ -89,7 +89,7 @@ class FourRegulated : public ::testing::Test {
     return out;
   }
 
-  // Muscle i alone, by the laws in words.
+  // Integrates muscle i alone, by the direct form of the laws.
   QuickStep<1> alone(std::size_t i) const {
     const State& s = state_[i];
     const Muscle& m = muscles_[i];
@@ -164,7 +164,7 @@ TEST_F(FourRegulated, HaveTheSameBitsInAnyLane) {
     draw();
     const RegulatorLanes::Ahead in_order = ahead({0, 1, 2, 3});
     std::shuffle(of.begin(), of.end(), random_);
-    of[0] = of[1];  // beside itself, and one of them left out
+    of[0] = of[1];  // twice the same, and one of them left out
     const RegulatorLanes::Ahead mixed = ahead(of);
     for (std::size_t at = 0; at < lanes; ++at) {
       const std::size_t i = of[at];

@@ -1,4 +1,4 @@
-// air/test_integrator.h - a network moved by hand: RK4 over its state along a given motion.
+// air/test_integrator.h - a simple RK4 integrator of a network's state along a given motion.
 #pragma once
 
 #include <cmath>
@@ -13,14 +13,14 @@ namespace sinew::air {
 using Air = AirNetwork<8>;
 using Motion = Air::Ends;  // lengths and travel as given functions of time, with their rates
 
-// All muscles at one length.
+// Returns the motion with all muscles at rest at one length.
 inline Motion still_at(double length) {
   Motion m{};
   m.length.of.fill(length);
   return m;
 }
 
-// From muscles of one length: each swings by itself, and a piston moves.
+// Returns a motion around one length: each muscle oscillates by itself, and a piston moves.
 inline Motion swaying(double length, double t) {
   Motion m = still_at(length);
   for (int i = 0; i < 8; ++i) {
@@ -55,7 +55,7 @@ struct Hand {
     network.evaluate(at, motion(at), s, valves, memory, out);
   }
 
-  // Return what has come through inlets, and what has left through exhausts and leaks  [kg].
+  // Return the masses that have entered through inlets and left through exhausts and leaks [kg].
   double entered() const {
     double sum = state.piston_in[0] + state.piston_in[1];
     for (int i = 0; i < network.muscles(); ++i) sum += state.in[i];
@@ -67,7 +67,7 @@ struct Hand {
     return sum;
   }
 
-  // Goes through a step of RK4; `ahead`: what is quicker goes ahead of it.
+  // Takes a step of RK4; `ahead`: quick bodies are integrated ahead of it.
   void step(double h, bool ahead = false) {
     Air::Answer later[3];
     const Air::Answer* looks[4] = {&now, &later[0], &later[1], &later[2]};
@@ -85,7 +85,7 @@ struct Hand {
     network.remember(now, state, memory);
   }
 
-  // Nodes at multiples of h and where a valve changes, as a world does it.
+  // Steps to `until` with nodes at multiples of h and where a valve changes, as a world does.
   void go(double until, double h, bool ahead = false) {
     while (t < until - 1e-12) {
       double next = t + h < until ? t + h : until;
@@ -97,7 +97,7 @@ struct Hand {
     look(t, state, now);
   }
 
-  // A node there: valves, set points and faults move on.
+  // Makes a node: moves valves, set points and faults there.
   void node(double at) {
     network.move_valves(at, now, valves);
     look(at, state, now);

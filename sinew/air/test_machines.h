@@ -19,7 +19,7 @@ inline gas::Valve valve(double area) {
   return v;
 }
 
-// Two of the thesis's actuators in a bundle; `variation` changes every parameter a little.
+// Returns a bundle of two of the thesis's actuators; `variation` changes every parameter a little.
 inline Muscle bundle(double variation) {
   Muscle m{.name = "bundle", .actuator = actuator::thesis_actuator()};
   m.actuator.braid.thread_length *= 1 + 0.02 * variation;
@@ -49,7 +49,7 @@ inline Cylinder thesis_cylinder() {
   return c;
 }
 
-// A machine that has everything: hoses of all kinds, leaks, a 3-way valve, a regulator, a cylinder.
+// Returns muscles with every option: hoses of all kinds, leaks, a 3-way valve, a regulator.
 inline std::vector<Muscle> everything() {
   std::vector<Muscle> muscles;
   for (int i = 0; i < 6; ++i) muscles.push_back(bundle(0.1 * i));

@@ -1,5 +1,5 @@
-// air/valve_bank.h - the valves and regulators of a machine with their faults: where their shutters
-// are from node to node, and what flows through a pair of them.
+// air/valve_bank.h - valves and regulators of a machine with their faults: the positions of their
+// shutters from node to node, and the flow through a pair of them.
 //
 // A pair is an inlet from the supply and an exhaust to the room; a 3-way valve and a regulator
 // serve both ways. fault.h has the list of faults. The laws: gas/orifice.h, delay.h, valve.h,
@@ -29,7 +29,7 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 // Returns whether the valve is a regulator, which follows a set point.
 inline bool regulates(const gas::Valve& valve) { return valve.kind == gas::Valve::Kind::regulator; }
 
-// For at most `Most` muscles and a cylinder.
+// Valves for at most `Most` muscles and a cylinder.
 template <int Most>
 class ValveBank {
  public:
@@ -38,8 +38,8 @@ class ValveBank {
   using Memory = AirMemory<Most>;
   using Answer = AirAnswer<Most>;
 
-  // The number of valves. Their order: 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up
-  // inlet, up exhaust, down inlet, down exhaust.
+  // Returns the number of valves. Their order: 2 x muscle + (0 inlet | 1 exhaust), then the
+  // cylinder's: up inlet, up exhaust, down inlet, down exhaust.
   int valves() const noexcept { return static_cast<int>(taps_.size()); }
   const gas::Valve& valve(int index) const noexcept { return tap(index).valve; }
   const gas::FlowConstants& flow(int valve) const noexcept { return tap(valve).flow; }
@@ -49,35 +49,35 @@ class ValveBank {
   }
   bool ramping() const noexcept { return ramping_; }  // some shutter opens or closes gradually
 
-  // All valves without current since ever, all set points at the atmosphere's pressure.
+  // Returns all valves without current, settled, and all set points at the atmosphere's pressure.
   Valves valves_at_rest() const;
 
-  // Share of the valve's area that is open at t  [-].
+  // Returns the open share of the valve's area at t [-].
   double open_share(int valve, double t, const Valves& valves) const noexcept;
 
  protected:
   static constexpr int none = -1;
 
-  // One valve, or regulator, and what it lets through.
+  // One valve, or regulator, with its flow constants.
   struct Tap {
     gas::Valve valve;
     gas::FlowConstants flow;
-    int outlet = none;    // Kind::regulator: state of its outlet pressure
-    bool listed = false;  // the flow is that of the open share alone
+    int outlet = none;    // Kind::regulator: index of the state of its outlet pressure
+    bool listed = false;  // its flow depends on the open share alone
   };
   struct Flows {
-    double in = 0, out = 0;  // from the supply, to the room [kg/s]
+    double in = 0, out = 0;  // supply to muscle, muscle to room [kg/s]
   };
-  // The flows of one evaluation depend on these numbers and on the chambers.
+  // Inputs of the flows of one evaluation, together with the chambers.
   struct Now {
     double t;         // [s]
-    double y_supply;  // of the line to the inlets
+    double y_supply;  // y of the line to the inlets
     const State& state;
     const Valves& valves;
     const Memory& memory;
-    std::uint64_t ahead = 0;  // muscles whose flows are not needed
+    std::uint64_t ahead = 0;  // muscles whose flows are not needed, a bit each
   };
-  // The flows through a pair of valves, their slopes over y and their drift at one y.
+  // The flows through a pair of valves, their slopes over y and their drift at constant y.
   struct Flowing {
     double in = 0, out = 0;                  // [kg/s]
     double in_by = 0, out_by = 0;            // [kg/s]
@@ -85,10 +85,10 @@ class ValveBank {
   };
   struct Broken {
     gas::LeakConstants leak;
-    double y = 1;  // of the supply's line
+    double y = 1;  // y of the supply's line
   };
 
-  // Takes what is broken on purpose; the valves are added one by one.
+  // Takes the list of faults; the valves are added one by one.
   ValveBank(const gas::Air& air, std::span<const AirFault> faults) : air_(air), faults_(faults) {
     for (const AirFault& f : faults_.all()) {
       Broken broken{.leak = gas::leak_constants(f.leak, air_)};
@@ -97,7 +97,7 @@ class ValveBank {
     }
   }
 
-  // Return another number of the state than the masses, its rate in an answer, and a valve.
+  // Return a state other than the masses, its rate in an evaluation, and a valve.
   static double other(const State& s, int i) noexcept {
     return s.other[static_cast<std::size_t>(i)];
   }
@@ -105,18 +105,19 @@ class ValveBank {
   static double& rate_of(Answer& a, int i) noexcept { return a.rate[static_cast<std::size_t>(i)]; }
   const Tap& tap(int valve) const noexcept { return taps_[static_cast<std::size_t>(valve)]; }
 
-  // Adds a valve behind the ones that are there.
+  // Appends a valve.
   void add_tap(const gas::Valve& valve);
-  // An electrical edge of a valve at t, or a regulator's set point from t on. `difference`: how
-  // much higher the pressure is on the side that the valve holds back [Pa].
+  // Applies an electrical edge of a valve at t, or a regulator's set point from t on. `difference`:
+  // pressure difference that the valve holds back [Pa].
   void command(const signals::Edge& edge, double t, double difference,
                Valves& valves) const noexcept;
-  // Valves, set points and faults move to t; difference(valve), of one that a fault lets go.
+  // Moves valves, set points and faults to t; difference(valve) is called for valves that a fault
+  // releases.
   template <class Difference>
   void move(double t, const Difference& difference, Valves& valves) const noexcept;
 
-  // These return the flows through a pair of valves that ends at y: `inlet` and the one after it;
-  // with their slopes; whether both are shut.
+  // Return the flows through a pair of valves (`inlet` and the next one) that ends at y; the flows
+  // with their slopes; and whether both valves are shut.
   Flows through(int inlet, const Now& now, double y) const noexcept;
   Flowing sloped_through(int inlet, const Now& now, double since_node, double y,
                          bool sloped) const noexcept;
@@ -131,7 +132,7 @@ class ValveBank {
   gas::PowerSeries of_pressure_{1.0 / 7.0};  // y of a pressure
   std::vector<Tap> taps_;
   FaultSchedule faults_;
-  std::vector<Broken> broken_;  // by each fault
+  std::vector<Broken> broken_;  // one for each fault
   bool ramping_ = false;
 
  private:
@@ -156,7 +157,7 @@ template <int Most>
 auto ValveBank<Most>::valves_at_rest() const -> Valves {
   Valves valves{};
   for (std::size_t v = 0; v < taps_.size(); ++v) {
-    // In its place, so that what lies between its members stays 0 (driven_muscle.h).
+    // Constructed in place, so that the padding between its members stays 0 (driven_muscle.h).
     std::construct_at(&valves[v].shutter, taps_[v].valve);
     valves[v].set = air_.atmosphere;
     valves[v].set_y = 1;
@@ -179,13 +180,13 @@ void ValveBank<Most>::command(const signals::Edge& edge, double t, double differ
     // A 3-way valve has one coil.
     if (v.kind == gas::Valve::Kind::three_way && i % 2 == 1) return;
     if (edge.open && v.fails_above > 0 && difference > v.fails_above)
-      return;  // its end will be no edge
+      return;  // its end will then have no effect
     valves[i].shutter.electrical(t, edge.open, gas::delay_at(v, edge.open, difference));
   }
   look_ahead(valves);
 }
 
-// A command can also take a pending change back, so look at all of them.
+// A command can also cancel a pending change, so all valves are searched.
 template <int Most>
 void ValveBank<Most>::look_ahead(Valves& valves) const noexcept {
   double next = faults_.next(valves.faults);
@@ -213,15 +214,16 @@ void ValveBank<Most>::move(double t, const Difference& difference, Valves& valve
   refresh(t, valves);
 }
 
-// Returns the open share of the valve's area, its seat being sound: the shutter's, or of the other
-// way of a 3-way valve, which opens to the atmosphere when it leaves the supply.
+// Returns the open share of a valve's area with a tight seat: the shutter's share, or for the
+// second entry of a 3-way valve the rest, since it opens to the atmosphere when it leaves the
+// supply.
 template <int Most>
 double ValveBank<Most>::fraction(std::size_t v, double t, const Valves& valves) const noexcept {
   const bool other_way = v % 2 == 1 && taps_[v].valve.kind == gas::Valve::Kind::three_way;
   return other_way ? 1.0 - valves[v - 1].shutter.fraction(t) : valves[v].shutter.fraction(t);
 }
 
-// Shares of area after a change. A regulator is always open.
+// Updates the open shares after a change. A regulator is always open.
 template <int Most>
 void ValveBank<Most>::refresh(double t, Valves& valves) const noexcept {
   valves.open_count = 0;
@@ -245,7 +247,7 @@ double ValveBank<Most>::open_share(int valve, double t, const Valves& valves) co
   return air::open_share(faults_.seat(valve, valves.faults), fraction(v, t, valves));
 }
 
-// A shutter that is let go sets off as by an edge at t: with its delay, if its coil can lift it.
+// A released shutter starts as after an edge at t: with its delay, if its coil can lift it.
 template <int Most>
 template <class Difference>
 void ValveBank<Most>::change(const AirFault& fault, bool begins, double t,
@@ -264,7 +266,7 @@ void ValveBank<Most>::change(const AirFault& fault, bool begins, double t,
   const double dp = difference(fault.of);
   const bool lifts = lifted || !(valve.fails_above > 0 && dp > valve.fails_above);
   shutter.free(t, gas::delay_at(valve, shutter.command(), dp), lifts);
-  shutter.advance(t);  // of a valve without delay
+  shutter.advance(t);  // needed if the valve has no delay
 }
 
 template <int Most>
@@ -285,7 +287,7 @@ bool ValveBank<Most>::is_broken(const ActingFaults& faults) const noexcept {
   return any;
 }
 
-// Returns the flow beside a valve's shutter  [kg/s].
+// Returns the flow that bypasses a valve's shutter [kg/s].
 template <int Most>
 double ValveBank<Most>::past_seat(int valve, const Now& now, double y_from,
                                   double y_to) const noexcept {
@@ -297,7 +299,7 @@ double ValveBank<Most>::past_seat(int valve, const Now& now, double y_from,
   return flow;
 }
 
-// Returns the flow out of muscle i into the room, through what is broken  [kg/s].
+// Returns the flow from muscle i to the room through holes by faults [kg/s].
 template <int Most>
 double ValveBank<Most>::through_holes(int i, const Now& now, double y) const noexcept {
   double flow = 0;
@@ -317,8 +319,8 @@ bool ValveBank<Most>::blocked(int i, const Valves& valves) const noexcept {
   return is;
 }
 
-// Returns y of the line to the inlets where the supply has failed, whose pressure goes into the
-// look; 0 where it has not  [-].
+// Returns y of the line to the inlets if the supply has failed, and writes the line's pressure to
+// `out`; else returns 0 [-].
 template <int Most>
 double ValveBank<Most>::failed_line(const Valves& valves, Answer& out) const noexcept {
   double y = 0;
@@ -330,8 +332,8 @@ double ValveBank<Most>::failed_line(const Valves& valves, Answer& out) const noe
   return y;
 }
 
-// Returns the slope of all that leaks out of muscle `pair`, and past the seats of its pair of
-// valves, near equal pressures  [kg/(s Pa)].
+// Returns the slope near equal pressures of the leaks by faults of muscle `pair`, and past the
+// seats of its valves [kg/(s Pa)].
 template <int Most>
 double ValveBank<Most>::slope_of_faults(int pair, const ActingFaults& faults) const noexcept {
   double slope = 0;
@@ -350,7 +352,6 @@ bool ValveBank<Most>::shut(int inlet, const Now& now) const noexcept {
          !(open_share(inlet + 1, now.t, valves) > 0);
 }
 
-// Flows through a pair of valves that ends at y: `inlet` and the one after it.
 template <int Most>
 auto ValveBank<Most>::through(int inlet, const Now& now, double y) const noexcept -> Flows {
   const auto v = static_cast<std::size_t>(inlet);
@@ -375,7 +376,7 @@ auto ValveBank<Most>::through(int inlet, const Now& now, double y) const noexcep
   return flows;
 }
 
-// A pair of valves that ends at y, with its slopes. Regulators follow their lag meanwhile.
+// Regulators follow their lag since the node.
 template <int Most>
 auto ValveBank<Most>::sloped_through(int inlet, const Now& now, double since_node, double y,
                                      bool sloped) const noexcept -> Flowing {

@@ -70,7 +70,7 @@ void fields(Visitor& v, Supply& supply) {
                     "a key of kind = \"tank\"", "pressure alone");
 }
 
-// The whole table: air, and where it comes from.
+// Visits the whole table: air and supply.
 template <class Visitor>
 void fields(Visitor& v, Air& air, Supply& supply) {
   fields(v, air);

@@ -16,24 +16,24 @@ inline constexpr double heat_capacity_ratio = 1.4;  // gamma of air, [39]; the o
 
 struct Air {
   double atmosphere = 101352.9322095749;    // P_atm [Pa], 14.7 psi
-  double temperature = 293.33333333333333;  // of the air upstream of an orifice and at rest [K]
+  double temperature = 293.33333333333333;  // air upstream of an orifice and at rest [K]
   double polytropic_exponent = 1.4;         // n [-]
   double gas_constant = 286.98629312304;    // R [J/(kg K)], 53.34 ft lbf/(lb degR)
-  double wall_time = 0;  // of heat exchange with the walls, heat.h; 0: the polytrope instead [s]
+  double wall_time = 0;  // time constant of the walls' heat exchange, heat.h; 0: polytrope [s]
 };
 
-// Density of the reference state (P_atm, T)  [kg/m^3].
+// Returns the density of the reference state (P_atm, T) [kg/m^3].
 constexpr double density_at_atmosphere(const Air& air) {
   return air.atmosphere / (air.gas_constant * air.temperature);
 }
 
-// P(rho)  [Pa].
+// Returns P(rho) [Pa].
 constexpr double pressure(const Air& air, double density) {
   return air.atmosphere *
          units::power(density / density_at_atmosphere(air), air.polytropic_exponent);
 }
 
-// rho(P), the inverse  [kg/m^3].
+// Returns rho(P), the inverse [kg/m^3].
 constexpr double density(const Air& air, double absolute_pressure) {
   return density_at_atmosphere(air) *
          units::power(absolute_pressure / air.atmosphere, 1.0 / air.polytropic_exponent);

@@ -1,4 +1,4 @@
-// The coil's current: it obeys the circuit, and the shutter shows in it.
+// Coil current: it satisfies the circuit, and the shutter's motion is visible in it.
 #include "sinew/gas/coil_current.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ Valve any_valve(std::mt19937& random) {
   return v;
 }
 
-// What drives the coil at t, written down anew.
+// Voltage of the coil at t, implemented independently.
 double voltage(const Valve& v, double dp, double period, double duty, double t) {
   const double since = t - period * std::floor(t / period);
   if (since >= duty * period) return -v.circuit.release_voltage;
@@ -84,7 +84,7 @@ TEST(CoilCurrent, StuckShutterIsAPlainCoil) {
 }
 
 // The current falls while the shutter moves and turns at the instant at which the valve is open:
-// later with more pressure where the delay says so.
+// later with more pressure if the delay depends on it.
 TEST(CoilCurrent, DipsWhenTheShutterOpens) {
   Valve v{.opening_delay = 0.5e-3, .opening_delay_slope = 1e-9};
   v.circuit = {.resistance = 12,
@@ -107,7 +107,7 @@ TEST(CoilCurrent, DipsWhenTheShutterOpens) {
     EXPECT_GT(current(pieces, t + 1e-5), current(pieces, t));
 }
 
-// Energy: what the source gives is heat, work on the shutter and what the field holds.
+// Energy: the source's work is heat, work on the shutter and energy of the field.
 TEST(CoilCurrent, EnergyIsConserved) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 20; ++trial) {

@@ -1,5 +1,5 @@
-// What a coil takes, and the rest of a valve's electrical side: drives, delays that depend on the
-// pressure, the fastest wave; regulators and tanks.
+// Energy of a coil, and the rest of a valve's electrical side: drives, delays that depend on the
+// pressure, the maximum frequency; regulators and tanks.
 #include "sinew/gas/coil_current.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Valve matrix(Valve::Drive drive) {
           .coil = {.power = 1, .boost_power = 9, .boost_time = 1e-3}};
 }
 
-// Power drawn by hand, microsecond by microsecond.
+// Integrates the power microsecond by microsecond.
 TEST(Coil, EnergyIsPowerSummedOverThePulses) {
   std::mt19937_64 random(1);
   for (const auto drive : {Valve::Drive::standard, Valve::Drive::speed_up}) {
@@ -39,7 +39,7 @@ TEST(Coil, EnergyIsPowerSummedOverThePulses) {
     EXPECT_NEAR(exact, total, 1e-9);
     EXPECT_NEAR(coil_energy(v, on, 50), total, 1e-9);
   }
-  // A pulse shorter than the boost: the sum over a run says too much, by what was cut.
+  // A pulse shorter than the boost: the sum over a run is too high by the part that was cut.
   const Valve v = matrix(Valve::Drive::speed_up);
   EXPECT_NEAR(coil_energy_of_pulse(v, 0.4e-3), 9 * 0.4e-3, 1e-15);
   EXPECT_NEAR(coil_energy(v, 0.4e-3, 1) - coil_energy_of_pulse(v, 0.4e-3), 8 * 0.6e-3, 1e-15);
@@ -77,7 +77,7 @@ TEST(Delay, IsLinearInThePressureDifferenceAndNeverNegative) {
 
 struct Followed {
   int openings = 0;
-  double shortest = 1;  // stay [s]
+  double shortest = 1;  // time open or shut [s]
 };
 
 Followed square_wave(const Valve& v, double frequency) {
@@ -102,7 +102,7 @@ Followed square_wave(const Valve& v, double frequency) {
   return out;
 }
 
-// 100 periods: all of them up to the limit, fewer above it; and no stay is ever shorter.
+// 100 periods: all are delivered up to the limit, fewer above it; no stay is ever shorter.
 TEST(MaxFrequency, IsTheFastestWaveThatTheShutterFollows) {
   const Valve v = {.opening_delay = 0.6e-3, .closing_delay = 0.4e-3, .max_frequency = 350};
   EXPECT_EQ(square_wave(v, 100).openings, 100);
@@ -123,11 +123,12 @@ TEST(MaxFrequency, AShortPulseLastsHalfAPeriodOrNotAtAll) {
   shutter.advance(0.6e-3);
   shutter.electrical(1e-3, false);
   EXPECT_NEAR(shutter.next(), 0.6e-3 + 2e-3, 1e-15);
-  shutter.electrical(2e-3, true);  // back before it came to that
+  shutter.electrical(2e-3, true);  // before the change took effect
   EXPECT_EQ(shutter.next(), std::numeric_limits<double>::infinity());
 }
 
-// A change that is undone at its very moment was no change: the stay goes back to the one before.
+// A change that is undone at its own instant does not count: the stay is measured from the one
+// before.
 TEST(MaxFrequency, AnUndoneChangeStartsNoStay) {
   const Valve v = {.opening_delay = 0.6e-3, .closing_delay = 0.4e-3, .max_frequency = 250};
   Shutter shutter(v);

@@ -1,8 +1,8 @@
-// gas/delay.h - when a solenoid valve really opens and closes, 3.4 and 4.3.
+// gas/delay.h - instants at which a solenoid valve opens and closes, 3.4 and 4.3.
 //
-// An electrical edge at t moves the shutter at t + opening_delay or t + closing_delay: a
-// real-valued instant, never rounded to a tick. An edge that comes before the last one took effect
-// cancels it:
+// An electrical edge at t moves the shutter at t + opening_delay or t + closing_delay, a real
+// number that is never rounded to a tick. If an edge comes before the previous one has taken
+// effect, it cancels that one:
 //
 //   delivered pulse = D - opening_delay + closing_delay   if D > opening_delay, else 0
 //   delivered gap   = G - closing_delay + opening_delay   if G > closing_delay, else 0
@@ -12,24 +12,23 @@
 //
 //   ideal      no delays
 //   dead_time  the area jumps at the instant
-//   ramp       from the instant on the area moves at 1/opening_ramp, 1/closing_ramp until it is
-//   full or
+//   ramp       from the instant on the area moves at 1/opening_ramp, 1/closing_ramp until full or
 //              zero, or until the opposite instant: nodes where it starts and where it ends
 //
 // A delay may depend on the pressure difference over the valve at the edge,
 //
 //   delay(dp) = max(0, delay + slope dp)
 //
-// and a shutter with a maximum frequency f stays at least 1/(2 f) where it went: a change that is
-// due sooner waits until then, and is cancelled like any other if the coil is switched back in the
-// meantime. So no pulse or gap is shorter than 1/(2 f), and of a square wave faster than f edges
-// are lost (4.3: above 400 Hz for the inlet, 350 Hz for the exhaust at 90 psi). The delays alone do
-// the same: with 1.43 ms of closing delay no gap of a 350 Hz wave is seen.
+// A shutter with a maximum frequency f stays open or shut for at least 1/(2 f). A change that is
+// due sooner is postponed, and is cancelled like any other if the coil is switched back in the
+// meantime. So no pulse or gap is shorter than 1/(2 f), and a square wave faster than f loses edges
+// (4.3: above 400 Hz for the inlet, 350 Hz for the exhaust at 90 psi). The delays alone have the
+// same effect: with 1.43 ms of closing delay a 350 Hz wave has no gaps.
 //
-// A jammed shutter stays where it is held, whatever its coil says; freed, it goes from there to
-// where the coil then says, after that edge's delay.
+// A jammed shutter stays at its share, whatever its coil does; when freed, it moves from there to
+// its coil's command, after that edge's delay.
 //
-// Valid where the delays do not depend on temperature or how long the coil was off.
+// Valid if the delays do not depend on temperature or on how long the coil was off.
 #pragma once
 
 #include <array>
@@ -40,14 +39,14 @@
 
 namespace sinew::gas {
 
-// Those of the valve's drive, at no pressure difference.
+// Returns the delays of the valve's drive at zero pressure difference.
 constexpr Delays delays(const Valve& valve) {
   if (valve.profile == Valve::Profile::ideal) return {};
   if (valve.drive == Valve::Drive::speed_up) return valve.speed_up;
   return {valve.opening_delay, valve.closing_delay};
 }
 
-// delay(dp), dp from the higher side as the valve is built in  [s].
+// Returns delay(dp); dp is positive from the higher side as the valve is built in [s].
 constexpr double delay_at(const Valve& valve, bool open, double pressure_difference) {
   const Delays d = delays(valve);
   const double slope = open ? valve.opening_delay_slope : valve.closing_delay_slope;
@@ -55,53 +54,53 @@ constexpr double delay_at(const Valve& valve, bool open, double pressure_differe
   return delay > 0 ? delay : 0.0;
 }
 
-// Where a valve's shutter stands, and when it will move.
+// Position of a valve's shutter and its pending changes.
 struct Shutter {
-  // Shut, command off.
+  // Starts shut, with its command off.
   Shutter() = default;
   explicit Shutter(const Valve& valve) noexcept;
 
-  // The coil's current is switched at t. Edges come in the order of time, none earlier than the
-  // last advance; they may come ahead of it, up to `capacity` instants. An unchanged command is no
-  // edge.
+  // Switches the coil's current at t. Edges must come in order of time, none earlier than the last
+  // advance(); up to `capacity` instants may be pending. An unchanged command has no effect.
   void electrical(double t, bool open) noexcept {
     electrical(t, open, open ? opening_delay_ : closing_delay_);
   }
 
-  // The same with this edge's own delay.
+  // Switches with a delay for this edge.
   void electrical(double t, bool open, double delay) noexcept;
 
-  // Next instant at which the piece of fraction() in force ends, or +inf.
+  // Returns the next instant at which the current piece of fraction() ends, or infinity.
   double next() const noexcept;
 
-  // Puts all instants <= t in force.
+  // Applies all instants <= t.
   void advance(double t) noexcept;
 
-  // Open share of the area, 0..1, on the piece in force since the last advance. Between two nodes
-  // it is linear; at a node it is the left limit before the advance and the right limit after it.
+  // Returns the open share of the area, 0..1, on the piece that is valid since the last advance().
+  // It is linear between two nodes; at a node it is the left limit before advance() and the right
+  // limit after.
   double fraction(double t) const noexcept;
 
-  // From t on it stands at `share` and follows no edge; what was to come is forgotten.
+  // Holds the shutter at `share` from t on: it follows no edge, and pending changes are discarded.
   void jam(double t, double share) noexcept;
 
-  // From t on it follows its coil again, from where it was held: if that is not where the coil
-  // wants it, it sets off after the delay of an edge at t.
+  // Lets the shutter follow its coil again from t on. If its position differs from the command, it
+  // starts to move after the delay of an edge at t.
   void free(double t) noexcept { free(t, command_ ? opening_delay_ : closing_delay_); }
 
-  // Sets off after this delay instead. `lifts` false: the coil cannot open it, its command is lost.
+  // Uses this delay instead. If `lifts` is false, the coil cannot open it and the command is lost.
   void free(double t, double delay, bool lifts = true) noexcept;
 
-  bool command() const noexcept { return command_; }  // of the coil: true is on
-  // Is it held where it stands, by a fault?
+  bool command() const noexcept { return command_; }  // coil command: true is on
+  // Returns whether a fault holds it.
   bool jammed() const noexcept { return jammed_; }
 
-  // More instants were waiting than fit: the oldest was taken too early.
+  // Returns whether more instants were pending than fit, so that the oldest was applied too early.
   bool overrun() const noexcept { return overrun_; }
 
   static constexpr std::size_t capacity = 8;
 
-  // Edge and instant count as simultaneous within this, so that rounding does not decide whether a
-  // pulse of exactly the opening delay opens  [s].
+  // Edge and instant count as simultaneous within this time, so that rounding does not decide
+  // whether a pulse of exactly the opening delay opens the valve [s].
   static constexpr double simultaneous = 1e-9;
 
  private:
@@ -123,15 +122,15 @@ struct Shutter {
   const Change& pending(std::size_t i) const noexcept { return queue_[(head_ + i) % capacity]; }
 
   double opening_delay_ = 0, closing_delay_ = 0, opening_ramp_ = 0, closing_ramp_ = 0;
-  double shortest_ = 0;  // stay [s]
+  double shortest_ = 0;  // minimum time open or shut [s]
 
   bool command_ = false;
   bool jammed_ = false;
   bool overrun_ = false;
-  Piece piece_;     // in force
+  Piece piece_;     // current
   Piece previous_;  // before the last change that took effect
-  double changed_ = -std::numeric_limits<double>::infinity();  // when that was
-  double moved_ = changed_, moved_before_ = changed_;          // the same, never forgotten
+  double changed_ = -std::numeric_limits<double>::infinity();  // time of that change
+  double moved_ = changed_, moved_before_ = changed_;  // times of the last two movements [s]
 
   std::array<Change, capacity> queue_{};  // ring, instants ascending
   std::size_t head_ = 0, count_ = 0;
@@ -152,13 +151,13 @@ inline void Shutter::electrical(double t, bool open, double delay) noexcept {
   command_ = open;
   if (jammed_) return;
 
-  // The last change has not happened yet: it never will, and the shutter stays where it is.
+  // The last change is still pending: it is cancelled, and the shutter keeps its position.
   if (count_ > 0 && pending(count_ - 1).instant >= t - simultaneous) {
     --count_;
     return;
   }
 
-  // It happens at this very moment and was put in force already: undone.
+  // The last change was applied at this instant: it is undone.
   if (count_ == 0 && changed_ >= t - simultaneous) {
     piece_ = previous_;
     changed_ = -std::numeric_limits<double>::infinity();
@@ -215,7 +214,7 @@ inline void Shutter::advance(double t) noexcept {
 
 inline double Shutter::fraction(double t) const noexcept { return piece_.at(t); }
 
-// The shutter sets off from where it is.
+// Starts a movement from the current position.
 inline void Shutter::begin(const Change& change) noexcept {
   previous_ = piece_;
   changed_ = change.instant;

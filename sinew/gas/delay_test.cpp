@@ -33,8 +33,8 @@ Train any_train(std::mt19937_64& random, int edges, int longest) {
   return train;
 }
 
-// Microseconds open in all. The shutter moves once the coil has been against it for longer than the
-// delay without a break: a definition that knows no events and no queue.
+// Counts the microseconds open. The shutter moves once the coil has been against it for longer than
+// the delay without interruption: a definition without events and queue.
 int count_open(const Train& train, int opening, int closing) {
   bool command = false, open = false;
   int since = 0, total = 0;
@@ -52,7 +52,7 @@ int count_open(const Train& train, int opening, int closing) {
   return total;
 }
 
-// The same from the shutter, with each edge told when its time has come.
+// Counts the same with the shutter, with each edge given at its time.
 double open_time(const Valve& v, const Train& train, int told_ahead = 0) {
   Shutter shutter(v);
   double total = 0, last = 0;
@@ -67,7 +67,7 @@ double open_time(const Valve& v, const Train& train, int told_ahead = 0) {
   bool open = false;
   for (std::size_t i = 0; i < train.size(); ++i) {
     const auto due = static_cast<int>(i) - told_ahead;
-    // What happens at an edge's very moment may still be cancelled by it.
+    // An edge may still cancel a change at its own instant.
     if (due >= 0) go(train[static_cast<std::size_t>(due)] * us - 2 * Shutter::simultaneous);
     shutter.electrical(train[i] * us, open = !open);
   }
@@ -137,7 +137,7 @@ TEST(Shutter, InstantsNeverGoBack) {
   }
 }
 
-// Ramps against a shutter that is moved by hand, microsecond by microsecond.
+// Ramps against a shutter that is moved microsecond by microsecond.
 TEST(Shutter, RampsMoveAtTheirOwnRates) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 30; ++i) {
@@ -175,7 +175,7 @@ TEST(Shutter, RampHasNodesWhereItStartsAndEnds) {
   EXPECT_NEAR(shutter.next(), 400 * us, 1e-15);
   EXPECT_NEAR(shutter.fraction(350 * us), 0.5, 1e-12);
 
-  // Shut while it still opens: it turns round where it is.
+  // Shut while it still opens: it reverses at its position.
   shutter.electrical(340 * us, false);
   EXPECT_NEAR(shutter.next(), 380 * us, 1e-15);
   shutter.advance(shutter.next());
@@ -201,7 +201,7 @@ TEST(Shutter, IdealValveFollowsTheCoil) {
   EXPECT_EQ(shutter.next(), 0.5);
   shutter.advance(0.5);
   EXPECT_EQ(shutter.fraction(0.5), 1);
-  shutter.electrical(0.6, true);  // no edge
+  shutter.electrical(0.6, true);  // no effect
   EXPECT_EQ(shutter.next(), never);
 }
 
@@ -220,7 +220,7 @@ TEST(Shutter, APulseOfJustTheDelayNeverOpensWhateverWasAdvanced) {
   }
 }
 
-// 3.4 and figure 3-13: what a 50 % duty cycle delivers through 4 ms and 1 ms.
+// 3.4 and figure 3-13: air delivered at a 50 % duty cycle with delays of 4 ms and 1 ms.
 TEST(Shutter, DeliversTheDutyCyclesOfTheThesis) {
   const auto delivered = [](double frequency, double duty) {
     Shutter shutter(valve(Valve::Profile::dead_time, 4000, 1000));
@@ -253,8 +253,8 @@ TEST(Shutter, DeliversTheDutyCyclesOfTheThesis) {
   EXPECT_NEAR(delivered(25, 0.98), (10 * 40e-3 - 4e-3 - 0.8e-3 + 1e-3) / 0.4, 1e-12);
 }
 
-// Held at `share` from one microsecond to another; from then on the delays count anew. The open
-// time of a clock that knows no events and no queue.
+// Held at `share` from one microsecond to another; then the delays start again. Counts the open
+// time without events and queue.
 double held_open(const Train& train, int opening, int closing, int from, int to, double share) {
   bool command = false, open = false;
   int since = 0;

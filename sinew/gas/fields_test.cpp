@@ -1,4 +1,4 @@
-// The field tables of [air] and valves.toml: keys, units, and what does not go together.
+// Field tables of [air] and valves.toml: keys, units, and keys that exclude each other.
 
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST(ValveFields, FillDriveCoilAndLimits) {
   EXPECT_EQ(valve.fails_above, 2.4e5);
   EXPECT_EQ(v.find("valve.x.fails_above")->unit, "Pa diff");
 
-  // Everything new may be left out.
+  // All later keys are optional.
   for (const char* key : {"drive", "speed_up", "coil", "regulator", "max_frequency", "fails_above"})
     EXPECT_TRUE(v.find(std::string("valve.x.") + key)->optional) << key;
 }
@@ -237,7 +237,7 @@ TEST(AirFields, FillEveryMember) {
   EXPECT_EQ(air.gas_constant, 287);
   EXPECT_EQ(supply.pressure, 7e5);
 
-  // Pressures of the state are absolute; a file may say gauge, config converts.
+  // Pressures of the state are absolute; a file may have gauge pressures, which config converts.
   EXPECT_EQ(v.find("atmosphere")->unit, "Pa abs");
   EXPECT_EQ(v.find("supply.pressure")->unit, "Pa abs");
 }

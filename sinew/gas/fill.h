@@ -1,4 +1,4 @@
-// gas/fill.h - how long a valve takes to fill or vent a rigid volume: for design, not for the loop.
+// gas/fill.h - time in which a valve fills or vents a rigid volume; for design, not for the loop.
 //
 //   t = integral of V d(rho)/m'(P)  from P_1 to P_2,   d(rho)/dP = rho/(n_p P)            [38]-[40]
 //
@@ -7,16 +7,16 @@
 //   filling           m' = G_c P_supply      t = V (rho_2 - rho_1)/(G_c P_supply)
 //   venting, n_p = 1  m' = G_c P             t = V/(G_c R T) log(P_1/P_2)
 //
-// The rest is integrated over s = log|P - P_port|, which makes the slow end at P_port harmless, in
-// pieces that end where the law has a kink (choking, linear part), each by Simpson's rule doubled
-// until it stands still: deterministic, relative error below 1e-9 (tested).
+// Otherwise the integral is over s = log|P - P_port|, which makes the slow end at P_port harmless,
+// in pieces that end at the kinks of the law (choking, linear part). Each piece uses Simpson's
+// rule, doubled until it converges: deterministic, relative error below 1e-9 (tested).
 //
-// The polytrope is the law of a muscle whose air has an exponent. For a rigid volume the balance of
-// energy is the better law. Its two limits are walls that pass no heat and walls that keep the air
-// at the room's temperature; real walls lie between them, or some percent beyond the slower one, as
-// air that was warmed or cooled first continues to change its pressure.
+// The polytrope is the law of a muscle whose air has an exponent. For a rigid volume the energy
+// balance is the better law. Its two limits are walls that pass no heat and walls that keep the air
+// at the room's temperature. Real walls are between these limits, or some percent slower than the
+// slower one, since air that was warmed or cooled first continues to change its pressure.
 //
-// Without the valve's opening delay; a volume that moves or hoses that resist take longer.
+// The valve's opening delay is not included; moving volumes and hoses take longer.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@
 
 namespace sinew::gas {
 
-// Integral of f from a to b for a smooth f.
+// Returns the integral of f from a to b for a smooth f.
 template <class Function>
 double integral(const Function& f, double a, double b) {
   if (a == b) return 0.0;
@@ -55,16 +55,16 @@ double integral(const Function& f, double a, double b) {
   return simpson;
 }
 
-// Time in which a chamber goes `from` one pressure `to` another while the open valve joins it to a
-// port of constant pressure, all absolute  [s]. `stored(P)` is the air that the chamber takes per
-// pressure and volume [kg/(Pa m^3)], over the flow that the law has at the room's temperature.
-// Infinite where the port cannot bring it there, the port's own pressure included: near it the flow
-// is linear and the approach exponential.
+// Returns the time in which a chamber goes `from` one pressure `to` another while the open valve
+// joins it to a port of constant pressure, all absolute [s]. `stored(P)` is the air stored per
+// pressure and volume [kg/(Pa m^3)], relative to the flow of the law at the room's temperature.
+// Returns infinity if the port cannot bring the chamber to `to`, which includes the port's own
+// pressure: near it the flow is linear and the approach exponential.
 template <class Stored>
 double transfer_time_by(const Flow& flow, const Air& air, double volume, double port, double from,
                         double to, const Stored& stored) {
   if (from == to) return 0.0;
-  const double side = to > from ? -1.0 : 1.0;  // of the port on which the chamber is
+  const double side = to > from ? -1.0 : 1.0;  // sign of P - P_port
   const bool shut = mass_flow(flow, air, port, from) == 0.0;
   if (shut || !(side * (to - port) > 0)) return std::numeric_limits<double>::infinity();
 
@@ -92,7 +92,7 @@ double transfer_time_by(const Flow& flow, const Air& air, double volume, double 
   return time;
 }
 
-// Returns the time by the polytrope of `air`, [40]  [s].
+// Returns the time by the polytrope of `air`, [40] [s].
 inline double transfer_time(const Flow& flow, const Air& air, double volume, double port,
                             double from, double to) {
   return transfer_time_by(flow, air, volume, port, from, to, [&](double p) {
@@ -100,9 +100,9 @@ inline double transfer_time(const Flow& flow, const Air& air, double volume, dou
   });
 }
 
-// Returns the time by the balance of energy, with walls that pass no heat  [s]: air that enters
-// brings c_p T_room, P' = gamma R T_room m'/V; air that stays expands along its adiabat, so that
-// what leaves is cold.
+// Returns the time by the energy balance with walls that pass no heat [s]: air that enters brings
+// c_p T_room, P' = gamma R T_room m'/V; air that stays expands along its adiabat, so the air that
+// leaves is cold.
 inline double adiabatic_transfer_time(const Flow& flow, const Air& air, double volume, double port,
                                       double from, double to) {
   constexpr double k = heat_capacity_ratio;
@@ -124,7 +124,7 @@ struct WarmAir {
   double density = 0, pressure = 0;
 };
 
-// Rates of the air in a rigid chamber joined to a port, with walls of the time constant
+// Returns the rates of the air in a rigid chamber joined to a port, with walls of the time constant
 // air.wall_time (heat.h).
 inline WarmAir warm_rates(const Flow& flow, const Air& air, double volume, double port,
                           const WarmAir& now) {
@@ -132,15 +132,16 @@ inline WarmAir warm_rates(const Flow& flow, const Air& air, double volume, doubl
   const double room = air.temperature;
   const double t = now.pressure / (air.gas_constant * now.density);
   double in = mass_flow(flow, air, port, now.pressure) / volume;
-  const double passes = in > 0 ? room : t;  // temperature of what passes the valve [K]
+  const double passes = in > 0 ? room : t;  // temperature of the air that passes the valve [K]
   if (in < 0) in *= std::sqrt(room / t);
   const double warmth = (now.density * air.gas_constant * room - now.pressure) / air.wall_time;
   return {in, k * air.gas_constant * passes * in + warmth};
 }
 
-// With walls of the time constant air.wall_time, above 0  [s]: RK4 in steps of a two-hundredth of
-// what is left of the way, and of a fiftieth of the walls' time; the last ends where the pressure
-// is reached. Walls a ten-thousandth as slow as the air are isothermal.
+// Returns the time with walls of the time constant air.wall_time, above 0 [s]. Uses RK4 with
+// steps of at most a two-hundredth of the remaining way and a fiftieth of the walls' time; the last
+// step ends at the pressure. Walls quicker than a ten-thousandth of the filling time count as
+// isothermal.
 inline double warm_transfer_time(const Flow& flow, const Air& air, double volume, double port,
                                  double from, double to) {
   const double slowest = isothermal_transfer_time(flow, air, volume, port, from, to);

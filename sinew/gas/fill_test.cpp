@@ -1,4 +1,4 @@
-// Fill and vent times against closed forms where there are any, and against themselves elsewhere.
+// Fill and vent times against closed forms, and against numerical integration elsewhere.
 
 #include "sinew/gas/fill.h"
 
@@ -81,7 +81,7 @@ TEST(Fill, IsTheSumOfItsParts) {
   }
 }
 
-// The same by time steps on the mass, RK4.
+// Computes the same by time steps of the mass, RK4.
 TEST(Fill, AgreesWithASimulation) {
   const Air air{.polytropic_exponent = 1.3};
   const Flow flow = orifice();

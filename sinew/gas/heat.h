@@ -1,15 +1,16 @@
-// gas/heat.h - air that exchanges heat with its walls: its internal energy U is a second state.
+// gas/heat.h - heat exchange between air and its walls: the internal energy U is a second state.
 //
 //   P = (gamma - 1) U/V            T = U/(m c_v)
 //   U' = sum of m' c_p T_upstream - P V' + m c_v (T_wall - T)/tau
 //
 //   tau  time constant of a chamber of constant volume [s]     T_wall = air.temperature
 //
-// It takes the place of the polytrope [40], which it brackets: tau -> 0 is isothermal, tau ->
-// infinity the adiabat P rho^-1.4 of [39] while no air is exchanged. What it adds is filling
-// (supply air at rest warms up to 1.4 T as it fills a vacuum) and a sealed chamber that cools. One
-// tau stands for a film that changes with flow and density: our estimate 0.1 to 1 s for tubes of a
-// muscle's size (0.6 s with h = 10 W/(m2 K), 3 mm of radius, 5 bar); to be fitted.
+// This law replaces the polytrope [40] and has two limits: tau -> 0 is isothermal, and tau ->
+// infinity is the adiabat P rho^-1.4 of [39] while no air is exchanged. In addition it models
+// filling (supply air at rest warms up to 1.4 T as it fills a vacuum) and the cooling of a sealed
+// chamber. A single tau approximates a film that changes with flow and density; we estimate 0.1 to
+// 1 s for tubes of a muscle's size (0.6 s with h = 10 W/(m2 K), 3 mm of radius, 5 bar). It should
+// be fitted.
 #pragma once
 
 #include "sinew/gas/air.h"
@@ -25,7 +26,7 @@ constexpr double heat_capacity_pressure(const Air& air) {  // c_p [J/(kg K)]
   return heat_capacity_ratio * heat_capacity_volume(air);
 }
 
-// U at the temperature of the wall  [J].
+// Returns U at the temperature of the wall [J].
 constexpr double energy_at_rest(const Air& air, double mass) {
   return mass * heat_capacity_volume(air) * air.temperature;
 }
@@ -39,7 +40,7 @@ constexpr double pressure_of_energy(double energy, double volume) {  // P [Pa]
   return (heat_capacity_ratio - 1.0) * energy / volume;
 }
 
-// From the wall  [W].
+// Returns the heat flow from the wall to the air [W].
 constexpr double heat_flow(const Air& air, double energy, double mass) {
   return (energy_at_rest(air, mass) - energy) / air.wall_time;
 }

@@ -1,8 +1,8 @@
-// gas/hose.h - flow through a hose, in series with a muscle's valves, and the pressure between two
-// restrictions in series. Source of the need: 3.4 puts
-// the efficiency of 85 % and the missing damping down to the hoses.
+// gas/hose.h - flow through a hose in series with a muscle's valves, and the pressure between two
+// restrictions in series. 3.4 attributes the efficiency of 85 % and the missing damping to the
+// hoses.
 //
-//   iso6358   C, b_crit as for a valve: what makers give for a hose with its fittings
+//   iso6358   C, b_crit as for a valve: the data that makers give for a hose with its fittings
 //   pipe      length L_h, inner diameter D_h, isothermal:
 //               laminar    m_l = pi D_h^4 (P_a^2 - P_b^2)/(256 mu_air L_h R T) (Hagen-Poiseuille)
 //               turbulent  P_a^2 - P_b^2 = f_D L_h R T m_t^2/(D_h A^2),  f_D = 0.3164/Re^(1/4)
@@ -13,7 +13,7 @@
 //   mu_air  viscosity [Pa s]    A = pi D_h^2/4 [m^2]    Re = m D_h/(A mu_air)
 //
 // Blasius holds for smooth walls up to Re 1e5. Real pipes stay laminar up to Re 2300: in between
-// the law is up to a quarter low. Entry, bends and the change of momentum are not in it (speeds
+// the law is up to a quarter low. Entry, bends and the change of momentum are neglected (speeds
 // below about 100 m/s). Flow is positive from a to b.
 #pragma once
 
@@ -25,7 +25,7 @@
 namespace sinew::gas {
 
 struct Hose {
-  // Names the law: no hose; a conductance as of a valve; a pipe by length and diameter.
+  // Names the law: no hose; a conductance as for a valve; a pipe by length and diameter.
   enum class Law { none, iso6358, pipe };
   Law law = Law::none;
 
@@ -35,22 +35,22 @@ struct Hose {
   double length = 0;          // pipe: L [m]
   double inner_diameter = 0;  // pipe: D [m]
 
-  double volume = 0;  // its air as a chamber of its own behind the valves; 0: none [m^3]
+  double volume = 0;  // volume as a chamber of its own behind the valves; 0: no chamber [m^3]
 };
 
 inline constexpr double viscosity_of_air = 1.82e-5;  // at 293 K, Sutherland [Pa s]
 
-// Re at which m_l = m_t: (64/0.3164)^(4/3)  [-].
+// Returns Re at which m_l = m_t: (64/0.3164)^(4/3) [-].
 inline double blasius_crossing() { return units::power(64.0 / 0.3164, 4.0 / 3.0); }
 
-// m_l per P_a^2 - P_b^2  [kg/(s Pa^2)].
+// Returns m_l per P_a^2 - P_b^2 [kg/(s Pa^2)].
 inline double laminar_conductance(const Hose& hose, const Air& air) {
   const double d2 = hose.inner_diameter * hose.inner_diameter;
   return std::numbers::pi * d2 * d2 /
          (256.0 * viscosity_of_air * hose.length * air.gas_constant * air.temperature);
 }
 
-// m_t = this (P_a^2 - P_b^2)^(4/7).
+// Returns the factor k in m_t = k (P_a^2 - P_b^2)^(4/7).
 inline double turbulent_conductance(const Hose& hose, const Air& air) {
   const double d = hose.inner_diameter, area = 0.25 * std::numbers::pi * d * d;
   const double friction = 0.3164 * units::power(area * viscosity_of_air / d, 0.25);
@@ -58,7 +58,7 @@ inline double turbulent_conductance(const Hose& hose, const Air& air) {
       d * area * area / (friction * hose.length * air.gas_constant * air.temperature), 4.0 / 7.0);
 }
 
-// With everything constant multiplied out, pressures in atmospheres.
+// A hose's law with all constants multiplied out, for pressures in atmospheres.
 struct HoseConstants {
   bool pipe = false;
   FlowConstants iso;
@@ -67,7 +67,7 @@ struct HoseConstants {
   double choked = 0;     // per upstream atmosphere [kg/s]
 };
 
-// Returns the hose's law for this air.
+// Returns the hose's constants for this air.
 inline HoseConstants hose_constants(const Hose& hose, const Air& air) {
   HoseConstants c;
   c.pipe = hose.law == Hose::Law::pipe;
@@ -87,7 +87,7 @@ inline HoseConstants hose_constants(const Hose& hose, const Air& air) {
   return c;
 }
 
-// From a to b out of y at both ends  [kg/s].
+// Returns the flow from a to b, given y at both ends [kg/s].
 inline double hose_flow_y(const HoseConstants& c, double y_a, double y_b) {
   if (!c.pipe) return flow_y(c.iso, y_a, y_b);
   const double up = y_a > y_b ? y_a : y_b, down = y_a > y_b ? y_b : y_a;
@@ -96,7 +96,7 @@ inline double hose_flow_y(const HoseConstants& c, double y_a, double y_b) {
   const double squares = (p_up - p_down) * (p_up + p_down);
   if (!(squares > 0)) return 0.0;
 
-  // m_l/(1 + (m_l/m_t)^8)^(1/8), the ratio going as squares^(3/7).
+  // m_l/(1 + (m_l/m_t)^8)^(1/8); the ratio is proportional to squares^(3/7).
   const double ratio = c.crossover * units::power(squares, 3.0 / 7.0);
   const double ratio2 = ratio * ratio, ratio4 = ratio2 * ratio2;
   const double blend = std::sqrt(std::sqrt(std::sqrt(1.0 + ratio4 * ratio4)));
@@ -105,14 +105,14 @@ inline double hose_flow_y(const HoseConstants& c, double y_a, double y_b) {
   return y_a > y_b ? size : -size;
 }
 
-// The pressure between restrictions that hold no air between them.
+// Pressure between restrictions with no air volume between them.
 //
-// What flows into the node flows out: sum of inflows(y) = 0. Every restriction's flow into the node
-// falls as the node's y rises, so there is one root, and it lies between the lowest and the highest
-// of the outer pressures.
+// The node's balance is sum of inflows(y) = 0. Every restriction's flow into the node falls as the
+// node's y rises, so there is one root, between the lowest and the highest of the outer pressures.
 
-// y where the falling function `surplus` passes zero, surplus(low) >= 0 >= surplus(high). False
-// position with the Illinois halving; stops where two neighbouring numbers enclose it or at a zero.
+// Returns y where the falling function `surplus` is zero; requires surplus(low) >= 0 >=
+// surplus(high). Uses the false position method with Illinois halving; stops at a zero or when two
+// neighbouring numbers enclose it.
 template <class Function>
 double balance(const Function& surplus, double low, double high) noexcept {
   double f_low = surplus(low), f_high = surplus(high);
@@ -120,7 +120,7 @@ double balance(const Function& surplus, double low, double high) noexcept {
   if (!(f_high < 0)) return high;
   int side = 0;
   for (int k = 0; k < 200 && high - low > 4e-16 * high; ++k) {
-    // Every fourth guess halves: no function can be slower than that.
+    // Every fourth guess bisects, which bounds the number of iterations for any function.
     double y = k % 4 == 3 ? 0.5 * (low + high) : low + (high - low) * (f_low / (f_low - f_high));
     if (!(y > low && y < high)) y = 0.5 * (low + high);
     const double f = surplus(y);

@@ -37,7 +37,7 @@ TEST(Hose, SlowFlowIsHagenPoiseuille) {
   }
 }
 
-// Darcy-Weisbach with Blasius's factor, for a drop small enough that the density is one number.
+// Darcy-Weisbach with Blasius's factor, for a drop small enough that the density is constant.
 TEST(Hose, FastFlowIsBlasius) {
   const Air air;
   const Hose hose = pipe(1.0, 4e-3);
@@ -51,7 +51,7 @@ TEST(Hose, FastFlowIsBlasius) {
   EXPECT_NEAR(factor * (1.0 / 4e-3) * 0.5 * density * speed * speed / (a - b), 1, 1e-3);
 }
 
-// Where both laws say the same the blend is 2^(1/8) below.
+// Where both laws have the same flow the blend is 2^(1/8) below.
 TEST(Hose, TheLawsCrossAtReynolds1187) {
   EXPECT_NEAR(blasius_crossing(), 1187, 1);
   const Air air;
@@ -104,7 +104,7 @@ TEST(Hose, ByConductanceItIsAValve) {
     EXPECT_NEAR(flow(hose, air, a, 2e5), mass_flow(valve, air, a, 2e5), 1e-15);
 }
 
-// Roots of all shapes, the endless slope of an orifice included.
+// Roots of functions of all shapes, including the infinite slope of an orifice.
 TEST(Balance, FindsWhereTheSurplusVanishes) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<> roots(1.0, 1.35);
@@ -122,7 +122,7 @@ TEST(Balance, FindsWhereTheSurplusVanishes) {
     EXPECT_LT(calls, 80);
     EXPECT_NEAR(balance(flat, 1.0, 1.35), root, 1e-5);  // cubed, that is below rounding
   }
-  // Ends that are roots are given back.
+  // Ends that are roots are returned.
   EXPECT_EQ(balance([](double y) { return 1.0 - y; }, 1.0, 1.3), 1.0);
   EXPECT_EQ(balance([](double y) { return 1.3 - y; }, 1.0, 1.3), 1.3);
 }

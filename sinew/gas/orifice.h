@@ -9,21 +9,21 @@
 //   A    effective area A_p C_q [m2]     g  heat capacity ratio gamma, 1.4     C  sonic conductance
 //   r_P  P_down/P_up [-]                 T  upstream [K]                          [m3/(s Pa)]
 //
-// Both run from the higher to the lower port and are linear in P_a - P_b below a pressure
-// difference of `linear_below` of the upstream pressure: the true slope at zero is infinite, and a
-// chamber that settles at its supply would be arbitrarily stiff. Continuous there, with a kink
-// (slope 1/2).
+// Flow is from the higher to the lower port and is linear in P_a - P_b below a pressure
+// difference of `linear_below` times the upstream pressure: the true slope at zero is infinite, and
+// a chamber that settles at its supply would be arbitrarily stiff. The law is continuous there,
+// with a kink (slope 1/2).
 //
 // The integrator's form has neither power nor division. With y = (P/P_atm)^(1/7), [44] for g = 1.4
 // is
 //
 //   m' = C_y P_atm d^5 u sqrt(u^2 - d^2),   u = y_up, d = max(y_down, sqrt(5/6) u)
 //
-// and the maximum is the choking. y is 1/7 of a power whatever the exponent of the chamber (air.h).
+// and the maximum is the choking. y does not depend on the exponent of the chamber's air (air.h).
 //
-// Departures: exact C_m in SI - the thesis's R = 53.34 in [44] lacks g_c (wrong by 5.67 if taken as
-// printed). Its code rounds to .0165 and .064, which jump by .38 % at the limit 1.89, and to 83.66
-// for what is 83.62 in front of them: Law::appendix_a, for whoever repeats its runs. The upstream
+// Departures: C_m is exact, in SI. The thesis's R = 53.34 in [44] lacks g_c (wrong by 5.67 if taken
+// as printed). Its code rounds to .0165 and .064, which jump by .38 % at the limit 1.89, and uses a
+// factor of 83.66 instead of 83.62; Law::appendix_a reproduces these values. The upstream
 // temperature is the constant `air.temperature`, also for flow out of a chamber, as in appendix A.
 #pragma once
 
@@ -41,36 +41,37 @@ namespace sinew::gas {
 inline constexpr double iso_density = 1.185;       // rho_0 [kg/m^3]
 inline constexpr double iso_temperature = 293.15;  // T_0 [K]
 
-// Ratio of pressures at and below which the orifice is choked: 0.528282 for air  [-].
+// Returns the pressure ratio at and below which the orifice is choked: 0.528282 for air [-].
 constexpr double critical_pressure_ratio(double gamma = heat_capacity_ratio) {
   return units::power(2.0 / (gamma + 1.0), gamma / (gamma - 1.0));
 }
 
-// C_m of the choked orifice, [44] upper line  [sqrt(kg K/J)].
+// Returns C_m of the choked orifice, [44] upper line [sqrt(kg K/J)].
 inline double choked_parameter(double gas_constant, double gamma = heat_capacity_ratio) {
   const double exponent = (gamma + 1.0) / (gamma - 1.0);
   return std::sqrt(gamma / gas_constant * units::power(2.0 / (gamma + 1.0), exponent));
 }
 
-// C_m of the free orifice without the root of the pressure ratio, [44] lower line  [sqrt(kg K/J)].
+// Returns C_m of the free orifice without the root of the pressure ratio, [44] lower line
+// [sqrt(kg K/J)].
 inline double free_parameter(double gas_constant, double gamma = heat_capacity_ratio) {
   return std::sqrt(2.0 * gamma / (gas_constant * (gamma - 1.0)));
 }
 
-// The orifice as appendix A's code has it: in3/s of its standard air for each C_m and psi, that
-// air, A_p C_q and P_up/P_down from which it is choked; C_m in sqrt(slug degR/(ft lbf)), choked and
-// free. The upstream temperature, 528 degR, is in the first.
+// Constants of the orifice in appendix A's code: flow in in3/s of its standard air per C_m and psi,
+// at the upstream temperature of 528 degR; density of that air; A_p C_q; P_up/P_down from which it
+// is choked; C_m, choked and free, in sqrt(slug degR/(ft lbf)).
 inline constexpr double appendix_factor = 83.66, appendix_density = 1.349e-6;  // [slug/in^3]
 inline constexpr double appendix_area = 1.8e-5, appendix_limit = 1.89;         // [ft^2], [-]
 inline constexpr double appendix_choked = 0.0165, appendix_free = 0.064;
 
-// m'/(A P_up) of one of these coefficients  [s/m].
+// Returns m'/(A P_up) for one of these coefficients [s/m].
 constexpr double appendix_gain(double coefficient) {
   return appendix_factor * coefficient * (appendix_density * units::slug / units::psi) /
          (appendix_area * (units::foot * units::foot));
 }
 
-// Flow by Law::appendix_a, for P_down <= P_up; no linear part  [kg/s].
+// Returns the flow by Law::appendix_a for P_down <= P_up, without a linear part [kg/s].
 inline double mass_flow_appendix_a(double effective_area, double upstream, double downstream) {
   const double scale = effective_area * upstream, ratio = downstream / upstream;
   if (upstream >= appendix_limit * downstream) return scale * appendix_gain(appendix_choked);
@@ -78,7 +79,7 @@ inline double mass_flow_appendix_a(double effective_area, double upstream, doubl
          std::sqrt(units::power(ratio, 2.0 / 1.4) - units::power(ratio, 2.4 / 1.4));
 }
 
-// [42]-[44] as they stand, for P_down <= P_up and any gamma; no linear part  [kg/s].
+// Returns [42]-[44] as printed for P_down <= P_up and any gamma, without a linear part [kg/s].
 inline double mass_flow(double effective_area, double upstream, double upstream_temperature,
                         double downstream, const Air& air, double gamma = heat_capacity_ratio) {
   const double ratio = downstream / upstream;
@@ -91,7 +92,7 @@ inline double mass_flow(double effective_area, double upstream, double upstream_
   return scale * free_parameter(air.gas_constant, gamma) * std::sqrt(inside > 0 ? inside : 0.0);
 }
 
-// ISO 6358-1, for P_down <= P_up; no linear part  [kg/s].
+// Returns ISO 6358-1 for P_down <= P_up, without a linear part [kg/s].
 inline double mass_flow_iso6358(double sonic_conductance, double critical_ratio, double upstream,
                                 double upstream_temperature, double downstream) {
   const double above = downstream / upstream - critical_ratio;
@@ -100,8 +101,8 @@ inline double mass_flow_iso6358(double sonic_conductance, double critical_ratio,
          std::sqrt(iso_temperature / upstream_temperature) * std::sqrt(1.0 - share * share);
 }
 
-// The C that passes the same choked flow as an effective area, and back. The free parts differ:
-// an orifice's is nearest to b_crit = 0.528, a real valve's b_crit is 0.2 to 0.45.
+// Convert between effective area and the C with the same choked flow. The free parts differ: an
+// orifice is nearest to b_crit = 0.528, a real valve's b_crit is 0.2 to 0.45.
 inline double sonic_conductance_of(double effective_area, const Air& air) {
   return effective_area * choked_parameter(air.gas_constant) /
          (iso_density * std::sqrt(iso_temperature));  // [m^3/(s Pa)]
@@ -110,21 +111,21 @@ inline double effective_area_of(double sonic_conductance, const Air& air) {
   return sonic_conductance / sonic_conductance_of(1.0, air);  // [m^2]
 }
 
-// P_down/P_up at and below which the flow is choked, by the valve's law  [-].
+// Returns P_down/P_up at and below which the flow is choked, by the valve's law [-].
 constexpr double critical_ratio(const Flow& flow) {
   if (flow.law == Flow::Law::iso6358) return flow.critical_pressure_ratio;
   return flow.law == Flow::Law::appendix_a ? 1.0 / appendix_limit : critical_pressure_ratio();
 }
 
-// Are the pressures so near to each other that the flow is the straight line's, not the law's?
+// Returns whether the pressures are so close that the flow is in the linear part.
 constexpr bool in_linear_part(const Flow& flow, double pressure_a, double pressure_b) {
   const double up = pressure_a > pressure_b ? pressure_a : pressure_b;
   const double down = pressure_a > pressure_b ? pressure_b : pressure_a;
   return up - down < flow.linear_below * up;
 }
 
-// Either law between two ports, positive from a to b, from pressures; the reference for flow_y
-// [kg/s].
+// Returns the flow between two ports by the valve's law, positive from a to b [kg/s]. It uses
+// pressures and is the reference for flow_y.
 inline double mass_flow(const Flow& flow, const Air& air, double pressure_a, double pressure_b) {
   const bool forward = pressure_a >= pressure_b;
   const double up = forward ? pressure_a : pressure_b;
@@ -143,7 +144,7 @@ inline double mass_flow(const Flow& flow, const Air& air, double pressure_a, dou
   return forward ? size : -size;
 }
 
-// y = (P/P_atm)^(1/7), and back  [-], [Pa].
+// Return y = (P/P_atm)^(1/7) and its inverse [-], [Pa].
 constexpr double y_of(const Air& air, double absolute_pressure) {
   return units::power(absolute_pressure / air.atmosphere, 1.0 / 7.0);
 }
@@ -152,17 +153,17 @@ constexpr double pressure_of_y(const Air& air, double y) {
   return air.atmosphere * (y3 * y3 * y);
 }
 
-// One valve's law with everything constant multiplied out. S is a double; or a pack of them
-// (units/pack.h), of machines side by side.
+// A valve's law with all constants multiplied out. S is a double, or a pack of doubles
+// (units/pack.h) over several machines.
 template <class S>
 struct FlowConstantsOf {
-  S gain = 0;         // of the root [kg/s]
-  S choked_gain = 0;  // the same where it is choked: another one in appendix A alone [kg/s]
+  S gain = 0;         // factor of the root [kg/s]
+  S choked_gain = 0;  // factor if choked; differs only in appendix A [kg/s]
   S choke = 1;        // orifice: b_crit^(1/7) = sqrt(5/6); ISO: b_crit [-]
   S spread = 0;       // ISO: 1/(1 - b_crit) [-]
-  S linear_gain = 0;  // of y_a^7 - y_b^7 [kg/s]
+  S linear_gain = 0;  // factor of y_a^7 - y_b^7 [kg/s]
   S linear_from = 1;  // y_down/y_up above which the law is linear [-]
-  S iso = 0;          // 1: ISO 6358 (a double: a bool per lane would stop vectorisation)
+  S iso = 0;          // 1: ISO 6358 (a double, since a bool per lane prevents vectorisation)
 };
 using FlowConstants = FlowConstantsOf<double>;
 
@@ -179,8 +180,9 @@ inline FlowConstantsOf<S> select(const Mask& mask, const FlowConstantsOf<S>& a,
           units::select(mask, a.iso, b.iso)};
 }
 
-// Flow from a to b out of y at both ports  [kg/s]. + - x sqrt and selections only, one root: loops
-// over lanes that keep each constant in an array vectorise, and every lane has the scalar's bits.
+// Returns the flow from a to b, given y at both ports [kg/s]. Uses only + - x sqrt and selections,
+// with one root, so that loops over lanes with constants in arrays vectorise, and every lane has
+// the scalar's bits.
 template <class S>
 inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
                 const std::type_identity_t<S>& y_b) {
@@ -210,7 +212,7 @@ inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
   return units::select(y_a >= y_b, size, -size);
 }
 
-// Returns the law of a valve's flow for this air.
+// Returns the constants of a valve's flow for this air.
 inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
   FlowConstants c;
   c.iso = flow.law == Flow::Law::iso6358 ? 1 : 0;
@@ -223,7 +225,8 @@ inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
     const double scale = flow.area * flow.efficiency * air.atmosphere;
     c.gain = scale * appendix_gain(appendix_free);
     c.choke = units::power(1.0 / appendix_limit, 1.0 / 7.0);
-    // Choked, the root stands at its value at the limit, which is not .0165 there.
+    // When choked, the root keeps its value at the limit; with .064 that flow is not the one of
+    // .0165.
     const double d2 = c.choke * c.choke;
     c.choked_gain =
         scale * appendix_gain(appendix_choked) / (d2 * d2 * c.choke * std::sqrt(1.0 - d2));
@@ -245,8 +248,8 @@ inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
 }
 
 // Returns appendix A's law on one side of its jump, continued beyond it: the choked flow whatever
-// the lower pressure, or the free flow below the limit as well. The free flow is the greater one
-// there, so that a chamber which has passed the limit is not driven back over it.
+// the lower pressure, or the free flow also below the limit. The free flow is the larger one there,
+// so a chamber that has passed the limit is not driven back.
 inline FlowConstants on_one_side(FlowConstants c, bool choked) {
   if (choked) {
     const double d2 = c.choke * c.choke;

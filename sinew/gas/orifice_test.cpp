@@ -42,7 +42,7 @@ TEST(Orifice, IsChokedWhereItsFlowIsGreatest) {
   EXPECT_GT(free_flow(critical), free_flow(critical - 1e-3));
   EXPECT_GT(free_flow(critical), free_flow(critical + 1e-3));
 
-  // Below, the downstream pressure has no say.
+  // Below the limit the downstream pressure has no effect.
   const double up = 6e5, choked = mass_flow(area, up, 293, critical * up, air);
   for (double r : {0.0, 0.1, 0.5}) EXPECT_EQ(mass_flow(area, up, 293, r * up, air), choked);
 }
@@ -55,7 +55,7 @@ TEST(Orifice, ChokedFlowIsTheFreeLawAtTheCriticalRatio) {
   }
 }
 
-// Isentropic nozzle by its own route: throat temperature and speed of sound.
+// Isentropic nozzle, derived independently: throat temperature and speed of sound.
 TEST(Orifice, ChokedFlowIsDensityTimesSoundAtTheThroat) {
   const Air air;
   const double up = 7e5, temperature = 293;
@@ -121,7 +121,7 @@ TEST(Flow, FastFormIsTheGeneralOne) {
   }
 }
 
-// The fast form has nothing to do with the exponent of the air in the chamber.
+// The fast form does not depend on the exponent of the chamber's air.
 TEST(Flow, DoesNotDependOnThePolytropicExponent) {
   Air air;
   const double adiabatic = fast(orifice(), air, 6e5, 4e5);
@@ -169,8 +169,8 @@ TEST(Flow, IsLinearInTheDifferenceNearEqualPressures) {
   }
 }
 
-// A flow says which of the two it is: the straight line is below the law, and meets it where it
-// ends.
+// A flow reports which of the two it is: the straight line is below the law and meets it at its
+// end.
 TEST(Flow, SaysWhetherItIsInTheLinearPart) {
   const Air air;
   for (const Flow& flow : both_laws) {
@@ -213,7 +213,7 @@ TEST(Flow, NeverFallsWhenTheDifferenceGrows) {
   }
 }
 
-// Pressures times p, lengths times k: mass flow goes as p k^2, and as 1/sqrt(T).
+// Pressures times p, lengths times k: mass flow scales as p k^2, and as 1/sqrt(T).
 TEST(Flow, ScalesWithAreaPressureAndTemperature) {
   const double k = 2.5, p = 3;
   std::mt19937_64 random(4);

@@ -1,12 +1,12 @@
-// gas/power_series.h - a power of a number near one, without exp and log:
+// gas/power_series.h - powers of numbers near one without exp and log:
 //
 //   (1 + x)^e = 1 + e x + e (e - 1)/2 x^2 + ...   six terms
 //
-// 2e-11 relative while |x| <= 0.05 and 0 <= e <= 1. Only + - x: a number and a vector of numbers
-// have the same bits.
+// The relative error is 2e-11 for |x| <= 0.05 and 0 <= e <= 1. The code uses only + - x: a number
+// and a vector of numbers have the same bits.
 //
-// Whoever follows a quantity q takes the series about a base, x = q/base - 1, and takes a new base
-// where q has drifted: `Base` is that with the root at the base, y = y_base (1 + x)^e.
+// To follow a quantity q, a caller expands about a base, x = q/base - 1, and takes a new base when
+// q has drifted. `Base` holds the base and the root there: y = y_base (1 + x)^e.
 #pragma once
 
 #include <array>
@@ -17,25 +17,24 @@
 
 namespace sinew::gas {
 
-// S is a double; or a pack of them (units/pack.h), of machines side by side.
+// S is a double, or a pack of doubles (units/pack.h) over several machines.
 template <class S>
 class PowerSeriesOf {
  public:
-  static constexpr double reach = 0.05;   // |x| up to which six terms are enough
-  static constexpr double rebase = 0.02;  // |x| from which a new base is worth its power
+  static constexpr double reach = 0.05;   // largest |x| for which six terms suffice
+  static constexpr double rebase = 0.02;  // |x| from which a new base is taken
 
   constexpr PowerSeriesOf() = default;
-  // Works out the terms of the exponent.
+  // Computes the terms of the exponent.
   constexpr explicit PowerSeriesOf(const S& exponent) : exponent_(exponent) {
     term_[0] = 1.0;
     for (int k = 1; k < 7; ++k) term_[k] = term_[k - 1] * (exponent - (k - 1)) / k;
   }
 
-  // Returns it.
   constexpr S exponent() const { return exponent_; }
 
-  // Puts (1 + x)^e into `power`, of a number or a vector; the terms go in pairs, which wait less
-  // for one another than Horner's.
+  // Writes (1 + x)^e to `power`, for a number or a vector. The terms are summed in pairs, which has
+  // shorter dependency chains than Horner's scheme.
   template <class T>
   constexpr void raise(const T& x, T& power) const {
     const auto& c = term_;
@@ -50,13 +49,13 @@ class PowerSeriesOf {
 };
 using PowerSeries = PowerSeriesOf<double>;
 
-// A base of the series: y there, and one over the quantity there. Made at rest it is no base yet:
-// the first look goes by the power.
+// Base of the series: y there, and the inverse of the quantity there. A default-constructed one is
+// no valid base: the first evaluation then uses the power.
 struct Base {
   double y = 1, inverse = 0;
 };
 
-// Returns y of a quantity that is `at_one` where y is one, by the series or, beyond its reach, by
+// Returns y of a quantity that is `at_one` where y is one, by the series or, outside its range, by
 // the power [-].
 inline double root(const PowerSeries& series, const Base& base, double quantity, double at_one) {
   const double x = quantity * base.inverse - 1.0;
@@ -68,26 +67,26 @@ inline double root(const PowerSeries& series, const Base& base, double quantity,
   return units::power(quantity / at_one, series.exponent());
 }
 
-// Takes a new base where the quantity has drifted from the old one.
+// Takes a new base if the quantity has drifted from the old one.
 inline void follow(const PowerSeries& series, Base& base, double quantity, double at_one) {
   const double x = quantity * base.inverse - 1.0;
   if (x < PowerSeries::rebase && x > -PowerSeries::rebase) return;
   base = {units::power(quantity / at_one, series.exponent()), 1.0 / quantity};
 }
 
-// A power of any positive number without exp and log, from a table:
+// Powers of any positive number without exp and log, from a table:
 //
 //   q = 2^k c_i (1 + x),   q^e = 2^(k e) c_i^e (1 + x)^e,   |x| <= 1/128
 //
-// with the octave k and the c_i in the middle of 64 parts of it by the bits of q, and the last
-// factor by gas/power_series.h. 1.2e-15 relative for 0 <= e <= 1 (units::power has 1e-15), a fifth
-// of its time. Beyond 2^-8 ... 2^8 units::power answers.
+// The octave k and c_i, the middle of one of its 64 parts, come from the bits of q; the last factor
+// is the series. The relative error is 1.2e-15 for 0 <= e <= 1 (units::power: 1e-15), at a fifth of
+// the time. Outside 2^-8 ... 2^8 units::power is used.
 //
-// It is for whoever takes steps in which the quantity leaves the reach of a series: a table costs
-// 80 powers once.
+// The table is for steps in which the quantity leaves the range of a series; it costs 80 powers
+// once.
 class PowerTable {
  public:
-  // Fills the table for that exponent.
+  // Fills the table for this exponent.
   explicit PowerTable(double exponent) : series_(exponent) {
     for (std::size_t i = 0; i < parts; ++i) {
       const double middle = 1.0 + (static_cast<double>(i) + 0.5) / parts;

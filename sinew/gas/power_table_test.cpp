@@ -1,4 +1,4 @@
-// Laws of a power from a table: as exact as units::power, everywhere.
+// Powers from a table: as exact as units::power everywhere.
 #include "sinew/gas/power_series.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(PowerTable, IsAsExactAsThePower) {
   }
 }
 
-// Both sides of each border between parts and octaves, where a wrong neighbour would show.
+// Tests both sides of each border between parts and octaves, to detect a wrong neighbour.
 TEST(PowerTable, HasNoSteps) {
   const PowerTable table(1.04 / 7.0);
   for (double octave = 1.0 / 256; octave < 256; octave *= 2)

@@ -1,5 +1,4 @@
-// The gas's and the valve's numbers in data/reference.json: printed ones and what follows from
-// them.
+// Values of the gas and the valve in data/reference.json: printed ones and those derived from them.
 
 #include <gtest/gtest.h>
 
@@ -93,8 +92,8 @@ TEST(ReferenceGas, RoundedCoefficientsJumpWhereTheCodeSwitches) {
   EXPECT_NEAR(free / 0.0165 - 1, 0.0038, 5e-5);
 }
 
-// The listing line by line, in its own units, against the law that bears its name; and that law in
-// the integrator's form.
+// The listing line by line, in its own units, against Law::appendix_a, and that law in the
+// integrator's form.
 TEST(ReferenceGas, LawOfAppendixAIsItsListing) {
   const Air air;
   const Flow flow{.law = Flow::Law::appendix_a, .area = 0.6 * si("ApCq"), .efficiency = 0.85};

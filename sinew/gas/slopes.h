@@ -1,9 +1,10 @@
-// gas/slopes.h - the flows of orifice.h, hose.h and leak.h with their slopes, for rules that solve
-// for a chamber instead of stepping past it.
+// gas/slopes.h - the flows of orifice.h, hose.h and leak.h with their slopes, for implicit
+// integration.
 //
 //   dm'/dy_a, dm'/dy_b   of the flow from a to b, y = (P/P_atm)^(1/7)
 //
-// Exact on each piece of a law; at a kink (choking, the linear part) the slope is one side's.
+// The slopes are exact on each piece of a law; at a kink (choking, the linear part) the slope
+// is that of one side.
 #pragma once
 
 #include "sinew/gas/hose.h"
@@ -12,17 +13,17 @@
 
 namespace sinew::gas {
 
-// S is a double; or a pack of them (units/pack.h).
+// S is a double, or a pack of doubles (units/pack.h).
 template <class S>
 struct SlopedFlowOf {
-  S flow = 0;            // from a to b [kg/s]
+  S flow = 0;            // positive from a to b [kg/s]
   S by_a = 0, by_b = 0;  // its slopes over y_a and y_b [kg/s]
 };
 using SlopedFlow = SlopedFlowOf<double>;
 
 namespace slopes {
 
-// A law between the higher port and the lower one, put the right way round.
+// Applies a law that requires the higher port first to ports in any order.
 template <class Law>
 SlopedFlow both_ways(double y_a, double y_b, const Law& law) {
   if (y_a >= y_b) return law(y_a, y_b);
@@ -36,7 +37,7 @@ inline double seventh(double y) {
   return y3 * y3 * y;
 }
 
-// Through a valve with a flow, from y_a down to y_b.
+// Returns the flow through a valve from the higher port `up` to the lower port `down`.
 inline SlopedFlow downhill(const FlowConstants& c, double up, double down) {
   const double up6 = up * up * up * up * up * up, down6 = down * down * down * down * down * down;
   const double p_up = up6 * up, p_down = down6 * down;
@@ -60,7 +61,7 @@ inline SlopedFlow downhill(const FlowConstants& c, double up, double down) {
   return {flow, flow * (1 / up + up / inside), flow * (5 / down - down / inside)};
 }
 
-// Through a pipe, from y_a down to y_b.
+// Returns the flow through a pipe from the higher port `up` to the lower port `down`.
 inline SlopedFlow downhill_pipe(const HoseConstants& c, double up, double down) {
   const double p_up = seventh(up), p_down = seventh(down);
   const double squares = (p_up - p_down) * (p_up + p_down);
@@ -77,13 +78,13 @@ inline SlopedFlow downhill_pipe(const HoseConstants& c, double up, double down) 
 
 }  // namespace slopes
 
-// flow_y with its slopes.
+// Returns flow_y with its slopes.
 inline SlopedFlow sloped_flow_y(const FlowConstants& c, double y_a, double y_b) {
   return slopes::both_ways(y_a, y_b,
                            [&](double up, double down) { return slopes::downhill(c, up, down); });
 }
 
-// flow_y with its slopes, of lanes. What no lane needs is left out.
+// Returns flow_y with its slopes for lanes. Branches that no lane needs are skipped.
 template <class S>
 [[gnu::always_inline]] inline SlopedFlowOf<S> sloped_flow_side_by_side(const FlowConstantsOf<S>& c,
                                                                        const S& y_a, const S& y_b) {
@@ -121,14 +122,14 @@ template <class S>
           units::select(forward, by_down, -by_up)};
 }
 
-// hose_flow_y with its slopes.
+// Returns hose_flow_y with its slopes.
 inline SlopedFlow sloped_hose_flow_y(const HoseConstants& c, double y_a, double y_b) {
   if (!c.pipe) return sloped_flow_y(c.iso, y_a, y_b);
   return slopes::both_ways(
       y_a, y_b, [&](double up, double down) { return slopes::downhill_pipe(c, up, down); });
 }
 
-// leak_flow_y with its slopes.
+// Returns leak_flow_y with its slopes.
 inline SlopedFlow sloped_leak_flow_y(const LeakConstants& c, double y_a, double y_b) {
   SlopedFlow f = c.hole.gain > 0 ? sloped_flow_y(c.hole, y_a, y_b) : SlopedFlow{};
   const double p_a = slopes::seventh(y_a), p_b = slopes::seventh(y_b);

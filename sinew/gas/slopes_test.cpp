@@ -1,4 +1,4 @@
-// Flows with slopes are the flows, and their slopes those of the flows.
+// Flows with slopes have the values of the flows, and their slopes are the derivatives.
 #include "sinew/gas/slopes.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace sinew::gas::slopes_test {
 namespace {
 
-// A flow against its law, and its slopes against differences over 2e-6 of y. Not next to a kink,
-// where a difference sees both sides.
+// A flow against its law, and its slopes against differences over 2e-6 of y, except next to a
+// kink, where a difference covers both sides.
 template <class Law, class Sloped>
 void expect_slopes(const Law& law, const Sloped& sloped, double y_a, double y_b, double scale) {
   constexpr double h = 1e-6;

@@ -1,6 +1,7 @@
 // gas/valve.fields.h - the keys of [valve.*] in robots/*/valves.toml: name, unit, range, meaning.
 //
-// See units/field.h for what a visitor has, units/complain.h for keys that do not go together.
+// units/field.h describes the visitor, units/complain.h the messages for keys that exclude each
+// other.
 #pragma once
 
 #include <vector>
@@ -60,7 +61,7 @@ void fields(Visitor& v, Flow& flow) {
   }
 }
 
-// When it opens: delay.h.
+// Visits the keys of the shutter's motion: delay.h.
 template <class Visitor>
 void shutter_fields(Visitor& v, Valve& valve) {
   v.choice({.name = "profile",
@@ -123,7 +124,7 @@ void fields(Visitor& v, Circuit& c) {
                     "both above zero", R"(resistance = "12 ohm", inductance = "6 mH")");
 }
 
-// These keys bound a valve and describe its coil: delay.h, coil_current.h.
+// Visits the keys of a valve's limits and its coil: delay.h, coil_current.h.
 template <class Visitor>
 void drive_fields(Visitor& v, Valve& valve) {
   const auto seconds = [](auto& g, std::string_view name, std::string_view doc, double& value) {
@@ -233,7 +234,7 @@ void fields(Visitor& v, Valve& valve) {
   regulator_fields(v, valve);
 }
 
-// All of a file's valves.
+// Visits all valves of a file.
 template <class Visitor>
 void fields(Visitor& v, std::vector<Valve>& valves) {
   v.each({.name = "valve", .doc = "valves, by name"}, valves,

@@ -1,4 +1,4 @@
-// The figures of a valve agree with its law and with each other.
+// The figures of a valve are consistent with its law and with each other.
 #include "sinew/gas/valve_flow.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(Transfers, TakeLongerForMoreOfTheWayAndInProportionToTheVolume) {
   }
 }
 
-// Walls that pass some heat lie between the two limits, up to some percent, and tend to either.
+// Walls that pass some heat are between the two limits, up to some percent, and tend to either.
 TEST(Transfers, WallsLieBetweenTheirLimits) {
   Draw draw;
   for (int i = 0; i < 8; ++i) {
@@ -121,7 +121,7 @@ TEST(Transfers, WallsLieBetweenTheirLimits) {
         EXPECT_NEAR(walls[2].vent, slow[2].vent, 2e-2 * slow[2].vent);
       }
     }
-    // A rigid chamber fills 1.4 times as quickly where no heat leaves it.
+    // A rigid chamber fills 1.4 times as quickly if no heat leaves it.
     for (std::size_t k = 0; k < slow.size(); ++k)
       EXPECT_NEAR(slow[k].fill, 1.4 * quick[k].fill, 1e-9 * slow[k].fill);
   }

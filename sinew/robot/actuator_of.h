@@ -1,4 +1,4 @@
-// robot/actuator_of.h - the actuator that a muscle is made of.
+// robot/actuator_of.h - lookup of a muscle's actuator.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace sinew::robot {
 
-// The one that the muscle names, with the muscle's own bladder where it has one.
+// Returns the actuator that the muscle names, with the muscle's own bladder values if set.
 inline actuator::Actuator actuator_of(const Muscle& muscle,
                                       const std::vector<actuator::Actuator>& actuators) {
   actuator::Actuator out;

@@ -8,7 +8,7 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-// The joint whose board a sensor is on; -1 of one that looks at no joint and no muscle.
+// Returns the joint whose board a sensor is on; -1 if it measures no joint or muscle.
 int joint_of(const Robot& robot, const Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle || sensor.kind == Sensor::Kind::velocity)
     return find_joint(robot, sensor.of);
@@ -19,7 +19,7 @@ int joint_of(const Robot& robot, const Sensor& sensor) {
 
 bool measures_cylinder(const Sensor& sensor) { return sensor.kind == Sensor::Kind::cylinder; }
 
-// Finds a place for each joint, for the cylinder and for each sensor.
+// Assigns each joint, the cylinder and each sensor to a board.
 class Split {
  public:
   explicit Split(const Robot& robot)
@@ -57,7 +57,7 @@ class Split {
     int joints = 0, channels = 0;
   };
 
-  // Joints tied to this one by muscles over two, itself included.
+  // Returns the joints tied to this one by muscles over two joints, including itself.
   std::vector<std::size_t> tied(std::size_t joint) const {
     std::vector<std::size_t> group{joint};
     const auto add = [&](int j) {
@@ -87,14 +87,14 @@ class Split {
     return there.joints + more.joints <= board_joints &&
            there.channels + more.channels <= board_channels;
   }
-  // The first board from `from` on that has room; `from` itself if there is none.
+  // Returns the first board from `from` on that has room; `from` itself if there is no such board.
   int next_with_room(int from, Load more) const {
     for (int b = from; b <= max_boards; ++b)
       if (fits(b, more)) return b;
     return from;
   }
 
-  // Those that name a board first, with what is tied to them.
+  // Places the joints that name a board first, with the joints tied to them.
   void place_joints() {
     for (std::size_t j = 0; j < joint_.size(); ++j)
       if (robot_.joints[j].board > 0) place(j, robot_.joints[j].board);
@@ -135,21 +135,21 @@ class Split {
   const Robot& robot_;
   std::vector<int> joint_, sensor_;  // boards; 0: not placed yet
   int cylinder_ = 0;
-  std::vector<int> channels_;  // of each joint's sensors
+  std::vector<int> channels_;  // number of channels of each joint's sensors
   int cylinder_channels_ = 0;
   std::array<Load, static_cast<std::size_t>(max_boards) + 1> load_{};
 };
 
 bool has(const std::vector<int>& list, int index) { return std::ranges::count(list, index) > 0; }
 
-// The first joint, sensor or cylinder that makes a board too full, as a key.
+// Returns the key of the first joint, sensor or cylinder that makes a board too full.
 std::string board_key(const Robot& robot, const Board& board, std::size_t joints) {
   if (joints < board.joints.size())
     return "joint." + robot.joints[at(board.joints[joints])].name + ".board";
   return "cylinder.board";
 }
 
-// The first part that names a board beyond this one, as a key.
+// Returns the key of the first part that names a board beyond this one.
 std::string key_beyond(const Robot& robot, int board) {
   for (const Joint& j : robot.joints)
     if (j.board > board) return "joint." + j.name + ".board";

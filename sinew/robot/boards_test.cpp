@@ -11,8 +11,8 @@
 namespace sinew::robot::boards_test {
 namespace {
 
-// Joints in a row, each with a pair, its angle and two tensions; ticks and channels of its board
-// are not looked at here.
+// Joints in a row, each with a pair, its angle and two tensions; ticks and channels of the board
+// are not tested here.
 Robot machine(std::size_t joints) {
   Robot robot;
   for (std::size_t j = 0; j < joints; ++j)
@@ -53,8 +53,8 @@ TEST(Boards, TheLegIsOnOneAndIsItself) {
   EXPECT_TRUE(wrong_with(leg).empty());
 }
 
-// Whatever names a board and whatever is tied: every part is on one board, with what belongs to it;
-// and where no joint names one, no board is too full and none is left out.
+// With any named boards and ties, every part is on one board, together with its sensors; and if no
+// joint names a board, no board is too full or left out.
 TEST(Boards, EveryPartIsOnOneWithWhatBelongsToIt) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 300; ++trial) {
@@ -110,7 +110,7 @@ TEST(Boards, FillInTheOrderOfTheFile) {
   EXPECT_EQ(first_wrong(robot), "");
 }
 
-// A converter of 32 channels has room for six such joints with pressures beside the tensions.
+// A converter of 32 channels has room for six such joints with pressures in addition to tensions.
 TEST(Boards, AConverterIsFullBeforeTheJointsAre) {
   Robot robot = machine(8);
   for (const Muscle& m : robot.muscles) {
@@ -124,7 +124,7 @@ TEST(Boards, AConverterIsFullBeforeTheJointsAre) {
   EXPECT_EQ(first_wrong(robot), "");
 }
 
-// The cylinder's loop is one joint more, behind the robot's; only one board has its bits.
+// The cylinder's loop counts as one more joint, after the robot's; only one board has its bits.
 TEST(Boards, TheCylinderIsOneJointMore) {
   Robot robot = machine(8);
   robot.cylinder = {.present = true, .mode = Cylinder::Mode::valves};
@@ -175,7 +175,7 @@ TEST(Boards, SayWhatCannotBe) {
             "sensor.fixed8: 33 sensors on board 1; at most 32 channels on a board");
 }
 
-// Bits, channels and ticks are a board's own: the same on two boards, never twice on one.
+// Bits, channels and ticks belong to a board: equal numbers are valid on two boards, not on one.
 TEST(Boards, EachHasItsOwnBitsChannelsAndTicks) {
   const auto count = [](const Robot& robot, const std::string& tail) {
     return std::ranges::count_if(contradictions(robot),

@@ -1,5 +1,5 @@
-// robot/body.fields.h - the keys of what a robot is built of: trolley, rollers, cylinder, links,
-// foot and ground.
+// robot/body.fields.h - the keys of a robot's body: trolley, rollers, cylinder, links, foot and
+// ground.
 #pragma once
 
 #include "sinew/robot/control.fields.h"
@@ -74,7 +74,7 @@ void fields(Visitor& v, Cylinder::Chamber& chamber) {
   });
 }
 
-// What a position loop and a regulator need.
+// Visits the keys of a position loop and of a regulator.
 template <class Visitor>
 void mode_fields(Visitor& v, Cylinder& c) {
   const auto share = [&](std::string_view name, std::string_view doc, double& value) {

@@ -1,4 +1,4 @@
-// robot/check.cpp - what cannot be in a robot, whatever the ranges of its single values say.
+// robot/check.cpp - contradictions within a robot, beyond the ranges of its single values.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,7 +16,7 @@ namespace sinew::robot {
 
 namespace {
 
-// --- a part of contradictions(robot): how the links hang together, and its legs ---
+// --- a part of contradictions(robot): the tree of links, and the legs ---
 
 using List = std::vector<Contradiction>;
 
@@ -35,8 +35,8 @@ bool belongs(const std::string& leg, const std::string& name) {
 
 bool in_a_leg(const Robot& robot, int link) { return leg_of_joint(robot, link) >= 0; }
 
-// Its joints are there, named after it, and hang one on the other from the body on, or from a link
-// that is no leg's.
+// Checks that a leg's joints exist, have names that begin with the leg's, and form a path from the
+// body, or from a link of no leg, outwards.
 void check_path(const Robot& robot, const Leg& leg, List& out) {
   const std::string key = "leg." + leg.name + ".joints";
   if (leg.joints.empty())
@@ -79,7 +79,7 @@ void check_membership(const Robot& robot, List& out) {
   for (std::size_t m = 0; m < robot.muscles.size(); ++m) {
     const Muscle& muscle = robot.muscles[m];
     const int joint = find_joint(robot, muscle.joint);
-    if (joint < 0) continue;  // said already
+    if (joint < 0) continue;  // reported already
     const int leg = leg_of_joint(robot, joint);
     if (leg < 0) continue;
     const std::string& name = robot.legs[static_cast<std::size_t>(leg)].name;
@@ -98,7 +98,7 @@ bool equal(const Gains& a, const Gains& b) {
   return a.angle == b.angle && a.stiffness == b.stiffness && a.velocity == b.velocity;
 }
 
-// One plan speaks to all legs by the names within them, so these stand for the same everywhere.
+// Checks that all legs have the same part names, since one plan uses these names for all legs.
 void check_likeness(const Robot& robot, List& out) {
   const Robot first = only_leg(robot, 0);
   const auto names = [](const Robot& r) {
@@ -132,7 +132,8 @@ void check_discs(const Robot& robot, List& out) {
                    "at most " + std::to_string(max_discs), "fewer points per foot"});
 }
 
-// Links of which two hang on one can be several legs; a single chain cannot.
+// Returns the advice for a leg that is too large: a tree can be several legs, a single chain
+// cannot.
 const char* advice_for_large_leg(const Robot& robot) {
   std::set<int> parents;
   for (std::size_t i = 0; i < robot.links.size(); ++i) parents.insert(parent_of(robot, i));
@@ -141,7 +142,7 @@ const char* advice_for_large_leg(const Robot& robot) {
                                         : "fewer of them: links that hardly move as one link";
 }
 
-// One gait controller drives a leg.
+// Checks the size of each leg, since one gait controller drives a whole leg.
 void check_leg_sizes(const Robot& robot, List& out) {
   for (const LegParts& leg : legs_of(robot)) {
     const std::string of = leg.name.empty() ? " in one leg" : " in leg " + leg.name;
@@ -157,7 +158,7 @@ void check_leg_sizes(const Robot& robot, List& out) {
   }
 }
 
-// Parents that lead nowhere or come later than their children.
+// Reports parents that do not exist or come later than their children.
 void check_tree(const Robot& robot, List& out) {
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const Link& link = robot.links[i];
@@ -170,8 +171,8 @@ void check_tree(const Robot& robot, List& out) {
   }
 }
 
-// Legs that are no paths from the body outwards, that share a joint or leave one out, or whose
-// parts are not alike; more discs than the ground can be asked about.
+// Reports legs that are not paths from the body outwards, that share a joint or leave one out,
+// or that have different parts; and too many discs.
 void check_legs(const Robot& robot, List& out) {
   check_discs(robot, out);
   check_leg_sizes(robot, out);
@@ -223,7 +224,7 @@ void check_sizes(const Robot& robot, List& out) {
   check_names(robot.sensors, "sensor", out);
 }
 
-// Laws and controller divide by the radius at rest.
+// Laws and controller divide by the radius at rest, so it must not be 0.
 void check_cam(const Robot& robot, const std::string& joint, const Cam& cam, const std::string& key,
                List& out) {
   if (!cam.angle.empty() && std::isfinite(cam.radius))
@@ -265,7 +266,8 @@ void check_passive(const Robot& robot, const Joint& joint, List& out) {
                      "no muscle at a passive joint", "kind = \"driven\""});
 }
 
-// At most one muscle each way, one at least; the other way may be a spring's or gravity's.
+// Each direction has at most one muscle, at least one has one; the other may be a spring's or
+// gravity's.
 void check_driven(const Robot& robot, const Joint& joint, List& out) {
   int muscles = 0;
   for (const auto role : {Muscle::Role::flexor, Muscle::Role::extensor}) {
@@ -284,7 +286,7 @@ void check_driven(const Robot& robot, const Joint& joint, List& out) {
                    "kind = \"passive\""});
 }
 
-// Each driven joint has its muscles, each muscle a joint and an inlet.
+// Checks that each driven joint has its muscles, and each muscle a joint and an inlet.
 void check_pairs(const Robot& robot, List& out) {
   for (const Muscle& muscle : robot.muscles) {
     const std::string key = "muscle." + muscle.name;
@@ -315,7 +317,7 @@ void check_cylinder_bits(const Robot& robot, const Take& take) {
 }
 
 void check_bits(const Robot& robot, List& out) {
-  std::map<int, std::string> used;  // of one board
+  std::map<int, std::string> used;  // bits of one board
   std::string on;
   const auto take = [&](int bit, const std::string& key) {
     const auto [at, fresh] = used.emplace(bit, key);
@@ -365,7 +367,7 @@ void check_sensor(const Robot& robot, const Sensor& sensor, List& out) {
                      "at most " + std::to_string(robot.converter.top()), "a count it can give"});
 }
 
-// Where it rests it must be believed.
+// The count at rest must be plausible.
 void check_plausible(const Robot& robot, const Sensor& sensor, List& out) {
   const std::vector<double>& range = sensor.plausible;
   if (range.empty()) return;
@@ -392,7 +394,8 @@ void check_plausible(const Robot& robot, const Sensor& sensor, List& out) {
                      "a range with its count at rest in it, " + text(rest), "a wider one"});
 }
 
-// One converter reads one channel after the other: the result of one before the start of the next.
+// Each converter converts one channel after the other: a result is read before the next conversion
+// starts.
 void check_scan(const Robot& robot, const Board& board, List& out) {
   int previous = 0;
   std::set<int> channels;
@@ -414,7 +417,7 @@ void check_scan(const Robot& robot, const Board& board, List& out) {
   }
 }
 
-// Every quantity that a law needs has one sensor, none has two.
+// Every quantity that a law needs has one sensor, and no quantity has two.
 void check_coverage(const Robot& robot, List& out) {
   const auto check = [&](Sensor::Kind kind, const std::string& of, const std::string& key,
                          const std::string& word, bool needed) {
@@ -442,7 +445,7 @@ void check_coverage(const Robot& robot, List& out) {
   }
 }
 
-// What the joints' own controllers are told.
+// Checks the settings of the joints' own controllers.
 void check_controllers(const Robot& robot, List& out) {
   for (const Joint& joint : robot.joints) {
     const std::string key = "joint." + joint.name + ".velocity.weights";
@@ -498,7 +501,7 @@ void check_rollers(const Robot& robot, List& out) {
                    "it is part of trolley.total_mass"});
 }
 
-// Ends of a range with the rest angle between them.
+// Checks the ends of a range, with the rest angle between them.
 void check_stops(const Robot& robot, List& out) {
   for (const Joint& joint : robot.joints) {
     const Stop& stop = joint.stop;
@@ -520,7 +523,7 @@ void check_stops(const Robot& robot, List& out) {
 
 void check_masses(const Robot& robot, List& out) {
   check_names(robot.foot.points, "foot.point", out);
-  // A body that is free in the plane may have no mass but its links'.
+  // A body that is free in the plane may have no mass except its links'.
   const bool free = robot.cylinder.present && robot.cylinder.mode == Cylinder::Mode::free;
   const double own = trolley_own_mass(robot), least = free ? -1e-9 * robot.trolley.total_mass : 0;
   if (robot.trolley.present && (free ? own < least : own <= 0))

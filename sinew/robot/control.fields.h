@@ -8,7 +8,7 @@
 
 namespace sinew::robot {
 
-// The joint as an observer takes it.
+// Visits the joint's parameters in an observer.
 template <class Visitor>
 void observer_fields(Visitor& v, Velocity& velocity) {
   using Estimator = Velocity::Estimator;
@@ -103,7 +103,7 @@ void fields(Visitor& v, PressureLaw& law) {
            law.stiffness_integral);
 }
 
-// The board of a joint, of an air cylinder and of a sensor that belongs to neither.
+// Visits the board of a joint, of an air cylinder and of a fixed sensor.
 template <class Visitor>
 void board_field(Visitor& v, int& board) {
   v.integer({.name = "board",
@@ -114,7 +114,7 @@ void board_field(Visitor& v, int& board) {
             board);
 }
 
-// Beside a joint's gains.
+// Visits the controller's parameters other than the gains.
 template <class Visitor>
 void controller_fields(Visitor& v, Velocity& velocity, StiffnessSource& source, PressureLaw& law) {
   v.choice({.name = "stiffness_source",

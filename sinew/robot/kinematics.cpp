@@ -9,19 +9,19 @@ namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
-// A target on the edge of the reach stays reachable whatever its last bits say [-].
+// Tolerance by which a target on the edge of the reach counts as reachable [-].
 constexpr double edge = 1e-12;
 
-// +1 where the muscle flexes its joint, -1 where it extends it.
+// Returns +1 if the muscle flexes its joint, -1 if it extends it.
 double pull(Muscle::Role role) { return role == Muscle::Role::flexor ? 1.0 : -1.0; }
 
-// The target moved along its own ray to distance d; straight down where it has no direction.
+// Returns the target moved along its own ray to distance d; straight down if it has no direction.
 Point on_ray(Point target, double distance, double d) {
   if (distance == 0) return {0, -d};
   return {target.x / distance * d, target.y / distance * d};
 }
 
-// Angles for a target that is in reach.
+// Returns the angles for a reachable target.
 std::array<double, 2> solve(const TwoLinks& leg, Point p, Knee knee) {
   const double d = std::hypot(p.x, p.y);
   const double straight = (leg.l1 + leg.l2 - d) * (leg.l1 + leg.l2 + d);
@@ -144,7 +144,7 @@ Jacobian jacobian(const TwoLinks& leg, double theta1, double theta2) {
 
 GroundReaction ground_reaction(const TwoLinks& leg, double theta1, double theta2,
                                std::array<double, 2> torque) {
-  // Also true of NaN.
+  // Also true for NaN.
   if (!(std::abs(std::sin(theta2)) >= singular_sine)) return {.force = {}, .singular = true};
 
   // (J^T)^-1 = 1/det [ y2 -y1; -x2 x1 ]
@@ -218,7 +218,8 @@ double muscle_length(const Joint& joint, Muscle::Role role, double mount_length,
 
 namespace {
 
-// By the trapezoidal rule, which is exact for the straight pieces of a cam whose corners it meets.
+// Returns the tendon length taken up by the cam. The trapezoidal rule is exact for the straight
+// pieces of a cam if it meets the corners.
 double cord_taken_up(const Muscle& muscle, const Joint& joint, double angle) {
   constexpr int pieces = 32;
   const double step = (angle - joint.rest_angle) / pieces;

@@ -17,7 +17,7 @@ using test::inch;
 constexpr double pi = std::numbers::pi;
 constexpr TwoLinks leg{8.875 * inch, 6.25 * inch};
 
-// Smallest turn between two angles  [rad].
+// Returns the smallest turn between two angles [rad].
 double apart(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * pi)); }
 
 struct Target {
@@ -25,7 +25,7 @@ struct Target {
   double theta1, theta2;
 };
 
-// A seeded target in reach, and the angles it was made of.
+// A seeded target in reach, and the angles that it was made from.
 class Targets {
  public:
   explicit Targets(unsigned seed) : random_(seed) {}
@@ -193,7 +193,8 @@ TEST(Jacobian, IsTheDerivativeOfTheFoot) {
   }
 }
 
-// The leg at rest: what the muscles do in a small turn, the ground takes back, T dtheta + F dx = 0.
+// The leg at rest: the work of the muscles in a small turn equals that of the ground, T dtheta + F
+// dx = 0.
 TEST(GroundReaction, VirtualWorkVanishes) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> newton_metres(-5, 5);
@@ -209,7 +210,7 @@ TEST(GroundReaction, VirtualWorkVanishes) {
   }
 }
 
-// [71]: T = J^T F, and the ground's answer to those torques is -F.
+// [71]: T = J^T F, and the ground's reaction to those torques is -F.
 TEST(FootForce, TorquesAreTheJacobiansAndTheGroundAnswersThem) {
   std::mt19937 random(10);
   std::uniform_real_distribution<double> newtons(-100, 100);
@@ -229,7 +230,7 @@ TEST(FootForce, TorquesAreTheJacobiansAndTheGroundAnswersThem) {
   }
 }
 
-// A chain that lies along x holds a weight at its end by force times distance, joint by joint.
+// A chain along x holds a weight at its end by force times distance, joint by joint.
 TEST(FootForce, OfAStraightChainIsForceTimesDistance) {
   const std::array lengths{0.4, 0.3, 0.2, 0.1}, angles{0.0, 0.0, 0.0, 0.0};
   const auto torque = torques_for(forward(lengths, angles), {7, -10});
@@ -279,7 +280,7 @@ TEST(Torque, ACamsLeverIsStraightBetweenItsPoints) {
   EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 7), 0.03);
   EXPECT_DOUBLE_EQ(pull_at(robot.muscles[3], knee, 4.25),
                    0.025);  // the knee's extensor raises its angle
-  EXPECT_EQ(pull_at(robot.muscles[3], robot.joints[0], 4.25), 0);  // and does nothing at the hip
+  EXPECT_EQ(pull_at(robot.muscles[3], robot.joints[0], 4.25), 0);  // no effect at the hip
   const std::array<double, 4> tension{0, 0, 0, 100};
   EXPECT_DOUBLE_EQ(torque_of_muscles(robot, 1, 4.25, tension), 2.5);
 }
@@ -317,7 +318,7 @@ TEST(MuscleLength, BelievedKneeIsExchangedByTheThesis) {
   robot.thesis.knee_lengths_swapped = true;
   EXPECT_NEAR(believed_muscle_length(robot, extensor, angle), right, 1e-15);
 
-  // The hip's lengths are right either way.
+  // The hip's lengths are correct with either setting.
   const int hip = find_muscle(robot, "hip_flexor");
   EXPECT_LT(believed_muscle_length(robot, hip, 290 * degree), 3.15 * inch);
 }

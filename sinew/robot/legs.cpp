@@ -11,7 +11,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Returns the length of the head behind which a leg's name stands.
+// Returns the length of the head after which a leg's name is inserted.
 std::size_t head_of(std::string_view topic) {
   for (const std::string_view head : heads)
     if (topic.starts_with(head) && topic.substr(head.size()).starts_with("/")) return head.size();

@@ -1,14 +1,14 @@
-// robot/legs.h - a robot's several legs, each as a robot of its own: what drives a leg, and what
-// reads its log, knows one leg and calls its parts as if there were no other.
+// robot/legs.h - the legs of a robot, each as a robot of its own: a leg's gait controller and the
+// readers of its log handle a single leg, with part names as if it were the only one.
 //
 // The parts of a leg `left` are named left_hip, left_hip_flexor; within the leg, in the plan and in
-// the log they are hip and hip_flexor. A topic of a leg has /leg/<name> before it, behind /true or
-// /desired where it begins so:
+// the log they are hip and hip_flexor. A leg's topic begins with /leg/<name>, after /true or
+// /desired if it has one:
 //
 //   /joint/hip/angle        /leg/left/joint/hip/angle
 //   /true/foot/force        /true/leg/left/foot/force
 //
-// A robot without [leg.*] has one leg, which has no name and is all of it: nothing changes.
+// A robot without [leg.*] has one leg without a name, which is the whole robot: nothing changes.
 #pragma once
 
 #include <string>
@@ -21,51 +21,52 @@ namespace sinew::robot {
 
 inline constexpr int max_legs = 8;
 
-// One leg's joints and muscles, by their positions in the robot's lists.
+// One leg's joints and muscles, as indices in the robot's lists.
 struct LegParts {
   std::string name;  // empty: the robot's only one
   std::vector<int> joints, muscles;
-  double offset = 0;  // of its sequence, as a share of a step [-]
+  double offset = 0;  // lead of its sequence, as a share of a step [-]
   std::string plan;   // the sequence that it follows; empty: the experiment's
 };
 
-// The robot's legs in the order of its file. contradictions(robot) must be empty.
+// Returns the robot's legs in the order of its file. contradictions(robot) must be empty.
 std::vector<LegParts> legs_of(const Robot&);
 
-// The leg that a joint belongs to, and a muscle by its first joint; 0 of a robot without [leg.*],
-// -1 of a passive joint between legs and body, which is no leg's.
+// Return the leg of a joint, and of a muscle by its first joint; 0 for a robot without [leg.*], -1
+// for a passive joint between legs and body, which belongs to no leg.
 int leg_of_joint(const Robot&, int joint);
 int leg_of_muscle(const Robot&, int muscle);
 
-// The foot of a leg: its own, or the robot's.
+// Returns the foot of a leg: its own, or the robot's.
 const Foot& foot_of(const Robot&, std::size_t leg);
 
-// Discs of all feet together, one of a foot without points.
+// Returns the number of discs of all feet; a foot without points has one.
 int discs_of(const Robot&);
 
-// The link that carries a leg's foot, its last; -1 where the robot has no links.
+// Returns the link that carries a leg's foot, its last; -1 if the robot has no links.
 int foot_link(const Robot&, std::size_t leg);
 
-// A robot that has this leg alone, its parts named as within the leg, its foot as the robot's. The
-// body, the ground and the rest stay; sensors keep their names, those of other legs are left out.
+// Returns a robot that has only this leg, with part names as within the leg, and its foot as the
+// robot's. Body, ground and other parts stay; sensors keep their names, and those of other legs are
+// removed.
 Robot only_leg(const Robot&, std::size_t leg);
 
-// The name of a leg's part within the leg: "left_hip" of "left" is "hip".
+// Returns the name of a leg's part within the leg: "left_hip" of "left" is "hip".
 std::string name_in_leg(std::string_view leg, std::string_view name);
 
-// A topic of a leg as the log has it; the topic itself where the leg has no name.
+// Returns a topic of a leg as in the log; the topic itself if the leg has no name.
 std::string topic_of_leg(std::string_view leg, std::string_view topic);
 
-// The opposite: what a leg's topic is called within the leg; empty for another leg's, and any other
-// topic as it is.
+// Returns the inverse: a leg's topic as within the leg; empty for another leg's topic; any other
+// topic unchanged.
 std::string topic_in_leg(std::string_view leg, std::string_view topic);
 
-// A topic that names a joint, a muscle or its valves as the robot does,
-// "/true/joint/left_hip/angle", as the log has it; any other as it is.
+// Returns a topic with the robot's name of a joint, a muscle or its valves,
+// "/true/joint/left_hip/angle", as in the log; any other topic unchanged.
 std::string logged_topic(const Robot&, std::string_view topic);
 
-// A joint's and a muscle's topics begin so, behind /true or /desired: "/joint/hip",
-// "/leg/left/muscle/hip_flexor"; a muscle's valves': "/leg/left/valve/hip_flexor".
+// Return the prefix of a joint's and a muscle's topics, after /true or /desired: "/joint/hip",
+// "/leg/left/muscle/hip_flexor"; and of a muscle's valves: "/leg/left/valve/hip_flexor".
 std::string topic_of_joint(const Robot&, std::size_t joint);
 std::string topic_of_muscle(const Robot&, std::size_t muscle);
 std::string topic_of_valves(const Robot&, std::size_t muscle);

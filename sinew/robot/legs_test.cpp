@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const Parts& parts) {
   return out;
 }
 
-// Returns what contradicts something once `damage` is done to two sound legs: "key: found".
+// Returns the contradictions, "key: found", after `damage` is done to two valid legs.
 std::string first_after(const std::function<void(Robot&)>& damage) {
   Robot robot = test::two_legs();
   damage(robot);
@@ -42,7 +42,7 @@ TEST(Legs, ARobotWithoutLegsIsOne) {
   EXPECT_EQ(foot_link(robot, 0), 1);
 }
 
-// Each leg alone is the leg that it was made of.
+// Each single leg equals the leg that it was made from.
 TEST(Legs, EachAloneIsTheLeg) {
   const Robot one = test::leg(), two = test::two_legs();
   ASSERT_TRUE(contradictions(two).empty());
@@ -102,7 +102,7 @@ TEST(Legs, WhatCannotBe) {
   EXPECT_EQ(first_after([](Robot& r) { r.foot.points.resize(5); }).substr(0, 10), "foot.point");
 }
 
-// A passive trunk is no leg's; the legs may hang on it, and their own parts are as before.
+// A passive trunk belongs to no leg; the legs may hang on it, and their parts are as before.
 TEST(Legs, MayHangOnATrunk) {
   Robot robot = test::two_legs();
   Link trunk = robot.links[0];
@@ -122,7 +122,7 @@ TEST(Legs, MayHangOnATrunk) {
   EXPECT_FALSE(contradictions(robot).empty());
 }
 
-// A chain of twelve joints is no set of legs, which would be refused, too; twelve that branch are.
+// A chain of twelve joints is not a set of legs, which would be rejected, too; a tree of twelve is.
 TEST(Legs, AdviceForALargeLegFitsItsShape) {
   Robot robot = test::leg();
   robot.muscles.clear();
@@ -143,7 +143,8 @@ TEST(Legs, AdviceForALargeLegFitsItsShape) {
   EXPECT_EQ(advice(), "several legs, [leg.<name>] with joints = [...]");
 }
 
-// Places by parents are the chain's where the robot is one, and a leg's where it is a tree.
+// Positions by parents equal those of the chain for a serial robot, and those of each leg for a
+// tree.
 TEST(Kinematics, PlacesOfATreeAreThoseOfItsLegs) {
   Robot two = test::two_legs();
   two.links[2].at = 4 * inch;

@@ -1,4 +1,4 @@
-// robot/muscle.fields.h - the keys of joints and of what pulls them: cams, muscles.
+// robot/muscle.fields.h - the keys of joints, cams and muscles.
 #pragma once
 
 #include "sinew/gas/hose.fields.h"
@@ -10,7 +10,7 @@
 
 namespace sinew::robot {
 
-// What only a joint with muscles has.
+// Visits the keys of joints with muscles.
 template <class Visitor>
 void driven_fields(Visitor& v, Joint& joint) {
   v.choice({.name = "flexion", .doc = "what a shorter flexor does to the angle"}, joint.flexion,
@@ -82,7 +82,7 @@ void fields(Visitor& v, Joint& joint) {
   if (joint.kind == Joint::Kind::driven) driven_fields(v, joint);
 }
 
-// Keys of a cam; `moment_arm` and `cam` in the table that the cord belongs to.
+// Keys of a cam; `moment_arm` and `cam` are in the table of the tendon.
 template <class Visitor>
 void fields(Visitor& v, Cam& cam) {
   v.number({.name = "moment_arm",

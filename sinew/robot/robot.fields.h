@@ -1,7 +1,7 @@
 // robot/robot.fields.h - the keys of robots/*/robot.toml: name, unit, range and meaning of each.
 //
-// See units/field.h for what a visitor has. The table [air] belongs to gas; what `files` names is
-// put beside these tables by config/compose.h.
+// units/field.h describes the visitor. The table [air] belongs to gas; config/compose.h reads the
+// tables in the files that `files` names.
 #pragma once
 
 #include "sinew/robot/body.fields.h"
@@ -14,7 +14,7 @@
 
 namespace sinew::robot {
 
-// What the stiffness law [27] takes the muscles for.
+// Visits the stiffness law's [27] assumptions about the muscles.
 template <class Visitor>
 void stiffness_fields(Visitor& v, LowLevel& low) {
   v.number(
@@ -24,7 +24,7 @@ void stiffness_fields(Visitor& v, LowLevel& low) {
        .max = 0.7,
        .doc = "nearer to the pole of [27] the last stiffness is held; -800 deg: never, as in B.1"},
       low.stiffness_pole_clamp);
-  constexpr double never = -12;  // [rad]: no muscle gets as far beyond its pole
+  constexpr double never = -12;  // [rad]: no muscle gets that far beyond its pole
   if (low.stiffness_pole_clamp < 0 && low.stiffness_pole_clamp > never)
     units::complain(v, "stiffness_pole_clamp", "a distance below 0",
                     "at least 0 deg, or -800 deg for never", "\"10 deg\"");

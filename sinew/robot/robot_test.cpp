@@ -10,7 +10,7 @@
 namespace sinew::robot::robot_test {
 namespace {
 
-// Keys that contradict something once `damage` is done to a sound leg.
+// Returns the keys of the contradictions after `damage` is done to a valid leg.
 std::vector<std::string> keys_after(const std::function<void(Robot&)>& damage) {
   Robot robot = test::leg();
   damage(robot);
@@ -53,8 +53,8 @@ TEST(Contradictions, PairsAndTheirSensors) {
             (Keys{"muscle.knee_flexor.exhaust.bit"}));
 }
 
-// One muscle is enough, none is not; nor are two on one side, a muscle over two joints counted at
-// both.
+// One muscle is enough, no muscle is not; nor are two on one side, where a muscle over two joints
+// counts at both.
 TEST(Contradictions, AJointHasOneMuscleEachWayAtMost) {
   const auto without = [](Robot& r, std::size_t muscle) {
     const std::string name = r.muscles[muscle].name;
@@ -70,7 +70,7 @@ TEST(Contradictions, AJointHasOneMuscleEachWayAtMost) {
   EXPECT_EQ(keys_after([&](Robot& r) { over_both(r), without(r, 2); }), Keys{});
 }
 
-// A law that does not look at a tension needs no transducer of it.
+// A law that does not use a tension needs no transducer for it.
 TEST(Contradictions, SensorsFollowFromTheLaws) {
   const auto without_tensions = [](Robot& r) {
     std::erase_if(r.sensors, [](const Sensor& s) { return s.kind == Sensor::Kind::tension; });

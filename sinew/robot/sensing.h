@@ -1,4 +1,4 @@
-// robot/sensing.h - from a quantity to the converter's counts, and back.
+// robot/sensing.h - conversion between a quantity and the converter's counts.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,29 @@
 
 namespace sinew::robot {
 
-// Noise of unit standard deviation as a hash of (seed, sensor, tick): no stream, so that reading
-// more, or in another order, changes nothing. Sum of twelve uniform numbers minus six, from the
-// sixteen-bit pieces of three 64-bit hashes; bounded at 6.
+// Returns noise of unit standard deviation as a hash of (seed, sensor, tick): without a stream,
+// so that more readings, or another order, change nothing. It is the sum of twelve uniform numbers
+// minus six, from the 16-bit pieces of three 64-bit hashes; bounded at 6.
 double noise(std::uint64_t seed, int sensor, signals::Tick tick);
 
-// What the converter reports for the angle [rad] or tension [N] at its input: offset, noise,
+// Returns the converter's counts for the angle [rad] or tension [N] at its input: offset, noise,
 // rounding to the nearest count, and its two ends (4.1, 4.4: tension clips at 29.4 lb).
 std::uint16_t counts(const Sensor& sensor, const Converter& converter, double quantity,
                      double noise);
 
-// A sensor's quantity and its counts, along a line.
+// Linear relation between a sensor's quantity and its counts.
 struct SensorLine {
-  double at_zero = 0;  // the quantity where the counts are `count_at_zero`
+  double at_zero = 0;  // the quantity at `count_at_zero`
   double count_at_zero = 0;
   double counts_per_unit = 0;
 
-  // Returns the counts of a quantity, and the quantity of counts.
+  // Return the counts of a quantity, and the quantity of counts.
   double counts(double value) const { return count_at_zero + (value - at_zero) * counts_per_unit; }
   double value(double count) const { return at_zero + (count - count_at_zero) / counts_per_unit; }
 };
 
-// Returns the line of a muscle's transducer: by its own scale, as logs have it; and by the scale
-// that the controller assumes for all of them  [N].
+// Return the line of a muscle's transducer: by its own scale, as in logs; and by the scale that the
+// controller assumes for all of them [N].
 SensorLine own_tension(const Sensor&, const Converter&);
 SensorLine assumed_tension(const Sensor&, const Converter&);
 

@@ -1,4 +1,4 @@
-// robot/sensor.fields.h - the keys of the converter and of the sensors before it.
+// robot/sensor.fields.h - the keys of the converter and of its sensors.
 #pragma once
 
 #include <string_view>
@@ -16,8 +16,8 @@ void fields(Visitor& v, Converter& converter) {
            converter.full_scale);
 }
 
-// The scale of a sensor, volts per unit or units per volt. It is above 0: a sensor that is wired
-// the other way would tell the laws that a joint moves against them.
+// Visits the scale of a sensor, volts per unit or units per volt. It is above 0: with reversed
+// wiring the laws would see the joint move against them.
 template <class Visitor>
 void scale_field(Visitor& v, std::string_view unit, double least, std::string_view doc,
                  double& value) {
@@ -29,7 +29,7 @@ void scale_field(Visitor& v, std::string_view unit, double least, std::string_vi
            value);
 }
 
-// What a sensor really does. The unit of `scale` follows its kind.
+// Visits the sensor's real values. The unit of `scale` depends on its kind.
 template <class Visitor>
 void real_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle)
@@ -53,7 +53,7 @@ void real_fields(Visitor& v, Sensor& sensor) {
       sensor.noise);
 }
 
-// What the controller takes it for.
+// Visits the values that the controller assumes.
 template <class Visitor>
 void assumed_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle)
@@ -75,7 +75,7 @@ void assumed_fields(Visitor& v, Sensor& sensor) {
            sensor.assumed_at_rest);
 }
 
-// The limits within which the low level believes a reading.
+// Visits the limits of plausible readings.
 template <class Visitor>
 void limit_fields(Visitor& v, Sensor& sensor) {
   v.numbers({.name = "plausible",

@@ -11,14 +11,14 @@
 
 namespace sinew::robot {
 
-// A number that has its default where it stands alone.
+// Visits a number with a default.
 template <class Visitor>
 void amount(Visitor& v, std::string_view name, std::string_view unit, double min,
             std::string_view doc, double& value) {
   v.number({.name = name, .unit = unit, .min = min, .optional = true, .doc = doc}, value);
 }
 
-// A quantity of a part that may be missing: 0 stands for none, any other value is at least `least`.
+// Visits a quantity of an optional part: 0 means no such part, any other value is at least `least`.
 template <class Visitor>
 void size(Visitor& v, std::string_view name, std::string_view unit, double least,
           std::string_view why, std::string_view doc, double& value) {
@@ -32,7 +32,7 @@ void size(Visitor& v, std::string_view name, std::string_view unit, double least
            value);
 }
 
-// [{ at = "1 s", <what.name> = "…" }, …]; `what` says what is there.
+// Visits [{ at = "1 s", <what.name> = "…" }, …]; `what` describes the value.
 template <class Visitor>
 void points(Visitor& v, std::string_view name, units::Field what, std::string_view doc,
             std::vector<signals::Schedule::Point>& list) {

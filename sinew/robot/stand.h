@@ -1,5 +1,5 @@
-// robot/stand.h - the test stand of one muscle, as a machine: the element that is tried, what pulls
-// it, how its air gets in, and its transducers.
+// robot/stand.h - description of the test stand of one muscle: the tested element, its load, its
+// air supply, and its transducers.
 #pragma once
 
 #include <string>
@@ -14,26 +14,26 @@
 namespace sinew::robot {
 
 struct Stand {
-  // What hangs on the stand.
+  // The tested element.
   struct Element {
     struct Cylinder {
-      double bore = 0;                      // above 0: an air cylinder in the muscle's place [m]
+      double bore = 0;                      // above 0: an air cylinder instead of the muscle [m]
       double rod_diameter = 0, stroke = 0;  // [m]
-      double dead_volume = 0;               // of the rod's side, with hoses [m^3]
+      double dead_volume = 0;               // rod's side, with hoses [m^3]
     };
 
-    std::string name = "bpa";    // in the log's topics
-    std::string actuator;        // of files.actuator
-    int count = 1;               // side by side
+    std::string name = "bpa";    // used in the log's topics
+    std::string actuator;        // name in files.actuator
+    int count = 1;               // in parallel
     double external_volume = 0;  // downstream of the valves [m^3]
-    std::string inlet, exhaust;  // of files.valves; a 3-way valve stands at the inlet
+    std::string inlet, exhaust;  // names in files.valves; a 3-way valve is the inlet
     gas::Hose hose;
     gas::Leak leak;
     Cylinder cylinder;
   };
 
-  // A constant, or points that take its place: weights are hung on at their instants, lengths,
-  // forces and pressures run straight from one to the next.
+  // A constant, or points that replace it: weights are added at their instants; lengths, forces and
+  // pressures change linearly from one point to the next.
   struct Load {
     // hanging: a mass, figure 3-3; driven: another machine prescribes the length
     enum class Mode { hanging, driven };
@@ -43,10 +43,10 @@ struct Stand {
     std::vector<signals::Schedule::Point> weights, lengths, forces;
     double gravity = units::standard_gravity;  // hanging [m/s^2]
   };
-  // The way in which the air gets in.
+  // Air supply of the element.
   struct Charge {
-    // sealed: what is in at the start stays; valves: those of the element; regulated: by a
-    // regulator that nothing disturbs
+    // sealed: the air at the start stays inside; valves: those of the element; regulated: an ideal
+    // regulator
     enum class Mode { sealed, valves, regulated };
 
     Mode mode = Mode::sealed;

@@ -1,5 +1,5 @@
-// robot/test_leg.h - the thesis's leg as far as tests need it: lengths, joints, pairs and scan of
-// 4.2, 5.3, B.1. The whole leg is robots/leg.
+// robot/test_leg.h - the parts of the thesis's leg that tests need: lengths, joints, pairs and
+// scan of 4.2, 5.3, B.1. The whole leg is robots/leg.
 #pragma once
 
 #include <numbers>
@@ -65,7 +65,7 @@ inline Robot leg() {
   return robot;
 }
 
-// The leg twice on one body, both hips on one axis: legs left and right.
+// Returns the leg twice on one body, both hips on one axis: legs left and right.
 inline Robot two_legs() {
   const Robot one = leg();
   Robot robot = one;

@@ -1,4 +1,4 @@
-// A transducer's errors, each against its line.
+// A transducer's errors, each against its formula.
 #include "sinew/robot/transducer.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 Transducer gauge() { return {.name = "gauge", .of = Transducer::Of::pressure, .high = 8e5}; }
 
-// A good one is half a count off at most.
+// An ideal one has an error of half a count at most.
 TEST(Transducer, ShowsWhatThereIsToHalfACount) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> anything(0, 8e5);

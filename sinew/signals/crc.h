@@ -1,14 +1,14 @@
 // signals/crc.h - two checksums of bytes, for frames on a wire and for memory that must not change.
 //
 //   crc16  CCITT-FALSE: polynomial 0x1021, begins with 0xffff, most significant bit first, result
-//   as
-//          it is. "123456789" gives 0x29b1. It finds every burst of 16 bits and, up to 4 kB, every
-//          three flipped bits.
+//          not inverted. "123456789" gives 0x29b1. It finds every burst of 16 bits and, up to 4 kB,
+//          every three flipped bits.
 //   crc32  IEEE 802.3: polynomial 0x04c11db7 reflected, begins with 0xffffffff, result inverted.
 //          "123456789" gives 0xcbf43926. It finds every burst of 32 bits and, up to 11 kB, every
 //          three flipped bits.
 //
-// Four bits at a time: a table for each of 16 entries, 96 bytes in all. Embedded core.
+// Both process four bits at a time with a table of 16 entries each, 96 bytes in all. Part of the
+// embedded core.
 #pragma once
 
 #include <array>
@@ -56,7 +56,7 @@ constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
   return static_cast<std::uint16_t>(r);
 }
 
-// `before`: the sum of what came before, to go on with.
+// `before`: the checksum of the preceding bytes, if any, to continue from.
 constexpr std::uint32_t crc32(std::span<const std::uint8_t> bytes,
                               std::uint32_t before = 0) noexcept {
   std::uint32_t r = ~before;

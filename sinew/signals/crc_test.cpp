@@ -11,7 +11,7 @@ namespace {
 
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
 
-// A bit at a time, as the polynomials are defined.
+// One bit at a time, as the polynomials are defined.
 std::uint16_t slow_crc16(std::span<const std::uint8_t> bytes) {
   std::uint32_t r = 0xffff;
   for (const std::uint8_t b : bytes)

@@ -20,9 +20,9 @@ struct PageFile::Impl {
 
   int descriptor = -1;
   int error = 0;                      // errno of the last failure, or 0
-  std::array<char, 1024> folder{};    // where the file is
-  std::uint32_t end = 0;              // pages that the file has
-  std::vector<std::uint32_t> unused;  // pages of it that hold nothing
+  std::array<char, 1024> folder{};    // folder of the file
+  std::uint32_t end = 0;              // number of pages in the file
+  std::vector<std::uint32_t> unused;  // free pages
 };
 
 namespace {
@@ -36,7 +36,7 @@ const char* folder_of_temporary_files() noexcept {
 int nameless_file(const char* folder) noexcept {
   const int fd = ::open(folder, O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, 0600);
   if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)) return fd;
-  // A file system that has no such files: one that loses its name at once.
+  // On file systems without O_TMPFILE: a named file that is unlinked at once.
   std::array<char, 1100> path{};
   const int n = std::snprintf(path.data(), path.size(), "%s/sinew-XXXXXX", folder);
   if (n < 0 || static_cast<std::size_t>(n) >= path.size()) return -1;
@@ -45,7 +45,7 @@ int nameless_file(const char* folder) noexcept {
   return named;
 }
 
-// All of the bytes, or false with errno.
+// Writes all bytes; returns false with errno if that fails.
 bool write_all(int fd, const char* bytes, std::size_t count, off_t at) noexcept {
   while (count > 0) {
     const ssize_t n = ::pwrite(fd, bytes, count, at);
@@ -131,7 +131,7 @@ void PageFile::release(std::uint32_t page) noexcept {
   try {
     impl_->unused.push_back(page);
   } catch (const std::bad_alloc&) {
-    // The page is lost until the file goes.
+    // The page stays unused until the file is closed.
   }
 }
 

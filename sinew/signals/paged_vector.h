@@ -1,13 +1,13 @@
-// signals/paged_vector.h - a vector that may be longer than memory: the samples of hours.
+// signals/paged_vector.h - a vector that may be longer than memory: samples of hours.
 //
-// Its newest elements, at most a page of them, stand in memory, the full pages before them in a
-// PageFile. Without a file all of them stay in memory, as in a std::vector. Elements are added at
-// the end and read anywhere: one after the other costs as much as in memory, up and down a page
-// each time. The values read are the bits that were put in, wherever they stood meanwhile.
+// Its newest elements, at most a page, are in memory, the full pages before them in a PageFile.
+// Without a file all elements stay in memory, as in a std::vector. Elements are added at the end
+// and read anywhere. Sequential reading, in either direction, is as fast as in memory apart from
+// one disk access per page. Values read have the bits that were written.
 //
-// Copies share their elements until one of them is changed, so copying costs nothing. One object
-// whose pages stand in a file is read by one thread at a time, since it remembers the last page;
-// a copy for each thread is free. Reading throws std::runtime_error where the disk fails.
+// Copies share their elements until one of them is changed, so copying is cheap. An object with
+// pages in a file may be read by one thread at a time, since it caches the last page; each thread
+// can use its own copy. Reading throws std::runtime_error if the disk fails.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class PagedVector {
   using iterator = const_iterator;
 
   PagedVector() = default;
-  // Begins empty, with pages in that file; or holds these values.
+  // Starts empty, with pages in that file; or with these values.
   explicit PagedVector(const PageFile& file) : store_(std::make_shared<Store>(file)) {}
   PagedVector(std::vector<T> values) : store_(std::make_shared<Store>(std::move(values))) {}
   PagedVector(std::initializer_list<T> values) : PagedVector(std::vector<T>(values)) {}
@@ -45,7 +45,7 @@ class PagedVector {
     for (; first != last; ++first) push_back(*first);
   }
 
-  PagedVector(const PagedVector& other) : store_(other.store_) {}  // without the page it has read
+  PagedVector(const PagedVector& other) : store_(other.store_) {}  // without the cached page
   // Leaves the other one empty.
   PagedVector(PagedVector&& other) noexcept { swap(other); }
   PagedVector& operator=(PagedVector other) noexcept {
@@ -54,15 +54,15 @@ class PagedVector {
   }
   ~PagedVector() = default;
 
-  // Exchanges all that they hold.
+  // Exchanges the contents.
   void swap(PagedVector& other) noexcept {
     store_.swap(other.store_);
     seen_.swap(other.seen_);
     std::swap(seen_page_, other.seen_page_);
   }
 
-  // The file of its pages; none: it stays in memory. What is made of these elements, and is as
-  // long, takes the same.
+  // Returns the file of its pages; empty if it stays in memory. Vectors derived from these
+  // elements, of the same length, use the same file.
   PageFile file() const { return store_ ? store_->file : PageFile(); }
 
   std::size_t size() const { return store_ ? store_->paged() + store_->tail.size() : 0; }
@@ -71,31 +71,31 @@ class PagedVector {
     const std::size_t paged = store_->paged();
     return i >= paged ? store_->tail[i - paged] : seen(i / page_size)[i % page_size];
   }
-  // Returns the first and the last value; there has to be one.
+  // Return the first and the last value; requires at least one.
   T front() const { return (*this)[0]; }
   T back() const { return (*this)[size() - 1]; }
   const_iterator begin() const { return {this, 0}; }
   const_iterator end() const { return {this, size()}; }
   std::vector<T> slice(std::size_t first, std::size_t last) const;  // in memory
-  // Returns all of them, in memory.
+  // Returns all values, in memory.
   std::vector<T> in_memory() const { return slice(0, size()); }
 
-  // Adds a value behind the others. Throws std::runtime_error where its file has no more room.
+  // Appends a value. Throws std::runtime_error if its file has no more room.
   void push_back(T value) {
     own();
     if (!store_->push(value)) fail(store_->file);
   }
 
-  // For the loop: takes nothing from the heap after prepare(), and throws nothing. False where
-  // there is no room, on the disk or of what was reserved; then nothing is added.
+  // For the loop: does not allocate after reserve(), and does not throw. Returns false, and adds
+  // nothing, if the disk or the reserved room is full.
   bool try_push_back(T value) noexcept { return store_->room() && store_->push(value); }
-  // Room for so many elements; of a vector with a file for the places of their pages alone.
+  // Reserves room for this number of elements; with a file, for the list of their pages only.
   void reserve(std::size_t elements) {
     own();
     store_->reserve(elements);
   }
 
-  // Takes the last one away; changes one; takes all away; holds n equal ones.
+  // Remove the last value; change one; remove all; hold n equal ones.
   void pop_back();
   void set(std::size_t i, T value);
   void clear() { *this = PagedVector(file()); }
@@ -140,11 +140,11 @@ class PagedVector {
     }
 
     PageFile file;
-    std::vector<std::uint32_t> pages;  // full ones
-    std::vector<T> tail;               // behind them
+    std::vector<std::uint32_t> pages;  // full pages
+    std::vector<T> tail;               // elements after the pages
   };
 
-  // No copy may see what follows.
+  // Detaches from copies before a change.
   void own() {
     if (!store_) store_ = std::make_shared<Store>(PageFile());
     if (store_.use_count() > 1) *this = PagedVector(begin(), end(), file());
@@ -166,7 +166,7 @@ class PagedVector {
   mutable std::size_t seen_page_ = none;
 };
 
-// Goes over the values; it is one of random access.
+// Random access iterator over the values.
 template <class T>
 class PagedVector<T>::const_iterator {
  public:
@@ -177,7 +177,7 @@ class PagedVector<T>::const_iterator {
   using reference = T;
 
   const_iterator() = default;
-  // Stands at the value of that number.
+  // Refers to the value at that index.
   const_iterator(const PagedVector* of, std::size_t at) : of_(of), at_(at) {}
 
   T operator*() const { return (*of_)[at_]; }
@@ -221,7 +221,7 @@ template <class T>
 void PagedVector<T>::pop_back() {
   own();
   Store& s = *store_;
-  if (s.tail.empty()) {  // the last page comes back
+  if (s.tail.empty()) {  // the last page is read back
     const T* values = seen(s.pages.size() - 1);
     s.tail.assign(values, values + page_size);
     s.file.release(s.pages.back());

@@ -1,4 +1,4 @@
-// A vector whose pages stand in a file is as a std::vector, whatever is done to it.
+// A vector with pages in a file behaves as a std::vector, whatever operations are applied.
 #include "sinew/signals/paged_vector.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using Numbers = PagedVector<std::int64_t>;
 
-// Fills both by the same random pushes, pops, changes and copies, and compares them all over.
+// Applies the same random pushes, pops, changes and copies to both, and compares all values.
 TEST(PagedVector, IsAsAStdVector) {
   std::mt19937_64 random(7);
   for (const bool with_file : {false, true}) {
@@ -70,7 +70,7 @@ TEST(PagedVector, IsSearchedAndSlicedAsAVector) {
   EXPECT_EQ(ascending, other);
 }
 
-// The loop relies on this: nothing is added where there is no room, and nothing before is lost.
+// The loop relies on this: nothing is added without room, and no earlier element is lost.
 TEST(PagedVector, AddsWithinWhatWasReserved) {
   Numbers in_memory;
   in_memory.reserve(3);
@@ -105,8 +105,8 @@ TEST(PagedVector, SaysWhereItCannotPutItsPages) {
   EXPECT_EQ(numbers.size(), Numbers::page_size);
 }
 
-// Pages of vectors that are gone are written again: a file grows with what is there, not with what
-// ever was.
+// Pages of destroyed vectors are reused: a file grows with the current data, not with all past
+// data.
 TEST(PageFile, UsesPagesAgain) {
   const PageFile file = PageFile::make();
   for (int round = 0; round < 50; ++round) {

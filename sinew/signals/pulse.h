@@ -1,24 +1,24 @@
-// signals/pulse.h - what a duty means in time: what a slow valve makes of one electrical pulse.
+// signals/pulse.h - effective opening time of a slow valve for one electrical pulse of a duty
+// cycle.
 //
-// The coil is on for duty * period; the valve opens `opening_delay` after the coil goes on and
-// shuts `closing_delay` after it goes off [thesis 3.4]:
+// The coil is on for duty * period; the valve opens `opening_delay` after the coil is switched on
+// and shuts `closing_delay` after it is switched off [thesis 3.4]:
 //
-//   open = 0                                  if duty * period < opening_delay          (never
-//   opens)
-//        = period                             if (1 - duty) * period < closing_delay    (never
-//        shuts) = duty * period - opening_delay + closing_delay   otherwise
+//   open = 0                       if duty * period < opening_delay        (never opens)
+//        = period                  if (1 - duty) * period < closing_delay  (never shuts)
+//        = duty * period - opening_delay + closing_delay   otherwise
 //
-// Example [3.4]: 4 ms and 1 ms make 42.5 % of 50 % at 25 Hz, and 35 % at 50 Hz (the text rounds
-// 42.5 to 43). All times in one unit, whichever; steady trains of equal pulses. For pages,
-// calculators and tests: the loop never asks, the body has the delays.
+// Example [3.4]: with 4 ms and 1 ms, 50 % becomes 42.5 % at 25 Hz, and 35 % at 50 Hz (the text
+// rounds 42.5 to 43). All times have the same unit, for steady trains of equal pulses. For pages,
+// calculators and tests; the loop does not use it, since the body has the delays.
 #pragma once
 
 #include <concepts>
 
 namespace sinew::signals {
 
-// Returns how long a valve is really open in each period, of a duty and its delays, all in the same
-// unit of time.
+// Returns the time for which a valve is open in each period, for a duty and its delays, all in the
+// same unit of time.
 template <std::floating_point Real>
 constexpr Real delivered_open_time(Real duty, Real period, Real opening_delay,
                                    Real closing_delay) noexcept {
@@ -30,7 +30,7 @@ constexpr Real delivered_open_time(Real duty, Real period, Real opening_delay,
   return open < period ? open : period;
 }
 
-// The same as a duty, 0 to 1.
+// Returns the same as a duty, 0 to 1.
 template <std::floating_point Real>
 constexpr Real delivered_duty(Real duty, Real period, Real opening_delay,
                               Real closing_delay) noexcept {

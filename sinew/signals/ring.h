@@ -1,5 +1,4 @@
-// signals/ring.h - the pipe between the loop and another thread: one puts, one takes, neither
-// locks.
+// signals/ring.h - lock-free queue between the loop and another thread: one writer, one reader.
 #pragma once
 
 #include <atomic>
@@ -12,13 +11,13 @@ namespace sinew::signals {
 template <class Item>
 class Ring {
  public:
-  // All memory is taken here; the size is rounded up to a power of two.
+  // Allocates all memory; the size is rounded up to a power of two.
   explicit Ring(std::size_t items) : slots_(std::bit_ceil(items < 2 ? 2 : items)) {}
 
-  // How many items can wait.
+  // Returns the number of items that can wait.
   std::size_t capacity() const { return slots_.size(); }
 
-  // The putting thread. False: full.
+  // For the writer. Returns false if the queue is full.
   bool put(const Item& item) noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head - tail_seen_ == capacity()) {
@@ -30,7 +29,7 @@ class Ring {
     return true;
   }
 
-  // The taking thread: hands to `use` what is there now, in order, and frees slots as it goes.
+  // For the reader: calls `use` with all present items in order, and frees each slot after its use.
   template <typename Use>
   void take_all(Use&& use) {
     std::size_t tail = tail_.load(std::memory_order_relaxed);
@@ -40,17 +39,17 @@ class Ring {
     }
   }
 
-  // The taking thread: how many wait.
+  // For the reader: returns the number of items that wait.
   std::size_t waiting() const noexcept {
     return head_.load(std::memory_order_acquire) - tail_.load(std::memory_order_relaxed);
   }
 
  private:
-  // The two ends count up for ever; each stands on a cache line of its own.
+  // The two ends count up without wrapping; each has its own cache line.
   static constexpr std::size_t kLine = 64;
   std::vector<Item> slots_;
   alignas(kLine) std::atomic<std::size_t> head_{0};
-  std::size_t tail_seen_ = 0;  // what the putting thread last knew of the other end
+  std::size_t tail_seen_ = 0;  // tail as last read by the writer
   alignas(kLine) std::atomic<std::size_t> tail_{0};
 };
 

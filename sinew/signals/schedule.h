@@ -1,10 +1,9 @@
-// signals/schedule.h - a quantity over time: straight lines between points, held after the
-// last.
+// signals/schedule.h - a quantity over time: linear between points, constant after the last.
 //
 //   x(t) = x_i + (t - t_i) (x_i+1 - x_i)/(t_i+1 - t_i)
 //
 // Two points at one instant are a jump; the later one holds from there on. Before the first point
-// its value holds. Times ascend.
+// its value holds. Times must ascend.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +18,7 @@ struct Schedule {
     double value = 0;  // in the SI unit of the quantity
   };
 
-  // One of the straight lines.
+  // One of the linear pieces.
   struct Piece {
     double from = 0, value = 0, slope = 0;
 
@@ -30,15 +29,15 @@ struct Schedule {
   std::vector<Point> points;
 
   Schedule() = default;
-  // It stays there; or goes through these points, in ascending time.
+  // Is constant; or has these points, in ascending time.
   Schedule(double constant) : points{{0.0, constant}} {}
   Schedule(std::vector<Point> p) : points(std::move(p)) {}
 
   bool empty() const { return points.empty(); }
-  // Returns whether it prescribes anything up to t but a constant.
+  // Returns whether there is more than one point and t is not beyond the last.
   bool moves_until(double t) const noexcept { return points.size() > 1 && t <= points.back().at; }
 
-  // The piece that begins at t or holds there; 0 where there is no point.
+  // Returns the piece that begins at t or holds there; 0 without points.
   Piece piece(double t) const noexcept {
     const std::size_t next = after(t);
     if (points.empty()) return {};
@@ -51,14 +50,14 @@ struct Schedule {
   // Returns its value at t.
   double at(double t) const noexcept { return piece(t).at(t); }
 
-  // The next point after t, or infinity  [s].
+  // Returns the next point after t, or infinity [s].
   double corner(double t) const noexcept {
     const std::size_t next = after(t);
     return next < points.size() ? points[next].at : std::numeric_limits<double>::infinity();
   }
 
  private:
-  // The first point later than t.
+  // Returns the index of the first point later than t.
   std::size_t after(double t) const noexcept {
     std::size_t low = 0, high = points.size();
     while (low < high) {

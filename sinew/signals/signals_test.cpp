@@ -1,4 +1,4 @@
-// The timing tables and what a slow valve makes of a pulse.
+// The timing tables, and the effect of a slow valve on a pulse.
 #include <gtest/gtest.h>
 
 #include "sinew/signals/pulse.h"
@@ -33,7 +33,7 @@ TEST(Pulse, ThesisValve) {
   EXPECT_DOUBLE_EQ(delivered_duty(0.5, 20.0, 4.0, 1.0), 0.35);
 }
 
-// 0 below the opening delay, 1 when the pause is too short to shut, D - 3 ms x f between.
+// 0 below the opening delay, 1 if the pause is too short to shut, D - 3 ms x f between.
 TEST(Pulse, ThreeRegimes) {
   EXPECT_EQ(delivered_duty(0.09, 40.0, 4.0, 1.0), 0.0);
   EXPECT_DOUBLE_EQ(delivered_open_time(0.1, 40.0, 4.0, 1.0), 1.0);

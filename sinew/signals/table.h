@@ -1,10 +1,10 @@
-// signals/table.h - the channel table: what a run recorded, however long it was.
+// signals/table.h - the channel table: recorded data of a run of any length.
 //
-// A *topic* is one line of conventions.md's list of channels, for instance /true/foot/force with
-// the fields x and y. Every topic has its own times, so samples every 10 ms and single valve edges
-// live side by side. `log` writes and reads tables, `analysis` reads them. Of a long run memory
-// holds the newest samples, a temporary file the others (paged_vector.h).
-// Not part of the embedded core.
+// A *topic* is one line of the list of channels in conventions.md, for instance /true/foot/force
+// with the fields x and y. Every topic has its own times, so that samples every 10 ms and single
+// valve edges can be in one table. `log` writes and reads tables, `analysis` reads them. For a long
+// run memory holds the newest samples and a temporary file the others (paged_vector.h). Not part of
+// the embedded core.
 #pragma once
 
 #include <cstdint>
@@ -31,24 +31,25 @@ struct Topic {
   std::vector<Field> fields;
 };
 
-// Holds what one channel recorded.
+// Recorded data of one channel.
 struct Series {
   Topic topic;
   Times time_ns;
   std::vector<Column> columns;  // [field][sample]
 };
 
-// Is it a valve's, /valve/… or a leg's /leg/<name>/valve/…? Their edges stand one by one.
+// Returns whether the topic is a valve's, /valve/… or for a leg /leg/<name>/valve/…; such topics
+// record single edges.
 bool is_of_valve(std::string_view topic);
 
 struct Table {
   std::vector<Series> series;
   bool complete = true;  // false: read from a log that was cut off
 
-  // Returns the channel of that name; nullptr where there is none.
+  // Returns the channel of that name; nullptr if there is no such channel.
   const Series* find(std::string_view topic) const;
 
-  // Column `field` of `topic`; nullptr where the table has no such thing.
+  // Returns column `field` of `topic`; nullptr if the table does not have it.
   const Column* column(std::string_view topic, std::string_view field = "value") const;
 };
 

@@ -1,4 +1,4 @@
-// signals/tick.h - time as the controller counts it.
+// signals/tick.h - time in ticks of the controller.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
-// signals/timing.h - when within its period a valve is switched, for each whole percent of duty.
+// signals/timing.h - switching times of a valve within its period, for each whole percent of duty.
 //
-// The controller counts ticks from each run of its law: 1 in the tick of the law, 100 in the last
+// The controller counts ticks from each call of its law: 1 in the tick of the law, 100 in the last
 // tick before the next one. A valve that is on is switched off at the first count >= closing[duty];
 // a valve that is off is switched on at the first count >= opening[duty]. Usually that is the last
 // count, so the pulse of a duty starts with the next period and the duty of *that* period ends it.
 //
-// The thesis reads the table from `predict.dat` (B.1; the file is lost). Two uses:
+// The thesis reads the table from `predict.dat` (B.1; the file is lost). Two tables:
 //
 //   identity      closing = duty, opening = 100; 0 never opens, 100 never closes
 //   compensated   closing = duty - closing delay, opening = 100 - opening delay: the valve itself,
@@ -38,7 +38,8 @@ constexpr ValveTiming identity_timing(std::uint16_t period = 100) noexcept {
   return t;
 }
 
-// Delays in whole ticks; a pulse shorter than the closing delay ends in the tick of the law.
+// Returns the timing of a valve with these delays in whole ticks. A pulse shorter than the closing
+// delay ends in the tick of the law.
 constexpr ValveTiming compensated_timing(std::uint16_t opening_delay, std::uint16_t closing_delay,
                                          std::uint16_t period = 100) noexcept {
   ValveTiming t = identity_timing(period);
@@ -53,8 +54,9 @@ constexpr ValveTiming compensated_timing(std::uint16_t opening_delay, std::uint1
   return t;
 }
 
-// With duty 0 a valve closes in the tick of the law and stays shut: then two valves whose duties
-// are never positive together are never on together, whatever the rest of the table says.
+// Returns whether with duty 0 a valve closes in the tick of the law and stays shut. Then two
+// valves whose duties are never positive together are never on together, whatever the rest of the
+// table.
 constexpr bool closes_at_zero(const ValveTiming& t, std::uint16_t period = 100) noexcept {
   return t.closing[0] <= 1 && t.opening[0] > period;
 }

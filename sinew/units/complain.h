@@ -1,10 +1,9 @@
-// units/complain.h - what a field table says when no single key is wrong but two do not go
-// together.
+// units/complain.h - reports that two keys of a field table exclude each other although each is
+// valid.
 //
 //   units::complain(v, "polynomial", "4 coefficients", "at most 3");
 //
-// Reaches visitors that read (config::Reader has `complain`); one that only prints has no use for
-// it.
+// Only visitors that read handle it (config::Reader has `complain`); for others it does nothing.
 #pragma once
 
 #include <string>

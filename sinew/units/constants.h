@@ -20,7 +20,8 @@ inline constexpr double degree = std::numbers::pi / 180;  // [rad]
 inline constexpr double atmosphere_psi = 14.7;              // [psi], the thesis's round value
 inline constexpr double atmosphere = atmosphere_psi * psi;  // [Pa]
 
-// Gauges read the difference to the atmosphere; everything inside Sinew is absolute.
+// Convert between gauge pressures, which are relative to the atmosphere, and absolute
+// pressures, which are used everywhere inside Sinew.
 constexpr double absolute(double gauge_pressure, double atmospheric = atmosphere) {
   return gauge_pressure + atmospheric;
 }

@@ -1,7 +1,7 @@
-// units/dimension.h - what a unit measures, as exponents of eight base dimensions.
+// units/dimension.h - physical dimension of a unit, as exponents of eight base dimensions.
 //
-// An angle and a count are dimensions here although SI has them as plain numbers: "0.9 %/count"
-// and "35 lbf in/rad" are gains and stiffnesses whose denominator must not get lost.
+// Angle and count are dimensions here although SI treats them as plain numbers: "0.9 %/count" and
+// "35 lbf in/rad" are gains and stiffnesses whose denominator must not be lost.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Dimension {
   constexpr bool operator==(const Dimension&) const = default;
 };
 
-// a times b to the power n (n = -1 divides).
+// Returns a times b to the power n (n = -1 divides).
 constexpr Dimension combine(Dimension a, Dimension b, int n = 1) {
   const auto sum = [n](std::int8_t x, std::int8_t y) {
     return static_cast<std::int8_t>(x + n * y);
@@ -56,7 +56,7 @@ inline constexpr Dimension energy{.mass = 1, .length = 2, .time = -2};
 inline constexpr Dimension power{.mass = 1, .length = 2, .time = -3};
 }  // namespace dimension
 
-// What messages call a dimension: "kg (mass)".
+// Name of a dimension in messages: "kg (mass)".
 struct DimensionName {
   Dimension dimension;
   std::string_view unit;

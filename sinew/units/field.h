@@ -1,4 +1,4 @@
-// units/field.h - how a folder describes its parameters.
+// units/field.h - description of a folder's parameters.
 //
 // A folder with parameters has a header `<name>.fields.h` with one function template per struct:
 //
@@ -8,10 +8,10 @@
 //   }
 //
 // The same function reads the struct from a file, prints it, documents it and names the channels'
-// metadata: the visitors stand in config/, which knows nothing of the structs.
+// metadata: the visitors are in config/, which does not depend on the structs.
 //
 // A visitor has:
-//   v.number(Field, double&)                  a quantity; text at the border, SI inside
+//   v.number(Field, double&)                  a quantity; text in files, SI in the struct
 //   v.numbers(Field, std::vector<double>&)    a list of quantities of one unit
 //   v.polynomial(Field, std::vector<double>&, per)   c0, c1, ... in unit, unit/per, unit/per^2 ...
 //   v.integer(Field, int&)
@@ -21,10 +21,10 @@
 //   v.choice(Field, Enum&, {{"stop", Enum::stop}, ...})
 //   v.group(Field, [&](auto& v) {...})        a table with fixed keys
 //   v.each(Field, std::vector<T>&, [&](auto& v, T&) {...})   a table of named tables; T has `name`
-//   v.list(Field, std::vector<T>&, [&](auto& v, T&) {...})   an array of tables, in their order
+//   v.list(Field, std::vector<T>&, [&](auto& v, T&) {...})   an array of tables, in order
 //   v.named_numbers(Field, std::map<std::string, double>&)   { hip = "300 deg", knee = "292 deg" }
 //
-// Only a reader has v.complain(...); units/complain.h asks for it.
+// Only a reader has v.complain(...); it is called by units/complain.h.
 #pragma once
 
 #include <limits>
@@ -36,17 +36,17 @@ inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Field {
   std::string_view name;  // key in the file
-  // SI; "Pa abs", "Pa gauge" or "Pa diff" for a pressure; "1" for a bare number.
+  // SI; "Pa abs", "Pa gauge" or "Pa diff" for a pressure; "1" for a plain number.
   std::string_view unit = "";
-  double min = -unbounded;  // inclusive, in `unit`; beyond them units/ranges.h holds for the unit
+  double min = -unbounded;  // inclusive, in `unit`; otherwise units/ranges.h applies
   double max = unbounded;
-  double least = 0;           // of what is not 0: 0 is "none", what is nearly 0 is a slip
-  std::string_view why = "";  // of min, max and least, for messages: "an efficiency is a share"
-  bool optional = false;      // absent: the struct's default stays
+  double least = 0;           // smallest nonzero size: 0 is allowed, nearly 0 is taken for an error
+  std::string_view why = "";  // reason for these bounds, in messages: "an efficiency is a share"
+  bool optional = false;      // absent: the struct's default is kept
   std::string_view doc = "";  // one line
 };
 
-// One allowed word of a choice and what it stands for.
+// One allowed word of a choice and its value.
 template <class Enum>
 struct Choice {
   std::string_view word;

@@ -1,5 +1,5 @@
-// units/hash.h - numbers that appear random, from a number; and a short number for long bytes:
-// FNV-1a of 64 bits, the same on every machine. It guards against mistakes, not against attacks.
+// units/hash.h - a pseudo-random number from a number, and a hash of bytes (FNV-1a of 64 bits), the
+// same on every computer. They protect against mistakes, not against attacks.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ inline std::uint64_t hash(std::string_view text, std::uint64_t h = 0xcbf29ce4842
   return hash(std::as_bytes(std::span(text.data(), text.size())), h);
 }
 
-// Bits that look random, from a number: the same on every machine.
+// Pseudo-random bits from a number: the same on every computer.
 
 // Returns a bijection of x with full avalanche: every input bit flips half of the output's.
 constexpr std::uint64_t mix(std::uint64_t x) {

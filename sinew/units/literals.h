@@ -2,15 +2,15 @@
 //
 //   using namespace sinew::units::literals;
 //   double mount_length = 3.15_in;
-//   double pressure = absolute(62.0_psi);   // _psi itself says nothing of gauge or absolute
+//   double pressure = absolute(62.0_psi);   // _psi does not state gauge or absolute
 #pragma once
 
 #include "sinew/units/constants.h"
 
 namespace sinew::units::literals {
 
-// Each returns the quantity in SI: m, m2, m3, kg, N, Pa of a pressure difference, s, K of a
-// temperature above absolute zero, rad.
+// Return the quantity in SI: m, m2, m3, kg, N, Pa for a pressure difference, s, K for a temperature
+// above absolute zero, rad.
 constexpr double operator""_in(long double v) { return static_cast<double>(v) * inch; }
 constexpr double operator""_ft(long double v) { return static_cast<double>(v) * foot; }
 constexpr double operator""_mm(long double v) { return static_cast<double>(v) / 1000; }

@@ -1,5 +1,5 @@
-// The accuracy that math.h promises, on seeded random arguments against long double, and the
-// identities that the physics leans on.
+// The accuracy stated in math.h, on seeded random arguments against long double, and the
+// identities that the physics relies on.
 
 #include "sinew/units/math.h"
 
@@ -111,7 +111,7 @@ TEST(Math, PowerOfAGasIsGoodTo1e15) {
   }
 }
 
-// All of it can be evaluated while compiling, to the bits of the running program.
+// All functions are constexpr, with the bits of the running program.
 TEST(Math, CompilerAndProgramAgree) {
   constexpr double at_compile_time =
       sin_cos(1.25).sin + log(7.5) + exp(-2.5) + power(3.0, 1.0 / 7.0);

@@ -1,24 +1,24 @@
-// units/pack.h - W doubles side by side that are calculated with like one, and the functions of
-// which a law is written so that it holds for a double and for a pack alike.
+// units/pack.h - packs of W doubles with the arithmetic of one, and the functions that allow a law
+// to be written once for a double and for a pack.
 //
 //   template <class S> S law(const S& x) {
 //     return units::select(x > 1.0, units::sqrt(x), 0.5 * x);
 //   }
 //
-// A lane of law(pack) has the bits of law(double): the operations are the same, each is rounded by
-// itself, and nothing in one lane touches another. Where lanes differ in what they do, both are
-// calculated and one is selected; `any` lets a law leave out what no lane needs.
+// A lane of law(pack) has the bits of law(double): the operations are the same, each is rounded
+// separately, and lanes do not affect each other. Where lanes take different branches, both are
+// computed and one is selected; with `any` a law can skip what no lane needs.
 //
 //            one number   packed
 //   S        double       Pack<W>
-//   mask     bool         PackMask<W>     of comparisons; joined by & | ^, negated by !
+//   mask     bool         PackMask<W>     from comparisons; joined by & | ^, negated by !
 //
-// All functions are inlined, also where nothing is optimised: how a wide vector is handed over
-// depends on what a function is compiled for.
+// All functions are always inlined, also without optimisation: the calling convention of a wide
+// vector depends on the instruction set that a function is compiled for.
 //
-// Packs are GCC's and Clang's vectors, as wide as the machine has them: two lanes are native to
-// every x86-64, four to AVX2, eight to AVX-512. Where they are wider than its registers GCC takes
-// comparisons apart lane by lane: correct and slow.
+// Packs are vectors of GCC and Clang: two lanes are native to every x86-64, four to AVX2, eight to
+// AVX-512. If a pack is wider than the registers, GCC splits comparisons lane by lane: correct and
+// slow.
 #pragma once
 
 #include <array>
@@ -39,15 +39,15 @@ namespace sinew::units {
 // Returns `a` where the mask is set, else `b`.
 constexpr double select(bool mask, double a, double b) { return mask ? a : b; }
 
-// Does it hold for any lane, for all of them? A double is its own only one.
+// Return whether the mask is set for any lane, and for all lanes. A double is a single lane.
 constexpr bool any(bool mask) { return mask; }
 constexpr bool all(bool mask) { return mask; }
 
-// Each is the function of that name, of a double as of every lane of a pack.
+// The functions of the same name, for a double as for a pack.
 inline double abs(double x) { return std::fabs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 
-// Is bit k of the number's pattern set? 0 is the last of the mantissa.
+// Returns whether bit k of the number's pattern is set; 0 is the last of the mantissa.
 constexpr bool bit(double x, int k) { return (std::bit_cast<std::uint64_t>(x) >> k & 1u) != 0; }
 
 namespace detail {
@@ -76,7 +76,7 @@ template <int W>
 struct PackMask {
   using Bits = typename detail::Vector<W>::Bits;
 
-  Bits bits;  // of a lane all are set, or none
+  Bits bits;  // all or none are set in a lane
 
   [[gnu::always_inline]] bool operator[](int lane) const { return bits[lane] != 0; }
   // Sets one lane.
@@ -103,9 +103,9 @@ struct Pack {
 
   Lanes lanes;
 
-  // Not set when made, as a double is not; `Pack x{}` is zero.
+  // Uninitialised by default, as a double; `Pack x{}` is zero.
   Pack() = default;
-  // Every lane gets the number. Less nothing: plus nothing would lose the sign of a zero.
+  // Sets every lane to x. Subtracting zero keeps the sign of a zero, which adding would lose.
   [[gnu::always_inline]] Pack(double x) : lanes(x - Lanes{}) {}
   [[gnu::always_inline]] explicit Pack(const Lanes& of) : lanes(of) {}
 
@@ -152,7 +152,7 @@ struct Pack {
   }
 };
 
-// Either may be a double, for all lanes.
+// a and b may be doubles, for all lanes.
 template <int W>
 [[gnu::always_inline]] inline Pack<W> select(const PackMask<W>& mask,
                                              const std::type_identity_t<Pack<W>>& a,
@@ -160,17 +160,17 @@ template <int W>
   return Pack<W>(mask.bits ? a.lanes : b.lanes);
 }
 
-// Is bit k of each lane's pattern set?
+// Returns whether bit k of each lane's pattern is set.
 template <int W>
 [[gnu::always_inline]] inline PackMask<W> bit(const Pack<W>& x, int k) {
   const auto bits = reinterpret_cast<typename PackMask<W>::Bits>(x.lanes);
   return {-(bits >> k & 1)};
 }
 
-// Does it hold for any lane?
+// Returns whether the mask is set for any lane.
 template <int W>
 [[gnu::always_inline]] inline bool any(const PackMask<W>& mask) {
-// One instruction, which GCC does not find.
+// One instruction, which GCC does not generate by itself.
 #if defined(__AVX2__)
   if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.bits)) != 0;
 #endif
@@ -182,7 +182,7 @@ template <int W>
   return some != 0;
 }
 
-// Does it hold for all lanes?
+// Returns whether the mask is set for all lanes.
 template <int W>
 [[gnu::always_inline]] inline bool all(const PackMask<W>& mask) {
   return !any(!mask);
@@ -206,7 +206,7 @@ template <int W>
   return each(std::make_integer_sequence<int, W>{});
 }
 
-// The greater and the lesser; `a` if neither is, as std::max and std::min.
+// Return the larger and the smaller value; `a` if neither is, as std::max and std::min.
 template <class S>
 [[gnu::always_inline]] inline S max(const S& a, const std::type_identity_t<S>& b) {
   return units::select(a < b, b, a);
@@ -216,8 +216,8 @@ template <class S>
   return units::select(b < a, b, a);
 }
 
-// Returns structs of doubles side by side, in a struct of as many packs: the same members in the
-// same order, and nothing else.
+// Returns a struct of packs from W structs of doubles: the same members in the same order, and
+// nothing else.
 template <class Packed, class One, std::size_t W>
 Packed side_by_side(const std::array<One, W>& each) {
   static_assert(sizeof(Packed) == W * sizeof(One) && std::is_trivially_copyable_v<Packed>);
@@ -235,7 +235,7 @@ template <class One, class Packed>
 One lane_of(const Packed& packed, int lane) {
   static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<One>);
   constexpr std::size_t width = sizeof(Packed) / sizeof(One), count = sizeof(One) / sizeof(double);
-  // Number by number: a copy of all lanes would cost more than what is asked for.
+  // Copied number by number: a copy of all lanes would be slower.
   const auto* from = reinterpret_cast<const std::byte*>(&packed) + sizeof(double) * lane;
   std::array<double, count> one;
   for (std::size_t i = 0; i < count; ++i)
@@ -243,7 +243,7 @@ One lane_of(const Packed& packed, int lane) {
   return std::bit_cast<One>(one);
 }
 
-// Puts a struct of doubles into one lane of a struct of packs.
+// Writes a struct of doubles to one lane of a struct of packs.
 template <class One, class Packed>
 void put_lane(const One& one, int lane, Packed& packed) {
   static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<Packed>);

@@ -1,4 +1,4 @@
-// A lane of a pack is a double: the same bits from every operation, whatever is in the others.
+// A lane of a pack is a double: every operation has the same bits, whatever is in the other lanes.
 #include "sinew/units/pack.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::uint64_t bits(const PackMask<W>& m, int lane) {
 }
 std::uint64_t bits(bool m) { return m; }
 
-// Numbers of all sizes and signs, and those between which rounding and signs go wrong.
+// Numbers of all sizes and signs, including those that are critical for rounding and signs.
 class Numbers {
  public:
   explicit Numbers(unsigned seed) : random_(seed) {}
@@ -65,7 +65,7 @@ class PackOf : public testing::Test {};
 using Widths = testing::Types<Width<2>, Width<4>, Width<8>>;
 TYPED_TEST_SUITE(PackOf, Widths);
 
-// A law of packs has in each lane the bits of the law of that lane's numbers.
+// A law of packs has in each lane the bits of the law for that lane's numbers.
 template <int W, class Law>
 void expect_lanes(const char* name, unsigned seed, Law law) {
   Numbers numbers(seed);

@@ -1,7 +1,7 @@
-// units/ranges.h - how large a quantity of a machine can be, by its unit.
+// units/ranges.h - plausible magnitude of a machine's quantity, by its unit.
 //
-// Robots go from a cricket's size to an elephant's. What lies far beyond is a typing error, and
-// would overflow somewhere in the laws. A field's own bounds are the narrower ones (field.h).
+// Robots range from a cricket's size to an elephant's. A value far beyond is a typing error and
+// would overflow in some law. A field's own bounds are narrower (field.h).
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace sinew::units {
 
-// How large a quantity of one unit can be, and why.
+// Largest plausible magnitude of a quantity in one unit, with the reason.
 struct Range {
-  std::string_view unit;  // as a field table writes it, SI
-  double most = 0;        // of its magnitude, in that unit
+  std::string_view unit;  // SI unit as in a field table
+  double most = 0;        // largest magnitude, in that unit
   std::string_view why;
 };
 
@@ -68,10 +68,10 @@ inline constexpr std::array ranges = {
     Range{"1/m", 1e6, "a micrometre of error already opens a valve for good"},
 };
 
-// The range of a unit that has no row, such as 1/Pa2 of a polynomial.
+// Range for a unit without a row, such as 1/Pa2 of a polynomial.
 inline constexpr Range any_range{"", 1e12, "no number of a machine is larger"};
 
-// Returns the range of quantities in that unit; any_range for one that is not listed.
+// Returns the range of quantities in that unit; any_range if it is not listed.
 constexpr const Range& range_of(std::string_view unit) {
   for (const Range& range : ranges)
     if (range.unit == unit) return range;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, UnitSet>, 3> sets = {
     {{"si", UnitSet::si}, {"thesis", UnitSet::thesis}, {"metric", UnitSet::metric}}};
 
-// A pressure whose reference is asked for keeps it: "Pa gauge" is shown in "bar gauge".
+// Returns the reference that a pressure's unit requires: "Pa gauge" is shown in "bar gauge".
 std::string_view reference_asked(std::string_view unit) {
   return unit == "Pa abs" ? "abs" : unit == "Pa gauge" ? "gauge" : "";
 }
@@ -32,7 +32,7 @@ const ShownChoice& choice_of(const ShownQuantity& q, UnitSet set) {
   return set == UnitSet::si ? q.si : set == UnitSet::thesis ? q.thesis : q.metric;
 }
 
-// The shown unit of that name; `held` is the unit of SI in which values come.
+// Returns the shown unit of that name; `held` is the SI unit of the values.
 ShownUnit made(std::string_view name, std::string_view held, double room) {
   const auto [text, reference] = unit_and_reference(name);
   const Unit unit = read_unit(text).unit;
@@ -69,19 +69,20 @@ std::string names_of_quantities() {
 
 const char* const example = "\"metric\", or \"metric,pressure=kPa gauge,length=cm\"";
 
-// The word nearest to a wrong one: it begins alike, else nothing.
+// Returns a word that begins like the wrong one, else an example.
 std::string hint_for(std::string_view word) {
   for (const auto& [name, set] : sets)
     if (word.size() > 1 && name.starts_with(word.substr(0, 2))) return in_quotes(name);
   return example;
 }
 
-// Returns how a reading with `units` so far fails.
+// Returns a failed reading with this message.
 ShownUnitsReading wrong(std::string found, std::string expected, std::string try_this) {
   return {{}, std::move(found), std::move(expected), std::move(try_this)};
 }
 
-// Why a unit is none for the quantity; understood where it is one. `unit` gets its full name.
+// Returns an error if a unit does not suit the quantity, else an empty reading. Completes `unit` to
+// its full name.
 ShownUnitsReading check_unit(const ShownQuantity& q, std::string& unit) {
   const auto [text, reference] = unit_and_reference(unit);
   const std::string usual(q.metric.usual);
@@ -152,7 +153,7 @@ ShownUnit ShownUnits::of(std::string_view unit, double largest, double room) con
   const ShownQuantity* q = quantity_in(unit);
   if (!q) return {std::string(unit)};
   if (const std::string* chosen = choice(q->name)) return made(*chosen, unit, room);
-  // A difference of pressures follows the pressures' own unit.
+  // A difference of pressures uses the unit chosen for pressures.
   if (const std::string* of_pressure = choice("pressure"); of_pressure && q->unit == "Pa diff")
     return made(std::string(unit_and_reference(*of_pressure)[0]) + " diff", unit, room);
   const ShownChoice& shown = choice_of(*q, set_);
@@ -211,7 +212,7 @@ std::optional<ToldUnit> told_unit(std::string_view unit, double room) {
   const auto [text, reference] = unit_and_reference(unit);
   if (text.empty() || !read_unit(text).ok) return std::nullopt;
   for (const ShownQuantity& q : shown_quantities) {
-    // Without a word for what it counts from, N/m2 is no pressure but a stress.
+    // Without a reference N/m2 is a stress, not a pressure.
     const std::string_view wanted = q.unit == "Pa diff" ? "diff" : "";
     const bool pressure = q.unit == "Pa";
     const bool said = pressure ? reference == "gauge" || reference == "abs" : reference == wanted;
@@ -224,7 +225,7 @@ std::vector<ShownEntry> shown_entries(const ShownUnits& units) {
   std::vector<ShownEntry> out{{"share", "share", {units.of("share")}, 0}};
   const auto add = [&](const ShownQuantity& q, std::string_view unit) {
     ShownEntry entry{unit, q.name, {}, 0};
-    // Each size that the unit depends on, from small to large; a chosen one depends on none.
+    // Each size that affects the unit, from small to large; none affects a chosen unit.
     for (const double size : {0.0, ShownUnits::not_known, 1e30})
       if (ShownUnit u = units.of(unit, size, 0);
           entry.shown.empty() || entry.shown.back().name != u.name) {

@@ -1,14 +1,14 @@
-// units/shown.h - the units in which people see what Sinew holds in SI: three sets, and any other
-// choice for a single quantity on top of one.
+// units/shown.h - units in which quantities, stored in SI, are shown: three sets, and a different
+// choice for any single quantity.
 //
 //   si        m · N · kPa abs · rad · s            the library's own
-//   thesis    in · lbf · psi gauge · deg · s       the ones of Colbrunn (2000)
+//   thesis    in · lbf · psi gauge · deg · s       those of Colbrunn (2000)
 //   metric    mm · N · bar gauge · deg · ms        those of a laboratory with a metric rig
 //
-//   metric,pressure=kPa gauge,length=cm            the same set but for two quantities
+//   metric,pressure=kPa gauge,length=cm            a set with two other choices
 //
-// Every table, figure, page and calculator asks here, so a unit that is chosen once is shown
-// everywhere. The table itself is units/shown.h, and docs/reference/units.md shows it.
+// Every table, figure, page and calculator uses this file, so a choice applies everywhere. The
+// table is below, and docs/reference/units.md prints it.
 #pragma once
 
 #include <algorithm>
@@ -25,63 +25,63 @@
 
 namespace sinew::units {
 
-// The sets of units.
+// Sets of units.
 enum class UnitSet { si, thesis, metric };
 
-// Returns the word for a set, as files and options say it.
+// Returns the word for a set in files and options.
 std::string_view to_text(UnitSet set);
 
-// One unit in which a quantity of SI is shown:  shown = (value + offset) * scale
+// A unit in which an SI quantity is shown: shown = (value + offset) * scale
 struct ShownUnit {
-  std::string name;  // as a file writes it, "psi gauge", "bar diff"; empty for a plain number
+  std::string name;  // as in a file, "psi gauge", "bar diff"; empty for a plain number
   double scale = 1;
   double offset = 0;  // [SI]
-  // The number counts from the room's pressure, which `offset` takes off.
+  // The number is relative to the room's pressure, which `offset` subtracts.
   bool gauge = false;
 
-  // Returns the number that is shown for a value of SI.
+  // Returns the shown number for an SI value.
   double of(double value) const { return (value + offset) * scale; }
-  // Returns the value of SI for a number that is shown.
+  // Returns the SI value for a shown number.
   double back(double number) const { return number / scale - offset; }
-  // Returns the name beside an axis or in a column's title, where a difference of pressures needs
-  // no word for it.
+  // Returns the name for an axis or a column's title, without the word for a difference of
+  // pressures.
   std::string label() const;
 };
 
-// A set of units with the choices on top of it. A copy is cheap enough to be handed around.
+// A set of units with choices for single quantities. Cheap to copy.
 class ShownUnits {
  public:
-  // The units of a set, without choices.
+  // Uses the units of a set, without choices.
   ShownUnits(UnitSet set = UnitSet::si) : set_(set) {}  // NOLINT: a set is its own units
 
-  // Returns the unit for a quantity that the library holds in `unit`, as fields and channels name
+  // Returns the unit for a quantity that the library stores in `unit`, as fields and channels name
   // it: "m", "Pa" (absolute), "Pa diff", "N m/rad", "share" for a share of 1. A unit that the table
-  // does not have stays what it is. `largest` is the greatest size of what is shown, in SI: of
-  // units that differ by a thousand the first one in which it is below 1000; without it the usual
-  // one. Gauges count from the pressure of the `room` [Pa].
+  // does not have is returned unchanged. `largest` is the largest magnitude to be shown, in SI: it
+  // selects, among units that differ by a thousand, the first in which it is below 1000; without it
+  // the usual unit is used. Gauge pressures are relative to the pressure of the `room` [Pa].
   ShownUnit of(std::string_view unit, double largest = not_known, double room = atmosphere) const;
 
-  // Returns the unit for a difference between two such quantities, which counts from nothing.
+  // Returns the unit for a difference between two such quantities, without an offset.
   ShownUnit of_difference(std::string_view unit, double largest = not_known) const;
 
-  // Returns a value of SI with its unit, "62.31 psi gauge": the usual one, or from 1000 of it on a
-  // larger one where there is one.
+  // Returns an SI value with its unit, "62.31 psi gauge": the usual unit, or from 1000 on a larger
+  // one if there is one.
   std::string text(double value, std::string_view unit, int digits = 4,
                    double room = atmosphere) const;
 
-  // Returns the set, and whether there are choices on top of it.
+  // Return the set, and whether there are choices.
   UnitSet set() const { return set_; }
   bool has_choices() const { return !choices_.empty(); }
-  // Returns what read_shown_units reads: "metric,pressure=kPa gauge".
+  // Returns the text for read_shown_units: "metric,pressure=kPa gauge".
   std::string text() const;
 
-  // Shows a quantity of that name in this unit; both are known to be right.
+  // Shows the named quantity in this unit; both must be valid.
   void choose(std::string_view quantity, std::string_view unit);
 
-  // Are set and choices the same?
+  // Returns whether set and choices are equal.
   bool operator==(const ShownUnits&) const = default;
 
-  // As a size: nobody knows it.
+  // An unknown size.
   static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
  private:
@@ -91,57 +91,58 @@ class ShownUnits {
   std::vector<std::pair<std::string, std::string>> choices_;  // quantity, unit
 };
 
-// Units as a text names them, or why it names none: the parts of a message.
+// Units read from a text, or the parts of an error message.
 struct ShownUnitsReading {
   ShownUnits units;
-  std::string found, expected, try_this;  // all empty where the text was understood
+  std::string found, expected, try_this;  // all empty if the text is valid
 
-  // Was the text understood?
+  // Returns whether the text is valid.
   bool ok() const { return found.empty(); }
 };
 
-// Reads "thesis", "metric,pressure=kPa gauge" or "length=cm": the set and then choices. Where no
-// set is named, the choices stand on top of `below`.
+// Reads "thesis", "metric,pressure=kPa gauge" or "length=cm": the set and then choices. Without a
+// set the choices are added to `below`.
 ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& below = {});
 
-// A unit as somebody told it, "psi gauge", and what the library holds such a quantity in, "Pa".
+// A unit given as text, "psi gauge", and the unit in which the library stores it, "Pa".
 struct ToldUnit {
   std::string_view held;
   ShownUnit unit;  // unit.back(62) is 62 psi gauge in SI
 };
 
-// Reads a unit of one of the table's quantities; nullopt where it has none. Gauges count from the
-// `room` [Pa].
+// Reads a unit of one of the table's quantities; nullopt if it is of no such quantity. Gauge
+// pressures are relative to the `room` [Pa].
 std::optional<ToldUnit> told_unit(std::string_view unit, double room = atmosphere);
 
-// One row of what a page needs: a unit of SI and the one in which it is shown, the usual one first.
+// One row for a page: an SI unit and the units in which it is shown.
 struct ShownEntry {
-  std::string_view unit;         // of SI
+  std::string_view unit;         // SI
   std::string_view quantity;     // "pressure"
-  std::vector<ShownUnit> shown;  // from small to large
-  std::size_t usual = 0;         // of these
+  std::vector<ShownUnit> shown;  // in ascending size
+  std::size_t usual = 0;         // index of the usual one
 };
 
-// Returns all that the table has. Offsets of gauges are left out: a page knows its own atmosphere.
+// Returns all rows of the table. Offsets of gauges are omitted, since a page has its own
+// atmosphere.
 std::vector<ShownEntry> shown_entries(const ShownUnits& units);
 
-// Which unit each set shows for each quantity. units/shown.h reads it.
+// The table of units of each set for each quantity.
 
-// The units of one quantity in one set. Where sizes differ by thousands it has a smaller or a
-// larger one beside the usual one.
+// Units of one quantity in one set: the usual one, and a smaller or a larger one if sizes differ by
+// thousands.
 struct ShownChoice {
   std::string_view usual, small = "", large = "";
 };
 
-// A quantity by the name under which people choose its unit.
+// A quantity with the name that is used to choose its unit.
 struct ShownQuantity {
   std::string_view name;
-  std::string_view unit;  // in which the library holds it, SI
+  std::string_view unit;  // SI unit in which the library stores it
   ShownChoice si, thesis, metric;
 };
 
 // clang-format off
-// Every quantity that has units to be shown in.
+// All quantities with a choice of units.
 inline constexpr std::array shown_quantities = {
     //            quantity               in SI          si                     thesis            metric
     ShownQuantity{"length",              "m",           {"m", "mm"},           {"in"},           {"mm"}},
@@ -178,7 +179,7 @@ inline constexpr std::array shown_quantities = {
 };
 // clang-format on
 
-// Splits "psi gauge" into the unit and what a pressure counts from: "gauge", "abs", "diff" or "".
+// Splits "psi gauge" into the unit and the reference of a pressure: "gauge", "abs", "diff" or "".
 constexpr std::array<std::string_view, 2> unit_and_reference(std::string_view text) {
   for (const std::string_view word : {"gauge", "abs", "diff"}) {
     if (text == word) return {"", word};
@@ -188,14 +189,14 @@ constexpr std::array<std::string_view, 2> unit_and_reference(std::string_view te
   return {text, ""};
 }
 
-// A unit of the table measures what the quantity is held in.
+// Returns whether a shown unit has the dimension of the stored unit.
 constexpr bool measures(std::string_view shown, std::string_view unit) {
   const UnitReading a = read_unit(unit_and_reference(shown)[0]);
   const UnitReading b = read_unit(unit_and_reference(unit)[0]);
   return a.ok && b.ok && a.unit.dimension == b.unit.dimension;
 }
 
-// Every row was written without a slip.
+// Checks every row of the table.
 static_assert(std::ranges::all_of(shown_quantities, [](const ShownQuantity& q) {
   return std::ranges::all_of(std::array{q.si, q.thesis, q.metric}, [&](const ShownChoice& c) {
     return measures(c.usual, q.unit) && (c.small.empty() || measures(c.small, q.unit)) &&

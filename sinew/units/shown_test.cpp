@@ -1,4 +1,4 @@
-// units/shown_test.cpp - the laws of the units in which numbers are shown.
+// units/shown_test.cpp - units in which numbers are shown.
 #include "sinew/units/shown.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(ShownUnits, ShowingAndGoingBackGivesTheValueInEverySetAndUnit) {
         }
 }
 
-// A shown unit is the one that files are read in: its scale is the grammar's.
+// A shown unit is one that files can be read in: its scale is the grammar's.
 TEST(ShownUnits, AreWhatTheirNamesSay) {
   for (const UnitSet set : all_sets)
     for (const ShownEntry& entry : shown_entries(set))
@@ -116,7 +116,7 @@ TEST(ShownUnits, ChoicesWithoutASetStandOnTopOfWhatWouldHold) {
   EXPECT_EQ(read_shown_units("thesis", below).units.text(), "thesis") << "a set begins anew";
 }
 
-// docs/reference/units.md has the table, row for row.
+// docs/reference/units.md has the same table, row for row.
 TEST(ShownUnits, AreThoseOfTheDocs) {
   std::ifstream file(sinew::test::source_dir() + "/docs/reference/units.md");
   const std::string docs(std::istreambuf_iterator<char>(file), {});

@@ -1,4 +1,4 @@
-// units/stages.h - the weighted mean of RK4's four stages, for all that is integrated by it.
+// units/stages.h - weighted mean of RK4's four stages.
 #pragma once
 
 namespace sinew::units {
@@ -8,7 +8,7 @@ namespace sinew::units {
 template <class S>
 class StageMean {
  public:
-  // Takes the step [s]; the second returns h times the mean.
+  // Takes the step [s]; operator() returns h times the mean.
   explicit StageMean(const S& h) : sixth_(h / 6.0) {}
   template <class Of>
   [[gnu::always_inline]] S operator()(const Of& of) const {

@@ -1,11 +1,11 @@
-// units/unit.h - the units Sinew reads, and the grammar that joins them: "lbf in s/rad".
+// units/unit.h - the units that Sinew reads, and their grammar: "lbf in s/rad".
 //
-//   expression = product ["/" factor]         at most one "/": no doubt about what it divides
+//   expression = product ["/" factor]         at most one "/", so that its scope is unambiguous
 //   product    = factor {(" " | "*") factor}
 //   factor     = name [digit] | "1" | "(" expression ")"
 //
-// A digit is a power: in2, 1/psi2. Reading is constexpr, so a field table can be checked when it is
-// compiled.
+// A digit is a power: in2, 1/psi2. Reading is constexpr, so a field table can be checked at compile
+// time.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace sinew::units {
 
-// SI value = number x numerator / denominator + offset. Kept apart because
-// 55 % is 0.55 to the last bit when divided by 100, and is not when multiplied by 0.01.
+// SI value = number x numerator / denominator + offset. The factors are separate because 55 % is
+// 0.55 to the last bit if divided by 100, and is not if multiplied by 0.01.
 struct Unit {
   std::string_view name;
   Dimension dimension;
@@ -32,7 +32,7 @@ struct Unit {
     const double scaled = number * numerator / denominator;
     return offset == 0 ? scaled : scaled + offset;  // adding 0 would lose the sign of -0
   }
-  // Returns a number of SI in this unit.
+  // Returns an SI number in this unit.
   constexpr double from_si(double si) const { return (si - offset) * denominator / numerator; }
 };
 
@@ -85,27 +85,27 @@ inline constexpr std::array known_units = {
     Unit{"W", dimension::power},
 };
 
-// known_units.end() if there is none. Not a null pointer: with -fsanitize=undefined GCC 12 does not
-// take a comparison with it for a constant.
+// Returns known_units.end() if the unit is unknown. Not a null pointer: with -fsanitize=undefined
+// GCC 12 does not treat a comparison with it as a constant.
 constexpr auto find_unit(std::string_view name) {
   return std::find_if(known_units.begin(), known_units.end(),
                       [name](const Unit& u) { return u.name == name; });
 }
 
-// What reading a unit text gives: the unit, or the piece that was not understood.
+// Result of reading a unit: the unit, or the part of the text that is not valid.
 struct UnitReading {
   Unit unit;
   bool ok = true;
-  std::string_view trouble;  // part of the text; empty where the text ends too early
+  std::string_view trouble;  // part of the text; empty if the text ends too early
 };
 
-// Reads one expression from left to right; `ok` goes false once and stays so.
+// Reads one expression from left to right; `ok` stays false after the first error.
 class UnitReader {
  public:
   // Takes the text of a unit, "lbf in s/rad".
   constexpr explicit UnitReader(std::string_view text) : text_(text) {}
 
-  // Returns the unit, or what of the text is none.
+  // Returns the unit, or the invalid part of the text.
   constexpr UnitReading read() {
     Unit unit = expression(0);
     skip_spaces();
@@ -123,7 +123,7 @@ class UnitReader {
     skip_spaces();
     multiply(result, factor(depth), -1);
     skip_spaces();
-    // "a/b c" could mean two things, so it means none.
+    // "a/b c" is ambiguous and therefore rejected.
     if (ok_ && peek() != ')' && peek() != '\0') fail(text_.substr(at_));
     return result;
   }
@@ -202,7 +202,7 @@ class UnitReader {
   std::string_view trouble_;
 };
 
-// Returns the unit that the text names, or what of it is none.
+// Returns the unit that the text names, or its invalid part.
 constexpr UnitReading read_unit(std::string_view text) { return UnitReader(text).read(); }
 
 }  // namespace sinew::units

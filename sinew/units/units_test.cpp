@@ -1,4 +1,4 @@
-// units/units_test.cpp - the laws of constants, dimensions and the unit grammar.
+// units/units_test.cpp - constants, dimensions and the unit grammar.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST(Literals, EqualTheUnitsOfFiles) {
   EXPECT_EQ(528.0_degR, read_unit("degR").unit.to_si(528));
 }
 
-// The grammar runs at compile time.
+// The grammar works at compile time.
 static_assert(read_unit("lbf in s/rad").ok);
 static_assert(read_unit("lb in2").unit.dimension == Dimension{.mass = 1, .length = 2});
 static_assert(read_unit("1/psi2").unit.denominator == psi * psi);

@@ -1,7 +1,6 @@
-// units/wide.h - SINEW_WIDE: a function over lanes of four doubles that is compiled for machines
-// that have them beside those that have not; the same operations, so the same bits. The sanitizers
-// start before the loader could choose, and what Clang 14 makes of it has a name that no other file
-// finds.
+// units/wide.h - SINEW_WIDE: compiles a function over lanes of four doubles twice, with and without
+// AVX2; the operations are the same, so the bits are, too. Not with sanitizers, which start before
+// the loader can choose, nor with Clang 14, whose clones have names that other files do not find.
 #pragma once
 
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \

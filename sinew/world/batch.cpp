@@ -7,7 +7,7 @@ namespace sinew::plant {
 
 namespace {
 
-// Returns the widest of at most so many lanes.
+// Returns the largest supported number of lanes that is at most `most`.
 int lanes_of(int most) {
 #if defined(__x86_64__)
   if (most >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -19,7 +19,7 @@ int lanes_of(int most) {
   return 2;
 }
 
-// Returns as many set-ups as there are lanes.
+// Returns the first setups, as many as there are lanes.
 template <int W>
 std::span<const Setup, static_cast<std::size_t>(W)> first_of(const std::vector<Setup>& all) {
   return std::span<const Setup, static_cast<std::size_t>(W)>(all.data(), W);

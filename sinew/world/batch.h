@@ -1,9 +1,9 @@
 // world/batch.h - plain legs side by side (chain_lanes.h), in as many lanes as the processor has: 2
-// on every x86-64, 4 with AVX2, 8 with AVX-512; and one of them as a Port.
+// on every x86-64, 4 with AVX2, 8 with AVX-512. One of them is accessible as a Port.
 //
-//   Batch batch(Batch::widest(), setup);       // all of it parked
+//   Batch batch(Batch::widest(), setup);       // all machines parked
 //   batch.replace(k, setup);                   // machine k, at its start
-//   LegLane lane(batch, k);                    // to be driven, read and looked at
+//   LegLane lane(batch, k);                    // drives and reads machine k
 //   int ended = batch.go(turn);                // chain_lanes.h
 #pragma once
 
@@ -19,13 +19,14 @@ class Batch {
   using Legs = ChainLanes<2, W>;
 
  public:
-  // Returns how many lanes this processor has.
+  // Returns the number of lanes that this processor supports.
   static int widest();
-  // Returns whether this machine can go side by side with others; and these two.
+  // Return whether this machine can be simulated side by side with others, and whether these two
+  // can.
   static bool holds(const Setup& setup) { return Legs<2>::holds(setup); }
   static bool alike(const Setup& a, const Setup& b) { return Legs<2>::alike(a, b); }
 
-  // At most so many lanes, at least 2. All are parked; `like` is one that shall be held.
+  // Uses at most `most` lanes, at least 2. All are parked; `like` is an example of the machines.
   Batch(int most, const Setup& like);
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
@@ -40,18 +41,19 @@ class Batch {
     return std::visit(use, legs_);
   }
 
-  // Returns how many lanes there are.
+  // Returns the number of lanes.
   int width() const noexcept {
     return visit([](const auto& legs) { return legs.width; });
   }
 
-  // Throws std::invalid_argument for a machine that is not held, or not like the others.
+  // Throws std::invalid_argument for a machine that is not supported or differs too much from the
+  // others.
   void replace(int k, const Setup& setup) {
     visit([&](auto& legs) { legs.replace(k, setup); });
   }
 
   static constexpr double over = Legs<2>::over;
-  // Runs all of them as ChainLanes does. Returns what it returns.
+  // Runs all machines as ChainLanes::go does, and returns its result.
   template <class Turn>
   int go(const Turn& turn) noexcept {
     return visit([&](auto& legs) { return legs.go(turn); });
@@ -61,13 +63,13 @@ class Batch {
   std::variant<Legs<2>, Legs<4>, Legs<8>> legs_;
 };
 
-// One leg of a batch, which outlives it, as a Port and as a World.
+// One leg of a batch, as a Port and as a World.
 class LegLane final : public signals::Port {
  public:
   using World = ChainWorld<2>;
   using State = World::State;
 
-  // Takes lane `k` of a batch that outlives it.
+  // Takes lane `k` of a batch, which must outlive it.
   LegLane(Batch& batch, int k) : batch_(&batch), k_(k) {}
 
   signals::Status start(const signals::Scan& scan) noexcept override;
@@ -75,7 +77,7 @@ class LegLane final : public signals::Port {
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // As World's.
+  // The functions of World.
   Truth truth(double t) noexcept;
   void advance(double t) noexcept;
   const air::Failure& failure() const noexcept;

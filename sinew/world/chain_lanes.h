@@ -1,18 +1,17 @@
 // world/chain_lanes.h - W plain machines side by side: chains whose muscles are filled through
-// valves from a constant supply. Each is a World, and has the bits that it has alone.
+// valves from a constant supply. Each is a World, with the same bits as alone.
 //
-// The nodes are integrated in lanes (lane_nodes.h); readings extrapolate from the lanes;
-// for rare work a lane is copied into the World that it is. Each machine has its own
-// steps, edges and failures. They go in lockstep by node, not by time: a machine that is not to go
-// on waits, and its lane is calculated and thrown away.
+// The nodes are integrated in lanes (lane_nodes.h); readings extrapolate from the lanes; for rare
+// operations a lane is copied to its World. Each machine has its own steps, edges and failures.
+// They run in lockstep by node, not by time: a machine that waits is still computed in its lane,
+// and the result is discarded.
 //
-//   go(turn)         runs all of them, each by its own loop: turn(k) is called whenever machine k
+//   go(turn)         runs all machines, each by its own loop: turn(k) is called whenever machine k
 //                    has reached the instant that it returned last
 //   advance(until)   commits every node up to each machine's own instant, many at once
-//   drive, read, …   of machine k, as a World's; a node that only this one needs is committed alone
-//   world(k)         machine k as it is, for all that a World does: truths, saving. It follows
-//                    its lane when it is called for; where it goes on by itself, the lane follows
-//                    it
+//   drive, read, …   as in World, for machine k; a node that only this one needs is committed alone
+//   world(k)         machine k as a World, for truths and saving. This call updates the World from
+//                    its lane; after the World has advanced by itself, the lane is updated from it
 #pragma once
 
 #include <array>
@@ -37,29 +36,29 @@ class ChainLanes {
   static constexpr int width = W;
   static constexpr double over = std::numeric_limits<double>::infinity();
 
-  // Returns whether this machine can go side by side with others; alike() has with which.
+  // Returns whether this machine can be simulated side by side with others; alike() compares two.
   static bool holds(const Setup& setup);
   static bool alike(const Setup& a, const Setup& b) {
     return plant::alike(chain_routing_of(a.robot), chain_routing_of(b.robot));
   }
 
-  // Throws std::invalid_argument where one of the machines is not held or not like the first.
+  // Throws std::invalid_argument if a machine is not supported or not like the first.
   explicit ChainLanes(std::span<const Setup, lanes> setups);
 
   // Commits every node of machine k up to until[k]  [s].
   void advance(const Instants& until) noexcept;
 
   // Runs the machines that are not parked. turn(k) runs machine k's loop as far as its nodes reach
-  // and returns the instant up to which every node of it can be committed [s], or `over`: then
-  // machine k is parked. Returns its k; -1 when all are parked.
+  // and returns the instant up to which all its nodes can be committed [s], or `over`: machine k is
+  // then parked and its k returned. Returns -1 when all are parked.
   template <class Turn>
   int go(const Turn& turn) noexcept;
   void park(int k) noexcept { parked_[static_cast<std::size_t>(k)] = true; }
 
-  // Puts another machine, at its start, in the place of machine k. Throws as the constructor does.
+  // Replaces machine k by another one at its start. Throws as the constructor does.
   void replace(int k, const Setup& setup);
 
-  // Machine k's part of a Port, and of a World.
+  // The functions of Port and World, for machine k.
   signals::Status start(int k, const signals::Scan& scan) noexcept;
   signals::Status drive(int k, const signals::Edge& edge) noexcept;
   signals::Reading read(int k, signals::Channel channel, signals::Tick now) noexcept;
@@ -71,10 +70,10 @@ class ChainLanes {
   }
   std::int64_t nodes(int k) const noexcept { return times_[static_cast<std::size_t>(k)].nodes; }
 
-  // Returns machine k as it is.
+  // Returns machine k as a World, updated from its lane.
   World& world(int k) noexcept;
 
-  // Machine k continues from there: its own state, or one of a world with an equal setup.
+  // Continues machine k from this state: its own, or one of a world with an equal setup.
   void restore(int k, const typename World::State& state) noexcept;
 
  private:
@@ -83,7 +82,8 @@ class ChainLanes {
   using Mask = units::PackMask<W>;
   using Worlds = std::array<std::unique_ptr<World>, lanes>;
 
-  // Machine k as its senses evaluate it (planar/planar_mechanism.h): as a World, from its lane.
+  // Machine k for its senses (planar/planar_mechanism.h): with the interface of World, from its
+  // lane.
   class Sensed;
 
   [[noreturn]] static void refuse() {
@@ -109,14 +109,14 @@ class ChainLanes {
   Integrated nodes_of_all_;
   typename Integrated::State state_;
 
-  // As World::State's, of each machine.
+  // As World::State's, for each machine.
   std::array<NodeTimes, lanes> times_{};
-  Instants step_{}, change_{};  // of the body; the instant at which a valve moves next [s]
+  Instants step_{}, change_{};  // body steps; instants of the next valve changes [s]
   std::array<air::Failure, lanes> failure_{};
-  std::array<bool, lanes> behind_{};  // the machine's World is
+  std::array<bool, lanes> behind_{};  // the machine's World is out of date
 
-  typename Integrated::Glance glance_;  // of whole steps: what an evaluation between nodes uses
-  std::array<bool, lanes> glanced_{};   // it holds for the machine's node
+  typename Integrated::Glance glance_;  // whole steps, used by evaluations between nodes
+  std::array<bool, lanes> glanced_{};   // it is valid for the machine's node
   Instants until_{};
   std::array<bool, lanes> parked_{};
 };
@@ -151,7 +151,7 @@ class ChainLanes<N, W>::Sensed {
     return {units::lane_of<std::array<double, N + 2>>(b_.glance_.held, k_)};
   }
 
-  // A muscle's own tension and pressure; those of the others are not set.
+  // The tension and pressure of one muscle; those of the others are not set.
   struct Peek {
     struct {
       struct {
@@ -250,7 +250,7 @@ auto ChainLanes<N, W>::only(int k) const noexcept -> Mask {
   return mask;
 }
 
-// Copies the World back into its lane, where it was driven or integrated by itself.
+// Copies the World to its lane if it was driven or integrated by itself.
 template <int N, int W>
 void ChainLanes<N, W>::follow(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
@@ -306,7 +306,7 @@ void ChainLanes<N, W>::advance(int k, double t) noexcept {
   while (!failure_[static_cast<std::size_t>(k)] && next_node(k) <= t) commit(only(k));
 }
 
-// The next node of the machines that go.
+// Commits the next node of the machines in `goes`.
 template <int N, int W>
 void ChainLanes<N, W>::commit(const Mask& goes) noexcept {
   S h = 0;
@@ -359,7 +359,8 @@ void ChainLanes<N, W>::look_for_failures(const Mask& goes,
   }
 }
 
-// The friction of a whole step from each machine's node: of all at once, where one is asked for.
+// Computes the friction of a whole step from each machine's node, for all lanes when any requires
+// it.
 template <int N, int W>
 void ChainLanes<N, W>::glance(int k) noexcept {
   if (glanced_[static_cast<std::size_t>(k)]) return;
@@ -428,7 +429,7 @@ void ChainLanes<N, W>::restore(int k, const typename World::State& state) noexce
   take(k);
 }
 
-// put(lanes of all, numbers of one) for what a lane and a World have of each muscle.
+// Calls put(values of all lanes, values of one) for each per-muscle array of a lane and a World.
 template <int N, int W>
 template <class Packed, class One, class Put>
 void ChainLanes<N, W>::each_number(Packed& packed, One& one, const Put& put) const noexcept {
@@ -438,7 +439,7 @@ void ChainLanes<N, W>::each_number(Packed& packed, One& one, const Put& put) con
   put(packed.memory.inverse_sigma, one.memory.reference.inverse_sigma);
 }
 
-// The lane follows its World.
+// Copies the World to its lane.
 template <int N, int W>
 void ChainLanes<N, W>::take(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
@@ -459,7 +460,7 @@ void ChainLanes<N, W>::take(int k) noexcept {
   nodes_of_all_.prepare_friction(state_);
 }
 
-// The World follows its lane.
+// Copies the lane to its World.
 template <int N, int W>
 void ChainLanes<N, W>::bring(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);

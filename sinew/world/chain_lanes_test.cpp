@@ -1,5 +1,5 @@
-// Machines in a batch have the bits of each alone: in any lane, beside any others, however far each
-// is asked to go at a time.
+// Machines in a batch have the same bits as alone: in any lane, with any others, and however far
+// each is advanced at a time.
 #include "sinew/world/chain_lanes.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ double between(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// A leg that stands, hangs or is held, of other numbers, with a step of its own.
+// A leg that stands, hangs or is held, with random parameters and its own step.
 Setup random_leg(std::mt19937& random) {
   Setup s = leg_with_muscles(between(random, 4.7, 5.1), between(random, 5.2, 5.6));
   for (robot::Link& link : s.robot.links) link.mass *= between(random, 0.8, 1.2);
@@ -61,7 +61,7 @@ void expect_batch_alone(std::mt19937& random, double& stood, std::int64_t& nodes
     batch.advance(until);
     for (std::size_t k = 0; k < W; ++k) {
       const int lane = static_cast<int>(k);
-      // Some are looked at, some driven, some neither.
+      // Some are read, some driven, some neither.
       if (random() % 3 == 0) {
         const Truth one = alone[k]->truth(until[k]);
         ASSERT_NO_FATAL_FAILURE(expect_same(batch.world(lane).truth(until[k]), one));
@@ -75,7 +75,7 @@ void expect_batch_alone(std::mt19937& random, double& stood, std::int64_t& nodes
                   alone[k]->drive(edge));
         now[k] = edge.at;
       }
-      if (random() % 40 == 0) {  // back to where it was: saved in one, restored in the other
+      if (random() % 40 == 0) {  // Back to an earlier state: saved in one, restored in the other.
         const typename ChainWorld<2>::State saved = batch.world(lane).state();
         alone[k]->advance(until[k] + 0.05);
         batch.restore(lane, alone[k]->state());
@@ -112,7 +112,7 @@ TEST(ChainLanes, MachinesOfABatchAreThoseAlone) {
   if (Batch::widest() >= 8) expect_batches_alone<8>();
 }
 
-// One whose air runs away is told as it is alone, and the others go on.
+// A machine whose air diverges is reported as alone, and the others continue.
 TEST(ChainLanes, AFailureIsOneMachinesOwn) {
   std::vector<plant::Setup> setups(2, leg_with_muscles(4.95, 5.40));
   setups[1].robot.links[1].inertia = 1e-12, setups[1].robot.links[1].mass = 1e-9;

@@ -1,4 +1,4 @@
-// world/chain_world.h - the world of a chain, as the robot is alone or in a lane.
+// world/chain_world.h - world of a chain, used for a single robot and for a lane.
 #pragma once
 
 #include "sinew/air/network.h"

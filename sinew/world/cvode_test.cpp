@@ -1,6 +1,6 @@
-// The stand against SUNDIALS CVODE: [37], [40] with length, speed and pressure as states, the laws
-// written out here once more from the thesis, restarted at every edge of the valve and wherever the
-// load turns, stops or sets off.
+// The stand against SUNDIALS CVODE: [37], [40] with length, velocity and pressure as states, the
+// laws implemented independently from the thesis, restarted at every edge of the valve and wherever
+// the load reverses, stops or starts to move.
 #include <cvode/cvode.h>
 #include <gtest/gtest.h>
 #include <nvector/nvector_serial.h>
@@ -43,7 +43,7 @@ class Reference {
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
-  // To the end of the stretch; `see(t, length)` at every multiple of `every` on the way.
+  // Integrates to the end of the stretch and calls see(t, length) at every multiple of `every`.
   template <class See>
   void go(const Stretch& stretch, double every, See see) {
     valve_ = stretch.valve;
@@ -125,7 +125,7 @@ class Reference {
     out[2] = gamma_air * p * (in / mass(l, p) - volume_slope(l) * v / volume(l));
   }
 
-  // Turned or still: the next side by what the load asks for.
+  // Reversed or at rest: the next side follows from the remaining force.
   void settle() {
     if (side_ != 0 && x(1) * side_ > 1e-9) return;
     x(1) = 0;
@@ -139,7 +139,7 @@ class Reference {
     static_cast<const Reference*>(self)->slope(NV_DATA_S(s), NV_DATA_S(out));
     return 0;
   }
-  // In motion the speed; at rest what is left of the bound.
+  // In motion the velocity; at rest the margin to the bound.
   static int event(double, N_Vector s, double* out, void* self) {
     const auto& r = *static_cast<const Reference*>(self);
     const double *y = NV_DATA_S(s), l = y[0], p = y[2];
@@ -169,7 +169,7 @@ class Reference {
   bool loose_ = false;  // the bound was just reached
 };
 
-// Trapped air: to 1e-6 in, for all of the swinging and after.
+// Trapped air: agreement within 1e-6 in during the oscillation and after.
 TEST(Cvode, AgreesOnTrappedAir) {
   for (const auto& [gauge, load] : {std::pair{60, 6}, {80, 11}, {60, 11}}) {
     const StandSetup s = trapped(gauge, load);
@@ -185,7 +185,7 @@ TEST(Cvode, AgreesOnTrappedAir) {
   }
 }
 
-// A pulsed valve: the same over the transient and fifty periods.
+// A pulsed valve: the same during the transient and fifty periods.
 TEST(Cvode, AgreesOnPulsedValves) {
   struct Case {
     double load, frequency, open;
@@ -193,7 +193,7 @@ TEST(Cvode, AgreesOnPulsedValves) {
   for (const Case& c : {Case{5, 50, 0.007}, {5, 40, 0.0105}}) {
     StandSetup s = pulsed(c.load);
     s.muscle.inlet.flow.linear_below = 1e-9;
-    s.start = {.pressure = s.air.atmosphere + 40 * psi};  // where it hangs: short of both ends
+    s.start = {.pressure = s.air.atmosphere + 40 * psi};  // equilibrium, short of both ends
     Stand stand(s);
     Reference reference(s, stand.truth(0).length, s.start.pressure);
     double worst = 0;

@@ -1,9 +1,9 @@
 // world/lane_nodes.h - W plain chains with their air, integrated side by side: nodes.h with a pack
-// in the place of each number. All that is compiled for processors with wide registers, each width
-// in a file of its own (lanes_4.cpp, lanes_8.cpp); chain_lanes.h uses it.
+// in the place of each number. This is all code that is compiled for processors with wide
+// registers, each width in a file of its own (lanes_4.cpp, lanes_8.cpp); chain_lanes.h uses it.
 //
-// Each definition here has its W in its name, and calls nothing of one machine that is not compiled
-// elsewhere: so the linker has nothing to confuse with what runs on every processor.
+// Each definition here has W in its name and calls no scalar function that is not compiled
+// elsewhere, so the linker cannot mix its code with the code for all processors.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
   using typename Integrated::S;
   using Mask = units::PackMask<W>;
 
-  // The state of all machines, as World::State's of one.
+  // State of all machines, like World::State.
   struct State {
     Moving now{};
     typename Air::Shares valves{};
@@ -40,28 +40,28 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
     typename Body::Acceleration acceleration{};
   };
 
-  // Takes the models of all lanes side by side.
+  // Takes the models of all lanes.
   LaneNodes(const Body& body, const Air& air) : Integrated(body, air) {}
 
-  // Returns what is integrated, and replaces its model.
+  // Return the models, which can be replaced.
   Body& body() noexcept { return this->mechanism_; }
   const Body& body() const noexcept { return this->mechanism_; }
   Air& air() noexcept { return this->air_; }
   const Air& air() const noexcept { return this->air_; }
 
-  // RK4 by h under the friction of the step. Lanes that do not step keep what they have.
+  // Advances by RK4 by h under the friction of the step. Lanes that do not step are unchanged.
   void step(const Mask& steps, const S& h, State& s) const noexcept;
 
-  // A new node of the machines that go: references, the first stage, friction. The others
-  // keep their first stage, which was evaluated before their references moved. Returns each
-  // machine's first muscle whose density is not finite, or -1.
+  // Prepares a new node of the machines in `goes`: references, the first stage, friction. The
+  // others keep their first stage, which was evaluated before their references moved. Returns each
+  // machine's first muscle whose density is not valid, or -1.
   std::array<int, W> prepare(const Mask& goes, State& s) noexcept;
 
-  // The friction problem: from the same numbers the same, so that of those that wait nothing
-  // changes.
+  // Computes the friction problem of all lanes. Equal inputs have equal results, so lanes that wait
+  // do not change.
   void prepare_friction(State& s) noexcept;
 
-  // Returns what a step of length h from the node has.
+  // Computes friction and accelerations of a step of length h from the node.
   void glance(const S& h, const State& s, Glance& out) const noexcept;
 
  private:
@@ -69,7 +69,8 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
                     typename Body::Motion& to) noexcept;
 };
 
-// visit(a's, b's) for each number of the muscles in an evaluation, and in a state of the air.
+// Calls visit(value of a, value of b) for each per-muscle value of an evaluation, and of a state of
+// the air.
 template <class LookA, class LookB, class Visit>
 void each_of_look(LookA& a, LookB& b, const Visit& visit) {
   visit(a.ends.length, b.ends.length);
@@ -89,7 +90,7 @@ void each_of_air(AirA& a, AirB& b, const Visit& visit) {
   visit(a.out, b.out);
 }
 
-// Puts the new numbers in the lanes of the mask.
+// Replaces the values in the lanes of the mask.
 template <int N, int W>
 void LaneNodes<N, W>::blend(const Mask& mask, const typename Body::Motion& from,
                             typename Body::Motion& to) noexcept {

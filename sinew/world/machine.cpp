@@ -7,7 +7,7 @@ namespace sinew::plant {
 
 namespace {
 
-// The first of these worlds that has room for the robot, or the last.
+// Returns the first of these worlds that has room for the robot, or the last.
 template <class First, class... Larger>
 AnyWorld body_world_for(const Setup& s) {
   if constexpr (sizeof...(Larger) > 0)

@@ -1,6 +1,6 @@
-// world/machine.h - a machine in simulation: the mechanism and the air that suit its
-// description, under one interface. Robots that a chain holds use chain_body.h, all others the
-// first size of body_mechanism.h that has room for them, a test stand slide_mechanism.h.
+// world/machine.h - simulation of a machine: the mechanism and the air that suit its description,
+// behind one interface. Robots that are chains use chain_body.h, all others the first size of
+// body_mechanism.h that has room for them, a test stand slide_mechanism.h.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace sinew::plant {
 
-// By links, discs and muscles; up to four links are just so many (body.h).
+// Sizes for links, discs and muscles; sizes up to four have exactly that number of links (body.h).
 template <int N, int D, int M>
 using SizedBodyWorld = World<BodyMechanism<N, D, M>, air::AirNetwork<M>>;
 using BodyWorld = SizedBodyWorld<8, 8, 8>;
-using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // holds all
+using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // any robot
 
 extern template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<3, 2, 4>, air::AirNetwork<4>>;
@@ -32,7 +32,7 @@ using AnyWorld =
     std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
                  SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane, Stand>;
 
-// A robot or a test stand, and its true values: those of the other one are not used.
+// True values of a robot or a test stand; the other member is not used.
 using AnySetup = std::variant<Setup, StandSetup>;
 struct Truths {
   Truth robot;
@@ -41,16 +41,16 @@ struct Truths {
 
 class Machine {
  public:
-  // The setup must be free of contradictions (robot::contradictions); a stand's throws
+  // The setup must be free of contradictions (robot::contradictions). A stand throws
   // std::invalid_argument if it is not.
   explicit Machine(const AnySetup& setup);
-  // One that goes side by side with others; whoever holds them outlives this.
+  // Wraps a lane of a batch, which must outlive it.
   explicit Machine(const LegLane& lane);
 
-  // Returns it as a controller sees it.
+  // Returns the machine's interface for a controller.
   signals::Port& port() noexcept;
 
-  // As World's, of a robot or of a stand; and of a robot alone.
+  // The functions of World, for a robot or a stand; the second only for a robot.
   void truth(double t, Truths& out) noexcept;
   Truth truth(double t) noexcept;
   void advance(double t) noexcept;
@@ -60,8 +60,8 @@ class Machine {
   double shortest_step() const noexcept;
   const air::Failure& failure() const noexcept;
 
-  // The machine's state at the last node, with the commands since, as bytes of one build of the
-  // library; state_size() of them. A machine of an equal setup goes on from there: the same bits.
+  // Save and restore the state at the last node, with the commands since, as state_size() bytes for
+  // one build of the library. A machine of an equal setup continues from it with the same bits.
   std::size_t state_size() const noexcept;
   void save(std::span<std::byte> out) const noexcept;
   void restore(std::span<const std::byte> saved) noexcept;

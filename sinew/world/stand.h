@@ -1,8 +1,7 @@
-// world/stand.h - the test stand of figures 2-7 and 3-5 as a Port: one muscle and what pulls
-// it.
+// world/stand.h - test stand of figures 2-7 and 3-5 as a Port: one muscle and its load.
 //
-//   world/kernel/world.h        nodes, cuts, events, peeks     slide_mechanism.h  what moves
-//   stand_air.h          its air                        senses.h           transducers, the truth
+//   world/kernel/world.h        nodes, cuts, events, previews  slide_mechanism.h  mechanics
+//   stand_air.h          its air                        senses.h           transducers, true values
 #pragma once
 
 #include "sinew/mechanism/slide/slide_mechanism.h"

@@ -1,4 +1,5 @@
-// Laws of the stand: statics, energy, sticking, schedules, convergence; and that looking is free.
+// Laws of the stand: statics, energy, sticking, schedules, convergence; and that previews change
+// nothing.
 #include "sinew/world/stand.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ TEST(Stand, HangsWhereTheMuscleCarriesTheLoad) {
     const StandTruth at_start = stand.truth(0), later = stand.truth(0.5);
     EXPECT_NEAR(at_start.force, weight(s), 1e-9 * weight(s));
     EXPECT_TRUE(at_start.sticks);
-    EXPECT_EQ(later.length, at_start.length);  // no creep at all
+    EXPECT_EQ(later.length, at_start.length);  // no creep
     EXPECT_EQ(later.velocity, 0);
   }
 }
@@ -38,7 +39,7 @@ TEST(Stand, HangsWhereTheMuscleCarriesTheLoad) {
 TEST(Stand, KeepsItsEnergyWithoutLosses) {
   StandSetup s = trapped(60, 6);
   s.muscle.actuator.loss = {};
-  s.muscle.actuator.effectiveness = {};  // the virtual work of [22]: no share is lost
+  s.muscle.actuator.effectiveness = {};  // no share is lost, for the virtual work of [22]
   const double mass = s.load.mass.at(0);
   const auto energy = [&](const StandTruth& x) {
     const double volume =
@@ -58,14 +59,14 @@ TEST(Stand, KeepsItsEnergyWithoutLosses) {
   EXPECT_LT(most, 1e-7 * swing);
 }
 
-// Dry friction alone on a linear spring takes 4 Q per period: the amplitudes are closed form.
+// Dry friction alone on a linear spring reduces the amplitude by 4 Q per period: a closed form.
 TEST(Stand, DryFrictionTakesFourQPerPeriod) {
   StandSetup s = trapped(0, 5);
   s.muscle.actuator.loss = {.coulomb_length = 1.0,
                             .coulomb_scale = actuator::Loss::Scale::constant,
                             .coulomb_stiffness = 0.5};  // 0.5 N
   s.muscle.actuator.bladder = {.stiffness = 4000, .rest_length = 0.07};
-  s.muscle.actuator.effectiveness.scale = 0;  // the spring is all there is
+  s.muscle.actuator.effectiveness.scale = 0;  // only the spring pulls
   s.start = {
       .pressure = s.air.atmosphere, .length = 0.07 + weight(s) / 4000, .displacement = 0.003};
   const double rest = s.start.length, q = 0.5 / 4000;
@@ -75,15 +76,15 @@ TEST(Stand, DryFrictionTakesFourQPerPeriod) {
     const StandTruth x = stand.truth(n * period);
     EXPECT_NEAR(x.length - rest, 0.003 - 4 * q * n, 1e-10) << n;
   }
-  // Twelve half swings bring it to where 0.5 N hold it.
+  // Twelve half periods bring it to where 0.5 N hold it.
   const StandTruth at_rest = stand.truth(20 * period);
   EXPECT_TRUE(at_rest.sticks);
   EXPECT_NEAR(at_rest.length, rest, q + 1e-12);
   EXPECT_NEAR(at_rest.force, weight(s), 1e-12);
 }
 
-// The room of hose and fittings takes no part in where a load hangs at one pressure, also where
-// there is none; it does in how it swings.
+// The volume of hose and fittings does not affect the equilibrium at constant pressure, even if it
+// is 0; it does affect the oscillation.
 TEST(Stand, HangsTheSameWithoutHoseAndFittings) {
   StandSetup with = trapped(60, 6), without = with;
   without.muscle.external_volume = 0;
@@ -94,7 +95,7 @@ TEST(Stand, HangsTheSameWithoutHoseAndFittings) {
   for (int i = 0; i < 2000; ++i) {
     const StandTruth x = b.truth(i * 1e-3);
     ASSERT_TRUE(std::isfinite(x.length) && std::isfinite(x.pressure)) << i << " ms";
-    // Trapped air: its mass stays.
+    // Trapped air: its mass is constant.
     ASSERT_NEAR(x.air, b.truth(0).air, 1e-15) << i << " ms";
   }
 }
@@ -118,7 +119,7 @@ TEST(Stand, BreaksLooseWhereTheLoadAsksForMoreThanTheBound) {
   }
 }
 
-// [33] as printed never sticks, but as the step shrinks it goes to the real stick's motion.
+// [33] as printed never sticks, but converges to the motion with a true stick as the step shrinks.
 TEST(Stand, TheSignOfTheSpeedConvergesToStick) {
   StandSetup s = trapped(60, 6);
   const double stuck = Stand(s).truth(0.5).length;
@@ -273,7 +274,7 @@ TEST(Stand, ATensileMachineSeesTheLawAndItsFriction) {
   }
 }
 
-// What a regulator lets in and out is what the volume asks for.
+// The regulator's flow is the air for the change of volume.
 TEST(Stand, ARegulatorKeepsTheBookOfItsAir) {
   StandSetup s = trapped(60, 5);
   s.load = {.mode = Load::Mode::driven, .length = 0.08};
@@ -290,7 +291,7 @@ TEST(Stand, ARegulatorKeepsTheBookOfItsAir) {
   EXPECT_NEAR(down.air_out, mass(6e5) - mass(3e5), 1e-9 * mass(6e5));
 }
 
-// A load that is added in steps comes to rest after each, and the book of the force is right.
+// A load that is added in steps comes to rest after each, and the forces are in balance.
 TEST(Stand, WeightsMayBeAddedAndTakenAway) {
   StandSetup s = trapped(60, 1);
   s.load.mass = Schedule({{0, units::pound_mass},
@@ -306,7 +307,7 @@ TEST(Stand, WeightsMayBeAddedAndTakenAway) {
   EXPECT_NEAR(one.force, weight(s), 1e-9);
   EXPECT_NEAR(two.force, 2 * weight(s), 1e-9);
   EXPECT_GT(two.length, one.length + 1e-3);
-  EXPECT_GT(again.length, one.length);  // hysteresis: friction keeps some of it
+  EXPECT_GT(again.length, one.length);  // hysteresis: friction keeps part of the extension
 }
 
 // --- the air cylinder ---------------------------------------------------------------------------
@@ -324,7 +325,7 @@ StandSetup with_cylinder() {
   return s;
 }
 
-// Sealed: P V^n, and the force is that of the pressure on the ring, without end or friction.
+// Sealed: P V^n, and the force is that of the pressure on the annulus, without ends or friction.
 TEST(Stand, ASealedCylinderIsAPolytropicSpring) {
   const StandSetup s = with_cylinder();
   Stand stand(s);

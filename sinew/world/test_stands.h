@@ -1,4 +1,4 @@
-// Chapter 3's set-ups as structs, for tests.
+// Chapter 3's setups as structs, for tests.
 #pragma once
 
 #include "sinew/actuator/thesis_actuator.h"
@@ -10,7 +10,8 @@ namespace sinew::plant {
 using units::inch;
 using units::psi;
 
-// Trapped air, figures 3-6 to 3-11: sealed at rest under the load, let go 0.2 in below.
+// Returns the stand with trapped air, figures 3-6 to 3-11: sealed at rest under the load, released
+// 0.2 in below.
 inline StandSetup trapped(double gauge_psi, double load_pounds) {
   StandSetup s;
   s.muscle.actuator = actuator::thesis_actuator();
@@ -20,7 +21,8 @@ inline StandSetup trapped(double gauge_psi, double load_pounds) {
   return s;
 }
 
-// Pulsed 3-way valve, figures 3-14 to 3-23: from the slack muscle at 3.4 in.
+// Returns the stand with a pulsed 3-way valve, figures 3-14 to 3-23: from the slack muscle at 3.4
+// in.
 inline StandSetup pulsed(double load_pounds) {
   StandSetup s = trapped(0, load_pounds);
   s.muscle.external_volume = 0.495 * inch * inch * inch;

@@ -1,5 +1,5 @@
-// air/stiff/quick.h - integrates one body of air, or two in a row, that are quicker than a step of
-// the machine, through that step. It takes steps of RODAS3, whose length the error decides.
+// air/stiff/quick.h - integration of one body of air, or two in series, that are quicker than a
+// step of the machine, through that step. It takes steps of RODAS3 with error control.
 // quick_bodies.h has the laws, regulator_lanes.h the calm step of muscles behind regulators in
 // lanes.
 #pragma once
@@ -13,22 +13,21 @@
 
 namespace sinew::air {
 
-// A linearly implicit step for few bodies of air that are quicker than the
-// steps of the machine that they belong to.
+// Linearly implicit step for few bodies of air that are quicker than the machine's steps.
 //
 // RODAS3 of Sandu, Verwer, Blom, Spee, Carmichael and Potra (Atmospheric Environment 31, 1997):
-// four stages, three evaluations, order 3, stiffly accurate and L-stable, with an embedded answer
-// of order 2. A body that settles within microseconds needs no small step for stability, only for
-// accuracy.
+// four stages, three evaluations, order 3, stiffly accurate and L-stable, with an embedded
+// solution of order 2. A body that settles within microseconds needs small steps only for accuracy,
+// not for stability.
 //
-// Masses x of N bodies, and what has passed three openings q (in, out, leaked):
+// Masses x of N bodies, and masses passed through three openings q (in, out, leaked):
 //
 //   x' = r(t, x)     q' = p(t, x)
 //
-// Rosenbrock methods keep linear invariants: what r and p conserve at every instant (in - out -
-// leaked = sum of the masses' gains), a step conserves to rounding.
+// Rosenbrock methods keep linear invariants: a step conserves to rounding what r and p conserve at
+// every instant (in - out - leaked = sum of the masses' gains).
 
-// Rates at one instant, and their slopes. A body that does not leak has two openings.
+// Rates at one instant, and their slopes. A body without a leak has two openings.
 template <int N, int Openings = 3>
 struct QuickRates {
   static constexpr int openings = Openings;
@@ -46,7 +45,7 @@ struct QuickStep {
   std::array<double, N> mass{};    // at the end of the step [kg]
   std::array<double, 3> passed{};  // within the step [kg]
   std::array<double, N> error{};   // estimated, of a mass [kg]
-  std::array<double, N> bend{};    // h/8 of the rates' difference from end to end, of a mass [kg]
+  std::array<double, N> bend{};    // h/8 times the change of a mass's rate over the step [kg]
 };
 
 namespace rodas3 {
@@ -82,8 +81,8 @@ class Solver {
 
 }  // namespace rodas3
 
-// One step of length h from the masses x at time t. rates(t, x, slopes) answers QuickRates<N>, the
-// slopes only where it is asked for them.
+// Takes one step of length h from the masses x at time t. rates(t, x, slopes) returns
+// QuickRates<N>, with slopes only if `slopes` is true.
 template <int N, class Rates>
 QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, N>& x, double h) {
   using At = std::decay_t<decltype(rates(t, x, true))>;
@@ -92,7 +91,7 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
   const At first = rates(t, x, true);
   const rodas3::Solver<N> solver(inverse, first.mass_by);
 
-  // K of stage s: c1, c2, c3 weigh the earlier stages, g the slope over time.
+  // Computes K of stage s: c1, c2, c3 weight the earlier stages, g the slope over time.
   std::array<std::array<double, N>, 4> k{};
   std::array<std::array<double, m>, 4> q{};
   const auto stage = [&](std::size_t s, const At& at, std::array<double, 3> c, double g) {
@@ -130,13 +129,13 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
 
 namespace quick {
 
-inline constexpr double muscle_error = 1e-4;  // of a muscle's mass in one of its steps
-inline constexpr double hose_error = 5e-4;    // of a hose's
-inline constexpr double equal = 3e-3;         // relative difference of densities: asleep
-inline constexpr double little = 1e-3;        // bend of a mass within a calm step
-inline constexpr double shortest = 1e-7;      // step, whatever its error [s]
+inline constexpr double muscle_error = 1e-4;  // relative error of a muscle's mass within one step
+inline constexpr double hose_error = 5e-4;    // relative error of a hose's mass
+inline constexpr double equal = 3e-3;     // relative difference of densities that counts as none
+inline constexpr double little = 1e-3;    // relative bend of a mass within a calm step
+inline constexpr double shortest = 1e-7;  // step that is accepted whatever its error [s]
 
-// Integrates x from t to `until`, which is not long. `pace` is the step that suited last.
+// Integrates x from t to `until` with error control. `pace` is the step length, kept between calls.
 template <int N, class Rates>
 void go(const Rates& rates, double t, double until, const std::array<double, N>& error,
         std::array<double, N>& x, std::array<double, 3>& passed, double& pace) {
@@ -161,14 +160,14 @@ void go(const Rates& rates, double t, double until, const std::array<double, N>&
   }
 }
 
-// Masses at the half and at the end of a step of length h, and what has passed in it.
+// Masses at the half and at the end of a step, and the masses passed within it.
 template <int N>
 struct Ahead {
   std::array<double, N> half{}, full{};
   std::array<double, 3> passed{};
 };
 
-// Writes the course's end into the cell; its muscle or chamber is the last body.
+// Writes the result into the cell; its muscle or chamber is the last body.
 template <int N, class Cell>
 void fill(const Ahead<N>& ahead, Cell& cell) {
   cell.half = ahead.half.back();
@@ -179,9 +178,9 @@ void fill(const Ahead<N>& ahead, Cell& cell) {
   cell.leak = ahead.passed[2];
 }
 
-// Integrates through a step. Where it is calm one step of the rule serves, and the half lies on the
-// cubic through both ends and their rates. A decay of rate r is off there by 2 % of the bend at
-// r h = 1, by a tenth at 2.5 and a third at 5.
+// Integrates through a step. If the step is calm, one step of the rule suffices, and the half is on
+// the cubic through both ends and their rates. For a decay of rate r that half is wrong by 2 % of
+// the bend at r h = 1, by a tenth at 2.5 and by a third at 5.
 template <int N, class Rates>
 Ahead<N> through(const Rates& rates, double t, double h, const std::array<double, N>& error,
                  const std::array<double, N>& start) {
@@ -206,14 +205,14 @@ Ahead<N> through(const Rates& rates, double t, double h, const std::array<double
   return out;
 }
 
-// e^-x of a lag that has run for a small part of its time: five terms, 3e-9 at 0.1.
+// Returns e^-x; for a small part of a lag's time by five terms, with an error of 3e-9 at 0.1.
 inline constexpr double short_lag = 0.1;
 inline double decay(double x) {
   if (x > short_lag) return units::exp(-x);
   return 1.0 - x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0))));
 }
 
-// A valve's flow, its slopes only where a step needs them.
+// Returns a valve's flow, with its slopes only if `sloped`.
 inline gas::SlopedFlow flow(bool sloped, const gas::FlowConstants& c, double y_a, double y_b) {
   return sloped ? gas::sloped_flow_y(c, y_a, y_b) : gas::SlopedFlow{gas::flow_y(c, y_a, y_b)};
 }

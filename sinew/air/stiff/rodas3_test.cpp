@@ -38,8 +38,8 @@ TEST(Rodas3, IsOfThirdOrder) {
   EXPECT_LT(coarse, 1e-5);
 }
 
-// Two chambers that share their air within a microsecond, beside a leak: a step of a millisecond
-// lands on the shared value.
+// Two chambers that share their air within a microsecond, with a leak: a step of a millisecond
+// reaches the shared value.
 TEST(Rodas3, TakesStiffBodiesInItsStride) {
   const double share = 1e6, leak = 10;
   const auto rates = [&](double, const std::array<double, 2>& x, bool) {

@@ -1,5 +1,5 @@
-// mechanism/driven/driven_length.h - a muscle whose length is prescribed: through the points of a
-// table, which are nodes, or by a caller from node to node. Between two nodes it runs straight.
+// mechanism/driven/driven_length.h - a muscle with prescribed length: by a table, whose points are
+// nodes, or by a caller from node to node. Between two nodes the length is linear.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +17,26 @@ namespace sinew::plant {
 
 inline constexpr int driven_lanes = 4;  // a whole lane of air/lanes.h, for one muscle
 
-// A muscle with its air, and the length that is prescribed.
+// A muscle with its air, and its prescribed length.
 struct DrivenSetup {
   air::Muscle muscle;
   gas::Air air;
   gas::Supply supply;
-  signals::Schedule length;  // over time; after its last point a caller's rate holds [m]
+  signals::Schedule length;  // over time; after its last point the caller's rate applies [m]
   double pressure = 0;       // at the start, absolute [Pa]
   double step = 1e-3;        // between nodes [s]
 };
 
-// True values, which a simulation has without a sensor.
+// True values, available only in a simulation.
 struct DrivenTruth {
   double length = 0, tension = 0, pressure = 0;  // [m], [N], absolute [Pa]
   air::Account air;
 };
 
-// The length has no transducer.
+// Senses of a machine without transducers.
 struct DrivenSenses {
   using Truth = DrivenTruth;
-  // Has no channel to read, and returns the truth at t [s].
+  // The sensor functions have no channels; truth() returns the true values at t [s].
   explicit DrivenSenses(const DrivenSetup&) {}
   std::size_t channels() const noexcept { return 0; }
   double quantity(const auto&, std::size_t, double) const noexcept { return 0; }
@@ -58,7 +58,7 @@ class DrivenLength {
   struct Motion {
     double length = 0, rate = 0;  // [m], [m/s]
   };
-  // It has no inertia, nothing pulls it, and nothing rubs.
+  // The length has no inertia, forces or friction.
   struct Nothing {};
   using Acceleration = Nothing;
   using Arms = Nothing;
@@ -66,8 +66,8 @@ class DrivenLength {
   using Load = Nothing;
   using Forces = Nothing;
 
-  // Takes a set-up; returns what is constant, the motion at the start, the time between nodes [s],
-  // and the air with its state and memory at the start.
+  // Takes a setup. The functions return the constants, the motion at the start, the time between
+  // nodes [s], and the air with its state and memory at the start.
   explicit DrivenLength(const Setup& setup) : length_(setup.length) {}
   const signals::Schedule& constants() const noexcept { return length_; }
   Motion start() const noexcept { return {length_.at(0), length_.piece(0).slope}; }
@@ -82,12 +82,14 @@ class DrivenLength {
   auto start_memory(const auto& air, const Setup& s, const Ends& ends) const {
     return air.memory_at_rest(s.pressure, ends.length);
   }
-  // The next point of the table after t [s]; and what it prescribes from a node on.
+  // corner_after() returns the next point of the table after t [s]; begin() sets the prescribed
+  // motion from a node on.
   double corner_after(double t) const noexcept { return length_.corner(t); }
   void begin(double t, Motion& m) const noexcept {
     if (length_.moves_until(t)) m = {length_.at(t), length_.piece(t).slope};
   }
-  // A number that is finite where the motion is; the muscle's ends; the motion h [s] later.
+  // sum() is finite if the motion is; route() writes the muscle's ends; move() the motion h [s]
+  // later.
   double sum(const Motion& m) const noexcept { return m.length; }
   void route(double, const Motion& m, Ends& ends, Arms&) const noexcept {
     ends.length.of.fill(m.length);
@@ -103,7 +105,7 @@ class DrivenLength {
               const Acceleration (&)[4]) const noexcept {
     move(now, now, h, now, {});
   }
-  // Nothing is accelerated and nothing rubs.
+  // These parts of a mechanism are empty here.
   Pose pose(double, const Motion&) const noexcept { return {}; }
   void load(const auto&...) const noexcept {}
   Nothing accelerate(const auto&...) const noexcept { return {}; }

@@ -4,22 +4,23 @@
 //
 //   v_s = v_s0 + W f,   v_s0 = J_s (v + h a),   W = h J_s M^-1 J_s^T,   |f_i| <= f_b,i
 //
-// and each contact either sticks (v_s,i = 0) or slides (f_i = -sign(v_s,i) f_b,i). What stuck in
-// the last step is tried first and nearly always right; contacts then change sides until all agree.
+// and each contact either sticks (v_s,i = 0) or slides (f_i = -sign(v_s,i) f_b,i). The
+// contacts that stuck in the last step are tried first, which is nearly always right; contacts then
+// change their sides until all are consistent.
 //
-// More contacts can stick than the machine has freedoms (foot, trolley and both joints of a
-// standing leg); their shares of the load are then not determined by rigid bodies. The forces
-// change as little as they must from the last step's, so that the shares are a matter of history
-// and not of the step.
+// More contacts can stick than the machine has degrees of freedom (foot, trolley and both joints of
+// a standing leg). Rigid bodies then do not determine their shares of the load. The forces
+// change by the smallest amount from those of the last step, so the shares depend on history and
+// not on the step.
 //
-// Machines side by side have the bits of the scalar solution in each lane.
-// Which contacts stick differs from lane to lane. So every row is there that sticks in one of them,
-// and in the lanes where it does not it is that of the unit matrix with nothing on its right side:
+// Machines side by side have the bits of the scalar solution in each lane. The sticking contacts
+// differ between lanes. The matrix has every row that sticks in any lane; in the lanes where it
+// does not stick, it is that of the unit matrix with a right side of zero:
 //
 //   L_ab = L_ba = 0, pivot = 1, x = 0
 //
-// which leaves the others' numbers as they are: less nothing, in the same order. Lanes whose sides
-// agree stand still until the last one's do; one that needs very long is solved by itself.
+// This leaves the other values unchanged: only zeros are subtracted, in the same order. Lanes that
+// are consistent wait for the others; a lane that needs many changes is solved on its own.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ template <int C, class S = double>
 struct FrictionProblem {
   std::array<S, C> slip;                     // v_s0, without friction
   std::array<std::array<S, C>, C> response;  // W, symmetric, slip per force
-  std::array<S, C> bound;                    // >= 0; a contact with bound 0 carries nothing
+  std::array<S, C> bound;                    // >= 0; a contact with bound 0 carries no force
 };
 
 namespace detail {
@@ -48,7 +49,7 @@ template <int C>
 }
 
 // Brings the sticking contacts' slips to zero by the smallest change of their forces: LDL^T with a
-// hair of damping, 1e-9 of the largest response, for those that cannot move independently.
+// small damping, 1e-9 of the largest response, for those that cannot move independently.
 template <int C>
 [[gnu::always_inline]] inline void solve_sticking(const FrictionProblem<C>& p, int count,
                                                   const std::array<Side, C>& side,
@@ -87,8 +88,8 @@ template <int C>
   }
 }
 
-// Lets go what asks for more than its bound, holds what slides the way it is pushed: all of them,
-// or only the first. True if all contacts agree with their sides.
+// Lets contacts slide that exceed their bound, and contacts stick whose force would push them along
+// their slip: all of them, or only the first. Returns whether all contacts were consistent.
 template <int C>
 [[gnu::always_inline]] inline bool settle(const FrictionProblem<C>& p, int count, bool only_first,
                                           std::array<Side, C>& side, std::array<double, C>& force) {
@@ -121,15 +122,15 @@ template <int C>
 
 }  // namespace detail
 
-// Forces that stop or slow each of the first `count` contacts. `last` are the last step's. Inlined,
-// so that a constant count costs nothing.
+// Returns the forces that stop or slow each of the first `count` contacts. `last`: the forces of
+// the last step. Inlined, so that a constant count costs nothing.
 template <int C>
 [[gnu::always_inline]] inline std::array<double, C> solve_friction(
     const FrictionProblem<C>& p, const std::array<double, C>& last, int count = C) {
   std::array<double, C> force = last;
   std::array<detail::Side, C> side = detail::sides_of<C>(p, count, force);
-  // Changing all at once is nearly always enough; one at a time, the first one first, comes to rest
-  // for every positive definite W.
+  // Changing all at once nearly always suffices; changing the first one only converges for every
+  // positive definite W.
   const int all_at_once = 2 * count, one_at_a_time = 24 * count;
   for (int change = 0; change < all_at_once + one_at_a_time; ++change) {
     detail::solve_sticking<C>(p, count, side, force);
@@ -142,7 +143,7 @@ template <int C>
 
 namespace detail {
 
-// The problem, and what is known of its solution so far.
+// The problem and its current solution.
 template <int C, int W>
 class FrictionLanes {
  public:
@@ -165,7 +166,7 @@ class FrictionLanes {
   const Forces& force() const { return force_; }
   const Mask& unsettled() const { return unsettled_; }
 
-  // One change of all contacts that have to change.
+  // Applies one change to all contacts that have to change.
   void change() {
     solve_sticking();
     settle();
@@ -179,7 +180,7 @@ class FrictionLanes {
   }
 
   void solve_sticking() {
-    // The rows that stick in some lane; the others' numbers would be nothing in all of them.
+    // Rows that stick in some lane; all others would be zero in every lane.
     std::array<int, C> index;
     std::array<Mask, C> row;
     int n = 0;
@@ -222,7 +223,7 @@ class FrictionLanes {
     }
   }
 
-  // Lets go what asks for more than its bound, holds what slides the way it is pushed.
+  // Lets contacts slide that exceed their bound, and contacts stick whose force would push them.
   void settle() {
     Mask changed = unsettled_ ^ unsettled_;
     for (int i = 0; i < C; ++i) {
@@ -249,7 +250,7 @@ class FrictionLanes {
 template <int C, int W>
 std::array<units::Pack<W>, C> solve_friction(const FrictionProblem<C, units::Pack<W>>& p,
                                              const std::array<units::Pack<W>, C>& last) {
-  constexpr int most = C < 4 ? 2 * C : 8;  // rounds side by side; all of them change all at once
+  constexpr int most = C < 4 ? 2 * C : 8;  // rounds for all lanes, all contacts at once
   detail::FrictionLanes<C, W> lanes(p, last);
   for (int k = 0; k < most && units::any(lanes.unsettled()); ++k) lanes.change();
   std::array<units::Pack<W>, C> force = lanes.force();

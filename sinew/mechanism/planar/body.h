@@ -1,5 +1,5 @@
-// mechanism/planar/body.h - a planar tree of links under a trolley that slides and a body
-// that a cylinder moves up and down: the equations of chain.h with one coordinate more.
+// mechanism/planar/body.h - equations of motion of a planar tree of links under a trolley that
+// slides and a body that a cylinder moves up and down: those of chain.h with one more coordinate.
 //
 //   q = (x_t, x_c, phi_1 ... phi_N)      trolley, lift, absolute link angles
 //
@@ -14,13 +14,13 @@
 //   I_ii  moment of inertia of link i about its joint, with links beyond it as points [kg m^2]
 //   M     mass that slides [kg]    m_L  mass that is lifted [kg]    tau_i  generalised force [N m]
 //
-// A chain is the tree whose links hang at each other's ends, with the same bits. A coordinate that
-// is held (no trolley, locked cylinder) keeps its place with the acceleration 0. What hangs on
-// nothing in common but the body is coupled by x and y alone: the mass matrix is taken apart from
-// the tips inwards, where each row has entries with what it hangs on and nothing else.
+// A chain is the tree in which each link is at the end of the one before, with the same bits. A
+// held coordinate (no trolley, locked cylinder) keeps its value with the acceleration 0. Links with
+// only the body in common are coupled by x and y alone: the mass matrix is factored from the tips
+// inwards, where each row has entries only with the coordinates that carry the link.
 //
-// N is the number of links that there is room for; a small body has just so many. Where these
-// moreover hang one on the other, on a trolley that moves, no tree is walked, with the same bits.
+// N is the capacity for links; a small body has exactly N. If its links moreover form a chain on a
+// trolley that moves, the code walks no tree, with the same bits.
 #pragma once
 
 #include <algorithm>
@@ -35,8 +35,8 @@
 
 namespace sinew::plant {
 
-// Loops over so few that each turn is written out: compilers leave nested ones over matrices of
-// three or four rows as loops, which cost more than what is in them.
+// Fully unrolled loops: compilers leave nested loops over matrices of three or four rows as
+// loops, whose overhead exceeds their content.
 
 // Visits 0 ... Count - 1, each as a constant of its own type.
 template <std::size_t Count, class Visit>
@@ -54,45 +54,46 @@ enum Coordinate : std::size_t { along_track, up, first_link };
 
 template <int N>
 struct BodyConstants {
-  // Bodies of so few links have neither more nor fewer than N.
+  // Bodies with so few links have exactly N.
   static constexpr bool exact = N <= 4;
   template <class T>
   using PerLink = std::array<T, N>;
 
-  std::size_t count = N;                     // of links
-  PerLink<int> parent{};                     // the link that it hangs on; -1: the body
+  std::size_t count = N;                     // number of links
+  PerLink<int> parent{};                     // link that carries this one; -1: the body
   PerLink<double> attachment{};              // along the parent, or ahead of the origin [m]
   PerLink<double> length{}, first_moment{};  // l [m], c [kg m]
-  PerLink<double> hanging{};                 // mass of the link and all that hangs on it [kg]
+  PerLink<double> hanging{};                 // mass of the link and all links that it carries [kg]
   PerLink<PerLink<double>> inertia{};        // A [kg m^2]
   double sliding_mass = 0, lifted_mass = 0;  // M, L [kg]
   double gravity = 9.80665;                  // [m/s^2]
-  std::array<bool, 2> held{};                // of x, y
-  // The coordinate that one moves with: a link's parent, of a link on the body the lift or the
-  // track, whichever moves; -1: none.
+  std::array<bool, 2> held{};                // x, y
+  // Coordinate that carries this one: a link's parent; for a link on the body, the lift or the
+  // track, if it moves; -1: no coordinate.
   std::array<int, N + 2> above{};
-  bool chain = false;  // exact, one link on the other on a trolley that moves
+  bool chain = false;  // exact, and a chain of links on a trolley that moves
 
-  constexpr std::size_t links() const { return exact ? N : count; }           // how many there are
-  constexpr std::size_t coordinates() const { return first_link + links(); }  // the same
-  // Position of the parent among the links, for links that have one.
+  constexpr std::size_t links() const { return exact ? N : count; }           // number of links
+  constexpr std::size_t coordinates() const { return first_link + links(); }  // their number
+  // Return the parent of a link that has one, and whether the link has a parent link.
   std::size_t on(std::size_t link) const { return static_cast<std::size_t>(parent[link]); }
   bool hangs_on_link(std::size_t link) const { return parent[link] >= 0; }
-  // The link on the body that this one hangs on in the end, or is.
+  // Returns the link on the body that carries this link, or the link itself.
   std::size_t first_on(std::size_t link) const {
     while (hangs_on_link(link)) link = on(link);
     return link;
   }
 };
 
-// Can a body of N links be this robot's?
+// Returns whether a body of N links can represent this robot.
 template <int N>
 bool holds(const robot::Robot& robot) {
   const std::size_t links = robot.links.size();
   return BodyConstants<N>::exact ? links == N : links <= N;
 }
 
-// Parents come before their children (robot::contradictions), and holds<N>(robot).
+// Returns the constants. Requires parents before children (robot::contradictions) and
+// holds<N>(robot).
 template <int N>
 BodyConstants<N> body_of(const robot::Robot& robot);
 
@@ -102,23 +103,23 @@ struct BodyState {
   Coordinates<N> at{}, rate{};
 };
 
-// The terms of the equations that depend on the motion: evaluated once, used for several right-hand
+// Terms of the equations that depend on the motion, evaluated once and used for several right
 // sides.
 template <int N>
 class Body {
  public:
   Body(const BodyConstants<N>& constants, const BodyState<N>& motion);  // both outlive it
 
-  double sin(std::size_t link) const { return sin_[link]; }  // of its angle
-  double cos(std::size_t link) const { return cos_[link]; }  // the same
+  double sin(std::size_t link) const { return sin_[link]; }  // sine of the link's angle
+  double cos(std::size_t link) const { return cos_[link]; }  // cosine
 
-  // Under the given forces, gravity and the velocities' own terms.
+  // Returns the accelerations under these forces, gravity and the velocity terms.
   Coordinates<N> accelerations(Coordinates<N> force) const;
 
-  // What the forces alone cause: the inverse mass matrix times `force`.
+  // Returns the accelerations by the forces alone: the inverse mass matrix times `force`.
   Coordinates<N> response(const Coordinates<N>& force) const;
 
-  // The same where no coordinate behind the given one is forced: the same bits, sooner.
+  // Returns the same, faster, if no force acts on coordinates after `Last`; the bits are the same.
   template <std::size_t Last>
   Coordinates<N> response_up_to(const Coordinates<N>& force) const;
 
@@ -127,7 +128,7 @@ class Body {
   void factor_tree();
   Coordinates<N> response_of_tree(Coordinates<N> force) const;
 
-  // The coordinates of a chain that move, in their order: all, or all but a lift that is held.
+  // Moving coordinates of a chain in order: all, or all except a lift that is held.
   template <bool Lifts>
   static constexpr std::size_t moving = N + (Lifts ? 2 : 1);
   template <bool Lifts>
@@ -136,27 +137,27 @@ class Body {
   }
   template <bool Lifts>
   void factor_chain();
-  // Forced is how many of them there are up to the last one that a force acts on.
+  // `Forced`: number of moving coordinates up to the last one with a force.
   template <bool Lifts, std::size_t Forced = moving<Lifts>>
   Coordinates<N> response_of_chain(Coordinates<N> force) const;
 
   const BodyConstants<N>& k_;
   const BodyState<N>& motion_;
-  // Set for the coordinates that are there, no others.
+  // Set only for the coordinates that exist.
   std::array<double, N> sin_, cos_;
-  std::array<Coordinates<N>, N + 2> lower_;  // by coordinate, entries with those above it
+  std::array<Coordinates<N>, N + 2> lower_;  // rows by coordinate, entries with those that carry it
   Coordinates<N> inverse_pivot_;
 };
 
-// Kinetic plus potential energy [J], zero potential at the origin.
+// Returns kinetic plus potential energy [J], with zero potential at the origin.
 template <int N>
 double energy(const BodyConstants<N>& k, const BodyState<N>& motion);
 
-// Momentum of all that moves, along the track and upwards [N s].
+// Returns the momentum of all moving masses, along the track and upwards [N s].
 template <int N>
 std::array<double, 2> momentum(const BodyConstants<N>& k, const BodyState<N>& motion);
 
-// Mass at the end of each link: of the feet that are there  [kg].
+// Returns the mass at the end of each link: that of its foot, if present [kg].
 template <int N>
 std::array<double, N> end_masses(const robot::Robot& robot) {
   std::array<double, N> out{};
@@ -183,7 +184,7 @@ BodyConstants<N> body_of(const robot::Robot& robot) {
     k.first_moment[i] = link.mass * r + l * k.hanging[i];
     k.inertia[i][i] = link.inertia + link.mass * r * r + l * l * k.hanging[i];
   }
-  // From the tips inwards: all that hangs on a link is there before it hangs on another.
+  // Goes from the tips inwards, so that a link's load is complete before it is added to its parent.
   for (std::size_t i = k.links(); i-- > 0;) {
     k.hanging[i] += robot.links[i].mass;
     if (!k.hangs_on_link(i)) continue;
@@ -193,7 +194,7 @@ BodyConstants<N> body_of(const robot::Robot& robot) {
     k.inertia[p][p] += at * at * k.hanging[i];
     k.hanging[p] += k.hanging[i];
   }
-  // Each link against all that it hangs on, up to the body.
+  // Each link with all links that carry it, up to the body.
   for (std::size_t j = 0; j < k.links(); ++j)
     for (std::size_t child = j; k.hangs_on_link(child); child = k.on(child)) {
       const std::size_t i = k.on(child);
@@ -235,8 +236,8 @@ void Body<N>::factor() {
   factor_tree();
 }
 
-// The mass matrix as L^T D L, from the tips inwards: a coordinate has entries with those above it
-// alone, before and after. A held one has the row of a unit matrix.
+// Factors the mass matrix as L^T D L, from the tips inwards: a coordinate has entries only with
+// those that carry it, before and after. A held one has the row of a unit matrix.
 template <int N>
 void Body<N>::factor_tree() {
   const auto above = [this](std::size_t c) { return k_.above[c]; };
@@ -267,7 +268,7 @@ void Body<N>::factor_tree() {
   }
 }
 
-// Does what factor_tree does for a chain, where all coordinates before one are above it.
+// Does the work of factor_tree for a chain, where each coordinate is carried by all before it.
 template <int N>
 template <bool Lifts>
 void Body<N>::factor_chain() {

@@ -1,13 +1,13 @@
-// mechanism/planar/body_mechanism.h - any planar machine: chains and trees of joints,
+// mechanism/planar/body_mechanism.h - mechanism of any planar machine: chains and trees of joints,
 // driven or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints,
 // feet of several discs.
 //
 //   body.h            equations of motion       friction_contacts.h  friction, discs on the ground
-//   muscle_routing.h  routes of the muscles, what the trolley rests on
+//   muscle_routing.h  routes of the muscles, loads of the trolley's rollers
 //
-// One of the mechanisms of world/kernel/world.h; chain_body.h is the same for the leg that
-// walks, faster. It is compiled for several sizes: N joints on feet of D discs (body.h,
-// friction_contacts.h), M muscles.
+// It is a mechanism for world/kernel/world.h; chain_body.h is a faster one for the walking leg. It
+// is compiled for several sizes: N joints on feet of D discs (body.h, friction_contacts.h), M
+// muscles.
 #pragma once
 
 #include <algorithm>
@@ -38,12 +38,12 @@ class BodyMechanism : public PlanarMechanism<M> {
   using Pose = BodyOnGround<N, D>;
 
   struct Load {
-    Coordinates<N> force;                             // all but dry friction
+    Coordinates<N> force;                             // all except dry friction
     std::array<double, N> passive_torque;             // dampers and springs [N m]
-    typename FrictionContacts<N, D>::Normals normal;  // of the ground on the discs [N]
+    typename FrictionContacts<N, D>::Normals normal;  // force of the ground on the discs [N]
   };
 
-  // Is there room for this robot?
+  // Returns whether this robot fits.
   static bool holds(const robot::Robot& robot) {
     return plant::holds<N>(robot) && robot::discs_of(robot) <= D && robot.muscles.size() <= M;
   }
@@ -51,8 +51,8 @@ class BodyMechanism : public PlanarMechanism<M> {
   // Takes a planar machine of at most N links, D discs and M muscles.
   explicit BodyMechanism(const Setup& setup);
 
-  // Returns the constants, the motion at the start, the number of muscles; and of one its first
-  // joint and its arm there.
+  // Return the constants, the motion at the start, the number of muscles; and a muscle's first
+  // joint and its moment arm there.
   const BodyConstants<N>& constants() const noexcept { return constants_; }
   const Motion& start() const noexcept { return start_; }
   int muscles() const noexcept { return cords_.count(); }
@@ -60,14 +60,14 @@ class BodyMechanism : public PlanarMechanism<M> {
   double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
     return arms[static_cast<std::size_t>(muscle)][0];
   }
-  // Returns all that a node needs to know of where the machine is.
+  // Returns all position-dependent terms that a node needs.
   Pose pose(double, const Motion& motion) const noexcept {
     Pose pose(constants_, motion);
     rubs_.place(motion, pose);
     return pose;
   }
 
-  // Returns the angle of a joint [rad], its rate [rad/s], and how far the body is up [m].
+  // Return the angle of a joint [rad], its rate [rad/s], and the body's lift [m].
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.at[first_link + j] -
            (constants_.hangs_on_link(j) ? m.at[first_link + constants_.on(j)] : 0.0);
@@ -78,14 +78,15 @@ class BodyMechanism : public PlanarMechanism<M> {
   }
   double lift(const Motion& m) const noexcept { return m.at[up]; }
 
-  // A number that is none where one of the coordinates is none.
+  // Returns a sum that is not finite if any coordinate is not.
   double sum(const Motion& m) const noexcept;
 
-  // The body step, or a whole part of it that suits the machine's fastest rates  [s].
+  // Returns the body step, or an integer fraction of it that suits the machine's fastest rates [s].
   double node_step(const Setup&) const noexcept { return node_step_; }
-  // The ground is what asks for short steps where a foot is light. While no disc can come to it or
-  // leave it, nodes stand as far apart as the joints alone bear in the air, and as the relaxed
-  // damper does on the ground: at whole multiples of so many steps.
+  // Returns the multiple of the step at which the next node is. A light foot requires short steps
+  // because of the ground. While no disc can touch or leave the ground, nodes are further apart: as
+  // far as the joints allow in the air, or the relaxed damper on the ground, at multiples of that
+  // many steps.
   std::int64_t next_multiple(std::int64_t multiple, double step, const Pose& pose,
                              const Motion& m) const noexcept {
     if (steps_in_air_ == 1) return multiple + 1;
@@ -98,66 +99,67 @@ class BodyMechanism : public PlanarMechanism<M> {
   double lift_per_force() const noexcept { return lift_per_force_; }
   std::int64_t most_steps_on_ground() const noexcept { return steps_on_ground_; }
 
-  // Lets a motion have these rates of the joints [rad/s] and of the body [m/s].
+  // Sets the rates of the joints [rad/s], of the trolley and of the body [m/s] in a motion.
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate) const;
 
-  // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
+  // Writes the lengths of the muscles, the piston's travel, their rates, and the muscles' arms.
   void route(double, const Motion& m, air::Ends<M>& ends, Arms& arms) const noexcept;
 
-  // Works out all forces but dry friction's, from what the air pulls and pushes.
+  // Computes all forces except dry friction from the forces of the air.
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
             Load& out) const noexcept {
     load(body, m, arms, air.tension, air.cylinder_force, out);
   }
 
-  // Returns the acceleration under the load and the dry friction that is held.
+  // Returns the acceleration under the load and the dry friction of the step.
   Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
                           const Forces& held) const noexcept;
 
-  // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
+  // Returns the bound of the trolley's dry friction, from the last step's bound and force [N].
   double trolley_bound(const Forces& held, double last) const noexcept {
     if (constants_.held[along_track]) return 0;
     return robot_.trolley.friction(held[FrictionContacts<N, D>::trolley], last);
   }
 
-  // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
-  // the mesh's own friction acts through the cams and is part of the joint's.
+  // Prepares a node for hold() and returns the accelerations without friction. Bounds: the mesh's
+  // own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
                        const air::Lanes<M>& friction_bound, double trolley_bound,
                        const Load& load) noexcept;
 
-  // Dry friction of a step of length h from the prepared node, and accelerations under it.
+  // Return the dry friction of a step of length h from the prepared node, and accelerations under
+  // it.
   Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }
   Acceleration accelerate(const Acceleration& free, const Forces& held) const noexcept {
     return rubs_.accelerations(free, held);
   }
   double bound(int contact) const noexcept { return rubs_.bound(contact); }
 
-  // `from`, h along the given rates and accelerations.
+  // Writes `from` moved by h along the given rates and accelerations.
   void move(Motion& out, const Motion& from, double h, const Motion& rates,
             const Acceleration& a) const noexcept;
 
-  // The ground's damper within a step: friction_contacts.h.
+  // Relaxes the ground's damper within a step: friction_contacts.h.
   void relax(double h, double share, const Load& load, const Acceleration& before,
              Acceleration& a) const noexcept {
     rubs_.relax(h, share, load.normal, before, a);
   }
 
-  // h along a constant acceleration.
+  // Moves by h under a constant acceleration.
   void glide(Motion& m, double h, const Acceleration& a) const noexcept;
 
-  // RK4's weighted mean of four stages.
+  // Applies RK4's weighted mean of four stages.
   void finish(Motion& now, double h, const Motion* const (&stage)[4],
               const Acceleration (&a)[4]) const noexcept;
 
-  // Adds what a muscle's tension does to its joints  [N m].
+  // Adds the torque of a muscle's tension on its joints [N m].
   void add_torque(const Arms& arms, int muscle, double tension,
                   std::array<double, most_joints>& torque) const noexcept;
 
-  // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
-  // already, and `load` is that of the last node.
+  // Fills in the body's part of the true values at a motion. The muscles' torques must be set
+  // already; `load` is that of the last node.
   void tell(const Motion& m, const Acceleration& a, const Forces& held, const Load& load,
             Truth& out) const noexcept;
 
@@ -179,7 +181,7 @@ class BodyMechanism : public PlanarMechanism<M> {
   Motion start_{};
   double node_step_ = 1e-3;                              // [s]
   double lift_per_force_ = 0;                            // [1/kg]
-  std::int64_t steps_in_air_ = 1, steps_on_ground_ = 1;  // of them, at most
+  std::int64_t steps_in_air_ = 1, steps_on_ground_ = 1;  // longest multiples of node_step_
   std::array<double, N> damping_{}, spring_{}, spring_angle_{}, dry_{};
   std::array<JointStop, N> stop_{};
 };
@@ -212,15 +214,16 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
   return places;
 }
 
-// Chooses the step that suits all, and the longer ones without the ground or with its damper
+// Chooses the step that suits all rates, and the longer ones without the ground or with its damper
 // relaxed.
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::choose_steps(double body_step) {
   const auto rates = [&](const Motion& m) {
     return rubs_.fastest_rates(Body<N>(constants_, m), m, robot_);
   };
-  // A light foot is quick where the ground pushes past its centre. Poses all over: each link turns
-  // by another irrational number of turns from one to the next (5 + 7 j is no square).
+  // A light foot is quick if the ground pushes past its centre of mass. The poses cover the
+  // range of angles: each link turns by an irrational number of turns from one to the next (5 + 7 j
+  // is no square).
   const FastestRates at_start = rates(start_);
   FastestRates elsewhere;
   Motion m = start_;
@@ -231,7 +234,7 @@ void BodyMechanism<N, D, M>::choose_steps(double body_step) {
   }
   lift_per_force_ = std::max(at_start.lift, elsewhere.lift);
   using Contacts = FrictionContacts<N, D>;
-  const auto suited = [&](double ground, double damper) {  // by their shares in the rates
+  const auto suited = [&](double ground, double damper) {  // shares of the ground's rates
     const auto rate = [&](const FastestRates& r) {
       return std::max({r.joints, ground * r.ground_spring, damper * r.ground_damper});
     };
@@ -270,7 +273,7 @@ void BodyMechanism<N, D, M>::route(double, const Motion& m, air::Ends<M>& ends,
   ends.travel_rate = m.rate[up];
 }
 
-// One-sided at both ends of the stroke.
+// Acts one-sided at both ends of the stroke.
 template <int N, int D, int M>
 double BodyMechanism<N, D, M>::cylinder_stop(const Motion& m) const noexcept {
   const robot::Cylinder& c = robot_.cylinder;
@@ -388,7 +391,7 @@ void BodyMechanism<N, D, M>::add_torque(const Arms& arms, int muscle, double ten
       torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
 }
 
-// A foot is at its leg's last link's end; the ground's force on it is that on all its discs.
+// A foot is at the end of its leg's last link; the ground's force on it is the sum over its discs.
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const Forces& held,
                                   const Load& load, Truth& out) const noexcept {
@@ -419,7 +422,7 @@ void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const 
   if (robot_.rollers.present) tell_rollers(body, m, a, held, load, out);
 }
 
-// The body's upward force on what hangs on it at one of its first links  [N].
+// Returns the body's upward force on the links carried by one of its first links [N].
 template <int N, int D, int M>
 double BodyMechanism<N, D, M>::carried(const Body<N>& body, const Motion& m, const Acceleration& a,
                                        std::size_t first, const Truth& truth) const noexcept {

@@ -1,4 +1,4 @@
-// Laws that a machine of any shape keeps, and that all worlds agree where several hold a robot.
+// Conservation laws of a machine of any shape, and agreement of all worlds that can represent it.
 #include "sinew/world/machine.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace sinew::plant::body_world_test {
 namespace {
 
-// Links from the leg's on, each a little smaller, joints that nothing pulls.
+// Links attached to the leg's, each a little smaller, with joints without muscles.
 Setup chain_setup(std::size_t links) {
   plant::Setup s = leg_without_muscles(0.6, -0.9);
   const robot::Link femur = s.robot.links[0];
@@ -36,7 +36,7 @@ Setup chain_setup(std::size_t links) {
   return s;
 }
 
-// The body hangs on a spring of air alone: a cylinder whose valves stay shut.
+// The body is carried by a spring of air alone: a cylinder whose valves stay shut.
 air::Cylinder thesis_cylinder() {
   air::Cylinder c;
   c.bore = 0.627 * inch;
@@ -101,8 +101,8 @@ TEST(BodyWorld, BodyAgreesWithTheFastChain) {
   }
 }
 
-// A muscled leg that walks over its ground with friction everywhere, valves opened at random: the
-// same motion from every mechanism with every air, to what rounding grows to.
+// A leg with muscles that walks on its ground with friction everywhere, valves opened at random:
+// every mechanism with every air has the same motion, to growing rounding errors.
 template <class World>
 class Alike : public ::testing::Test {};
 using Others = ::testing::Types<BodyWorld>;
@@ -136,8 +136,8 @@ TYPED_TEST(Alike, MovesAsTheChainWithItsBank) {
   EXPECT_TRUE(touched);
 }
 
-// Behind a regulator the air pushes the body down with p A, whatever its travel: what the leg lifts
-// is known.
+// Behind a regulator the air pushes the body down with p A, whatever its travel: the load that the
+// leg lifts is known.
 TEST(BodyWorld, RegulatorPushesWithAKnownForce) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
@@ -152,7 +152,8 @@ TEST(BodyWorld, RegulatorPushesWithAKnownForce) {
   EXPECT_NEAR(world.motion().at[up] - 2 * inch, -0.5 * (9.80665 + push / mass) * 0.05 * 0.05, 1e-9);
 }
 
-// Two sealed chambers are a spring k = n (P_u A_u^2/V_u + P_d A_d^2/V_d); the body swings on it.
+// Two sealed chambers are a spring k = n (P_u A_u^2/V_u + P_d A_d^2/V_d); the body oscillates on
+// it.
 TEST(BodyWorld, SealedCylinderIsAGasSpring) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   give_cylinder(s, robot::Cylinder::Mode::valves);
@@ -178,9 +179,9 @@ TEST(BodyWorld, SealedCylinderIsAGasSpring) {
               0.01 * rate / omega);
 }
 
-// Whatever stops and valves a cylinder has, the machine's state stays a number: the air that the
-// piston shuts in against its stop grows stiff as its room vanishes, and steps are cut by that. The
-// stops are such that the fastest piston would be halted within its dead volume.
+// For any stops and valves of a cylinder the machine's state stays finite: the air that the piston
+// traps against its stop grows stiff as its room vanishes, which limits the steps. The stops are
+// such that the fastest piston would be halted within its dead volume.
 TEST(BodyWorld, AThousandCylindersStayFinite) {
   std::mt19937 random(39);
   std::uniform_real_distribution<double> share(0, 1);
@@ -216,10 +217,10 @@ TEST(BodyWorld, AThousandCylindersStayFinite) {
     ASSERT_FALSE(world.failure()) << "machine " << k << " at " << world.failure().time << " s";
     ASSERT_TRUE(std::isfinite(world.motion().at[up] + world.motion().rate[up]));
   }
-  EXPECT_GT(deepest, 0.6);  // some come close to the end of their room
+  EXPECT_GT(deepest, 0.6);  // some come close to the end of the dead volume
 }
 
-// Trolley and ground away, the whole leg falls with its body as one mass.
+// Without trolley and ground the whole leg falls with its body as one mass.
 TEST(BodyWorld, LiftedMassFallsFreely) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0.4);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
@@ -231,7 +232,7 @@ TEST(BodyWorld, LiftedMassFallsFreely) {
   EXPECT_NEAR(world.motion().at[up] - 2 * inch, -0.5 * 9.80665 * 0.08 * 0.08, 1e-9);
 }
 
-// A body on its ankle, over a shoe with heel and toe: each carries what the levers say.
+// A body on its ankle, on a shoe with heel and toe: each carries its share by the levers.
 TEST(BodyWorld, ShoeStandsOnHeelAndToe) {
   plant::Setup s = chain_setup(1);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
@@ -254,12 +255,12 @@ TEST(BodyWorld, ShoeStandsOnHeelAndToe) {
   EXPECT_NEAR(truth.foot[0].force_y, weight, 1e-6 * weight);
   EXPECT_NEAR(truth.disc_force[0] + truth.disc_force[1], weight, 1e-6 * weight);
   const double balance = truth.disc_force[1] * toe - truth.disc_force[0] * heel;
-  // To the tilt that heel and toe sink by.
+  // Tolerance: the tilt by which heel and toe sink.
   EXPECT_NEAR(balance, link.mass * 9.80665 * link.center_of_mass, 1e-3 * weight * heel);
 }
 
-// A foot link at an ankle that is held is the leg's fixed foot, on its ground and in its friction:
-// to what the shorter steps of the light link change.
+// A foot link at a held ankle equals the leg's fixed foot, on its ground and with its friction, to
+// the effect of the shorter steps of the light link.
 TEST(BodyWorld, HeldAnkleIsAFixedFoot) {
   plant::Setup fixed = leg_with_muscles(4.95, 5.40);
   fixed.robot.ground.present = true;
@@ -291,7 +292,7 @@ TEST(BodyWorld, HeldAnkleIsAFixedFoot) {
   EXPECT_TRUE(touched);
 }
 
-// A damper far too strong for the body step: still exponential decay, v = v0 exp(-c t/I).
+// A damper far too strong for the body step: the decay is still exponential, v = v0 exp(-c t/I).
 TEST(BodyWorld, StrongDamperIsStable) {
   plant::Setup s = chain_setup(1);
   s.robot.trolley.present = false;
@@ -306,8 +307,8 @@ TEST(BodyWorld, StrongDamperIsStable) {
   EXPECT_NEAR(world.motion().at[first_link] - 0.6, 1.0 / 8000, 1e-6);
 }
 
-// Virtual work: what the cord pulls with is what its length gives per angle, for any cam and for
-// muscles across two joints.
+// Virtual work: the tendon's tension times the change of its length per angle is the torque, for
+// any cam and for muscles across two joints.
 TEST(MuscleRouting, TorqueIsTheSlopeOfLength) {
   plant::Setup s = leg_with_muscles(4.95, 5.40);
   robot::Muscle& m = s.robot.muscles[1];
@@ -354,10 +355,10 @@ TEST(BodyWorld, SpringAtAJointIsAPendulumInNoGravity) {
               1e-5);
 }
 
-// A trolley that breaks away at 6 N and rolls on against 1: it rests as long as 6 N hold it, and
-// then moves as in a world that starts there; both worlds agree.
+// A trolley that breaks away at 6 N and rolls on against 1: it rests while 6 N hold it, then moves
+// like a world that starts there; both worlds agree.
 TEST(BodyWorld, TrolleyBreaksAway) {
-  plant::Setup s = leg_without_muscles(0, 0);  // straight out, it swings down
+  plant::Setup s = leg_without_muscles(0, 0);  // straight, it swings down
   s.robot.trolley.drag = 1;
   s.robot.trolley.breakaway = 6;
   plant::Setup loose = s;
@@ -375,7 +376,7 @@ TEST(BodyWorld, TrolleyBreaksAway) {
   EXPECT_GT(std::abs(whole.motion().at[along_track]), 1e-3);
 }
 
-// Standing still, the rollers carry the weight, and the counterweight loads the one it hangs on.
+// At rest the rollers carry the weight, and the counterweight loads the roller above it.
 TEST(BodyWorld, RollersCarryTheWeight) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   for (auto&& blocked : s.start.blocked) blocked = true;
@@ -392,8 +393,8 @@ TEST(BodyWorld, RollersCarryTheWeight) {
   EXPECT_NEAR(fast.roller_front, whole.roller_front, 1e-6);
 }
 
-// Muscles that creep: in the end the leg hangs where stronger ones would hold it, and the cords
-// pull 1 + c times as much as they would. The hysteresis of a hair's width changes nothing.
+// Muscles with creep: finally the leg hangs where stronger muscles would hold it, and the tendons
+// have the same tension. A hysteresis of negligible width changes nothing.
 TEST(BodyWorld, CreepEndsWhereStrongerMusclesHoldTheLeg) {
   const auto settled = [](double creep, double scale, double half_width) {
     plant::Setup s = leg_with_muscles(4.85, 5.48);

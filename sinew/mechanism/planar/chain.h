@@ -16,10 +16,10 @@
 //   M    mass that moves along the track [kg];  x_t  trolley [m];  F_x, tau_i  generalised forces
 //        [N], [N m]
 //
-// Solved by eliminating the trolley and an LDL^T of the N x N rest; for N = 2 by Cramer's rule,
-// which has one division to wait for in place of two. Without trolley 1/M = 0.
+// Solved by eliminating the trolley and LDL^T of the N x N rest; for N = 2 by Cramer's rule, which
+// has one division in its dependency chain instead of two. Without trolley 1/M = 0.
 //
-// S is a double, or a pack of them: chains of equal N side by side (units/pack.h).
+// S is a double, or a pack (units/pack.h) over several chains of equal N.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct ChainConstants {
 template <int N, class S = double>
 struct GeneralizedState {
   S x = 0, x_rate = 0;               // trolley [m], [m/s]
-  std::array<S, N> angle{}, rate{};  // of the links, from +x [rad], [rad/s]
+  std::array<S, N> angle{}, rate{};  // angles of the links, from +x [rad], [rad/s]
 };
 
 // A force on each coordinate, or an acceleration of each.
@@ -60,12 +60,13 @@ GeneralizedVector<N, S> select(const Mask& mask, const GeneralizedVector<N, S>& 
   return out;
 }
 
-// The terms of the equations that depend on the motion: evaluated once, used for several right-hand
+// Terms of the equations that depend on the motion, evaluated once and used for several right
 // sides.
 template <int N, class S = double>
 class Chain {
  public:
-  // Works out sines, cosines and the mass matrix at that motion. Both outlive it.
+  // Computes sines, cosines and the mass matrix at this motion. Both arguments must outlive the
+  // object.
   Chain(const ChainConstants<N, S>& constants, const GeneralizedState<N, S>& motion)
       : k_(constants), motion_(motion) {
     for (int i = 0; i < N; ++i) {
@@ -77,11 +78,11 @@ class Chain {
     factor();
   }
 
-  // Returns the sine and the cosine of link i's angle.
+  // Return the sine and the cosine of link i's angle.
   S sin(int i) const { return sin_[i]; }
   S cos(int i) const { return cos_[i]; }
 
-  // Accelerations under the given forces, gravity and the velocities' own terms.
+  // Returns the accelerations under these forces, gravity and the velocity terms.
   GeneralizedVector<N, S> accelerations(const GeneralizedVector<N, S>& given) const {
     GeneralizedVector<N, S> force = given;
     for (int i = 0; i < N; ++i) {
@@ -97,7 +98,7 @@ class Chain {
     return response(force);
   }
 
-  // Accelerations that the forces alone cause: the inverse mass matrix times `force`.
+  // Returns the accelerations by the forces alone: the inverse mass matrix times `force`.
   GeneralizedVector<N, S> response(const GeneralizedVector<N, S>& force) const {
     const S push = force.x * k_.inverse_total_mass;
     std::array<S, N> a;
@@ -129,8 +130,8 @@ class Chain {
     return k_.inertia[i][j] * cosine - lever_[i] * lever_[j] * k_.inverse_total_mass;
   }
 
-  // LDL^T of I_ij cos(phi_i - phi_j) - S_i sin(phi_i) S_j sin(phi_j)/M.
-  // For N = 2 the matrix itself and 1/det.
+  // Factors I_ij cos(phi_i - phi_j) - S_i sin(phi_i) S_j sin(phi_j)/M by LDL^T. For N = 2 stores
+  // the matrix itself and 1/det.
   void factor() {
     if constexpr (N == 2) {
       pivot_ = {reduced(0, 0), reduced(1, 1)};
@@ -159,7 +160,7 @@ class Chain {
   std::array<std::array<S, N>, N> lower_;
 };
 
-// Kinetic plus potential energy [J], zero potential at the height of the first joint.
+// Returns kinetic plus potential energy [J], with zero potential at the height of the first joint.
 template <int N, class S>
 S energy(const ChainConstants<N, S>& k, const GeneralizedState<N, S>& motion) {
   S e = 0.5 * k.total_mass * motion.x_rate * motion.x_rate;
@@ -176,7 +177,7 @@ S energy(const ChainConstants<N, S>& k, const GeneralizedState<N, S>& motion) {
   return e;
 }
 
-// Momentum along the track [N s].
+// Returns the momentum along the track [N s].
 template <int N, class S>
 S momentum(const ChainConstants<N, S>& k, const GeneralizedState<N, S>& motion) {
   S p = k.total_mass * motion.x_rate;

@@ -1,12 +1,12 @@
-// mechanism/planar/chain_body.h - how a chain of N links on a trolley or a fixed base moves, in
-// closed form: muscles across one joint each over round cams, one disc for a foot.
+// mechanism/planar/chain_body.h - motion of a chain of N links on a trolley or a fixed base, in
+// closed form: muscles across one joint each over round cams, a foot of one disc.
 //
 //   chain.h     equations of motion
 //   layout.h    routes of the muscles        setup.h     ends of the joints' ranges
 //
-// S is a double; or a pack of them: machines side by side, of any numbers, whose muscles pull the
-// same joints. Each has the bits that it has alone. ChainMechanism is the
-// mechanism for world/kernel/world.h; contract.h describes the members.
+// S is a double, or a pack (units/pack.h) over several machines with any parameters whose muscles
+// act on the same joints. Each machine has the same bits as alone. ChainMechanism is the mechanism
+// for world/kernel/world.h; contract.h describes the members.
 #pragma once
 
 #include <algorithm>
@@ -30,24 +30,24 @@
 
 namespace sinew::plant {
 
-// Where a planar machine rubs: its joints, its trolley, its foot.
+// Dry friction of a planar machine at its joints, its trolley and its foot.
 //
 // Contact c slips with the velocity J_c v and carries the force f_c, whose generalised force is
-// J_c^T f_c. At a node everything that the friction of a step needs is made once (prepare); the
-// forces for a step of any length then follow from it (hold). See friction.h for the law.
+// J_c^T f_c. prepare() computes once per node all terms for the friction of a step; hold() computes
+// the forces for a step of any length from them. See friction.h for the law.
 //
-// S is a double; or a pack of them, of machines side by side. What only some of those do is
-// calculated where one does it, and selected.
+// S is a double, or a pack over several machines. A term that not all machines need is computed if
+// any lane needs it, and selected.
 
-// The ground and the foot on it, in numbers; where one is missing the ground is out of reach.
+// Constants of the ground and the foot; if one is missing the ground is out of reach.
 template <class S>
 struct Footing {
-  S height = -std::numeric_limits<double>::infinity();  // of the ankle at contact [m]
-  S stiffness = 0, damping = 0;                         // of the ground [N/m], [N s/m]
-  S friction = 0, radius = 0;                           // of the foot [-], [m]
+  S height = -std::numeric_limits<double>::infinity();  // height of the ankle at contact [m]
+  S stiffness = 0, damping = 0;                         // ground [N/m], [N s/m]
+  S friction = 0, radius = 0;                           // foot [-], [m]
 };
 
-// Returns foot and ground of a robot; without either, one that touches nothing.
+// Returns foot and ground of a robot; if either is missing, a footing without contact.
 inline Footing<double> footing_of(const robot::Robot& robot) {
   Footing<double> f{.friction = robot.foot.friction, .radius = robot.foot.radius};
   if (!robot.ground.present || !robot.foot.present) return f;
@@ -57,19 +57,19 @@ inline Footing<double> footing_of(const robot::Robot& robot) {
   return f;
 }
 
-// Decides the dry friction at joints, trolley and foot of a chain of N links.
+// Computes the dry friction at joints, trolley and foot of a chain of N links.
 template <int N, class S = double>
 class Contacts {
  public:
   static constexpr int count = N + 2;  // the joints, the trolley, the foot
   static constexpr int trolley = N, foot = N + 1;
-  using Forces = std::array<S, count>;  // [N m] of the joints, [N] of the others
+  using Forces = std::array<S, count>;  // joints [N m], others [N]
 
-  // Takes the constants, which outlive it.
+  // Takes the constants, which must outlive the object.
   Contacts(const ChainConstants<N, S>& chain, const Footing<S>& footing)
       : k_(chain), footing_(footing) {}
 
-  // J^T f.
+  // Returns J^T f.
   GeneralizedVector<N, S> generalised(const Chain<N, S>& chain, const Forces& f) const {
     GeneralizedVector<N, S> out;
     out.x = f[trolley] + f[foot];
@@ -79,7 +79,7 @@ class Contacts {
     return out;
   }
 
-  // J v, or J a. The foot slips at its lowest point, a radius below the ankle.
+  // Returns J v, or J a. The foot slips at its lowest point, a radius below the ankle.
   Forces slips(const Chain<N, S>& chain, const GeneralizedVector<N, S>& v) const {
     Forces s;
     s[trolley] = v.x;
@@ -91,8 +91,8 @@ class Contacts {
     return s;
   }
 
-  // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s]: c w
-  // and sqrt(k w) with w, the acceleration per force of the joint or of the ankle.
+  // Returns the fastest rate at which springs, dampers and the ground bring the machine to rest
+  // [1/s]: c w and sqrt(k w) with w, the acceleration per force of the joint or of the ankle.
   double stiffest_rate(const Chain<N, S>& chain, const std::array<S, N>& damping,
                        const std::array<S, N>& spring) const {
     double fastest = 0;
@@ -114,7 +114,7 @@ class Contacts {
     return fastest;
   }
 
-  // At a node: accelerations without friction, bounds, and the ground's force on the foot.
+  // Prepares a node: accelerations without friction, bounds, and the ground's force on the foot.
   void prepare(const Chain<N, S>& chain, const GeneralizedState<N, S>& motion,
                const GeneralizedVector<N, S>& acceleration, const Forces& bound, const S& normal) {
     problem_.bound = bound;
@@ -129,7 +129,7 @@ class Contacts {
     }
     problem_.slip = slips(chain, {.x = motion.x_rate, .angle = motion.rate});
     slip_rate_ = slips(chain, acceleration);
-    // The foot's lever turns with the links: d/dt of J is part of the slip's rate.
+    // The foot's lever turns with the links: dJ/dt contributes to the slip's rate.
     for (int i = 0; i < N; ++i)
       slip_rate_[foot] -= k_.length[i] * chain.cos(i) * motion.rate[i] * motion.rate[i];
 
@@ -137,7 +137,7 @@ class Contacts {
     if (units::any(normal > 0.0)) prepare_normal(chain, motion, acceleration);
   }
 
-  // Dry friction of a step of length h; `last` is the last step's.
+  // Returns the dry friction of a step of length h; `last`: that of the last step.
   //
   // The ground is stiff: its normal force changes within the step, by about
   //
@@ -155,7 +155,7 @@ class Contacts {
     return solve_friction<count>(p, last);
   }
 
-  // Accelerations under the friction f, given those without any.
+  // Returns the accelerations under the friction f, given those without friction.
   GeneralizedVector<N, S> accelerations(const GeneralizedVector<N, S>& without,
                                         const Forces& f) const {
     GeneralizedVector<N, S> a = without;
@@ -166,19 +166,19 @@ class Contacts {
     return a;
   }
 
-  // Returns the bound of a contact's dry friction, as hold() has last found it.
+  // Returns the bound of a contact's dry friction, as in the last hold().
   S bound(int c) const { return problem_.bound[c]; }
 
  private:
-  // The ground's normal force as one more direction.
+  // Data of the ground's normal force, as one more direction.
   struct Normal {
     S force = 0;                   // at the node [N]
     S response = 0;                // upward acceleration of the ankle per force [1/kg]
-    S rate = 0, acceleration = 0;  // of the ankle, upwards [m/s], [m/s^2]
+    S rate = 0, acceleration = 0;  // ankle, upwards [m/s], [m/s^2]
     Forces along{};                // upward acceleration per friction force
   };
 
-  // The ground's answer within the step, for those that stand on it.
+  // Adds the change of the ground's force within the step, in lanes whose foot is on the ground.
   template <class Mask>
   void add_normal(const S& h, const Mask& stands, FrictionProblem<count, S>& p) const {
     const S k = footing_.stiffness;
@@ -222,23 +222,23 @@ class Contacts {
 
   std::array<GeneralizedVector<N, S>, count> column_{};  // M^-1 J^T
   FrictionProblem<count, S> problem_{};                  // slips at the node, responses per second
-  Forces slip_rate_{};                                   // of the slips, without friction
+  Forces slip_rate_{};                                   // rates of the slips, without friction
   Normal normal_;
 };
 
-// The numbers of a chain. Of what is missing the bounds are out of reach and the forces nothing.
+// Parameters of a chain. For missing parts the bounds are infinite and the forces zero.
 template <int N, class S = double>
 struct ChainModel {
   ChainConstants<N, S> chain;
   Footing<S> footing;
-  std::array<S, N> rest{}, damping{}, spring{}, spring_angle{}, dry{};  // of the joints
+  std::array<S, N> rest{}, damping{}, spring{}, spring_angle{}, dry{};  // joints' parameters
   std::array<JointStopOf<S>, N> stop{};
   S track_length = std::numeric_limits<double>::infinity();  // [m]
-  S track_stiffness = 0, track_damping = 0;                  // of its stop [N/m], [N s/m]
-  S drag = 0, breakaway = 0;                                 // of the trolley [N]
+  S track_stiffness = 0, track_damping = 0;                  // stop of the track [N/m], [N s/m]
+  S drag = 0, breakaway = 0;                                 // trolley [N]
 };
 
-// Returns the constants of a setup whose machine is such a chain.
+// Returns the parameters of a setup whose machine is such a chain.
 template <int N>
 ChainModel<N> chain_model_of(const Setup& setup) {
   const robot::Robot& robot = setup.robot;
@@ -272,26 +272,27 @@ class ChainBody {
   using Pose = Chain<N, S>;
   using Ends = air::Ends<chain_muscles, S>;
 
-  struct Arms {};  // they are constant
+  struct Arms {};  // constant, see ChainRouting
 
-  // All forces but dry friction's.
+  // All forces except dry friction.
   struct Load {
     GeneralizedVector<N, S> force;  // muscles, dampers, springs, ground, track's stop; no friction
-    S normal = 0;                   // on the foot [N]
+    S normal = 0;                   // force on the foot [N]
     S ankle_x = 0, ankle_y = 0;
   };
 
-  // Takes the constants, and how the muscles run.
+  // Takes the parameters, and the routes of the muscles.
   ChainBody(const ChainModel<N, S>& model, const ChainRoutingOf<S>& routes)
       : model_(model), routes_(routes), contacts_(model.chain, model.footing) {}
 
-  // Returns them; the number of muscles; and all that a node needs to know of where the machine is.
+  // Return the parameters, the routes, the number of muscles, and all position-dependent terms that
+  // a node needs.
   const ChainModel<N, S>& model() const noexcept { return model_; }
   const ChainRoutingOf<S>& routes() const noexcept { return routes_; }
   int muscles() const noexcept { return routes_.count; }
   Pose pose(const S&, const Motion& motion) const noexcept { return Pose(model_.chain, motion); }
 
-  // Returns the angle of a joint [rad], and its rate [rad/s].
+  // Returns the angle of a joint [rad].
   S joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.angle[j] - (j > 0 ? m.angle[j - 1] : S(0.0));
   }
@@ -299,14 +300,14 @@ class ChainBody {
   S joint_rate(const Motion& m, std::size_t j) const noexcept {
     return m.rate[j] - (j > 0 ? m.rate[j - 1] : S(0.0));
   }
-  // A number that is none where one of the coordinates is none.
+  // Returns a sum that is not finite if any coordinate is not.
   S sum(const Motion& m) const noexcept {
     S places = m.x;
     for (int j = 0; j < N; ++j) places += m.angle[j];
     return places;
   }
 
-  // Lengths of the muscles and their rates, from the joints' angles.
+  // Writes the lengths of the muscles and their rates, from the joints' angles.
   void route(const S&, const Motion& motion, Ends& ends, Arms&) const noexcept {
     std::array<S, N> travel, rate;
     for (int j = 0; j < N; ++j) {
@@ -323,7 +324,7 @@ class ChainBody {
       }
   }
 
-  // Works out all forces but dry friction's, from what the air pulls.
+  // Computes all forces except dry friction from the tensions of the air.
   template <class Answer>
   void load(const Pose& chain, const Motion& motion, const Arms&, const Answer& air,
             Load& out) const noexcept {
@@ -340,7 +341,7 @@ class ChainBody {
     out.force.x = 0;
     for (int j = 0; j < N; ++j) out.force.angle[j] = torque[j] - torque[j + 1];
 
-    // The track's stop: one-sided, and never pulling.
+    // The track's stop acts on one side only and never pulls.
     const S beyond = motion.x - model_.track_length;
     if (const auto there = beyond > 0.0; units::any(there)) {
       const S push = model_.track_stiffness * beyond + model_.track_damping * motion.x_rate;
@@ -349,7 +350,7 @@ class ChainBody {
     ground(chain, motion, out);
   }
 
-  // Returns the acceleration under the load and the dry friction that is held.
+  // Returns the acceleration under the load and the dry friction of the step.
   Acceleration accelerate(const Pose& chain, const Motion&, const Load& load,
                           const Forces& held) const noexcept {
     GeneralizedVector<N, S> force = load.force;
@@ -359,14 +360,14 @@ class ChainBody {
     return chain.accelerations(force);
   }
 
-  // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
+  // Returns the bound of the trolley's dry friction, from the last step's bound and force [N].
   S trolley_bound(const Forces& held, const S& last) const noexcept {
     return robot::Trolley::friction(held[Contacts<N, S>::trolley], last, model_.drag,
                                     model_.breakaway);
   }
 
-  // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
-  // the mesh's own friction acts through the cams and is part of the joint's.
+  // Prepares a node for hold() and returns the accelerations without friction. Bounds: the mesh's
+  // own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& motion, const Arms&,
                        const air::Lanes<chain_muscles, S>& friction_bound, const S& trolley_bound,
                        const Load& load) noexcept {
@@ -381,14 +382,15 @@ class ChainBody {
     return free;
   }
 
-  // Dry friction of a step of length h from the prepared node, and accelerations under it.
+  // Return the dry friction of a step of length h from the prepared node, and accelerations under
+  // it.
   Forces hold(const S& h, const Forces& last) const noexcept { return contacts_.hold(h, last); }
   Acceleration accelerate(const Acceleration& free, const Forces& held) const noexcept {
     return contacts_.accelerations(free, held);
   }
   S bound(int contact) const noexcept { return contacts_.bound(contact); }
 
-  // `from`, h along the given rates and accelerations.
+  // Writes `from` moved by h along the given rates and accelerations.
   void move(Motion& out, const Motion& from, const S& h, const Motion& rates,
             const Acceleration& a) const noexcept {
     out.x = from.x + h * rates.x_rate;
@@ -399,14 +401,14 @@ class ChainBody {
     }
   }
 
-  // h along a constant acceleration.
+  // Moves by h under a constant acceleration.
   void glide(Motion& m, const S& h, const Acceleration& a) const noexcept {
     move(m, Motion(m), h, Motion(m), a);
     m.x += 0.5 * h * h * a.x;
     for (int i = 0; i < N; ++i) m.angle[i] += 0.5 * h * h * a.angle[i];
   }
 
-  // RK4's weighted mean of four stages.
+  // Applies RK4's weighted mean of four stages.
   void finish(Motion& now, const S& h, const Motion* const (&stage)[4],
               const Acceleration (&a)[4]) const noexcept {
     const units::StageMean mean(h);
@@ -419,8 +421,9 @@ class ChainBody {
   }
 
  protected:
-  // The foot: a disc about the ankle that belongs to the last link. Compliant normal force only;
-  // the tangential force is one of the step's dry frictions.
+  // Computes the ground's force on the foot, a disc about the ankle that belongs to the last link.
+  // Only the compliant normal force is computed; the tangential force is one of the step's dry
+  // frictions.
   void ground(const Chain<N, S>& chain, const Motion& motion, Load& out) const noexcept {
     out.ankle_x = out.ankle_y = out.normal = 0;
     S rate_y = 0;
@@ -445,7 +448,7 @@ class ChainBody {
   Contacts<N, S> contacts_;
 
  private:
-  // In whole lanes from the start: a wide load would have to wait for narrow stores.
+  // In whole lanes from the start: a wide load after narrow stores would stall.
   void lengths_of_four(const std::array<S, N>& travel, const std::array<S, N>& rate,
                        Ends& ends) const noexcept {
     for (int i = 0; i < routes_.padded; i += air::lanes) {
@@ -459,12 +462,12 @@ class ChainBody {
   }
 };
 
-// Do the muscles of both pull the same joints? Only then can they stand side by side.
+// Returns whether the muscles of both act on the same joints, as required side by side.
 inline bool alike(const ChainRouting& a, const ChainRouting& b) {
   return a.count == b.count && a.joint == b.joint;
 }
 
-// All routes must be alike.
+// Returns W routings as one; all must be alike().
 template <std::size_t W>
 ChainRoutingOf<units::Pack<W>> side_by_side(const std::array<const ChainRouting*, W>& each) {
   ChainRoutingOf<units::Pack<W>> out;
@@ -491,11 +494,11 @@ ChainBody<N, units::Pack<W>> side_by_side(const std::array<const ChainBody<N>*, 
   return {units::side_by_side<ChainModel<N, units::Pack<W>>>(models), side_by_side(routes)};
 }
 
-// A chain of N links on a trolley or a fixed base: one of the mechanisms of world/kernel/world.h.
-// muscle_routing.h has what the trolley rests on.
+// A chain of N links on a trolley or a fixed base: a mechanism for world/kernel/world.h.
+// muscle_routing.h has the loads of the trolley's rollers.
 //
-// robot::is_chain says which robots it holds; body_mechanism.h holds all, and both agree where both
-// hold one.
+// robot::is_chain returns whether it can represent a robot; body_mechanism.h can represent all, and
+// both agree on chains.
 template <int N>
 class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N> {
   using Equations = ChainBody<N>;
@@ -524,15 +527,16 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     start_.x = setup.start.trolley;
   }
 
-  // Returns the constants, the motion at the start, and the joint of a muscle.
+  // Return the constants, the motion at the start, and a muscle's joint and moment arm.
   const ChainConstants<N>& constants() const noexcept { return model_.chain; }
   const Motion& start() const noexcept { return start_; }
   int joint(int muscle) const noexcept { return routes_.joint[static_cast<std::size_t>(muscle)]; }
   double arm(const Arms&, int muscle) const noexcept { return routes_.moment_arm[muscle]; }  // [m]
-  // A chain has no lift: 0  [m].
+  // Returns 0: a chain has no lift [m].
   double lift(const Motion&) const noexcept { return 0; }
 
-  // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
+  // Returns the body step, or an integer fraction of it that suits the machine's fastest rate at
+  // its start.
   double node_step(const Setup& setup) const {
     std::array<double, N> damping = model_.damping, spring = model_.spring;
     for (int j = 0; j < N; ++j)
@@ -541,7 +545,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
                        this->contacts_.stiffest_rate(Pose(model_.chain, start_), damping, spring));
   }
 
-  // Lets a motion have these rates of the joints [rad/s] and of the trolley [m/s].
+  // Sets the rates of the joints [rad/s] and of the trolley [m/s] in a motion.
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double) const {
     double absolute = 0;
@@ -550,13 +554,13 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     m.x_rate = x_rate;
   }
 
-  // Adds what a muscle's tension does to its joint  [N m].
+  // Adds the torque of a muscle's tension on its joint [N m].
   void add_torque(const Arms&, int muscle, double tension,
                   std::array<double, most_joints>& torque) const noexcept {
     torque[static_cast<std::size_t>(joint(muscle))] += routes_.moment_arm[muscle] * tension;
   }
 
-  // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
+  // Fills in the body's part of the true values at a motion. The muscles' torques must be set
   // already.
   void tell(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
             Truth& out) const noexcept {
@@ -577,7 +581,8 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
   }
 
  private:
-  // The force on what hangs from the trolley is what its momentum asks for, less the ground's.
+  // The trolley's force on the masses below it is the rate of their momentum, less the ground's
+  // force.
   void tell_rollers(const Chain<N>& chain, const Motion& pose, const Acceleration& a,
                     const Forces& held, Truth& out) const noexcept {
     const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;

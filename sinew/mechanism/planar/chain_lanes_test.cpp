@@ -1,4 +1,4 @@
-// Machines side by side: the body of each has the bits that it has alone.
+// Machines side by side: the body of each has the same bits as alone.
 
 #include <gtest/gtest.h>
 
@@ -18,15 +18,15 @@ double between(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// Are all doubles of a lane the struct's, to the bit?
+// Returns whether all doubles of a lane equal the struct's, to the bit.
 template <class One, class Packed>
 bool same_bits(const Packed& packed, int lane, const One& one) {
   const One of_lane = units::lane_of<One>(packed, lane);
   return std::memcmp(&of_lane, &one, sizeof one) == 0;
 }
 
-// A problem as machines have them: contacts that hang together, some without a bound, some that
-// cannot move independently, and a history that may be wrong.
+// A problem as machines have them: coupled contacts, some without a bound, some that cannot move
+// independently, and a history that may be wrong.
 template <int C>
 FrictionProblem<C> random_problem(std::mt19937& random) {
   FrictionProblem<C> p{};
@@ -74,8 +74,8 @@ TEST(ChainLanes, FrictionsOfManyAreThoseOfEach) {
   expect_frictions_alone<6, 2>();  // some of them change sides more than eight times
 }
 
-// A leg of other numbers: some rest on the ground, some hang in the air, some have no trolley; some
-// stand at the ends of their joints' ranges or of the track; some have a joint that is held.
+// A leg with random parameters: on the ground or in the air, with or without trolley, at the
+// ends of its joints' ranges or of the track, or with a held joint.
 Setup random_leg(std::mt19937& random) {
   Setup s = leg_with_muscles(between(random, 4.6, 5.2), between(random, 5.0, 5.8));
   const auto vary = [&](double& number) { number *= between(random, 0.8, 1.2); };
@@ -104,13 +104,13 @@ Setup random_leg(std::mt19937& random) {
   return s;
 }
 
-// The muscles' tensions and friction bounds, as an air would answer them  [N].
+// The muscles' tensions and friction bounds, in place of an air [N].
 template <class S>
 struct Pulls {
   std::array<S, chain_muscles> tension, friction_bound;
 };
 
-// All that a body is asked for in a step.
+// All functions of a body that a step calls.
 template <int N, class S>
 struct Asked {
   std::array<S, chain_muscles> length, rate;
@@ -154,7 +154,7 @@ Asked<N, S> step(ChainBody<N, S>& body, const GeneralizedState<N, S>& now, const
   return out;
 }
 
-// W machines go so many steps side by side, each of its own length, and each alone.
+// Moves W machines by a number of steps side by side, each with its own length, and each alone.
 template <int N, int W>
 void expect_bodies_alone(std::mt19937& random, int& standing, int& sticking, int& mixed) {
   std::vector<ChainMechanism<N>> alone;

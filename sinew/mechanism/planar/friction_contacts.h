@@ -1,28 +1,28 @@
-// mechanism/planar/friction_contacts.h - where a machine of any shape touches and rubs: joints,
-// trolley, lift and the discs of its feet. chain_body.h with a list of discs in place of one and a
-// coordinate more.
+// mechanism/planar/friction_contacts.h - contacts and friction of a machine of any shape: joints,
+// trolley, lift and the discs of its feet. It generalises chain_body.h to a list of discs and one
+// more coordinate.
 //
-// A disc's centre stands at (along, across) of its leg's last link; its lowest point slips and is
-// pushed.
-// Contact c slips with the velocity J_c q' and carries the force f_c; see friction.h for the law.
+// A disc's centre is at (along, across) of its leg's last link; slip and normal force refer to its
+// lowest point. Contact c slips with the velocity J_c q' and carries the force f_c; see friction.h
+// for the law.
 //
 // The ground is stiff: within a step of length h the normal forces change by about
 //
 //   dF = -(k h/2 v + beta (a + R dF + A f)),   beta = h (h/6 k + c/2)
 //
-//   v, a  of the discs upwards, without dF and friction    R  upward acceleration per normal force
+//   v, a  discs' motion upwards, without dF and friction    R  upward acceleration per normal force
 //   f     friction forces                                   A  upward acceleration per friction
 //
-// which is solved for dF and put into the slips: W becomes W - h beta A^T (1 + beta R)^-1 A.
+// This is solved for dF and inserted into the slips: W becomes W - h beta A^T (1 + beta R)^-1 A.
 //
-// Under a light foot the ground's damper can be quicker than a step of RK4 bears, rate times step
-// 2.78. Its force is then relaxed in the stages two to four: with g, the relaxation,
+// Under a light foot the rate of the ground's damper can exceed the stability limit of RK4, rate
+// times step 2.78. Its force is then relaxed in the stages two to four: with g, the relaxation,
 //
-//   a_s = f_s - g h c B (a_s - a_s-1)     B = M^-1 J^T J, J the rise of the discs that are pushed
+//   a_s = f_s - g h c B (a_s - a_s-1)     B = M^-1 J^T J, J the rise of the loaded discs
 //
 // a W-method of the second order along those discs and of the fourth elsewhere. With g = 0.2 a lone
 // damper keeps at most a tenth of its velocity over a step for products from 2 to 4.5, and is
-// stable up to 7.65. A peek goes by the mean over the step, g = 1/2 with nothing before.
+// stable up to 7.65. A preview uses the mean over the step, g = 1/2 with zero before.
 #pragma once
 
 #include <algorithm>
@@ -39,11 +39,11 @@
 namespace sinew::plant {
 
 // Rates at which springs and dampers of the joints, the ground's spring and its damper bring a
-// machine to rest  [1/s]: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
-// Those of the stops of the track and of the cylinder are among the joints'.
+// machine to rest [1/s]: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
+// The stops of the track and of the cylinder count among the joints.
 struct FastestRates {
   double joints = 0, ground_spring = 0, ground_damper = 0;
-  double lift = 0;  // of the body, per force on the piston [1/kg]; 0 where it is held
+  double lift = 0;  // body's acceleration per force on the piston [1/kg]; 0 if held
 
   // Takes the larger of each.
   void include(const FastestRates& other) {
@@ -54,109 +54,111 @@ struct FastestRates {
   }
 };
 
-// How a disc's lowest point moves with the coordinates.
+// Dependence of a disc's lowest point on the coordinates.
 template <int N>
 struct DiscAt {
   Coordinates<N> slip, rise;    // d(slip velocity)/dq', d(y')/dq'
-  double slip_bias, rise_bias;  // of the accelerations, from the rates [m/s^2]
+  double slip_bias, rise_bias;  // velocity terms of the accelerations [m/s^2]
 };
 
-// A body in its pose, with its discs on the ground: what several forces of one look go by.
+// A body in its pose, with its discs on the ground: terms shared by several forces of one
+// evaluation.
 template <int N, int D>
 struct BodyOnGround : Body<N> {
   using Body<N>::Body;
 
-  std::array<double, D> depth;       // of the discs that are there [m]
-  std::array<DiscAt<N>, D> contact;  // of those that touch, depth not up to 0
+  std::array<double, D> depth;       // depth of each disc in the ground [m]
+  std::array<DiscAt<N>, D> contact;  // set only where the depth is positive
 };
 
-// They are of a body with room for N links (body.h), on feet with room for D discs.
+// Contacts of a body with capacity for N links (body.h), on feet with capacity for D discs.
 template <int N, int D>
 class FrictionContacts {
  public:
   using Pose = BodyOnGround<N, D>;
   static constexpr int trolley = N, lift = trolley + 1, first_disc = lift + 1;
   static constexpr int count = first_disc + D;
-  using Forces = std::array<double, count>;  // [N m] of the joints, [N] of the others
+  using Forces = std::array<double, count>;  // joints [N m], others [N]
   using Normals = std::array<double, D>;
 
-  // The way from the body to a foot: its links, and how far along each the next one hangs, of the
-  // last one its end  [m].
+  // Links from the body to a foot, and the position along each at which the next one is attached;
+  // for the last one its end [m].
   struct Path {
     std::size_t count = 0;
-    std::size_t first = 0;  // in it: the leg's first link
-    bool whole = false;     // all links, in their order
+    std::size_t first = 0;  // index in `link` of the leg's first link
+    bool whole = false;     // it consists of all links, in order
     std::array<std::size_t, N> link{};
     std::array<double, N> reach{};
-    double start = 0;  // of the first link, ahead of the body's origin [m]
+    double start = 0;  // first link, ahead of the body's origin [m]
   };
 
-  // Takes the robot's feet and friction; the body outlives it.
+  // Takes the robot's feet and friction; the body must outlive the object.
   FrictionContacts(const BodyConstants<N>& body, const robot::Robot& robot);
 
-  // How many discs and feet there are.
+  // Return the numbers of discs and feet.
   int discs() const { return disc_count_; }
   std::size_t feet() const { return foot_count_; }
-  // By leg, also of one whose foot is not present.
+  // Returns the path of a leg, also if its foot is not present.
   const Path& leg(std::size_t foot) const { return path_[foot]; }
   std::size_t foot_of(int disc) const { return disc_[static_cast<std::size_t>(disc)].foot; }
   double friction(std::size_t disc) const { return disc_[disc].friction; }  // Coulomb [-]
 
-  // The fastest rates at which the machine is brought to rest in a pose  [1/s].
+  // Returns the fastest rates at which the machine is brought to rest in a pose [1/s].
   FastestRates fastest_rates(const Body<N>& body, const BodyState<N>& motion,
                              const robot::Robot& robot) const;
   DiscAt<N> disc(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
-  // How deep a disc is in the ground; above 0 where they touch  [m].
+  // Returns the depth of a disc in the ground; above 0 if they touch [m].
   double depth(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
-  // Compliant force of the ground on a disc that is so deep in it, never pulling  [N].
+  // Returns the compliant force of the ground on a disc at this depth, never pulling [N].
   double push(double depth, const DiscAt<N>& disc, const BodyState<N>& motion) const;
 
-  // Is a disc on the ground?
+  // Returns whether any disc is on the ground.
   bool touches(const Pose& pose) const;
 
-  // Can a disc come to the ground or leave it within h, by the rates of all that carries it?
+  // Returns whether a disc can touch or leave the ground within h, by the rates of the links that
+  // carry it.
   bool can_change(const Pose& pose, const BodyState<N>& motion, double h) const;
 
-  // Puts the discs of a pose where they are.
+  // Computes depths and contacts of a pose's discs.
   void place(const BodyState<N>& motion, Pose& pose) const;
 
-  // J^T f.
+  // Returns J^T f.
   Coordinates<N> generalised(const Pose& pose, const BodyState<N>& motion, const Forces& f) const;
 
   // Relaxes the ground's damper in steps longer than this  [s].
   void relax_beyond(double step) { longest_explicit_ = step; }
   static constexpr double stable_relaxed = 7.65, stable_explicit = 2.785;  // rate times step
 
-  // Relaxes accelerations in a step of length h by those before, with g = share; only discs that
-  // are pushed at the node and here.
+  // Relaxes accelerations in a step of length h by those of the stage before, with g = share; only
+  // for discs that are loaded at the node and here.
   void relax(double h, double share, const Normals& pushed, const Coordinates<N>& before,
              Coordinates<N>& a) const {
     if (h > longest_explicit_ && touching_count_ > 0) relax_touching(share * h, pushed, before, a);
   }
 
-  // At a node: accelerations without friction, bounds, and the ground's forces on the discs.
+  // Prepares a node: accelerations without friction, bounds, and the ground's forces on the discs.
   void prepare(const Pose& pose, const BodyState<N>& motion, const Coordinates<N>& acceleration,
                const Forces& bound, const Normals& normal);
 
-  // Dry friction of a step of length h; `last` is the last step's.
+  // Returns the dry friction of a step of length h; `last`: that of the last step.
   Forces hold(double h, const Forces& last) const;
 
-  // Accelerations under the friction f, given those without any.
+  // Returns the accelerations under the friction f, given those without friction.
   Coordinates<N> accelerations(Coordinates<N> without, const Forces& f) const;
 
-  // Returns the bound of a contact's dry friction, as it was found last.
+  // Returns the bound of a contact's dry friction, as computed last.
   double bound(int c) const { return bound_[static_cast<std::size_t>(c)]; }
 
  private:
   using Matrix = std::array<Normals, D>;
 
-  // J of a joint, of the trolley or of the lift, as a row.
+  // Returns J of a joint, of the trolley or of the lift, as a row.
   Coordinates<N> row(int c) const;
-  // The product of contact c's row with rates or accelerations.
+  // Returns the product of contact c's row with rates or accelerations.
   double along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const;
-  // Count is a number, or a constant of a type of its own.
+  // `Count` is an integer, or a constant of its own type.
   template <class Count>
   Forces hold_of(double h, const Forces& last, Count active) const;
   template <class Count>
@@ -164,15 +166,15 @@ class FrictionContacts {
   void relax_touching(double time, const Normals& pushed, const Coordinates<N>& before,
                       Coordinates<N>& a) const;
   void eliminate(Matrix& m) const;
-  void solve(const Matrix& m, Normals& b) const;  // of an eliminated one
+  void solve(const Matrix& m, Normals& b) const;  // for an eliminated m
 
   struct Disc {
     std::size_t foot = 0;
-    double along = 0, across = 0, radius = 0;  // of its leg's last link [m]
+    double along = 0, across = 0, radius = 0;  // position on its leg's last link [m]
     double friction = 0;                       // [-]
-    double surface = 0;                        // of the ground [m]
+    double surface = 0;                        // height of the ground [m]
   };
-  // From each link of a path to the next, or to a disc, and how high its last link hangs  [m].
+  // Levers from each link of a path to the next, or to a disc, and the height of its last link [m].
   struct Levers {
     std::array<double, N> x, y;
     double height;
@@ -190,26 +192,25 @@ class FrictionContacts {
   int disc_count_ = 0;
   double longest_explicit_ = std::numeric_limits<double>::infinity();  // [s]
 
-  // The contacts that can carry something at the node stand here one after the other: only these
-  // are solved.
+  // Contacts that can carry force at the node, stored contiguously: only these are solved.
   int active_count_ = 0;
-  std::array<int, count> active_{};             // their numbers
+  std::array<int, count> active_{};             // their indices
   std::array<Coordinates<N>, count> column_{};  // M^-1 J^T
   FrictionProblem<count> problem_{};            // slips at the node, responses per second
-  Forces slip_rate_{};                          // of the slips, without friction
-  Forces bound_{};                              // of every contact
+  Forces slip_rate_{};                          // rates of the slips, without friction
+  Forces bound_{};                              // bounds of all contacts
 
-  // Likewise the discs that touch the ground at the node.
+  // Discs that touch the ground at the node, stored the same way.
   std::size_t touching_count_ = 0;
-  std::array<int, D> touching_{};                             // their numbers
-  Normals normal_{};                                          // of the ground on them [N]
+  std::array<int, D> touching_{};                             // their indices
+  Normals normal_{};                                          // force of the ground on them [N]
   Normals rise_{}, rise_rate_{};                              // without friction
   std::array<Coordinates<N>, D> rise_row_{}, rise_column_{};  // J, M^-1 J^T
   Matrix response_{};                                         // R
-  std::array<Forces, D> along_{};                             // A, of the active contacts
+  std::array<Forces, D> along_{};                             // A, for the active contacts
 };
 
-// Over the coordinates that the machine has.
+// Sums over the coordinates that the machine has.
 template <int N>
 double dot(const BodyConstants<N>& k, const Coordinates<N>& a, const Coordinates<N>& b) {
   double sum = 0;
@@ -217,7 +218,7 @@ double dot(const BodyConstants<N>& k, const Coordinates<N>& a, const Coordinates
   return sum;
 }
 
-// Levers of a leg's links up to the last one, where its discs are.
+// Returns the levers of a leg's links up to the last one, where its discs are.
 template <int N, int D>
 auto FrictionContacts<N, D>::levers(const Body<N>& body, const BodyState<N>& motion,
                                     const Path& path) const -> Levers {
@@ -235,7 +236,7 @@ auto FrictionContacts<N, D>::levers(const Body<N>& body, const BodyState<N>& mot
   return way;
 }
 
-// The way goes on along the last link to a disc: returns how deep it is in the ground.
+// Extends the levers along the last link to a disc and returns the disc's depth in the ground.
 template <int N, int D>
 double FrictionContacts<N, D>::reach(const Body<N>& body, const Disc& d, Levers& way) const {
   const std::size_t last = path_[d.foot].count - 1, link = path_[d.foot].link[last];
@@ -294,7 +295,7 @@ bool FrictionContacts<N, D>::touches(const Pose& pose) const {
   return false;
 }
 
-// What carries a foot changes its rates by some 20 g at most: a tenth of a millimetre in a
+// The rates of a foot's links change by some 20 g at most: a tenth of a millimetre in a
 // millisecond.
 template <int N, int D>
 bool FrictionContacts<N, D>::can_change(const Pose& pose, const BodyState<N>& motion,
@@ -359,7 +360,7 @@ void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg
   const int last = robot::foot_link(robot, leg);
   if (last < 0) return;
 
-  // From the foot inwards, then turned round.
+  // Built from the foot inwards, then reversed.
   Path& path = path_[leg];
   const auto foot_link = static_cast<std::size_t>(last);
   double reach = k_.length[foot_link];
@@ -440,7 +441,7 @@ double FrictionContacts<N, D>::along(int c, const Coordinates<N>& row,
   return v[first_link + link] - (k_.hangs_on_link(link) ? v[first_link + k_.on(link)] : 0.0);
 }
 
-// A disc that has left the ground carries what it is given all the same.
+// A disc that has left the ground still carries the force that it is given.
 template <int N, int D>
 Coordinates<N> FrictionContacts<N, D>::generalised(const Pose& pose, const BodyState<N>& motion,
                                                    const Forces& f) const {
@@ -497,7 +498,7 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
   if (rubs(trolley))
     activate(std::integral_constant<std::size_t, along_track>{}, trolley, row(trolley), 0);
   if (rubs(lift)) activate(std::integral_constant<std::size_t, up>{}, lift, row(lift), 0);
-  std::array<DiscAt<N>, D> discs;  // of those that touch
+  std::array<DiscAt<N>, D> discs;  // discs that touch
   for (int i = 0; i < disc_count_; ++i) {
     const double force = normal[static_cast<std::size_t>(i)];
     if (force <= 0) continue;
@@ -525,9 +526,8 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
   }
 }
 
-// Gaussian elimination of the discs that touch; the matrix is a unit matrix plus a positive one.
-// What is below the diagonal are the shares by which rows were taken from others; on it are the
-// pivots' inverses.
+// Eliminates the discs that touch (Gauss); the matrix is a unit matrix plus a positive one. Entries
+// below the diagonal are the multipliers; those on the diagonal are the pivots' inverses.
 template <int N, int D>
 void FrictionContacts<N, D>::eliminate(Matrix& m) const {
   const std::size_t n = touching_count_;
@@ -552,7 +552,7 @@ void FrictionContacts<N, D>::solve(const Matrix& m, Normals& b) const {
   }
 }
 
-// The ground's give within the step, put into slips, responses and bounds.
+// Inserts the ground's compliance within the step into slips, responses and bounds.
 template <int N, int D>
 template <class Count>
 void FrictionContacts<N, D>::soften(double h, Count active, FrictionProblem<count>& p) const {
@@ -618,7 +618,7 @@ void FrictionContacts<N, D>::relax_touching(double time, const Normals& pushed,
 
 template <int N, int D>
 auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces {
-  // A leg with an ankle: the usual numbers of contacts, known to the compiler.
+  // A leg with an ankle: the usual numbers of contacts, as compile-time constants.
   if constexpr (N == 3 && D == 2) {
     if (active_count_ == 4) return hold_of(h, last, std::integral_constant<int, 4>{});
     if (active_count_ == 5) return hold_of(h, last, std::integral_constant<int, 5>{});
@@ -627,7 +627,7 @@ auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces 
   return hold_of(h, last, active_count_);
 }
 
-// Returns the friction forces of the step, by as many contacts as are there.
+// Returns the friction forces of the step, for the given number of active contacts.
 template <int N, int D>
 template <class Count>
 auto FrictionContacts<N, D>::hold_of(double h, const Forces& last, Count active) const -> Forces {

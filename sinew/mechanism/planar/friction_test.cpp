@@ -66,7 +66,8 @@ TEST(Friction, ItNeverAddsEnergy) {
   }
 }
 
-// Two contacts in series with one freedom: each alone could hold; the load stays where it was.
+// Two contacts in series with one degree of freedom: each alone could hold; the load keeps its
+// shares.
 TEST(Friction, SharesOfAnUndeterminedLoadAreRemembered) {
   FrictionProblem<2> p{};
   p.response = {{{1.0, 1.0}, {1.0, 1.0}}};
@@ -81,13 +82,14 @@ TEST(Friction, SharesOfAnUndeterminedLoadAreRemembered) {
   EXPECT_NEAR(g[1], 1.0, 1e-6);
 }
 
-// A trolley pushed by less than its drag does not creep, by more it accelerates by the difference.
+// A trolley pushed by less than its drag does not creep; pushed by more it accelerates by the
+// difference.
 TEST(Friction, ATrolleySticksUnderLoad) {
   for (const double push : {3.0, 6.0}) {
     plant::Setup setup = leg_without_muscles(4.712, 0.0);
     setup.robot.trolley.drag = 4.0;
     setup.robot.gravity = 0;
-    // The stop of the track as a spring that pushes: 1 m beyond it at the start, to and fro none.
+    // The stop of the track is a spring that pushes: 1 m beyond it at the start, without damping.
     setup.robot.trolley.track_length = -1.0;
     setup.robot.trolley.stop_stiffness = push;
     setup.robot.trolley.stop_damping = 0;
@@ -95,15 +97,14 @@ TEST(Friction, ATrolleySticksUnderLoad) {
     world.set_rates({0, 0}, 0);
     world.advance(0.1);
     const double moved = -world.motion().x;
-    // The hanging leg lags behind, so the trolley starts a little faster than all of its mass
-    // would.
+    // The hanging leg lags behind, so the trolley starts a little faster than with all of its mass.
     const double expected = push > 4.0 ? 0.5 * (push - 4.0) / (23.8 * pound) * 0.01 : 0.0;
     EXPECT_NEAR(moved, expected, push > 4.0 ? 2e-4 : 1e-15);
     EXPECT_GE(moved, 0.9 * expected);
   }
 }
 
-// A joint that is blocked stays where it is, whatever pulls: gravity here, for ten seconds.
+// A blocked joint keeps its angle under any load: here gravity, for ten seconds.
 TEST(Friction, ABlockedJointDoesNotMove) {
   plant::Setup setup = leg_without_muscles(0.0, 0.3);
   setup.start.blocked = {true, true};
@@ -113,7 +114,7 @@ TEST(Friction, ABlockedJointDoesNotMove) {
   EXPECT_NEAR(world.motion().angle[1], 0.3, 1e-6);
 }
 
-// A standing foot that may not slide: the friction it needs stays inside the cone.
+// A standing foot that must not slide: the friction that it needs is inside the cone.
 TEST(Friction, TheFootKeepsItsCone) {
   plant::Setup setup = leg_without_muscles(5.1, 5.0);
   setup.robot.ground.present = true;

@@ -1,4 +1,4 @@
-// mechanism/planar/layout.h - a robot's description turned into the constants of a planar world.
+// mechanism/planar/layout.h - constants of a planar world from a robot's description.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace sinew::plant {
 
 inline constexpr int chain_muscles = 4;  // a pair at each of at most two joints
 
-// Muscle i pulls joint `joint[i]` with a constant moment arm; moment_arm[i] = arm, positive where
-// tension raises the angle:  L = mount - moment_arm (theta - rest),  torque = moment_arm * tension.
-// S is a double; or a pack of them, of machines whose muscles pull the same joints.
+// Routes of muscles with constant moment arms. Muscle i acts on joint `joint[i]`; moment_arm[i] is
+// positive if tension raises the angle: L = mount - moment_arm (theta - rest), torque = moment_arm
+// * tension. S is a double, or a pack over several machines whose muscles act on the same joints.
 template <class S>
 struct ChainRoutingOf {
   int count = 0, padded = 0;  // padded to whole lanes by repeating the last
@@ -23,7 +23,7 @@ struct ChainRoutingOf {
 };
 using ChainRouting = ChainRoutingOf<double>;
 
-// Returns how the muscles of a chain run.
+// Returns the routes of a chain's muscles.
 ChainRouting chain_routing_of(const robot::Robot& robot);
 
 // Returns lengths, masses and inertias of a chain.
@@ -32,7 +32,7 @@ ChainConstants<N> chain_of(const robot::Robot& robot) {
   ChainConstants<N> k;
   k.gravity = robot.gravity;
 
-  // From the tip inwards: what hangs beyond link i.
+  // Mass beyond link i, from the tip inwards.
   double beyond = robot.foot.present ? robot.foot.mass : 0.0;
   for (int i = N - 1; i >= 0; --i) {
     const robot::Link& link = robot.links[static_cast<std::size_t>(i)];

@@ -58,7 +58,7 @@ MuscleRouting::MuscleRouting(const robot::Robot& robot) {
   if (std::all_of(cords_.begin(), cords_.end(), is_round)) lay_round_ones_side_by_side();
 }
 
-// Lanes beyond the last muscle repeat it.
+// Groups round cams into lanes. Lanes beyond the last muscle repeat it.
 void MuscleRouting::lay_round_ones_side_by_side() {
   constexpr std::size_t lanes = air::lanes;
   for (std::size_t first = 0; first < cords_.size(); first += lanes) {

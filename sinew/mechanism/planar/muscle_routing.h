@@ -3,9 +3,9 @@
 //   L = L_m - sum_j s_j S_j(theta_j),     S_j = integral of r_j from the rest angle to theta_j
 //   tau_j = s_j r_j(theta_j) F            the same r: virtual work
 //
-//   r_j  radius of the cam at joint j [m]: constant, or straight between the points of a table and
+//   r_j  radius of the cam at joint j [m]: constant, or linear between the points of a table and
 //        constant beyond them, so that S is exact: parabolas and straight lines
-//   s_j  +1 where tension raises the angle
+//   s_j  +1 if tension raises the angle
 #pragma once
 
 #include <array>
@@ -18,25 +18,25 @@
 
 namespace sinew::plant {
 
-// Radius of a cam and what has run over it.
+// Radius of a cam, and the tendon length wound on it.
 class CamLaw {
  public:
   CamLaw() = default;
-  // Takes the cam; a round one without a radius has the joint's.
+  // Takes the cam; a round one without a radius uses the joint's.
   CamLaw(const robot::Cam& cam, const robot::Joint& joint);
 
-  // Returns the radius at that angle of the joint  [m].
+  // Returns the radius at this angle of the joint [m].
   double radius(double angle) const noexcept {  // [m]
     return round_ ? first_radius_ : radius_of_table(angle);
   }
-  // S [m]; a round cam's is exactly r (theta - rest), as a chain has it.
+  // Returns S [m]; for a round cam it is exactly r (theta - rest), as for a chain.
   double travel(double angle) const noexcept {
     return round_ ? first_radius_ * (angle - rest_) : area(angle) - area_at_rest_;
   }
 
-  // Is the radius the same at every angle?
+  // Returns whether the radius is the same at every angle.
   bool round() const noexcept { return round_; }
-  double rest() const noexcept { return rest_; }  // angle at which nothing has run over it [rad]
+  double rest() const noexcept { return rest_; }  // angle at which S is 0 [rad]
 
  private:
   double radius_of_table(double angle) const noexcept;
@@ -51,24 +51,25 @@ class MuscleRouting {
  public:
   static constexpr int most = 2;  // joints of a muscle
 
-  // s_k r_k of every muscle at the present pose, of M at most.
+  // s_k r_k of every muscle at the present pose, for at most M muscles.
   template <int M>
   using MomentArms = std::array<std::array<double, most>, M>;
 
   // Takes the cams of all muscles.
   explicit MuscleRouting(const robot::Robot& robot);
 
-  // How many muscles there are.
+  // Returns the number of muscles.
   int count() const { return static_cast<int>(cords_.size()); }
 
-  // Of muscle i: its joints; the second is -1 where there is none.
+  // Returns the k-th joint of muscle i; -1: no second joint.
   int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
 
   // Visits every muscle i at each joint j that it crosses, with its moment arm there.
   template <class Arms, class Visit>
   void each(const Arms& pull, const Visit& visit) const noexcept;
 
-  // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
+  // Computes lengths, rates and moment arms from the joints' angles [rad] and rates [rad/s]. Lanes
+  // beyond the last muscle repeat it.
   template <int M>
   void at(const double* angle, const double* rate, air::Lanes<M>& length,
           air::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& pull) const noexcept;
@@ -80,7 +81,7 @@ class MuscleRouting {
     std::array<double, most> sign{};
     std::array<CamLaw, most> cam;
   };
-  // Muscles over one round cam each, side by side: L = mount - arm (theta - rest).
+  // Four muscles over one round cam each: L = mount - arm (theta - rest).
   struct RoundRoutes {
     air::Four mount, arm, rest;
     std::array<std::size_t, air::lanes> joint;
@@ -88,7 +89,7 @@ class MuscleRouting {
   void lay_round_ones_side_by_side();
 
   std::vector<Route> cords_;
-  std::vector<RoundRoutes> round_;  // all of them, where all are such; else empty
+  std::vector<RoundRoutes> round_;  // all muscles, if all cross one round cam; else empty
 };
 
 template <class Arms, class Visit>
@@ -106,7 +107,7 @@ template <int M>
 void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& length,
                        air::Lanes<M>& length_rate,
                        std::type_identity_t<MomentArms<M>>& pull) const noexcept {
-  // In whole lanes from the start: a wide load would have to wait for narrow stores.
+  // In whole lanes from the start: a wide load after narrow stores would stall.
   for (std::size_t k = 0; k < round_.size(); ++k) {
     const RoundRoutes& r = round_[k];
     const auto& j = r.joint;
@@ -142,27 +143,28 @@ void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& l
   }
 }
 
-// What the trolley's two rollers carry, 4.2 and 7.2.
+// Loads of the trolley's two rollers, 4.2 and 7.2.
 //
 //   N_f + N_r = m_t g + R_y
 //   N_f x_f + N_r x_r = g (m_c x_c + m_w x_w) - m_t h_c x'' + h D - y R_x + T,   D = m_t x'' + R_x
 //
-//   R   force of the trolley on all that hangs from it (body, links, foot), at the first joint [N]
+//   R   force of the trolley on body, links and foot below it, at the first joint [N]
 //   T   torque of the trolley on the first link [N m]           D  of the track on the trolley [N]
 //   m_t = m_c + m_w   trolley with payload; counterweight [kg]  h, h_c  of track and mass centre
 //   y   height of the first joint above the origin [m]          x  ahead of the first joint [m]
 //
-// Rollers rest on the track: what comes out below zero has lifted off, and the trolley would tip.
-// The plant moves it along the track all the same.
+// Rollers rest on the track: a negative load means that the roller has lifted off and the trolley
+// would tip. The simulation nevertheless moves it along the track.
 
-// What hangs from the trolley does to it.
+// Motion of the trolley, and the reaction of everything that hangs from it.
 struct Hanging {
-  double acceleration = 0;          // of the trolley [m/s^2]
+  double acceleration = 0;          // trolley's acceleration [m/s^2]
   double force_x = 0, force_y = 0;  // R [N]
   double torque = 0;                // T [N m]
   double lift = 0;                  // y [m]
 
-  // A link's share of the momentum's rate: first moment c [kg m], sine, cosine, rate, acceleration.
+  // Adds a link's share of the rate of momentum: first moment c [kg m], sine, cosine, rate,
+  // acceleration.
   void add(double c, double sine, double cosine, double rate, double turn) {
     force_x -= c * (sine * turn + cosine * rate * rate);
     force_y += c * (cosine * turn - sine * rate * rate);
@@ -173,7 +175,7 @@ struct RollerLoads {
   double front = 0, rear = 0;  // [N], up > 0
 };
 
-// Returns them, by what hangs on the trolley and how it moves.
+// Returns the loads of both rollers.
 inline RollerLoads roller_loads(const robot::Robot& robot, const Hanging& hanging) {
   const robot::Rollers& r = robot.rollers;
   const double own = robot::trolley_own_mass(robot) + robot.trolley.payload;

@@ -1,5 +1,5 @@
-// mechanism/planar/planar_mechanism.h - what all planar mechanisms are to world/kernel/world.h
-// alike.
+// mechanism/planar/planar_mechanism.h - parts that all planar mechanisms have in common for
+// world/kernel/world.h.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 
 namespace sinew::plant {
 
-// The readings of a planar machine's sensors, and its true values, from previews of world.h.
+// Sensor readings of a planar machine, and its true values, from previews of world.h.
 class PlanarSenses {
  public:
   using Truth = plant::Truth;
 
-  // Finds what each sensor measures.
+  // Finds the joint or muscle of each sensor.
   explicit PlanarSenses(const Setup& setup)
       : robot_(setup.robot), atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
     using Kind = robot::Sensor::Kind;
@@ -30,10 +30,10 @@ class PlanarSenses {
     }
   }
 
-  // How many sensors there are.
+  // Returns the number of sensors.
   std::size_t channels() const noexcept { return robot_.sensors.size(); }
 
-  // Returns the quantity that the sensor measures at t, in SI; of something that stands still, 0.
+  // Returns the quantity that the sensor measures at t, in SI; 0 for a fixed source.
   template <class World>
   double quantity(World& world, std::size_t index, double t) const noexcept {
     using Kind = robot::Sensor::Kind;
@@ -49,11 +49,11 @@ class PlanarSenses {
     if (kind == Kind::cylinder) return mechanism.lift(world.peek_motion(t));
     const auto p = world.peek_muscle(t, of);
     const double gauged = p.look.air.pressure[of] - atmosphere_;
-    if (kind == Kind::pressure || !std::isfinite(gauged)) return gauged;  // air that ran away too
+    if (kind == Kind::pressure || !std::isfinite(gauged)) return gauged;  // also if not finite
     return gauge(world, p, of);
   }
 
-  // Returns what the converter makes of it.
+  // Returns the counts of the converter for a value.
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
     const robot::Sensor& sensor = robot_.sensors[index];
     const auto channel = static_cast<std::uint8_t>(index);
@@ -61,7 +61,7 @@ class PlanarSenses {
     return robot::counts(sensor, robot_.converter, value, added_noise);
   }
 
-  // Returns what only a simulation knows, at t.
+  // Returns the true values at t.
   template <class World>
   Truth truth(World& world, double t) const noexcept {
     const auto& mechanism = world.mechanism();
@@ -99,8 +99,8 @@ class PlanarSenses {
   }
 
  private:
-  // Returns the force on a gauge in the cord [N]: the muscle's tension and its share of the mesh's
-  // friction at the joint that it belongs to.
+  // Returns the force on a gauge in the tendon [N]: the muscle's tension and its share of the
+  // mesh's friction at its joint.
   template <class World, class Peek>
   double gauge(const World& world, const Peek& p, int muscle) const noexcept {
     const auto& mechanism = world.mechanism();
@@ -112,7 +112,7 @@ class PlanarSenses {
       const double share = world.glanced().held[j] * friction_bound / bound;
       f += mechanism.arm(world.arms(), muscle) > 0 ? share : -share;
     }
-    return f < 0 ? 0.0 : f;  // not a number stays what it is
+    return f < 0 ? 0.0 : f;  // a NaN stays a NaN
   }
 
   robot::Robot robot_;
@@ -121,7 +121,7 @@ class PlanarSenses {
   std::array<int, 256> source_{};  // per channel, its joint or muscle
 };
 
-// For at most M muscles.
+// Common parts for at most M muscles.
 template <int M>
 struct PlanarMechanism {
   static constexpr bool cuts_steps = false;
@@ -130,7 +130,7 @@ struct PlanarMechanism {
   using Senses = PlanarSenses;
   using Ends = air::Ends<M>;
 
-  // The air of a machine: air/network.h.
+  // Return the air of a machine, air/network.h, and its state and memory at the start.
   template <class Air>
   static Air make_air(const Setup& s) {
     return Air(s.muscles, s.air, s.supply, s.cylinder, s.faults);

@@ -1,5 +1,5 @@
-// Machines of any shape are compiled for several sizes: the size is a matter of speed alone, and
-// the largest one holds 24 links.
+// Mechanisms of any shape are compiled for several sizes: the size affects speed alone, and the
+// largest has room for 24 links.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace sinew::plant::sizes_test {
 namespace {
 
-// The leg on its ground, which rubs, with so many passive links behind its tibia.
+// The leg on its ground with friction, and passive links behind its tibia.
 Setup leg_with_tail(int more) {
   plant::Setup s = leg_with_muscles(4.95, 5.40);
   s.robot.ground.present = true;
@@ -54,7 +54,7 @@ void expect_same_bits(const Setup& s) {
       ASSERT_EQ(std::memcmp(&seen[0], &seen[w], sizeof(Truth)), 0) << "world " << w << " at " << t;
     force = std::max(force, seen[0].foot[0].force_y);
   }
-  EXPECT_GT(force, 1);  // it has stood on its foot
+  EXPECT_GT(force, 1);  // its foot has carried load
 }
 
 TEST(Sizes, HaveTheSameBits) {
@@ -64,8 +64,8 @@ TEST(Sizes, HaveTheSameBits) {
   expect_same_bits<BodyWorld, LargeBodyWorld>(leg_with_tail(4));
 }
 
-// Energy, and momentum along the track, of trees up to the largest. The ends of a long chain whip:
-// the step is short.
+// Energy, and momentum along the track, of trees up to the largest. The ends of a long chain move
+// fast: the step is short.
 TEST(Sizes, LargeTreesKeepEnergyAndMomentum) {
   std::mt19937 random(7);
   for (const std::size_t links : {9u, 16u, 24u}) {

@@ -1,4 +1,4 @@
-// The law of the body step: it suits a machine's fastest rate in every pose.
+// The body step: it suits a machine's fastest rate in every pose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace sinew::plant::steps_test {
 namespace {
 
-// A leg on a light shoe whose heel and toe reach from a hair to a hand's breadth past the ankle.
+// A leg on a light shoe whose heel and toe are from very near to a hand's breadth from the ankle.
 Setup leg_on_a_shoe(std::mt19937& random) {
   std::uniform_real_distribution<double> share(0, 1);
   Setup s = leg_without_muscles(4.95, 5.40);
@@ -65,8 +65,9 @@ TEST(Steps, SuitEveryPose) {
   EXPECT_GT(relaxed, 5);
 }
 
-// A plank hinged at one end, the disc at its other pressed into the ground; RK4 with the ground's
-// damper relaxed or not. The acceleration is that of BodyMechanism without all that is not there.
+// A plank hinged at one end, with the disc at its other end pressed into the ground; RK4 with the
+// ground's damper relaxed or not. The acceleration is that of BodyMechanism without the absent
+// parts.
 class Plank {
  public:
   explicit Plank(double damping) {
@@ -88,7 +89,7 @@ class Plank {
   void relax() { contacts_->relax_beyond(0); }
   double damper_rate() const { return rate_; }  // [1/s]
 
-  // It goes down through the angle at which the spring bears it: the disc is pressed all along.
+  // It moves down through the angle at which the spring carries it, so the disc is always pressed.
   static BodyState<1> start() {
     BodyState<1> m;
     m.at[first_link] = -0.0099;
@@ -163,15 +164,14 @@ TEST(Steps, WithTheGroundsDamperRelaxedAreOfSecondOrderAndOtherwiseOfFourth) {
   EXPECT_NEAR(order(false), 4, 0.3);
 }
 
-// The damper's rate times the step goes from where RK4 is at its limit to where the relaxed rule
-// is.
+// The damper's rate times the step goes from the limit of RK4 to that of the relaxed rule.
 TEST(Steps, WithTheGroundsDamperRelaxedAreStable) {
   for (const double product : {2.0, 3.0, 4.0, 4.5, 7.0}) {
     Plank plank(40);
     plank.relax();
     const double h = product / plank.damper_rate();
     const double first = std::abs(plank.start().rate[first_link]);
-    const double of_spring = 0.05 * first;  // it brings the plank back where it came from, slowly
+    const double of_spring = 0.05 * first;  // it slowly returns the plank
     const auto rate = [&](int steps) {
       return std::abs(plank.after(steps * h, steps).rate[first_link]);
     };
@@ -180,8 +180,8 @@ TEST(Steps, WithTheGroundsDamperRelaxedAreStable) {
   }
 }
 
-// Nodes are left out only where no disc comes to the ground, or leaves it, before the next: all
-// coordinates go on with their rates.
+// Nodes are left out only if no disc touches or leaves the ground before the next one: all
+// coordinates continue at their rates.
 TEST(Steps, AreLongWhereNoContactChanges) {
   using Contacts = FrictionContacts<3, 2>;
   std::mt19937 random(3);

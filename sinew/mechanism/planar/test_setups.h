@@ -1,4 +1,4 @@
-// mechanism/planar/test_setups.h - small machines for the tests of this folder, stated in SI.
+// mechanism/planar/test_setups.h - small machines for the tests of this folder, in SI units.
 #pragma once
 
 #include <random>
@@ -13,7 +13,7 @@ namespace sinew::plant {
 inline constexpr double pound = units::pound_mass;
 using units::inch;
 
-// The leg's two links under its trolley, in the air, and nothing that pulls or rubs.
+// Returns the leg's two links under its trolley, in the air, without muscles and friction.
 inline Setup leg_without_muscles(double hip, double knee) {
   Setup s;
   s.robot.name = "leg";
@@ -44,7 +44,7 @@ inline Setup leg_without_muscles(double hip, double knee) {
   return s;
 }
 
-// Links that nothing pulls, each on any of those before it or on the body, anywhere along.
+// Returns links without muscles, each attached anywhere along an earlier one or to the body.
 inline Setup random_tree(std::mt19937& random, std::size_t links = 4) {
   std::uniform_real_distribution<double> share(0, 1), angle(-3, 3);
   Setup s = leg_without_muscles(0, 0);
@@ -78,7 +78,7 @@ inline gas::Valve test_valve(double area) {
   return v;
 }
 
-// The same leg with its four doubled muscles, sensors for their tensions and angles.
+// Returns the same leg with its four doubled muscles, and sensors for their tensions and angles.
 inline Setup leg_with_muscles(double hip, double knee) {
   Setup s = leg_without_muscles(hip, knee);
   for (const char* joint : {"hip", "knee"})

@@ -1,4 +1,4 @@
-// Laws that trees of links keep: of several legs, and of links that hang anywhere on others.
+// Conservation laws of trees of links: of several legs, and of links attached anywhere on others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +64,8 @@ TEST(Trees, KeepEnergyAndMomentum) {
   }
 }
 
-// The places of a tree's masses, by its kinematics alone: each link's centre, each foot, the body.
+// Returns the positions of a tree's masses, by its kinematics alone: each link's centre, each foot,
+// the body.
 double kinetic_energy(const Setup& s, const std::vector<double>& angle,
                       const std::vector<double>& rate, double slide) {
   constexpr double h = 1e-5;
@@ -133,7 +134,7 @@ TEST(Trees, MassMatrixIsSymmetricAndPositive) {
   }
 }
 
-// Parents and places that say what holds anyway change no bit.
+// Parents and attachments equal to the defaults change no bit.
 TEST(Trees, AChainSaidInFullIsTheChain) {
   const plant::Setup plain = leg_with_muscles(4.95, 5.40);
   plant::Setup said = plain;
@@ -158,8 +159,8 @@ TEST(Trees, AChainSaidInFullIsTheChain) {
   }
 }
 
-// Two legs that do the same, wherever they hang, are one that carries half the trolley against half
-// its drag, as long as nothing tells them apart.
+// Two legs with the same motion, wherever they hang, equal one that carries half the trolley
+// against half its drag, as long as nothing makes them differ.
 TEST(Trees, TwoEqualLegsAreOneWithHalfTheTrolley) {
   plant::Setup one = leg_with_muscles(4.95, 5.40);
   one.robot.ground.present = true;
@@ -190,7 +191,7 @@ TEST(Trees, TwoEqualLegsAreOneWithHalfTheTrolley) {
   EXPECT_TRUE(touched);
 }
 
-// Legs that mirror each other leave the trolley where it is, and each other mirrored.
+// Legs that mirror each other leave the trolley at rest and stay mirrored.
 TEST(Trees, MirroredLegsKeepTheTrolleyAtRest) {
   plant::Setup s = twice(leg_without_muscles(4.4, 0.5), 0.2);
   s.start.joint_angle[2] = 3 * std::numbers::pi - 4.4;
@@ -232,8 +233,8 @@ plant::Setup free_in_the_plane(double apart) {
   return s;
 }
 
-// Thrown, its centre of mass flies a parabola, its energy stays, and without gravity so does its
-// angular momentum.
+// Thrown, its centre of mass flies a parabola, its energy is constant, and without gravity so is
+// its angular momentum.
 TEST(Trees, FreeBodyFliesAParabola) {
   const plant::Setup s = free_in_the_plane(0.3);
   BodyWorld world(s);
@@ -254,7 +255,7 @@ TEST(Trees, FreeBodyKeepsItsAngularMomentum) {
   s.robot.gravity = 0;
   BodyWorld world(s);
   world.set_rates({2, -3, 4, 1, -2}, 0, 0);
-  // About the origin, of the masses where the kinematics put them, a hair before and after.
+  // About the origin, from the masses' positions by the kinematics, slightly before and after.
   const auto angular = [&](double t) {
     constexpr double h = 1e-3;
     const auto at = [&](double when) {
@@ -287,7 +288,7 @@ TEST(Trees, FreeBodyKeepsItsAngularMomentum) {
     EXPECT_NEAR(angular(t), start, 1e-4 * std::abs(start)) << t;
 }
 
-// Without losses a stop gives back what it took; with its damper the joint comes to rest within.
+// Without losses a stop returns the energy; with its damper the joint comes to rest within.
 TEST(Stops, HoldAJointWithinItsRange) {
   for (const bool chain : {true, false}) {
     plant::Setup s = leg_without_muscles(4.9, 5.6);
@@ -343,7 +344,7 @@ TEST(Stops, AnElasticStopKeepsEnergy) {
   EXPECT_LT(apart, 1e-4 * swinging_energy(world.constants()));
 }
 
-// Standing still, legs that hang ahead of the origin load the front roller by their lever.
+// At rest, legs that hang ahead of the origin load the front roller by their lever.
 TEST(Trees, RollersCarryLegsWhereTheyHang) {
   const double apart = 0.3;
   plant::Setup s = twice(leg_without_muscles(1.5 * std::numbers::pi, 0), apart);

@@ -1,4 +1,4 @@
-// Laws that a planar world keeps, with and without muscles.
+// Conservation laws of a planar world, with and without muscles.
 #include "sinew/world/machine.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ double swinging_energy(const ChainWorld<2>& world) {
          (world.constants().first_moment[0] + world.constants().first_moment[1]);
 }
 
-// Released from (0.6, -0.9) rad the leg swings wildly under its free trolley.
+// Released from (0.6, -0.9) rad the leg swings freely under its trolley.
 TEST(World, EnergyIsKeptWithoutMusclesAndFriction) {
   ChainWorld<2> world(leg_without_muscles(0.6, -0.9));
   const double before = energy(world.constants(), world.motion());
@@ -36,7 +36,7 @@ TEST(World, EnergyIsKeptOnAFixedBase) {
   EXPECT_EQ(world.motion().x, 0.0);
 }
 
-// Nothing pushes along the track, so the centre of mass does not move along it either.
+// No force acts along the track, so the centre of mass does not move along it either.
 TEST(World, MomentumAlongTheTrackIsKept) {
   ChainWorld<2> world(leg_without_muscles(0.6, -0.9));
   world.advance(5.0);
@@ -81,11 +81,11 @@ TEST(World, SealedMusclesConvergeWithTheFourthOrder) {
     return std::hypot(p.angle[0] - exact.angle[0], p.angle[1] - exact.angle[1]);
   };
   const double coarse = error(4e-3), fine = error(2e-3);
-  EXPECT_GT(coarse, 1e-9);  // there is something to converge
+  EXPECT_GT(coarse, 1e-9);  // above rounding, so that it can converge
   EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.5);
 }
 
-// What went in less what went out is what is there, whatever the valves do.
+// Air in less air out is the air inside, whatever the valves do.
 TEST(World, AirIsAccountedFor) {
   ChainWorld<2> world(leg_with_muscles(4.95, 5.40));
   const Truth before = world.truth(0);
@@ -124,7 +124,7 @@ TEST(World, SealedAirStaysOnItsPolytrope) {
   }
 }
 
-// design.md: a peek is within 0.01 count of angle and 0.2 count of tension of a node there.
+// design.md: a preview is within 0.01 count of angle and 0.2 count of tension of a node there.
 TEST(World, PeeksAgreeWithNodes) {
   constexpr double counts_per_rad = 714, counts_per_newton = 0.17 * 819.2 / 4.4482216152605;
   plant::Setup setup = leg_with_muscles(4.87, 5.46);
@@ -136,7 +136,7 @@ TEST(World, PeeksAgreeWithNodes) {
   std::mt19937 random(11);
   for (int k = 1; k <= 60; ++k) {
     const signals::Tick t = 10 * k + static_cast<signals::Tick>(random() % 10);
-    // A valve moves now and then; both worlds see the same edge.
+    // A valve moves occasionally; both worlds have the same edge.
     if (k % 20 == 5)
       for (ChainWorld<2>* w : {&coarse, &fine}) w->drive({10 * k, {0}, k % 40 == 5});
     const Truth a = coarse.truth(t * 1e-4), b = fine.truth(t * 1e-4);
@@ -147,7 +147,7 @@ TEST(World, PeeksAgreeWithNodes) {
   }
 }
 
-// Looking changes nothing: any number of peeks, at any time, leaves the same bits.
+// A preview changes nothing: any number of previews, at any time, leaves the same bits.
 TEST(World, PeeksLeaveNoTrace) {
   plant::Setup setup = leg_with_muscles(4.95, 5.40);
   setup.robot.joints[0].dry_friction = 0.1;

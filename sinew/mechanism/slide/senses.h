@@ -1,4 +1,4 @@
-// mechanism/slide/senses.h - the readings of the stand's transducers, and its true values, from
+// mechanism/slide/senses.h - readings of the stand's transducers, and its true values, from
 // previews of world/kernel/world.h.
 #pragma once
 
@@ -19,11 +19,11 @@ class StandSenses {
   explicit StandSenses(const StandSetup& setup)
       : transducers_(setup.transducers), atmosphere_(setup.air.atmosphere), seed_(setup.seed) {}
 
-  // How many there are.
+  // Returns the number of transducers.
   std::size_t channels() const noexcept { return transducers_.size(); }
 
-  // Returns what the transducer stands before at t; of a conversion that began before the last node
-  // that node, and what was prescribed then.
+  // Returns the quantity that the transducer measures at t; for a conversion that began before the
+  // last node, the values of that node.
   template <class World>
   double quantity(World& world, std::size_t index, double t) const noexcept {
     using Of = Transducer::Of;
@@ -42,7 +42,7 @@ class StandSenses {
     return 0;
   }
 
-  // Returns the counts of a transducer that stands before a value.
+  // Returns the counts of a transducer for a value.
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
     const Transducer& t = transducers_[index];
     const auto channel = static_cast<std::uint8_t>(index);
@@ -50,7 +50,7 @@ class StandSenses {
     return robot::counts(t, value, added_noise);
   }
 
-  // Returns what only a simulation knows, at t.
+  // Returns the true values at t.
   template <class World>
   StandTruth truth(World& world, double t) const noexcept {
     const auto& mechanism = world.mechanism();

@@ -1,4 +1,4 @@
-// mechanism/slide/setup.h - everything that a test stand is made from, and what it knows of itself.
+// mechanism/slide/setup.h - setup of a test stand, and its true values.
 //
 //   plant::StandSetup s;
 //   s.muscle.actuator = actuator::thesis_actuator();
@@ -29,18 +29,18 @@ namespace sinew::plant {
 using robot::Transducer;
 using signals::Schedule;
 
-// What pulls back.
+// Load of the stand.
 struct Load {
   using Mode = robot::Stand::Load::Mode;
 
   Mode mode = Mode::hanging;
   Schedule mass;                             // hanging: M, above 0 [kg]
-  Schedule force;                            // hanging: on the mass beside its weight, down > 0 [N]
+  Schedule force;                            // hanging: added to the weight, down > 0 [N]
   Schedule length;                           // driven: L [m]
   double gravity = units::standard_gravity;  // g [m/s^2]
 };
 
-// How its air gets in.
+// Source of the element's air.
 struct Charge {
   using Mode = robot::Stand::Charge::Mode;
 
@@ -50,28 +50,28 @@ struct Charge {
 
 struct StandStart {
   double pressure = units::atmosphere;  // absolute, at `length` [Pa]
-  double length = 0;                    // 0: where the load hangs in equilibrium [m]
-  double displacement = 0;              // hanging: from there, with the same air, down > 0 [m]
+  double length = 0;                    // 0: equilibrium of the hanging load [m]
+  double displacement = 0;              // hanging: added to it, with the same air, down > 0 [m]
 };
 
-// Everything that a stand is made from.
+// Setup of a stand.
 struct StandSetup {
   air::Muscle muscle;                     // a bundle with its valves, hose and leak
-  std::optional<air::Cylinder> cylinder;  // single-acting, in the muscle's place
+  std::optional<air::Cylinder> cylinder;  // single-acting, instead of the muscle
   gas::Air air;
   gas::Supply supply;
   Load load;
   Charge charge;
   StandStart start;
-  std::vector<air::AirFault> faults;    // of its air; none that opens a prescribed pressure
-  std::vector<Transducer> transducers;  // the channels of the port, in their order
+  std::vector<air::AirFault> faults;    // faults of the air; not with a regulated pressure
+  std::vector<Transducer> transducers;  // channels of the port, in order
   double step = 5e-4;                   // between nodes, at most [s]
-  double accuracy = 3.4e-7;             // of a swing, per radian of it, between nodes [-]
-  std::uint64_t seed = 1;               // of the transducers' noise
+  double accuracy = 3.4e-7;             // error of an oscillation per radian, between nodes [-]
+  std::uint64_t seed = 1;               // seed of the transducers' noise
 };
 
-// Rates times the length of a piece, by the accuracy that is asked for: RK4's error per radian of a
-// swing is the fourth power/120. Its limit of stability is far off.
+// Largest product of rate and step for a required accuracy: RK4's error per radian of an
+// oscillation is the fourth power/120. The stability limit is far larger.
 inline double longest_swing(double accuracy) {
   return std::fmin(std::sqrt(std::sqrt(120 * accuracy)), 1.0);
 }
@@ -79,14 +79,14 @@ inline double longest_settling(double accuracy) {
   return std::fmin(3.75 * longest_swing(accuracy), 1.5);
 }
 
-// What only a simulation knows, at one instant.
+// True values at one instant, available only in a simulation.
 struct StandTruth {
   double length = 0, velocity = 0, acceleration = 0;  // L [m], [m/s], [m/s^2]
-  double force = 0;                // on the load, dry friction in it; negative where it pushes [N]
-  double friction = 0;             // the dry part of it [N]
+  double force = 0;                // on the load, with dry friction; negative where it pushes [N]
+  double friction = 0;             // its dry part [N]
   bool sticks = false;             // dry friction holds the load
   double load = 0;                 // hanging: M [kg]
-  double pressure = 0;             // of the air in the element, absolute [Pa]
+  double pressure = 0;             // absolute pressure of the element's air [Pa]
   double air = 0;                  // its mass [kg]
   double all_air = 0;              // in element, hose and tank [kg]
   double air_in = 0, air_out = 0;  // through the valves since the start [kg]

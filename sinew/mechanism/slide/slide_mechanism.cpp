@@ -51,7 +51,7 @@ void refuse_contradictions(const StandSetup& s) {
     if (!(t.high > t.low)) refuse("transducer " + t.name + " has no range");
 }
 
-// Shut or regulated valves are no valves of the muscle's: a 3-way one would let the air out.
+// Removes valves that are shut or replaced by a regulator: a 3-way valve would let the air out.
 StandSetup with_valves(StandSetup s) {
   refuse_contradictions(s);
   if (s.charge.mode == Charge::Mode::valves) return s;
@@ -60,7 +60,7 @@ StandSetup with_valves(StandSetup s) {
   return s;
 }
 
-// Lengths at which a muscle may hang or be let go.
+// Lengths at which a muscle may hang or start.
 struct Reach {
   double low, high;  // [m]
 };
@@ -69,8 +69,8 @@ Reach reach(const StandSetup& s) {
   return {0.5 * actuator::shortest_length(braid), 1.5 * braid.thread_length};
 }
 
-// Where the threads lie straight a muscle has no volume, and without hose and fittings no room for
-// its air: its pressure would be no number.
+// With straight threads a muscle has no volume, and without hose and fittings no room for its air:
+// its pressure would not be finite.
 void refuse_without_air(const StandSetup& s, double length) {
   const double room =
       s.muscle.count * actuator::volume(s.muscle.actuator, length) + s.muscle.external_volume;
@@ -84,8 +84,8 @@ void refuse_without_air(const StandSetup& s, double length) {
 double hanging_length(const StandSetup& setup) {
   if (setup.cylinder) refuse("an air cylinder at one pressure hangs nowhere: give start.length");
   StandSetup s = setup;
-  s.muscle.actuator.loss.stick = true;  // the sign of no speed would be a force
-  // At one pressure the room for air takes no part; beyond the threads there must be some.
+  s.muscle.actuator.loss.stick = true;  // otherwise a zero velocity has a friction force
+  // At constant pressure the volume has no effect, but beyond the threads it must be positive.
   if (!(s.muscle.external_volume > 0)) s.muscle.external_volume = 1e-6;
   using Air = air::AirNetwork<4>;
   const Air network = air_of(s);
@@ -112,8 +112,8 @@ double hanging_length(const StandSetup& setup) {
 
 namespace {
 
-// Returns the set-up with the length at which the stand starts, and without valves where the air
-// does not come by them. Throws std::invalid_argument for one that is no stand.
+// Returns the setup with the length at which the stand starts, and without valves if the air does
+// not pass them. Throws std::invalid_argument for an invalid setup.
 StandSetup prepared(const StandSetup& setup) {
   StandSetup s = with_valves(setup);
   const bool driven = s.load.mode == Load::Mode::driven;
@@ -173,7 +173,8 @@ auto SlideMechanism::prescribed(double t) const noexcept -> Prescribed {
   return p;
 }
 
-// Returns the rate of the load on its spring, air shut in; of the ends where they act  [1/s].
+// Returns the natural frequency of the load on its spring, with sealed air; or the rate of an
+// end that acts [1/s].
 double SlideMechanism::swinging_rate(double length, double pressure, double mass) const noexcept {
   double stiffness = 0, damping = 0;
   if (cylinder_) {

@@ -1,5 +1,5 @@
-// mechanism/slide/slide_mechanism.h - the test stand's slide: what hangs on a muscle or an air
-// cylinder, or is moved by a machine.
+// mechanism/slide/slide_mechanism.h - slide of the test stand: a load that hangs on a muscle or an
+// air cylinder, or a prescribed length.
 //
 //   hanging   M L'' = M g + F_ext - F(L, L', P) - F_dry                           [36], [37]
 //   driven    L(t) as prescribed: a tensile machine, or a clamp
@@ -7,20 +7,20 @@
 //   L      length of the muscle, grows downwards [m]     F      of the muscle, both ends held [N]
 //   M      hanging mass [kg]                             F_dry  dry friction, |F_dry| <= Q k, [33]
 //
-// With an air cylinder in the muscle's place L is how far its rod is out, and it pulls as the
-// pressure on the rod's side pushes it in. The air, and what prescribes its pressure: stand_air.h.
+// With an air cylinder instead of the muscle L is the extension of its rod, and the pressure on the
+// rod's side pulls the rod in. Air and prescribed pressure: stand_air.h.
 //
-// One of the mechanisms of world/kernel/world.h; it cuts steps where something breaks off:
+// It is a mechanism for world/kernel/world.h and cuts steps at discontinuities:
 //
-//   the mesh comes to rest or breaks loose    at rest it holds while the load asks for no more than
-//                                             the bound, a real stick; in motion F_dry is at it
-//   L passes L_max or L_min                   [31], [32] break off there; a stage that oversteps
-//                                             goes by the side on which the piece began
+//   the mesh comes to rest or breaks loose    at rest it holds while the load does not exceed
+//                                             the bound, a true stick; in motion F_dry is at it
+//   L passes L_max or L_min                   [31], [32] are discontinuous there; a stage beyond
+//                                             uses the side on which the piece began
 //   a schedule has a point
 //
-// So the order of RK4 is kept through friction and end stops; docs/theory/test-stand.md has how far
-// it has converged. With `stick = false` the sign of the speed is taken in every stage as appendix
-// A does: no cut, first order, and creep at rest.
+// So RK4 keeps its order through friction and end stops; docs/theory/test-stand.md has the
+// convergence. With `stick = false` every stage uses the sign of the velocity as appendix A does:
+// no cut, first order, and creep at rest.
 #pragma once
 
 #include <algorithm>
@@ -44,14 +44,14 @@ class SlideMechanism {
   using Setup = StandSetup;
   using Senses = StandSenses;
   using Ends = StandEnds;
-  struct Arms {};  // the element pulls straight
+  struct Arms {};  // the element is straight
 
   struct Motion {
     double length = 0, velocity = 0;  // [m], [m/s]
   };
   using Acceleration = double;  // [m/s^2]
 
-  // Which way dry friction lets the load move; of a driven one, its last motion.
+  // Direction in which dry friction lets the load move; for a driven one, that of its last motion.
   enum class Way : signed char { rests = 0, down = 1, up = -1 };
   using Forces = Way;
 
@@ -59,16 +59,16 @@ class SlideMechanism {
     double mass = 0, pull = 0;  // M [kg]; M g + F_ext [N]
   };
   struct Load {
-    double force = 0;  // of the element, dry friction apart [N]
-    double bound = 0;  // of the dry friction [N]
+    double force = 0;  // force of the element without dry friction [N]
+    double bound = 0;  // bound of the dry friction [N]
     double asks = 0;   // M g + F_ext - force [N]
     double mass = 0;   // M [kg]
   };
 
-  // Throws std::invalid_argument for a set-up that is no stand.
+  // Throws std::invalid_argument for an invalid setup.
   explicit SlideMechanism(const Setup& setup);
 
-  // Returns what it was made from, how it starts, and the longest step  [s].
+  // Return the setup, the motion at the start, and the longest step [s].
   const Setup& constants() const noexcept { return setup_; }
   const Motion& start() const noexcept { return start_; }
   double node_step(const Setup& setup) const noexcept { return setup.step; }
@@ -80,7 +80,7 @@ class SlideMechanism {
   // Returns the air's state at the start.
   template <class Air>
   typename Air::State start_air(const Air& air, const Setup&, const Ends&) const {
-    Ends sealed = ends_at(setup_.start.length, 0.0);  // there, and displaced afterwards
+    Ends sealed = ends_at(setup_.start.length, 0.0);  // length of the seal, before the displacement
     return air.initial(setup_.start.pressure, sealed.length, sealed.travel);
   }
   // Returns the air's memory at the start.
@@ -89,10 +89,10 @@ class SlideMechanism {
     return air.memory_at_rest(setup_.start.pressure, ends_at(setup_.start.length, 0.0).length);
   }
 
-  // A number that is none where the coordinate is none.
+  // Returns a value that is not finite if the coordinate is not.
   double sum(const Motion& m) const noexcept { return m.length; }
 
-  // A smooth part begins: what is prescribed for it, and the side of the ends on which it is.
+  // Begins a smooth part: sets its prescribed values, and the side of the ends on which it is.
   void begin(double t, Motion& m) noexcept {
     if (!(t >= now_.begin && t < now_.end)) now_ = prescribed(t);
     if (driven_) {
@@ -105,21 +105,20 @@ class SlideMechanism {
   }
   double corner() const noexcept { return now_.end; }
 
-  // Says how long the element is, and how fast that changes; and its pressure where that is
-  // prescribed.
+  // Writes length and rate of the element, and its pressure if that is prescribed.
   void route(double t, const Motion& m, Ends& ends, Arms&) const noexcept {
     const double length = driven_ ? now_.length.at(t) : std::clamp(m.length, shortest_, longest_);
     put(ends, length, driven_ ? now_.length.slope : m.velocity);
     if (regulated_) ends.pressure = now_.pressure.at(t);
   }
 
-  // Returns the mass that is moved at t, and what pulls it down.
+  // Returns the moved mass at t, and the force that pulls it down.
   Pose pose(double t, const Motion&) const noexcept {
     const double mass = now_.mass.at(t);
     return {mass, mass * setup_.load.gravity + now_.force.at(t)};
   }
 
-  // Works out the force that is left, and the bound of the dry friction.
+  // Computes the remaining force, and the bound of the dry friction.
   template <class Answer>
   void load(const Pose& at, const Motion&, const Arms&, const Answer& air,
             Load& out) const noexcept {
@@ -129,11 +128,12 @@ class SlideMechanism {
     out.mass = at.mass;
   }
 
-  // In motion friction is at its bound; a mass at rest is held, or begins to move.
+  // Returns the state of the friction: at its bound in motion; at rest it holds, or lets the load
+  // move.
   Way hold(const Motion& m, const Load& load, Way last) const noexcept {
     if (driven_) return m.velocity > 0 ? Way::down : m.velocity < 0 ? Way::up : last;
     if (!rubs_ || last != Way::rests) return last;
-    if (m.velocity != 0) return m.velocity > 0 ? Way::down : Way::up;  // let go in motion
+    if (m.velocity != 0) return m.velocity > 0 ? Way::down : Way::up;  // started in motion
     if (!(std::fabs(load.asks) > load.bound)) return Way::rests;
     return load.asks > 0 ? Way::down : Way::up;
   }
@@ -143,21 +143,22 @@ class SlideMechanism {
                        : static_cast<double>(held) * load.bound;
   }
 
-  // Returns the acceleration under the load and the friction that is held  [m/s^2].
+  // Returns the acceleration under the load and the friction [m/s^2].
   Acceleration accelerate(const Pose&, const Motion&, const Load& load, Way held) const noexcept {
     if (driven_ || rests(held)) return 0;
     return (load.asks - static_cast<double>(held) * load.bound) / load.mass;
   }
 
-  // Is the element moved by a machine?
+  // Returns whether the length is prescribed.
   bool driven() const noexcept { return driven_; }
 
-  // At rest the load is what may break it.
+  // Returns whether gap() has to be checked because of friction: at rest the load may break it
+  // loose.
   bool watches(Way held) const noexcept { return rests(held); }
 
-  // Returns how far `after` is beyond what a smooth piece from `before` can hold: above 0 where an
-  // end was passed [m], where the speed turned against the friction [m/s], or where the load asks
-  // for more than the friction holds [N].
+  // Returns the distance of `after` beyond the limit of a smooth piece that starts at `before`:
+  // above 0 if an end was passed [m], if the velocity reversed against the friction [m/s], or if
+  // the load exceeds the friction [N].
   double gap(const Motion& before, const Motion& after, Way held, const Load& load) const noexcept {
     if (driven_) return -infinite;
     const int side = side_of(before.length);
@@ -171,14 +172,14 @@ class SlideMechanism {
   }
   double cut_within() const noexcept { return cut_within_; }
 
-  // Lets what has turned back against its friction rest.
+  // Brings the load to rest if it has reversed against its friction.
   void stop(Motion& m, Way& held) const noexcept {
     if (driven_ || !rubs_ || !(m.velocity * static_cast<double>(held) < 0)) return;
     m.velocity = 0;
     held = Way::rests;
   }
 
-  // Returns the longest step that suits the swing of load and air there  [s].
+  // Returns the longest step for the oscillation of load and air [s].
   template <class Answer>
   double longest_piece(const Motion& m, const Load& load, const Answer& air) const noexcept {
     if (driven_) return infinite;
@@ -186,14 +187,14 @@ class SlideMechanism {
     return longest_swing_ / swinging_rate(m.length, pressure, load.mass);
   }
 
-  // `from`, h along the given rates and accelerations.
+  // Writes `from` moved by h along the given rates and accelerations.
   void move(Motion& out, const Motion& from, double h, const Motion& rates,
             Acceleration a) const noexcept {
     out.length = from.length + h * rates.velocity;
     out.velocity = from.velocity + h * a;
   }
 
-  // RK4's weighted mean of four stages.
+  // Applies RK4's weighted mean of four stages.
   void finish(Motion& now, double h, const Motion* const (&stage)[4],
               const Acceleration (&a)[4]) const noexcept {
     const units::StageMean mean(h);
@@ -204,7 +205,7 @@ class SlideMechanism {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  // Holds what is prescribed, from one point of a schedule to the next.
+  // Prescribed values, from one point of a schedule to the next.
   struct Prescribed {
     Schedule::Piece mass, force, length, pressure;
     double begin = 0, end = -infinite;  // [s]
@@ -213,12 +214,12 @@ class SlideMechanism {
   Prescribed prescribed(double t) const noexcept;
   double swinging_rate(double length, double pressure, double mass) const noexcept;
 
-  // 0 short of L_min, 1 between the ends, 2 beyond L_max.
+  // Returns 0 below L_min, 1 between the ends, 2 beyond L_max.
   int side_of(double length) const noexcept {
     return length < ends_[0] ? 0 : length > ends_[1] ? 2 : 1;
   }
   void put(Ends& ends, double length, double rate) const noexcept {
-    // In whole lanes: a wide load would have to wait for narrow stores.
+    // In whole lanes: a wide load after narrow stores would stall.
     ends.length.four(0) = air::Four{length, length, length, length};
     ends.rate.four(0) = air::Four{rate, rate, rate, rate};
     if (!cylinder_) return;
@@ -234,21 +235,21 @@ class SlideMechanism {
   StandSetup setup_;
   bool driven_ = false, regulated_ = false, cylinder_ = false;
   bool rubs_ = false;                                  // dry friction with a real stick
-  std::array<double, 2> ends_{};                       // L_min, L_max; an air cylinder has none [m]
+  std::array<double, 2> ends_{};                       // L_min, L_max; infinite for a cylinder [m]
   double short_of_shortest_ = 0, beyond_longest_ = 0;  // the next numbers beyond them [m]
-  double end_stiffness_ = 0, end_damping_ = 0;         // of the stiffer end [N/m], [N s/m]
-  double exponent_ = 0;                                // of air that is shut in [-]
-  double longest_swing_ = 0;                           // of a piece [rad]
+  double end_stiffness_ = 0, end_damping_ = 0;         // stiffer end [N/m], [N s/m]
+  double exponent_ = 0;                                // exponent of sealed air [-]
+  double longest_swing_ = 0;                           // longest angle of a piece [rad]
   double cut_within_ = 0;                              // [s]
   Motion start_;
 
-  // Scratch: of the smooth part at hand.
+  // Scratch for the current smooth part.
   Prescribed now_;
-  double shortest_ = 0, longest_ = 0;  // lengths whose law holds on it [m]
+  double shortest_ = 0, longest_ = 0;  // lengths for which its law holds [m]
 };
 
-// Static length at which the load hangs, valves holding the start's pressure, without friction [m].
-// Throws std::invalid_argument where there is none.
+// Returns the static length at which the load hangs, with valves holding the start's pressure,
+// without friction [m]. Throws std::invalid_argument if there is no such length.
 double hanging_length(const StandSetup& setup);
 
 }  // namespace sinew::plant

@@ -1,6 +1,6 @@
-// mechanism/slide/stand_air.h - the air of the stand's element: a network; valves, hoses,
-// leaks, walls, tank and delays all work. Of a regulated stand its pressure is prescribed instead,
-// and what the volume asks for has come in or gone out by the next look.
+// mechanism/slide/stand_air.h - air of the stand's element: a network, with valves, hoses, leaks,
+// walls, tank and delays. For a regulated stand the pressure is prescribed instead, and the air for
+// a change of volume enters or leaves by the next evaluation.
 //
 // The flow of Law::appendix_a jumps by .38 % where it chokes. Over a smooth part of a step each
 // such valve has the law of the side on which the part began, and the step is cut where the
@@ -19,9 +19,9 @@ namespace sinew::plant {
 
 using ElementAir = air::AirNetwork<4>;
 
-// The element's one end, as the air feels it, and the pressure that a regulator holds.
+// The element's motion as input of the air, and the pressure that a regulator holds.
 struct StandEnds : ElementAir::Ends {
-  double pressure = 0;  // absolute; 0: nothing is prescribed [Pa]
+  double pressure = 0;  // absolute; 0: not prescribed [Pa]
 };
 
 // Returns the network of the stand's element.
@@ -32,7 +32,7 @@ inline ElementAir air_of(const StandSetup& s) {
 
 class StandAir : public ElementAir {
  public:
-  // Takes a set-up that the mechanism has prepared.
+  // Takes a setup that the mechanism has prepared.
   explicit StandAir(const StandSetup& s)
       : ElementAir(air_of(s)),
         cylinder_(s.cylinder.has_value()),
@@ -51,7 +51,7 @@ class StandAir : public ElementAir {
   // Valve 0 is the inlet or a 3-way valve, 1 the exhaust.
   int valves() const noexcept { return by_valves_ ? 2 : 0; }
 
-  // A smooth part begins: what is prescribed goes into the state.
+  // Begins a smooth part: writes the prescribed pressure to the state.
   void place(const StandEnds& ends, State& s) const noexcept {
     if (!(ends.pressure > 0)) return;
     const double before = element(s).mass;
@@ -63,8 +63,8 @@ class StandAir : public ElementAir {
     passed += std::fabs(gained);
   }
 
-  // A smooth part begins with an evaluation of the valves' whole laws, and continues with those
-  // of one side, chosen by the pressures of that evaluation.
+  // A smooth part begins with an evaluation of the valves' whole laws, and continues with the
+  // laws of one side, chosen by the pressures of that evaluation.
   void use_whole_laws() noexcept {
     for (int v = 0; v < valves(); ++v)
       if (jumps(v)) set_flow(v, whole_[static_cast<std::size_t>(v)]);
@@ -96,7 +96,7 @@ class StandAir : public ElementAir {
     return most;
   }
 
-  // The law: the network's, or that of a prescribed pressure.
+  // Evaluates the network, or the prescribed pressure.
   void evaluate(double t, const StandEnds& ends, const State& state, const Valves& valves,
                 const Memory& memory, Answer& out, std::uint64_t = 0) const noexcept {
     if (!(ends.pressure > 0)) {
@@ -109,7 +109,7 @@ class StandAir : public ElementAir {
     hold_still(out);
   }
 
-  // That suits what the air does  [s].
+  // Returns the longest step for the air [s].
   double longest_piece(const StandEnds& ends, const Answer& look, const State& s,
                        const Valves& valves) const noexcept {
     if (!flowing(valves)) return std::numeric_limits<double>::infinity();
@@ -117,7 +117,7 @@ class StandAir : public ElementAir {
                      longest_settling_ / settling_rate(look, s, valves));
   }
 
-  // Returns the element's pressure, absolute [Pa]; and what air it has and had.
+  // Return the element's absolute pressure [Pa], and its air.
   double pressure(const Answer& look) const noexcept {
     return cylinder_ ? look.cylinder_pressure[air::up] : look.pressure[0];
   }
@@ -142,8 +142,8 @@ class StandAir : public ElementAir {
     return std::fmin(element, other) / std::fmax(element, other) - 1.0 / gas::appendix_limit;
   }
 
-  // Returns the rate of a chamber that settles at the pressure behind an open valve: the flow's
-  // slope is steep there [1/s].
+  // Returns the rate at which a chamber settles at the pressure behind an open valve, where the
+  // flow's slope is steep [1/s].
   double settling_rate(const Answer& at, const State& s, const Valves& valves) const noexcept {
     const double behind = cylinder_ ? at.cylinder_pressure[air::up] : manifold(at, 0, valves);
     const double flow_in = cylinder_ ? at.cylinder_inflow[air::up] : at.inflow[0];
@@ -156,10 +156,10 @@ class StandAir : public ElementAir {
 
   bool cylinder_ = false, by_valves_ = false;
   double exponent_ = 0, longest_settling_ = 0;
-  std::array<bool, 2> jumps_{};                // of the valves' flows where they choke
-  std::array<gas::FlowConstants, 2> whole_{};  // their laws on both sides
+  std::array<bool, 2> jumps_{};                // the valves' flows jump where they choke
+  std::array<gas::FlowConstants, 2> whole_{};  // their laws with both sides
 
-  // Scratch: of the smooth part at hand.
+  // Scratch for the current smooth part.
   std::array<bool, 2> choked_{};
 };
 

@@ -13,7 +13,7 @@ using List = std::vector<Contradiction>;
 
 constexpr std::string_view up = "cylinder_up", down = "cylinder_down";
 
-// Numbers that only one may have.
+// Numbers that may be used only once.
 class Taken {
  public:
   explicit Taken(std::string what) : what_(std::move(what)) {}
@@ -62,7 +62,7 @@ void check_signals(const Wiring& w, const Robot& robot, List& out) {
   }
 }
 
-// The robot's own bits: B.1's masks.
+// Returns the robot's own bits: B.1's masks.
 std::vector<ValveBit> robot_bits(const Robot& robot) {
   std::vector<ValveBit> out;
   const auto add = [&](const std::string& of, const char* which, int bit, std::size_t board) {
@@ -89,7 +89,7 @@ std::vector<ValveBit> robot_bits(const Robot& robot) {
 
 void check_bits(const Wiring& w, const Robot& robot, List& out) {
   Taken by_table("bit");
-  std::map<int, Taken> by_robot;  // by board
+  std::map<int, Taken> by_robot;  // one per board
   for (const Wiring::Valve& v : w.valves) {
     const std::string key = "wiring.valve." + v.name;
     by_table.take(v.inlet.bit, key + ".inlet.bit", out);
@@ -161,7 +161,7 @@ std::vector<PortBytes> port_bytes(const signals::Table& table, const std::vector
     const auto mask = static_cast<std::uint8_t>(1U << (e.bit % 8));
     const bool high = e.open != low;
     byte = static_cast<std::uint8_t>(high ? byte | mask : byte & ~mask);
-    // An edge to where the valve stands already writes nothing new.
+    // An edge to the present position of a valve changes no byte.
     if (out.size() > 1 && out.back().port == out[out.size() - 2].port) out.pop_back();
   }
   return out;

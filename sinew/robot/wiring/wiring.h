@@ -1,9 +1,9 @@
-// robot/wiring/wiring.h - which wire goes where: the terminal block, the converter's channels and
-// the two output ports that switch the valves (B.1, table C-1).
+// robot/wiring/wiring.h - wiring of a robot: the terminal block, the converter's channels and the
+// two output ports that switch the valves (B.1, table C-1).
 //
-// Valves take bits 0 to 7 of port 0, and 8 to 15, which is port 1. Two sources number them: B.1's
+// Valves use bits 0 to 7 of port 0, and 8 to 15, which are port 1. Two sources number them: B.1's
 // masks, which are the `bit`s of the robot's muscles and cylinder, and the table's, which are the
-// bits here. `bits` says which are used.
+// bits here. `bits` selects one of them.
 #pragma once
 
 #include <array>
@@ -17,28 +17,28 @@
 
 namespace sinew::robot {
 
-// Which wire of a terminal block leads where.
+// Wires of a terminal block.
 struct Wiring {
-  enum class Polarity { low_opens, high_opens };  // what a port's bit does
-  // Whose numbers of output bits count: the robot's file's or the table's.
+  enum class Polarity { low_opens, high_opens };  // effect of a port's bit
+  // Source of the output bits' numbers: the robot's file or the table.
   enum class Bits { robot, table };
 
   // A sensor's wire, by the sensor's name.
   struct Signal {
     std::string name;
-    int pin = 0, ground = 0;  // of the terminal block
-    int channel = -1;         // of the converter; -1: the table does not say
+    int pin = 0, ground = 0;  // pins of the terminal block
+    int channel = -1;         // channel of the converter; -1: not in the table
     bool spare = false;       // a wire without a sensor
   };
   struct Line {
     int pin = 0, common = 0;
     int bit = 0;  // 0 to 15
   };
-  // The valves of one chamber.
+  // Valves of one chamber.
   struct Valve {
     std::string name;
     std::string of;    // a muscle, or cylinder_up, cylinder_down
-    int plumbing = 0;  // the number that its hose has
+    int plumbing = 0;  // number of its hose
     Line inlet, exhaust;
   };
   struct Power {
@@ -54,29 +54,29 @@ struct Wiring {
   std::vector<Power> power;
 };
 
-// What cannot be: two wires on one pin, two valves on one bit, two signals on one channel, names
-// that lead nowhere, a bit of the robot that no pin carries, a channel that the robot's file has
-// otherwise. Empty for a robot without wiring, but for two valves on one bit.
+// Returns the contradictions: two wires on one pin, two valves on one bit, two signals on one
+// channel, unknown names, a bit of the robot without a pin, a channel that differs from the robot's
+// file. For a robot without wiring only two valves on one bit are reported.
 std::vector<Contradiction> contradictions(const Wiring&, const Robot&);
 
 // A valve, its topic in a log and its bit.
 struct ValveBit {
   std::string of;
   std::string which;  // "inlet" or "exhaust"
-  int bit = 0;        // of its board's ports
+  int bit = 0;        // bit of its board's ports
   int board = 1;
-  std::string topic;  // /valve/<of>/<which>/open, behind /leg/<name> where it is a leg's
+  std::string topic;  // /valve/<of>/<which>/open, after /leg/<name> for a leg
 };
 std::vector<ValveBit> bits_of(const Robot&, const Wiring&);
 
-// One board's ports from one tick until the next entry.
+// State of one board's ports from this time until the next entry.
 struct PortBytes {
   std::int64_t time_ns = 0;
   std::array<std::uint8_t, board_bits / 8> port{};
 };
 
-// The bytes that the edges of these valves wrote in a run, first at time 0 with all valves shut; an
-// entry where a byte changes. The valves are those of one board.
+// Returns the bytes that the edges of these valves wrote in a run, first at time 0 with all valves
+// shut, with an entry for each change of a byte. All valves must be of one board.
 std::vector<PortBytes> port_bytes(const signals::Table& table, const std::vector<ValveBit>& bits,
                                   Wiring::Polarity polarity);
 

@@ -45,7 +45,7 @@ Bits bits(const Leg& l) {
   return out;
 }
 
-// Every pin of table C-1 once, the two numberings as they are printed.
+// Every pin of table C-1 once, with both numberings as printed.
 TEST(Wiring, OfTheLegIsTableC1) {
   Leg l = leg();
   EXPECT_EQ(wrong(l), "");
@@ -117,7 +117,7 @@ signals::Series edges(const std::string& topic, std::vector<std::int64_t> ticks)
   return s;
 }
 
-// B.1: 255 and 255 shut everything; a bit that falls opens.
+// B.1: 255 and 255 shut all valves; a bit that falls opens.
 TEST(Ports, CarryTheEdgesOfARun) {
   const Leg l = leg();
   signals::Table t;
@@ -135,7 +135,7 @@ TEST(Ports, CarryTheEdgesOfARun) {
   EXPECT_EQ(at(3), (std::array{20, 255, 255}));
 }
 
-// Whatever the map and the polarity, the bytes tell the valves' states again.
+// For any map and polarity the states of the valves can be recovered from the bytes.
 TEST(Ports, TellEveryValveAtEveryTime) {
   std::mt19937 random(4);
   Leg l = leg();

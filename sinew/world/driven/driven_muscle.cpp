@@ -15,7 +15,7 @@ namespace {
 
 using Kind = gas::Valve::Kind;
 
-// Throws for a command that another kind of valve takes.
+// Throws for a command that does not suit the kind of valve.
 [[noreturn]] void refuse(const char* command, Kind kind) {
   std::string has = "on-off valves; expected inlet() or exhaust()";
   if (kind == Kind::three_way) has = "a 3-way valve, which has one coil; expected inlet()";
@@ -58,7 +58,7 @@ void DrivenMuscle::advance(double step, double length) noexcept {
   if (failed() || !(step > 0)) return;
   world_.steer({.length = this->length(), .rate = (length - this->length()) / step});
   world_.node_at(time() + step);
-  world_.borrow().now.motion.length = length;  // not rounded
+  world_.borrow().now.motion.length = length;  // the exact value
 }
 
 }  // namespace sinew::air

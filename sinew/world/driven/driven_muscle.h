@@ -1,21 +1,21 @@
-// world/driven/driven_muscle.h - one muscle with its valves, hose and leak on a supply, moved by a
-// loop outside of Sinew: another program's robot, simulator or controller.
+// world/driven/driven_muscle.h - one muscle with its valves, hose and leak on a supply, for the
+// loop of another program: a robot, simulator or controller.
 //
 //   air::DrivenMuscle m(muscle, air, supply, 0.08);      // 80 mm long, at the room's pressure
 //   for (;;) {
 //     m.inlet(now_open);
-//     m.advance(1e-4, your_length());                    // 0.1 ms later it is so long
+//     m.advance(1e-4, your_length());                    // reaches this length 0.1 ms later
 //     pull_with(m.tension());
 //   }
 //
 // It is the world of a driven length (mechanism/driven/driven_length.h): within a step the length
-// runs straight to where it will be. Valves move at their own instants, delays included, whatever
-// the steps; hoses and what else is quicker go ahead of a step (air/quick_bodies.h), so that a loop
-// may be as slow as 1 ms.
+// changes linearly to its new value. Valves switch at their own instants, delays included, whatever
+// the steps; hoses and other quick parts are integrated ahead of a step (air/quick_bodies.h), so
+// steps of up to 1 ms are possible.
 //
-// State is one block, copied like bytes: two muscles of equal description go on alike from it.
-// After it is made a muscle allocates nothing, and throws only for a command that its valves do not
-// have.
+// State is one trivially copyable block: two muscles of equal description continue equally from it.
+// After construction a muscle allocates nothing, and throws only for a command that its valves do
+// not support.
 #pragma once
 
 #include "sinew/air/muscle.h"
@@ -36,31 +36,31 @@ namespace sinew::air {
 
 class DrivenMuscle {
  public:
-  // Everything that its future depends on.
+  // The complete state.
   using State = plant::DrivenWorld::State;
 
-  // `length` at the start [m]; `pressure` of its air there, absolute [Pa]. Throws
-  // std::invalid_argument for a length at which it has no room for air.
+  // `length`: at the start [m]; `pressure`: of its air there, absolute [Pa]. Throws
+  // std::invalid_argument for a length at which the muscle has no volume for air.
   DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length,
                double pressure);
   DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length)
       : DrivenMuscle(muscle, air, supply, length, air.atmosphere) {}
 
-  // Current of the valves' coils from now on. The inlet is also a 3-way valve's, which has no
-  // other. Throw std::invalid_argument for a coil that the valves do not have.
+  // Switch the current of the valves' coils. inlet() also switches a 3-way valve, which has no
+  // exhaust. Throw std::invalid_argument for a coil that the valves do not have.
   void inlet(bool on);
   void exhaust(bool on);
 
-  // Set point of a regulator in the inlet's place from now on, 0 to 1 of its range. Throws
-  // std::invalid_argument if the muscle has no such valve.
+  // Sets the set point of a regulator at the inlet, 0 to 1 of its range. Throws
+  // std::invalid_argument if the muscle has no regulator.
   void set_point(double share);
 
-  // Lets `step` [s] pass, in which the muscle comes to be `length` [m] long.
+  // Advances by `step` [s], at the end of which the muscle is `length` [m] long.
   void advance(double step, double length) noexcept;
 
-  // Force on both ends [N]: static and viscous; a tendon, so that it never pushes. A sensor between
-  // the muscle and what it pulls sees up to friction() more where the muscle gives way, and less
-  // where it pulls: who integrates decides whether it sticks.
+  // Returns the force on both ends [N]: static and viscous; never negative, since a tendon cannot
+  // push. A sensor between the muscle and its load measures up to friction() more while the muscle
+  // lengthens, and up to friction() less while it shortens. The caller decides whether it sticks.
   double tension() const noexcept { return state().first.air.tension[0]; }
   double friction() const noexcept {
     return state().first.air.friction_bound[0];
@@ -70,22 +70,22 @@ class DrivenMuscle {
   double length() const noexcept { return world_.motion().length; }           // [m]
   double time() const noexcept { return world_.time(); }                      // [s]
 
-  // Air in the muscle, and what has passed its valves and leaks since the start [kg]. What it holds
-  // and its hose holds together is air_mass().
+  // Return the air in the muscle with the masses that have passed its valves and leaks since the
+  // start [kg], and the air in muscle and hose.
   Account account() const noexcept { return world_.air().account(state().now.air, 0); }
   double air_mass() const noexcept { return world_.air_mass(); }
 
-  // Returns whether its state is not finite any more. From then on it stands still.
+  // Returns whether the state is not finite any more. It then no longer changes.
   bool failed() const noexcept { return static_cast<bool>(world_.failure()); }
 
-  // Returns its state, to be copied; and continues from one of a muscle of equal description.
+  // Return the state for copying, and continue from that of a muscle of equal description.
   const State& state() const noexcept { return world_.state(); }
   void restore(const State& state) noexcept { world_.restore(state); }
 
  private:
   void command(int valve, bool on, std::uint16_t level) noexcept;
 
-  gas::Valve::Kind kind_;  // of the inlet
+  gas::Valve::Kind kind_;  // inlet's kind
   plant::DrivenWorld world_;
 };
 

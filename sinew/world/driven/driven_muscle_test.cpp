@@ -1,4 +1,4 @@
-// A muscle in somebody's loop is the network's, whatever the loop's steps.
+// A muscle in an external loop has the results of the network, whatever the loop's steps.
 #include "sinew/world/driven/driven_muscle.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ namespace {
 
 double swinging(double t) { return (3.2 + 0.3 * std::sin(9 * t)) * inch; }
 
-// 0.4 s along a swing, valves by a fixed pattern of tens of milliseconds.
+// Moves 0.4 s along an oscillation, with valves switched by a fixed pattern of tens of
+// milliseconds.
 DrivenMuscle after(const Muscle& m, double step) {
   DrivenMuscle driven(m, {.polytropic_exponent = 1.2}, {}, swinging(0));
   const int steps = static_cast<int>(std::lround(0.4 / step));
@@ -59,7 +60,7 @@ TEST(DrivenMuscle, GoesOnFromItsState) {
   DrivenMuscle one(m, {}, {}, swinging(0)), other(m, {}, {}, 0.07, 3e5);
   one.inlet(true);
   for (int k = 1; k <= 57; ++k) one.advance(1e-4, swinging(k * 1e-4));
-  one.inlet(false);  // on its way
+  one.inlet(false);  // its edge is pending
   other.restore(one.state());
   for (int k = 58; k <= 300; ++k) {
     one.advance(1e-4, swinging(k * 1e-4));

@@ -1,62 +1,64 @@
-// world/kernel/contract.h - what a world needs of its mechanism and of its air.
+// world/kernel/contract.h - requirements of a world on its mechanism and on its air.
 //
 // A mechanism (planar/chain_body.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
 //
-//   Scalar         a double, or a pack of them: mechanisms side by side
+//   Scalar         a double, or a pack of doubles: mechanisms side by side
 //   Motion         the generalized state: coordinates, rates      Acceleration   d(rates)/dt
-//   Ends, Arms     what the air feels of a motion: lengths and rates of the muscles, travel of a
+//   Ends, Arms     inputs of the air at a motion: lengths and rates of the muscles, travel of a
 //                  piston; moment arms
-//   Pose, Load     of one look: what the equations of motion need; all that pushes but dry friction
-//   Forces         dry friction that is held through a step
+//   Pose, Load     parts of one evaluation: terms of the equations of motion; all forces except
+//                  dry friction
+//   Forces         dry friction, constant through a step
 //
-//   start()                            where it starts
-//   node_step(setup)                   between nodes [s]
+//   start()                            motion at the start
+//   node_step(setup)                   time between nodes [s]
 //   route(t, motion, ends, arms)       muscles' lengths and rates, moment arms -dL/dq
-//   pose(t, motion)                    mass matrix, places, what is prescribed there
-//   load(pose, motion, arms, look, load)       forces, by the air's look
-//   accelerate(pose, motion, load, held)       under the frictions that are held
+//   pose(t, motion)                    mass matrix, positions, prescribed values
+//   load(pose, motion, arms, air, load)       forces, from the air's evaluation
+//   accelerate(pose, motion, load, held)       acceleration under this dry friction
 //   move(out, from, h, rates, a)       from (+) h rates, and h a
 //   finish(motion, h, stages, a)       RK4's weighted mean
-//   sum(motion)                        no number where a coordinate is none
+//   sum(motion)                        not finite if any coordinate is not
 //
-// One whose laws hold through a step (WholeSteps) decides dry friction once a step, all contacts
-// together:
+// A mechanism whose laws hold through a step (WholeSteps) computes dry friction once a step, for
+// all contacts together:
 //
 //   prepare(pose, motion, arms, bounds, trolley bound, load)   at a node: the friction problem
 //   hold(h, last)                      friction of a step of length h from there
 //   accelerate(free, held)             accelerations there, under that friction
-//   glide(motion, h, a)                along a constant acceleration, for a peek
+//   glide(motion, h, a)                motion under a constant acceleration, for a preview
 //
-// and may leave out nodes (SkipsNodes) while what asks for them is out of reach:
+// It may leave out nodes (SkipsNodes) that are not needed:
 //
-//   next_multiple(multiple, step, pose, motion)   of the body step, where the next node is due
+//   next_multiple(multiple, step, pose, motion)   multiple of the body step of the next node
 //
-// and may take a damper that is quicker than the step into the later stages (RelaxesStages):
+// It may treat a damper that is quicker than the step in the later stages (RelaxesStages):
 //
 //   relax(h, share, load, before, a)   accelerations in a step of length h, by those before
 //
-// and may be moved through a table, whose points are nodes (PrescribesMotion):
+// It may follow a table, whose points are nodes (PrescribesMotion):
 //
 //   corner_after(t)                    the next point [s]
-//   begin(t, motion)                   what is prescribed from a node on
+//   begin(t, motion)                   prescribed motion from a node on
 //
-// and may be lifted by a cylinder (LiftsBody):
+// It may be lifted by a cylinder (LiftsBody):
 //
-//   lift_per_force()                   most acceleration of the body per force of the piston [1/kg]
+//   lift_per_force()                   largest acceleration of the body per piston force [1/kg]
 //
-// One whose laws break off within a step (CutsSteps) has its step end there and another begin:
+// A mechanism whose laws have discontinuities within a step (CutsSteps) ends the step there and
+// begins another:
 //
-//   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
-//   corner()                       where that part ends at the latest, by what is prescribed [s]
-//   longest_piece(motion, look)    that suits the fastest rate there [s]
-//   watches(held), gap(...)        how far a state is beyond what the part can hold: cut.h
-//   cut_within()                   how near the break its cut must be [s]
-//   stop(motion, held)             at a cut: what turned back against its friction rests
-//   hold(motion, load, held)       dry friction of the part, by what it was before
+//   begin(t, motion)               begins a smooth part: writes prescribed values to the motion
+//   corner()                       latest end of that part, by the prescribed values [s]
+//   longest_piece(motion, load, air)  length that suits the fastest rate there [s]
+//   watches(held), gap(...)        distance of a state beyond the limit of the part: cut.h
+//   cut_within()                   required accuracy of the cut [s]
+//   stop(motion, held)             at a cut: brings to rest what reversed against its friction
+//   hold(motion, load, held)       dry friction of the part, from that before
 //
-// Air (air/network.h) has State, what is integrated; Valves and Memory, what holds until the
-// next node; Answer, all that one look says; Course, what goes through a step ahead of the body.
-// All that lasts from node to node is copied like bytes.
+// Air (air/network.h) has State, which is integrated; Valves and Memory, which are constant until
+// the next node; Answer, the result of one evaluation; Course, the parts that are integrated
+// through a step ahead of the body. All data that last from node to node are trivially copyable.
 #pragma once
 
 #include <concepts>
@@ -67,7 +69,7 @@
 
 namespace sinew::plant {
 
-// A mechanism: it has all of the first list.
+// A mechanism: it has all functions of the first list.
 template <class M>
 concept IsMechanism = std::is_trivially_copyable_v<typename M::Motion> &&
     std::is_trivially_copyable_v<typename M::Forces> &&
@@ -99,14 +101,14 @@ concept WholeSteps = IsMechanism<M> && !M::cuts_steps &&
   m.glide(q, h, a);
 };
 
-// A mechanism that may leave out nodes where nothing happens.
+// A mechanism that may leave out nodes.
 template <class M>
 concept SkipsNodes = WholeSteps<M> &&
     requires(const M& m, const typename M::Pose& pose, const typename M::Motion& q, double step) {
   { m.next_multiple(std::int64_t{}, step, pose, q) } -> std::same_as<std::int64_t>;
 };
 
-// A mechanism that takes a quick damper into the later stages.
+// A mechanism that treats a quick damper in the later stages.
 template <class M>
 concept RelaxesStages = WholeSteps<M> &&
     requires(const M& m, double h, const typename M::Load& load,
@@ -114,21 +116,21 @@ concept RelaxesStages = WholeSteps<M> &&
   m.relax(h, h, load, before, a);
 };
 
-// A mechanism that is moved through a table.
+// A mechanism that follows a table.
 template <class M>
 concept PrescribesMotion = WholeSteps<M> && requires(const M& m, double t, typename M::Motion& q) {
   { m.corner_after(t) } -> std::same_as<double>;
   m.begin(t, q);
 };
 
-// A mechanism whose body a cylinder may lift: the air in its chambers is a spring that grows stiff
-// as a chamber vanishes.
+// A mechanism whose body may be lifted by a cylinder: the air in its chambers is a spring that
+// grows stiff as a chamber vanishes.
 template <class M>
 concept LiftsBody = WholeSteps<M> && requires(const M& m) {
   { m.lift_per_force() } -> std::same_as<double>;
 };
 
-// A mechanism whose steps end where a law breaks off.
+// A mechanism whose steps end at discontinuities of its laws.
 template <class M>
 concept CutsSteps = IsMechanism<M> && M::cuts_steps &&
     requires(M& m, double t, typename M::Motion& q, typename M::Forces& held,
@@ -142,7 +144,7 @@ concept CutsSteps = IsMechanism<M> && M::cuts_steps &&
   { m.hold(q, load, held) } -> std::same_as<typename M::Forces>;
 };
 
-// Air that goes with the mechanism.
+// Air that suits the mechanism.
 template <class A, class M>
 concept IsAirOf = IsMechanism<M> && std::is_trivially_copyable_v<typename A::State> &&
     std::is_trivially_copyable_v<typename A::Valves> &&

@@ -1,4 +1,4 @@
-// Laws of where a step is cut: on the far side of the break, near it, and soon found.
+// The cut of a step: on the far side of the discontinuity, close to it, and found in few samples.
 #include "sinew/world/kernel/cut.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(Cut, EndsJustBeyondTheBreak) {
   EXPECT_LE(calls, 6 * 2000);  // each is a piece of the step
 }
 
-// A load that just turned begins with no gap at all, and turns again within the step.
+// A load that just reversed begins with a gap of zero, and reverses again within the step.
 TEST(Cut, LeavesAStartOnTheEdge) {
   const double h = 1e-3;
   for (const double root : {1e-7, 3e-4, 9.99e-4}) {
@@ -57,7 +57,7 @@ TEST(Cut, LeavesAStartOnTheEdge) {
   }
 }
 
-// The first of two that may break; a step with a corner in it.
+// Finds the first of two discontinuities; a step with a corner in it.
 TEST(Cut, FindsWhicheverBreaksFirst) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> share(0.01, 0.99), size(-3, 3);
@@ -71,7 +71,7 @@ TEST(Cut, FindsWhicheverBreaksFirst) {
   }
 }
 
-// A state that ran away answers no number: the search ends, and at an instant of the step.
+// A diverged state has NaN as its gap: the search ends, and at an instant of the step.
 TEST(Cut, EndsWhereNothingIsANumber) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double at = cut(1e-3, -1.0, 1.0, within, [&](double) { return none; });

@@ -1,11 +1,11 @@
 // world/kernel/nodes.h - a mechanism with its air, from node to node: evaluations, the friction
 // problem of a node and RK4 over both, written once for one machine and for several side by side.
 //
-// S, the scalar of mechanism and air, is a double, or a pack of them (units/pack.h): a lane has the
-// bits of the machine alone. World (world.h) is one machine as a Port, LaneNodes (lane_nodes.h)
+// S, the scalar of mechanism and air, is a double, or a pack of doubles (units/pack.h): a lane has
+// the bits of the machine alone. World (world.h) is one machine as a Port, LaneNodes (lane_nodes.h)
 // several.
 //
-// The model alone is here; who integrates owns the state.
+// Only the model is here; the derived class owns the state.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,18 @@
 
 namespace sinew::plant {
 
-// When a machine's nodes are: at the multiples of its body step, and where its valves really move.
+// Times of a machine's nodes: the multiples of its body step, and the effective edges of its
+// valves.
 struct NodeTimes {
-  double time = 0;                       // of the last node [s]
-  std::int64_t multiple = 0, nodes = 0;  // of the body step that was passed last; so far
+  double time = 0;                       // last node [s]
+  std::int64_t multiple = 0, nodes = 0;  // last passed multiple of the body step; node count
 
-  // Returns the next node: the multiple that is due after `skipped` others, or the next change [s].
+  // Returns the next node [s]: the multiple after `skipped` others, or the next change if earlier.
   double next(double step, std::int64_t skipped, double change) const noexcept {
     const double due = static_cast<double>(multiple + 1 + skipped) * step;
     return change < due ? change : due;
   }
-  // The node at that time has been reached.
+  // Records that the node at this time has been reached.
   void pass(double at, double step) noexcept {
     if (at > time) time = at;
     while (at >= static_cast<double>(multiple + 1) * step) ++multiple;
@@ -43,19 +44,19 @@ class Nodes {
     typename A::State air;
   };
 
-  // Everything that one evaluation of a state yields.
+  // Result of one evaluation of a state.
   struct Look {
     typename M::Ends ends;
     typename M::Arms arms;
     typename A::Answer air;
-    typename M::Load load;                  // all that pushes the coordinates but dry friction
+    typename M::Load load;                  // all forces on the coordinates except dry friction
     typename M::Acceleration acceleration;  // with the friction of the step
   };
 
  protected:
   // Takes the two models.
   Nodes(const M& mechanism, const A& air) : mechanism_(mechanism), air_(air) {}
-  // Takes what a set-up describes.
+  // Builds the models from a setup.
   template <class Setup>
   explicit Nodes(const Setup& setup)
       : mechanism_(setup), air_(mechanism_.template make_air<A>(setup)) {}
@@ -68,7 +69,7 @@ class Nodes {
     air_.evaluate(t, look.ends, state.air, valves, memory, look.air, ahead);
   }
 
-  // One evaluation of the right-hand side, with the frictions held.
+  // Evaluates the right side with this dry friction.
   void look_at(const S& t, const Moving& state, const typename A::Valves& valves,
                const typename A::Memory& memory, const typename M::Forces& held, Look& look,
                std::uint64_t ahead = 0) const noexcept {
@@ -78,8 +79,8 @@ class Nodes {
     look.acceleration = mechanism_.accelerate(pose, state.motion, look.load, held);
   }
 
-  // At a node whose air has been evaluated: the forces, the friction problem, and the accelerations
-  // without friction.
+  // At a node whose air has been evaluated, computes the forces, the friction problem, and the
+  // accelerations without friction.
   void meet(const typename M::Pose& pose, const typename M::Motion& motion, const S& trolley_bound,
             Look& first) noexcept {
     mechanism_.load(pose, motion, first.arms, first.air, first.load);
@@ -87,8 +88,8 @@ class Nodes {
                                             trolley_bound, first.load);
   }
 
-  // RK4 in place. The first stage is the evaluation at hand, with these accelerations; two to four
-  // are at 1/2, 1/2 and 1. Air that is quicker goes ahead.
+  // Advances the state by RK4. The first stage is the given evaluation, with these accelerations;
+  // stages two to four are at 1/2, 1/2 and 1. Quick bodies of air are integrated ahead.
   void piece(const S& from, const S& h, Moving& now, const typename A::Valves& valves,
              const typename A::Memory& memory, const Look& look,
              const typename M::Acceleration& first, const typename M::Forces& held) const noexcept {
@@ -110,7 +111,7 @@ class Nodes {
       acceleration[s + 1] = later[s].acceleration;
     }
 
-    const typename M::Motion rates = now.motion;  // of the first stage: the state moves
+    const typename M::Motion rates = now.motion;  // rates of the first stage: the state moves
     motion[0] = &rates;
     mechanism_.finish(now.motion, h, motion, acceleration);
     air_.finish(now.air, h, air, valves, course);

@@ -1,33 +1,30 @@
-// world/kernel/world.h - a machine that its muscles move, as a Port: nodes, steps, cuts, peeks and
-// events, written once for every mechanism and every air.
+// world/kernel/world.h - simulation of a machine with muscles, as a Port: nodes, steps, cuts,
+// previews and events, for every mechanism and every air.
 //
-// One RK4 over body and air. Committed nodes are the multiples of the body step (less those that a
-// mechanism which SkipsNodes needs not) and the instants at which valves really open or close,
-// nothing else; a node is committed only when no earlier edge can still arrive. Readings, logs and
-// viewers peek: they extrapolate from the last node in a copy, so that nobody's looking changes a
-// bit.
+// Body and air are integrated together by RK4. Nodes are committed at the multiples of the body
+// step (except those that a SkipsNodes mechanism does not need) and at the effective edges of
+// valves, nowhere else; a node is committed only when no earlier edge can still arrive. Readings,
+// logs and viewers use previews: these extrapolate from the last node in a copy, so that they
+// change no bit of the simulation.
 //
 //   order of one step:  node (valves, reference of the pressure, first stage)
 //                       -> dry friction for this step -> three more stages -> next node
 //
 // A step is divided in two ways; neither makes a node:
 //
-//   pieces   where air is quicker than the body: equal parts, under the friction of the whole
-//   cuts     a mechanism that CutsSteps has its step end, and another begin, where a law breaks off
-//            (an end stop, rest, breakaway, a corner of a schedule), each part in pieces that suit
-//            its fastest rate, dry friction decided anew at each; a peek integrates as a step does
+//   pieces   where air is quicker than the body: equal parts, under the friction of the whole step
+//   cuts     a CutsSteps mechanism ends the step and begins another at discontinuities of its laws
+//            (an end stop, rest, breakaway, a corner of a schedule); each part has pieces that suit
+//            its fastest rate, with dry friction computed for each; a preview integrates likewise
 //
-// Model, state and scratch are apart: mechanism and air are constant once made, State is everything
-// that the future depends on, one block that is copied like bytes, and all else is worked out from
-// it at a node.
+// Model, state and scratch are separate: mechanism and air are constant after construction; State
+// is the complete state, one trivially copyable block; all else is computed from it at a node.
 //
-// Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts; contract.h
-//            says what it has to have, and what the air
-// Senses     of the mechanism: the values of its sensors and of a simulation
-// (planar/planar_mechanism.h,
-//            slide/senses.h)
-// Air        what fills the muscles: valves, masses, pressures, tensions (air/network.h,
-//            slide/stand_air.h)
+//   Mechanism  routes of the muscles, forces, equations of motion, contacts; contract.h lists the
+//              requirements, also for the air
+//   Senses     of the mechanism: values of its sensors and true values (planar/planar_mechanism.h,
+//              slide/senses.h)
+//   Air        valves, masses, pressures, tensions (air/network.h, slide/stand_air.h)
 #pragma once
 
 #include <algorithm>
@@ -66,68 +63,68 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   using Truth = typename Senses::Truth;
   using Motion = typename Mechanism::Motion;
 
-  // The state at the last committed node, and the commands since. Copied like bytes; of one build
-  // of the library, and for worlds of equal setups.
+  // The state at the last committed node, and the commands since. Trivially copyable; valid for one
+  // build of the library and for worlds of equal setups.
   struct State {
     Moving now;
     typename Air::Valves valves;
     typename Air::Memory memory;
     Forces held;           // friction of the last step
-    double trolley_bound;  // of the trolley's friction in the next [N]
+    double trolley_bound;  // bound of the trolley's friction in the next step [N]
     Look first;            // first stage at the node, without friction
     NodeTimes times;
     bool ended;
     air::Failure failure;
   };
 
-  // The setup must be free of contradictions (robot::contradictions); a stand's throws
+  // The setup must be free of contradictions (robot::contradictions). A stand throws
   // std::invalid_argument if it is not.
   explicit World(const Setup& setup);
 
   signals::Status start(const signals::Scan& scan) noexcept override;
-  // Answers invalid for an edge before the last node.
+  // Returns Status::invalid for an edge before the last node.
   signals::Status drive(signals::Edge edge) noexcept override;
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // The machine at time t [s], at or after every earlier call's; an earlier one is answered with
-  // the last node. Commits what is due, peeks the rest.
+  // Returns the true values at t [s]. For a t before that of an earlier call the last node is used.
+  // Commits the nodes that are due and extrapolates the rest.
   Truth truth(double t) noexcept;
 
-  // Commits every node up to t. Where a mechanism cuts its steps, visit(from, before, to, after) is
+  // Commits every node up to t. If the mechanism cuts its steps, visit(from, before, to, after) is
   // called with the times [s] and the motions at both ends of each smooth piece.
   template <class Visit = Unseen>
   void advance(double t, const Visit& visit = {}) noexcept;
 
-  // Returns where the machine is at the last node; its constants; the air in it [kg]; the node's
-  // time [s]; the shortest step of body and air [s]; how many nodes there were; and what of it is
-  // no number any more.
+  // Return the motion at the last node; the constants; the air in the machine [kg]; the node's time
+  // [s]; the shortest step of body and air [s]; the number of nodes; and the failure, if any
+  // part of the state is not finite.
   const Motion& motion() const noexcept { return state_.now.motion; }
   const auto& constants() const noexcept { return mechanism_.constants(); }
-  double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
+  double air_mass() const noexcept {  // chambers, hoses and tank [kg]
     return air_.total_mass(state_.now.air, state_.first.ends.travel);
   }
   double time() const noexcept { return state_.times.time; }
-  double shortest_step() const noexcept {  // of body and air, where it starts [s]
+  double shortest_step() const noexcept {  // body and air, at the start [s]
     return std::min(step_, longest_piece_of(state_.first));
   }
   std::int64_t nodes() const noexcept { return state_.times.nodes; }
   const air::Failure& failure() const noexcept { return state_.failure; }
 
-  // Returns everything that its future depends on.
+  // Returns the complete state.
   const State& state() const noexcept { return state_; }
-  // Goes on from there as the world did whose state it was: the same bits.
+  // Continues from this state as its world did, with the same bits.
   void restore(const State& state) noexcept;
-  // Serve chain_lanes.h, which integrates in this world's place: the first gives out the state, to
-  // be brought to another node; after the second the world continues from there.
+  // Serve chain_lanes.h, which integrates instead of this world: borrow() gives access to the
+  // state, to move it to another node; after resume() the world continues from there.
   State& borrow() noexcept { return state_; }
   void resume() noexcept {
     prepare_friction(mechanism_.pose(state_.times.time, state_.now.motion));
   }
   double body_step() const noexcept { return step_; }  // between nodes [s]
 
-  // For a loop outside of Sinew, at the last node: an edge of a valve; the motion from there on;
-  // and a node at t [s], up to which all others are committed.
+  // For a loop outside of Sinew, at the last node: apply an edge of a valve; set the motion from
+  // there on; and make a node at t [s], up to which all others are committed.
   void command(const signals::Edge& edge) noexcept {
     air_.command(edge, state_.times.time, state_.first.air, state_.valves);
     prepare();
@@ -141,8 +138,8 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
     if (!state_.failure && t > state_.times.time) commit(t, Unseen());
   }
 
-  // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
-  // and of the lift [m/s].
+  // For tests: sets the rates at the last node, of the joints (missing ones: 0) [rad/s], of the
+  // trolley and of the lift [m/s].
   template <WholeSteps = Mechanism>
   void set_rates(std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate = 0) noexcept {
@@ -150,15 +147,15 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
     prepare();
   }
 
-  // For the senses: the machine as somebody sees it at t, who looks from the last node in a copy.
+  // For the senses: the machine at t, extrapolated from the last node in a copy.
   struct Peek {
     Moving state;
     Look look;
   };
   Peek peek(double t) noexcept;
-  // One of which a muscle's own tension and pressure are asked.
+  // Returns a preview in which only this muscle's tension and pressure are required.
   Peek peek_muscle(double t, int) noexcept { return peek(t); }
-  // Friction and accelerations that the last peek went by.
+  // Friction and accelerations that the last preview used.
   struct Glance {
     Forces held{};
     Acceleration acceleration{};
@@ -177,7 +174,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   const Air& air() const noexcept { return air_; }
   const Senses& senses() const noexcept { return senses_; }
   const auto& arms() const noexcept { return state_.first.arms; }
-  // Bounds of dry friction at the last node: of a muscle's mesh [N], and of a contact.
+  // Return the bounds of dry friction at the last node: of a muscle's mesh [N], and of a contact.
   template <WholeSteps = Mechanism>
   double friction_bound(int muscle) const noexcept {
     return state_.first.air.friction_bound[muscle];
@@ -187,7 +184,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
     return mechanism_.bound(contact);
   }
   bool ended() const noexcept { return state_.ended; }
-  // Ticks from the start of the channel's conversions to their reads.
+  // Returns the ticks from the start of the channel's conversions to their reads.
   signals::Tick lag(signals::Channel channel) const noexcept { return lag_[channel.index]; }
 
  private:
@@ -206,23 +203,23 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   void prepare() noexcept;
   void prepare_friction(const typename Mechanism::Pose& pose) noexcept;
   void look_for_failure() noexcept;
-  // Does a step go from one multiple of the body step that is due to the next one?
+  // Returns whether a step goes from one due multiple of the body step to the next one.
   bool is_whole(double to) const noexcept {
     return state_.times.time == static_cast<double>(state_.times.multiple) * step_ &&
            to == static_cast<double>(state_.times.multiple + 1 + skipped_) * step_;
   }
   double next_node() const noexcept;
-  double whole_step() const noexcept {  // from one multiple to the next that is due [s]
+  double whole_step() const noexcept {  // time from one due multiple to the next [s]
     return static_cast<double>(1 + skipped_) * step_;
   }
   template <class Visit>
   void commit(double next, const Visit& visit) noexcept;
   template <class Visit>
   void step(double to, const Visit& visit) noexcept;
-  double longest_piece_of(const Look& look) const noexcept;  // infinite where nothing is quick [s]
+  double longest_piece_of(const Look& look) const noexcept;  // infinite if no part is quick [s]
   double pieces_of(double h, const Look& look) const noexcept;
 
-  // These serve mechanisms that cut their steps.
+  // For mechanisms that cut their steps.
   template <CutsSteps = Mechanism>
   void begin_part(double t, Moving& s, const Memory& memory, Forces& held, Look& look) noexcept;
   template <class Visit>
@@ -238,32 +235,31 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   template <WholeSteps = Mechanism>
   void extrapolate(double t, Peek& p) noexcept;
 
-  // A step is cut into at most so many pieces. More are asked for only where a chamber has
-  // vanished.
+  // Largest number of pieces of a step. Only a vanishing chamber would need more.
   static constexpr double most_pieces = 1e5;
 
   using Integrated::air_;
   using Integrated::mechanism_;
   double step_ = 1e-3;
-  std::int64_t skipped_ = 0;  // multiples of it before the next node
+  std::int64_t skipped_ = 0;  // multiples to skip before the next node
 
   State state_{};
-  Glance glance_{};  // from this node, once somebody has looked
+  Glance glance_{};  // for this node, once it has been computed
   bool glanced_ = false;
 
   Senses senses_;
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
 };
 
-// Returns the reading of a conversion that began at the tick `sampled`. The machine says failure()
-// and ended(), and answers what its senses ask.
+// Returns the reading of a conversion that began at the tick `sampled`. The machine provides
+// failure(), ended() and the functions that its senses call.
 template <class Machine, class Senses>
 signals::Reading reading(Machine& machine, const Senses& senses, signals::Channel channel,
                          signals::Tick sampled) noexcept {
   if (channel.index >= senses.channels()) return {0, signals::Status::invalid};
   const double t = static_cast<double>(sampled) * signals::tick_seconds;
   const double value = senses.quantity(machine, channel.index, t);
-  // A state that ran away never comes back: every later reading says so too.
+  // A state that is not finite stays so: every later reading reports the fault, too.
   if (machine.failure() || !std::isfinite(value)) return {0, signals::Status::fault};
   return {senses.counts(channel.index, value, sampled),
           machine.ended() ? signals::Status::ended : signals::Status::ok};
@@ -282,7 +278,7 @@ World<M, A>::World(const Setup& setup)
   prepare();
 }
 
-// A new node: valves and references, the first stage, and what friction can do about it.
+// Prepares a new node: valves and references, the first stage, and the friction problem.
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare() noexcept {
   Look& first = state_.first;
@@ -300,14 +296,14 @@ void World<M, A>::prepare() noexcept {
   }
 }
 
-// The friction problem of the node, and the accelerations without friction.
+// Computes the friction problem of the node, and the accelerations without friction.
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept {
   glanced_ = false;
   if constexpr (SkipsNodes<M>)
     skipped_ = mechanism_.next_multiple(state_.times.multiple, step_, pose, state_.now.motion) -
                (state_.times.multiple + 1);
-  if constexpr (!CutsSteps<M>)  // of these each part has its own
+  if constexpr (!CutsSteps<M>)  // else each part has its own
     this->meet(pose, state_.now.motion, state_.trolley_bound, state_.first);
 }
 
@@ -317,7 +313,8 @@ void World<M, A>::restore(const State& state) noexcept {
   resume();
 }
 
-// Is anything of the look at a node no number? The air also takes from the look what it remembers.
+// Records a failure if any value of the node's evaluation is not finite. Also updates the air's
+// memory from that evaluation.
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::look_for_failure() noexcept {
   const air::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
@@ -332,7 +329,7 @@ void World<M, A>::look_for_failure() noexcept {
   }
 }
 
-// While nothing flows, only the air that a piston shuts in can be quick.
+// While nothing flows, only the air that a piston traps can be quick.
 template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::longest_piece_of(const Look& look) const noexcept {
   double longest = std::numeric_limits<double>::infinity();
@@ -349,8 +346,8 @@ double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 
-// Hoses, walls and lags can be quicker than the body: a step is then made of several pieces, under
-// the friction of the whole.
+// Hoses, walls and lags can be quicker than the body: the step then consists of several pieces,
+// under the friction of the whole step.
 template <IsMechanism M, IsAirOf<M> A>
 template <class Visit>
 void World<M, A>::step(double to, const Visit& visit) noexcept {
@@ -359,7 +356,7 @@ void World<M, A>::step(double to, const Visit& visit) noexcept {
   } else {
     const double h = to - state_.times.time;
     Acceleration first;
-    if (SkipsNodes<M> && is_whole(to)) {  // a peek goes by the same friction
+    if (SkipsNodes<M> && is_whole(to)) {  // a preview uses the same friction
       first = glance().acceleration;
       state_.held = glance_.held;
     } else {
@@ -380,7 +377,8 @@ void World<M, A>::step(double to, const Visit& visit) noexcept {
   }
 }
 
-// The next multiple of the body step that is due, or the next change of a valve.
+// Returns the next due multiple of the body step, or the next change of a valve, or point of a
+// table.
 template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::next_node() const noexcept {
   double change = state_.valves.next_change;
@@ -403,8 +401,8 @@ void World<M, A>::commit(double next, const Visit& visit) noexcept {
   prepare();
 }
 
-// The friction that a whole body step from the last node would have: what a peek goes by, however
-// far it looks, so that it depends on the node alone.
+// Returns the friction of a whole body step from the last node. Previews use it, whatever their
+// length, so that it depends on the node alone.
 template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::glance() noexcept -> const Glance& {
   if (glanced_) return glance_;
@@ -420,9 +418,9 @@ auto World<M, A>::glance() noexcept -> const Glance& {
   return glance_;
 }
 
-// From the last node to t in a copy: the body by its acceleration, the air by Heun's rule in as
-// many pieces as a step would take. What cuts its steps is integrated, and an instant before the
-// last node sees what was prescribed then.
+// Extrapolates from the last node to t in a copy: the body by its acceleration, the air by Heun's
+// rule in as many pieces as a step would take. A mechanism that cuts its steps is integrated
+// instead, and an instant before the last node has the values prescribed at that time.
 template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::peek(double t) noexcept -> Peek {
   Peek p{.state = state_.now, .look = state_.first};
@@ -475,7 +473,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   if (state_.failure) return signals::Status::fault;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
   if (edge.valve.index >= air_.valves() || t < state_.times.time) return signals::Status::invalid;
-  // Later edges act at t or after: these nodes are final.
+  // Later edges act at t or after, so these nodes are final.
   for (double next; !state_.failure && (next = next_node()) < t;) commit(next, Unseen());
   air_.command(edge, t, state_.first.air, state_.valves);
   return signals::Status::ok;
@@ -488,7 +486,7 @@ signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) 
 
 template <IsMechanism M, IsAirOf<M> A>
 signals::Status World<M, A>::stop(signals::Tick) noexcept {
-  state_.ended = true;  // nothing moves a simulated body after its last tick
+  state_.ended = true;  // a simulated body does not move after its last tick
   return state_.failure ? signals::Status::fault : signals::Status::ok;
 }
 
@@ -498,8 +496,8 @@ auto World<M, A>::truth(double t) noexcept -> Truth {
   return senses_.truth(*this, std::max(t, state_.times.time));
 }
 
-// A smooth part begins at t: what is prescribed goes into the state, and friction is decided by a
-// look at it.
+// Begins a smooth part at t: writes the prescribed values to the state, and determines the
+// friction from an evaluation there.
 template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& held,
@@ -516,13 +514,13 @@ void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& 
   look.acceleration = mechanism_.accelerate(pose, s.motion, look.load, held);
 }
 
-// Integrates from one instant to another. `first` is the look at the state there, and in the end
-// that at the beginning of the last piece.
+// Integrates from one instant to another. `first` is the evaluation at `from`, and finally that at
+// the beginning of the last piece.
 template <IsMechanism M, IsAirOf<M> A>
 template <class Visit>
 void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first,
                      const Visit& visit) noexcept requires CutsSteps<M> {
-  constexpr double shortest = 1e-7;  // of a piece, unless it is cut [s]
+  constexpr double shortest = 1e-7;  // shortest piece that is not cut [s]
   Moving others[2];
   Moving *now = &s, *after = &others[0], *spare = &others[1];
   for (double t = from; t < to;) {
@@ -544,7 +542,7 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
     integrate(*after, h);
     const double broken = gap(reached, *now, *after, memory, held);
     if (broken > 0) {
-      // The end of the piece is put where it breaks, on the far side of it.
+      // The piece is ended just beyond the discontinuity.
       const double unbroken = std::max(mechanism_.gap(now->motion, now->motion, held, first.load),
                                        air_.gap(first.air, state_.valves));
       h = cut(h, unbroken, broken, mechanism_.cut_within(), [&](double within) {
@@ -564,7 +562,7 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
   s = *now;
 }
 
-// Returns how far `after` is beyond what a smooth piece from `before` can hold.
+// Returns the distance of `after` beyond the limit of a smooth piece that starts at `before`.
 template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 double World<M, A>::gap(double t, const Moving& before, const Moving& after, const Memory& memory,
