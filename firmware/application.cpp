@@ -1,8 +1,8 @@
-// firmware/application.cpp - the program of every board: board.h below it, the board's program of
-// sinew/control/board in it.
+// firmware/application.cpp - program of every board: it joins the board's functions (board.h) and
+// the program of sinew/control/board.
 //
-// A tick begins with the instant that matters most: what was decided before reaches the valves, a
-// reading is taken and the next conversion started, before anything new is worked out.
+// A tick begins with what needs exact timing: outputs that were decided before are written to the
+// valves, a reading is taken and the next conversion started. Computation follows.
 #include <array>
 #include <new>
 
@@ -19,25 +19,27 @@ using signals::Reading;
 using signals::Status;
 using signals::Tick;
 
-// [ticks] without a round of run(), that end feeding. The longest round takes a configuration; in
-// the emulator, by a clock that counts instructions, that passes with a patience of 2 as well.
+// Number of ticks without a round of run() after which the watchdog is no longer fed. The longest
+// round takes a configuration; in the emulator, whose clock counts instructions, 2 would be enough
+// for it.
 constexpr std::uint32_t patience = 200;
 
-// Built by run(): nothing of the language's start-up runs on a board.
+// Storage of the program, which run() constructs: the language's start-up code does not run on a
+// board.
 alignas(board::Program) constinit std::array<std::uint8_t, sizeof(board::Program)> room{};
 board::Program& program() { return *reinterpret_cast<board::Program*>(room.data()); }
 
 constinit LineRing<512> from_line;
 constinit LineRing<1'024> to_line;
 
-// Between tick() and run(). A tick's count wraps round.
+// Shared by tick() and run(). The count of ticks wraps round.
 constinit std::atomic<std::uint32_t> ticks = 0, last_round = 0;
 
-// The line, as run() sees it.
+// State of the line in run().
 std::uint32_t last_byte = 0;  // [ticks]
-bool heard = false;           // and the pause after it is not over
+bool heard = false;           // bytes came, and the pause after them is not over
 
-// The conversion that is under way, and since when.
+// Conversion in progress, and its start.
 struct Sampling {
   std::uint8_t channel = 0xff;
   Tick since = -1;
@@ -78,7 +80,8 @@ struct Ticks {
   void let_come() noexcept { hardware::let_ticks_come(); }
 };
 
-// A byte for which the program has no room waits until it has worked off others.
+// Passes received bytes to the program. A byte that it has no room for waits until the program has
+// processed others.
 void listen() {
   std::uint8_t byte = 0;
   bool any = false;

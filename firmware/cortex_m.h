@@ -1,12 +1,12 @@
-// firmware/cortex_m.h - what all processors of the kind Cortex-M4 and M7 have: interrupts with
-// priorities, an FPU that is off after a reset, a stack to be watched.
+// firmware/cortex_m.h - functions common to Cortex-M4 and M7 processors: interrupts with
+// priorities, an FPU that is off after a reset, measurement of the stack.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 extern "C" {
-// From the linker script.
+// Symbols of the linker script.
 extern std::uint32_t stack_top[], stack_limit[];
 extern std::uint32_t bss_begin[], bss_end[], data_begin[], data_end[], data_from[];
 }
@@ -21,7 +21,7 @@ inline volatile std::uint16_t& half_reg(std::uintptr_t address) {
   return *reinterpret_cast<volatile std::uint16_t*>(address);
 }
 
-// Priorities; less is more urgent. Four bits of them are there on every board.
+// Priorities; a lower number is more urgent. Every board has four bits of them.
 inline constexpr std::uint8_t of_edge = 0x20, of_line = 0x40, of_tick = 0x80;
 
 inline void enable(std::uint32_t interrupt, std::uint8_t priority) {
@@ -32,16 +32,16 @@ inline void request(std::uint32_t interrupt) {
   reg(0xE000E200 + 4 * (interrupt / 32)) = 1u << interrupt % 32;
 }
 
-// Keeps interrupts of the tick's priority away; those of the line come.
+// Blocks interrupts of the tick's priority; those of the line stay enabled.
 inline void keep_ticks_away() { asm volatile("msr basepri, %0" ::"r"(of_tick) : "memory"); }
 inline void let_ticks_come() { asm volatile("msr basepri, %0" ::"r"(0) : "memory"); }
 
-// All of them but faults.
+// Block all interrupts except faults, and enable them.
 inline void keep_all_away() { asm volatile("cpsid i" ::: "memory"); }
 inline void let_all_come() { asm volatile("cpsie i" ::: "memory"); }
 
-// Until what was written has arrived. An interrupt's request that is cleared as the last thing may
-// come again without.
+// Waits until writes have arrived. Without it, an interrupt whose request is cleared last may be
+// raised again.
 inline void wait_for_writes() { asm volatile("dsb" ::: "memory"); }
 
 inline void wait_for_interrupt() { asm volatile("dsb\n wfi" ::: "memory"); }
@@ -58,7 +58,7 @@ inline void start_fpu() {
   asm volatile("dsb\n isb" ::: "memory");
 }
 
-// What variables begin with.
+// Initialises variables: copies .data and clears .bss.
 inline void prepare_memory() {
   const volatile std::uint32_t* from = data_from;
   for (volatile std::uint32_t* p = data_begin; p < data_end; ++p) *p = *from++;
@@ -69,7 +69,8 @@ inline void prepare_memory() {
 
 inline constexpr std::uint32_t untouched = 0xdeadbeef;
 
-// Before any interrupt; `kept` words of the caller's own are not painted over.
+// Fills the stack with a pattern, before any interrupt. `kept` bytes of the caller's own stack are
+// left.
 inline void paint_stack() {
   constexpr std::uintptr_t kept = 64 * 4;
   const std::uintptr_t end = reinterpret_cast<std::uintptr_t>(stack_top) - kept;
@@ -77,7 +78,7 @@ inline void paint_stack() {
     reg(at) = untouched;
 }
 
-// How deep it has ever been [bytes].
+// Returns the largest depth of the stack so far [bytes].
 inline std::uint32_t deepest_stack() {
   auto at = reinterpret_cast<std::uintptr_t>(stack_limit);
   while (reg(at) == untouched) at += 4;

@@ -1,12 +1,12 @@
-// firmware/edges.h - valves switch at one instant of a tick, however long the tick has worked and
-// whatever has interrupted it: the tick leaves the word for the pins here, and a timer's compare
-// fetches it, by a short interrupt above all others.
+// firmware/edges.h - switching of valves at a fixed instant of a tick, independent of the tick's
+// computing time and of interrupts. The tick leaves the word for the pins here; a timer's compare
+// interrupt, which is short and has the highest priority, outputs it.
 //
 //   the tick's interrupt:       forget(), then the pins; or leave() and the compare's instant
-//   the compare's interrupt:    take(), and what it took goes to the pins
+//   the compare's interrupt:    take(), and write that word to the pins
 //
-// Whoever puts a word by himself forgets the waiting one first. From then on nothing older reaches
-// the pins: the interrupt came before, and is overwritten, or finds nothing.
+// Code that writes to the pins itself drops the waiting word first. After that no older word can
+// reach the pins: the interrupt either came before and is overwritten, or finds no word.
 #pragma once
 
 #include <atomic>
@@ -16,16 +16,16 @@
 
 namespace sinew::firmware {
 
-inline constexpr std::uint32_t edge_delay = 20;  // [us] from a tick's beginning to its edges
-inline constexpr std::uint32_t edge_margin = 1;  // [us] the compare may miss what is nearer
+inline constexpr std::uint32_t edge_delay = 20;  // time from a tick's beginning to its edges [us]
+inline constexpr std::uint32_t edge_margin = 1;  // shortest wait that the compare can meet [us]
 
-// A run's switching waits for its instant. All else acts at once: coils without current, a dump of
-// the supply, a board at rest.
+// Returns whether a word waits for its instant: only a run's switching does. All else is output at
+// once: coils without current, a dump of the supply, a board at rest.
 constexpr bool waits(const hardware::Drive& drive) {
   return drive.tick >= 0 && drive.current && drive.supply;
 }
 
-// Is it too late to wait for `instant`? Both are counts of a timer that runs for ever.
+// Returns whether it is too late to wait for `instant`. Both are counts of a free-running timer.
 constexpr bool is_late(std::uint32_t now, std::uint32_t instant, std::uint32_t clocks_a_us) {
   return static_cast<std::int32_t>(instant - now) <
          static_cast<std::int32_t>(edge_margin * clocks_a_us);
@@ -43,7 +43,8 @@ class WaitingWord {
     waits_.store(false, std::memory_order_relaxed);
     std::atomic_signal_fence(std::memory_order_seq_cst);
   }
-  // false: there is none, or somebody else had it. Where both take at a time, it is the same word.
+  // Returns false if no word waits or another caller took it. If two callers take at the same time,
+  // both get the same word.
   bool take(Word& word) {
     if (!waits_.load(std::memory_order_acquire)) return false;
     word = word_;

@@ -1,5 +1,5 @@
-// firmware/line_ring.h - bytes between an interrupt and the program that it interrupts: one puts,
-// the other takes, neither waits.
+// firmware/line_ring.h - ring of bytes between an interrupt and the program that it interrupts: one
+// puts, the other takes, and neither waits.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ class LineRing {
   static_assert((Size & (Size - 1)) == 0, "a power of two");
 
  public:
-  // false: there was no room.
+  // Returns false if the ring is full.
   bool put(std::uint8_t byte) {
     const std::uint32_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_.load(std::memory_order_acquire) == Size) return false;
@@ -22,7 +22,7 @@ class LineRing {
     end_.store(end + 1, std::memory_order_release);
     return true;
   }
-  // false: there was none.
+  // Returns false if the ring is empty.
   bool take(std::uint8_t& byte) {
     const std::uint32_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_.load(std::memory_order_acquire)) return false;
@@ -30,7 +30,7 @@ class LineRing {
     begin_.store(begin + 1, std::memory_order_release);
     return true;
   }
-  // At least so many may be put, by the one who puts.
+  // Returns the number of bytes that can be put at least; for the side that puts.
   std::size_t room() const {
     return Size - (end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire));
   }

@@ -1,6 +1,6 @@
-// firmware/lock_step.cpp - a board's program in the emulator, tick by tick with the simulation of a
-// host: what it sends to valves goes into a pipe, what its converter reads comes out of another.
-// The host keeps the whole machine waiting while it thinks, so that both see one and the same time.
+// firmware/lock_step.cpp - a board's program in the emulator, in lock step with the simulation of a
+// host: the state of the valves is written to a pipe, readings of the converter come from another.
+// The emulated machine waits while the host computes, so that both have the same time.
 #include <array>
 #include <new>
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace record = board::record;
 
-// The two pipes: what is said is kept until an answer is waited for.
+// The two pipes. Output is buffered until a reply is needed.
 class Host {
  public:
   Host(const char* to, const char* from)
@@ -60,7 +60,7 @@ struct NoTicks {
   void let_come() noexcept {}
 };
 
-// Built where it stands: nothing of the language's start-up runs here.
+// Storage for objects that are constructed later: the language's start-up code does not run here.
 template <class T>
 struct Room {
   alignas(T) std::uint8_t bytes[sizeof(T)];
@@ -68,7 +68,7 @@ struct Room {
 Room<board::Program> program_room;
 Room<Host> host_room;
 
-// The bits of -1 while nothing runs.
+// Returns the run's tick; all bits are set (-1) outside a run.
 std::uint64_t run_tick(const board::Program& program) {
   return static_cast<std::uint64_t>(program.safety().run_tick(program.now()));
 }
@@ -142,9 +142,10 @@ void run_forever(board::Program& program, Host& host) {
 
 }  // namespace
 
-// Its command line: the program's name, the pipe to the host, the pipe from the host.
+// Runs the program. Its command line: the program's name, the pipe to the host, the pipe from the
+// host.
 void program() {
-  asm volatile("" : : "r"(board::lock_step_image));  // stays in the image
+  asm volatile("" : : "r"(board::lock_step_image));  // keeps the mark in the image
   static std::array<char, 512> words;
   command_line(words);
   const char* name[3] = {words.data(), nullptr, nullptr};

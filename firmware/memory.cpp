@@ -1,6 +1,6 @@
-// firmware/memory.cpp - the four functions a compiler may call even for a machine without a C
-// library: it copies and clears structs with them. Compiled so that their loops are not turned into
-// calls of themselves. A word at a time where both sides are at one: this processor's words.
+// firmware/memory.cpp - the four functions that a compiler may call even without a C library, to
+// copy and clear structs. They are compiled so that their loops do not become calls of themselves,
+// and copy whole words where both sides are aligned.
 #include <cstddef>
 #include <cstdint>
 

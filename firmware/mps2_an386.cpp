@@ -1,4 +1,4 @@
-// firmware/mps2_an386.cpp - start-up and end of a program on QEMU's Cortex-M4F board.
+// firmware/mps2_an386.cpp - start-up and exit of a program on QEMU's Cortex-M4F board.
 #include <cstddef>
 #include <cstdint>
 
@@ -12,17 +12,17 @@ extern std::uint8_t stack_top[], stack_limit[];  // from the linker script
 
 namespace sinew::firmware {
 
-void program();  // the image's own
+void program();  // defined by the image
 
 namespace {
 
 constexpr std::uint32_t untouched = 0xdeadbeef;
 
-// The part of the stack that nobody has written to begins at its limit.
+// Returns the i-th word from the stack's limit, where its unused part is.
 std::uint32_t* stack_word(std::size_t i) {
   return reinterpret_cast<std::uint32_t*>(stack_limit) + i;
 }
-constexpr std::size_t kept = 64;  // words of this function's own, not to be painted over
+constexpr std::size_t kept = 64;  // words of this function's own stack that must not be overwritten
 
 void paint_stack() {
   const auto words = static_cast<std::size_t>(stack_top - stack_limit) / 4;
@@ -31,7 +31,7 @@ void paint_stack() {
 
 }  // namespace
 
-// How deep the stack has ever been [bytes].
+// Returns the largest depth of the stack so far [bytes].
 std::uint32_t deepest_stack() {
   std::size_t i = 0;
   while (*stack_word(i) == untouched) ++i;

@@ -1,7 +1,7 @@
 #!/bin/sh
-# same-bits.sh BUILD_DIR: the self-test of spinal cord and wire on the host and on an emulated Cortex-M4F
+# same-bits.sh BUILD_DIR: the self-test of joint controller and wire on the host and on an emulated Cortex-M4F
 # and Cortex-M7 (one image for both) must print the same hash. BUILD_DIR is the firmware's build folder, or an empty one to build in.
-# Skips (exit 0, says so) where the cross compiler or the emulator is not installed.
+# Prints a notice and exits with 0 if the cross compiler or the emulator is not installed.
 set -eu
 
 if [ $# -ne 1 ]; then
@@ -24,7 +24,7 @@ build=$(cd "$1" && pwd)
 cmake -S "$root" -B "$build" --toolchain "$here/cortex-m4f.cmake" -DCMAKE_BUILD_TYPE=Release \
   >"$build/same-bits.log"
 cmake --build "$build" >>"$build/same-bits.log" || { cat "$build/same-bits.log" >&2; exit 1; }
-on() {  # on MACHINE: what the image says there
+on() {  # on MACHINE: prints the image's output
   timeout 120 qemu-system-arm -M "$1" -nographic -monitor none -serial none \
     -semihosting-config enable=on,target=native -kernel "$build/firmware/same-bits.elf" 2>&1
 }
@@ -35,7 +35,7 @@ if [ "$board" != "$larger" ]; then
   exit 1
 fi
 
-# The host at two levels of optimisation: the compiler must not matter either.
+# The host is tested at two levels of optimisation, since results must not depend on the compiler.
 for level in -O0 -O3; do
   ${CXX:-g++} -std=c++20 $level -ffp-contract=off -fno-math-errno -I"$root" -o "$build/same-bits-host" \
     "$here/same_bits.cpp" "$here/same_bits_link.cpp" "$root"/sinew/control/joint/config.cpp \

@@ -1,7 +1,7 @@
-// firmware/same_bits.cpp - runs the spinal cord over seeded random periods, alone and supervised,
-// and the wire over random messages; prints a hash of all they did: duties, edges, stiffnesses,
-// counters, frames bit for bit.
-// firmware/same-bits.sh compares controller and host.
+// firmware/same_bits.cpp - self-test: runs the joint controller over seeded random periods, alone
+// and supervised, and the wire over random messages. It prints a hash of all results: duties,
+// edges, stiffnesses, counters and frames, bit for bit. firmware/same-bits.sh compares
+// microcontroller and host.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -49,7 +49,7 @@ void random_command(Random& random, Command& command, bool timed = false) {
   }
 }
 
-// One run; now and then a reading is late.
+// Runs one random run; some readings are late.
 void run(const JointControllerConfig& config, std::uint32_t seed, Hash& hash) {
   JointController spine(config);
   Random random(seed);
@@ -81,10 +81,10 @@ void run(const JointControllerConfig& config, std::uint32_t seed, Hash& hash) {
   }
 }
 
-// A supervised one among skipped ticks, impossible commands and readings that lie.
+// Runs a supervised controller with skipped ticks, impossible commands and false readings.
 void run_supervised(std::uint32_t seed, Hash& hash) {
   control::SuperviseConfig limits;
-  limits.vent_commands = 1000;  // or the run would soon be over
+  limits.vent_commands = 1000;  // else the run would end early
   limits.bad_readings = seed % 2 ? 3 : 1000;
   limits.gap_vent = seed % 2 ? 100 : 1'000'000;
   for (std::size_t i = 0; i < 7; ++i)
@@ -122,7 +122,8 @@ void print_hex(std::uint64_t x) {
   print(text);
 }
 
-// One source of stiffness and one estimator per joint: hip, knee.
+// Returns a configuration with one velocity estimator per joint (hip, knee), and stiffness from
+// pressure.
 JointControllerConfig other_sensors(control::Estimator hip, control::Estimator knee) {
   JointControllerConfig config = control::test_leg();
   const auto set = [&](control::JointConfig& joint, control::Estimator estimator) {
@@ -153,8 +154,8 @@ JointControllerConfig other_sensors(control::Estimator hip, control::Estimator k
   return config;
 }
 
-// 3-way valves at the hip, regulators at the knee; a muscle over both joints; valves that a host
-// times.
+// Runs 3-way valves at the hip with regulators at the knee, a muscle over both joints, and
+// valves that a host times.
 void other_machines(Hash& hash) {
   using enum control::Estimator;
   JointControllerConfig config = other_sensors(weighted_average, kalman);
@@ -189,7 +190,7 @@ void same_bits() {
     run(config, 1, hash);
     config.timing = signals::compensated_timing(5, 12);
     config.joint[control::knee].lengths_swapped ^= true;
-    config.joint[control::hip].pole_clamp = -10'000;  // through the pole as well
+    config.joint[control::hip].pole_clamp = -10'000;  // reaches the pole as well
     run(config, 2, hash);
   }
   other_machines(hash);

@@ -1,4 +1,5 @@
-// firmware/same_bits.h - a hash of all that was done, and dice that roll the same everywhere.
+// firmware/same_bits.h - a hash of results and a random generator that are the same on all
+// machines.
 #pragma once
 
 #include <bit>
@@ -6,10 +7,10 @@
 
 namespace sinew::firmware {
 
-// Fowler-Noll-Vo, 64 bits, a word at a time.
+// Fowler-Noll-Vo hash, 64 bits, one word of 32 bits at a time.
 class Hash {
  public:
-  template <class Word>  // 32 bits, whatever they mean
+  template <class Word>  // any type of 32 bits
   void add(Word word) {
     value_ = (value_ ^ std::bit_cast<std::uint32_t>(word)) * 0x100000001b3u;
   }
@@ -35,7 +36,7 @@ class Random {
   std::uint32_t state_;
 };
 
-// The wire's part of the test: same_bits_link.cpp.
+// Runs the wire's part of the test (same_bits_link.cpp).
 void run_link(std::uint32_t seed, Hash& hash);
 
 }  // namespace sinew::firmware

@@ -1,5 +1,6 @@
-// firmware/same_bits_link.cpp - random telemetry, commands and a configuration into frames, over a
-// line that spoils some, and out of them again; all that went and came into the hash.
+// firmware/same_bits_link.cpp - self-test of the wire: random telemetry, commands and a
+// configuration are sent as frames over a line that damages some of them, and are decoded; all that
+// is sent and received goes into the hash.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@
 namespace sinew::firmware {
 namespace {
 
-// Dice fills a message with values that can be.
+// Visitor that fills a message with random valid values.
 class Dice {
  public:
   static constexpr bool reads = true;

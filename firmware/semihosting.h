@@ -1,5 +1,5 @@
-// firmware/semihosting.h - what a program in an emulator may ask of the computer around it: the
-// processor stops at BKPT 0xAB, the emulator does what r0 asks for with the parameter r1.
+// firmware/semihosting.h - access of an emulated program to the host computer: the processor stops
+// at BKPT 0xAB, and the emulator executes the operation in r0 with the parameter in r1.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ inline void print(const char* text) { semihost(0x04, text); }  // SYS_WRITE0
   for (;;) {}
 }
 
-// A file of the computer around it; a named pipe keeps the whole machine waiting, its clock too.
+// A file of the host computer. A named pipe stops the whole machine, including its clock, while it
+// waits.
 class File {
  public:
   enum class For : std::uint32_t { reading = 1, writing = 5 };  // "rb", "wb"
@@ -38,7 +39,7 @@ class File {
     if (handle_ < 0) fail("a pipe of the host cannot be opened\n");
   }
 
-  // All of it; nobody at the other end ends the program.
+  // Both transfer all bytes. The program ends if the other end is closed.
   void write(std::span<const std::uint8_t> bytes) const {
     for (std::uint32_t left; !bytes.empty(); bytes = bytes.last(left)) {
       left = ask(0x05, bytes.data(), bytes.size());  // SYS_WRITE
@@ -66,7 +67,8 @@ class File {
   std::int32_t handle_ = -1;
 };
 
-// The words behind -semihosting-config arg=..., separated by blanks; cut off at the room's end.
+// Returns the words of -semihosting-config arg=..., separated by blanks and cut off at the end of
+// `out`.
 inline void command_line(std::span<char> out) {
   const std::uint32_t block[] = {reinterpret_cast<std::uint32_t>(out.data()), out.size()};
   if (semihost(0x15, block) != 0) out[0] = 0;  // SYS_GET_CMDLINE

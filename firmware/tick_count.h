@@ -1,13 +1,12 @@
-// firmware/tick_count.h - how many ticks have passed since the last interrupt of the timer, by a
-// second timer that never stops.
+// firmware/tick_count.h - number of ticks since the timer's last interrupt, measured by a second
+// timer that runs freely.
 //
 //   an interrupt    on time      late by 0.9        one was lost, late by 0.2
 //   clocks          1.0 ticks    1.9                2.2
 //   passed          1            1, and 1 after it  2
 //
-// It may come as late as it likes, it never comes early: parts of a tick are not counted yet. A
-// board that rounded them up would count one late tick twice, and see the next one that is lost no
-// more.
+// An interrupt may be late but never early, so parts of a tick are not counted. If they were
+// rounded up, one late tick would be counted twice and the next lost one would not be noticed.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +15,23 @@ namespace sinew::firmware {
 
 class TickCount {
  public:
-  // `now` counts the clocks up and wraps round.
+  // `now` is a count of clocks that increases and wraps round.
   void start(std::uint32_t clocks_a_tick, std::uint32_t now) {
     clocks_a_tick_ = clocks_a_tick;
     last_ = now;
   }
 
-  // At least 1: who asks is in a tick. One that was counted before, as it came while the one before
-  // it was looking at the clock, is not taken off again.
+  // Returns the ticks since the last call, at least 1, since it is called in a tick. If the
+  // previous call already counted this tick, because it began before that call read the clock, it
+  // is not subtracted.
   std::uint32_t passed(std::uint32_t now) {
-    const std::uint32_t early = clocks_a_tick_ / 64;  // between the two timers, at most
+    const std::uint32_t early = clocks_a_tick_ / 64;  // largest difference of the two timers
     const std::uint32_t ticks = (now - last_ + early) / clocks_a_tick_;
     last_ += ticks * clocks_a_tick_;
     return ticks > 0 ? ticks : 1;
   }
 
-  // When the tick began that was counted last, by the clocks.
+  // Returns the time at which the last counted tick began [clocks].
   std::uint32_t began() const { return last_; }
 
  private:

@@ -2,7 +2,7 @@
 # worst-tick.sh BUILD_DIR: counts the instructions of the application's ticks in the emulator, while
 # the leg's machine is run with all kinds of commands, and compares them with worst_tick.txt: a
 # figure that has grown by more than 5 % fails. BUILD_DIR is the firmware's build folder, built.
-# Skips (exit 0, says so) where the emulator is not installed.
+# Prints a notice and exits with 0 if the emulator is not installed.
 set -eu
 
 if [ $# -ne 1 ]; then

@@ -19,7 +19,7 @@ namespace {
 
 using List = std::vector<robot::Contradiction>;
 
-// Returns the value in the unit in which the file has the one at that path.
+// Returns the length as text, in the unit that the file uses at that path.
 std::string length_like(const Experiment& e, std::string_view path, double metres) {
   return config::quantity_like(e.origins, path, metres, "m", "in");
 }
@@ -28,7 +28,7 @@ std::string pressure_like(const Experiment& e, std::string_view path, double pas
   return config::quantity_like(e.origins, path, pascals, "Pa abs", "psi abs", e.air.atmosphere);
 }
 
-// Names that lead from one table to another.
+// Requires that a name refers to an existing item.
 template <class Items>
 void need(const std::string& key, const std::string& name, const Items& items, List& out) {
   const std::vector<std::string_view> names = config::names_of(items);
@@ -37,8 +37,9 @@ void need(const std::string& key, const std::string& name, const Items& items, L
                  config::closest_in_quotes(name, names)});
 }
 
-// A valve that seals needs another to let the air out; one that does not has no use for it. The
-// laws of a joint follow from its valves, so both muscles have the same.
+// Checks the kinds of valves. A valve that seals needs another to let the air out; one that does
+// not has no use for it. The laws of a joint follow from its valves, so both of its muscles
+// need the same kind.
 void check_valves(const Experiment& e, List& out) {
   using Kind = gas::Valve::Kind;
   for (const robot::Muscle& m : e.robot.muscles) {
@@ -67,7 +68,7 @@ void check_valves(const Experiment& e, List& out) {
   }
 }
 
-// Keys of a joint's laws that its valves have no use for.
+// Refuses keys of a joint's laws that its valves do not use.
 void check_pressure_law(const Experiment& e, List& out) {
   using Kind = gas::Valve::Kind;
   for (const robot::Joint& j : e.robot.joints) {
@@ -116,7 +117,7 @@ void check_muscles(const Experiment& e, List& out) {
       if (!valve->empty()) need(std::string(key) + which, *valve, e.valves, out);
 }
 
-// A braid cannot be longer than its thread.
+// Checks mount lengths: a braid cannot be longer than its thread.
 void check_lengths(const Experiment& e, List& out) {
   for (const robot::Muscle& m : e.robot.muscles)
     for (const actuator::Actuator& a : e.actuators) {
@@ -130,7 +131,7 @@ void check_lengths(const Experiment& e, List& out) {
     }
 }
 
-// A cylinder's chamber has two plain valves, and air left in it at the stop.
+// Checks that a cylinder's chamber has two 2-way valves, and air left at the stop.
 void check_cylinder(const Experiment& e, List& out) {
   const robot::Cylinder& c = e.robot.cylinder;
   if (!c.present || c.mode != robot::Cylinder::Mode::valves) return;
@@ -157,7 +158,7 @@ void check_start(const Experiment& e, List& out) {
       out.push_back({"start.joint_angles", "no " + j.name, "an angle for every joint", ""});
 }
 
-// A phase ends on what is measured.
+// Checks that measures that end a phase have their sensors.
 void check_measures(const Experiment& e, List& out) {
   using Kind = gait::Measure::Kind;
   for (std::size_t l = 0; l < robot::legs_of(e.robot).size(); ++l) {
@@ -175,7 +176,7 @@ void check_measures(const Experiment& e, List& out) {
   }
 }
 
-// Where the machine starts must be a place where it can be.
+// Checks that the start position is within the machine's range.
 void check_place(const Experiment& e, List& out) {
   const robot::Trolley& trolley = e.robot.trolley;
   if (trolley.present && (e.start.trolley < 0 || e.start.trolley > trolley.track_length))
@@ -212,12 +213,13 @@ void check_place(const Experiment& e, List& out) {
   }
 }
 
-// Memory does not grow with a run, its log does. Beyond a million seconds, eleven days, a double no
-// longer tells instants a tenth of a nanosecond apart; a hundred million rows are some 100 GB.
+// Limits the length of a run and its log; memory does not grow with a run. Beyond a million
+// seconds, eleven days, a double no longer resolves a tenth of a nanosecond; a hundred million rows
+// are some 100 GB.
 void check_size(const Experiment& e, List& out) {
   constexpr double longest = 1e6;  // [s]
   constexpr double most = 1e8;     // samples
-  double step = 0;                 // of the leg whose step takes longest
+  double step = 0;                 // duration of the longest step of a leg
   for (const robot::LegParts& leg : robot::legs_of(e.robot)) {
     const gait::Plan plan = gait::plan_of_leg(e.plan, leg);
     double sum = 0;
@@ -256,7 +258,8 @@ void check_numbers(const Experiment& e, List& out) {
   if (e.plant != "planar") out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
 }
 
-// Where the key stands, or the first one of the table that it names; on a line, if one does.
+// Returns the place of the key, or of the first key of the table that it names; preferably one with
+// a line.
 config::Location place_of(const std::string& key, const Experiment& e) {
   const config::Location nowhere{e.path, 0, 0};
   if (const config::Origin* origin = config::find_origin(e.origins, key))
@@ -314,7 +317,7 @@ void refuse_unreachable(const Experiment& e) {
   if (!e.stand) refuse(gait::unreachable(e.robot, e.plan), e);
 }
 
-// What the values of a test stand allow, but not all of them together.
+// Checks of a test stand.
 
 namespace {
 
@@ -327,7 +330,7 @@ class Findings {
   void add(std::string key, std::string found, std::string expected, std::string try_this = "") {
     out_.push_back({std::move(key), std::move(found), std::move(expected), std::move(try_this)});
   }
-  // Adds a key that its table would not use.
+  // Adds an error if a key is given that its table would not use.
   void unused(bool given, std::string key, std::string_view of) {
     if (given) add(std::move(key), "a key of " + std::string(of), "only what is used");
   }
@@ -411,8 +414,8 @@ void check_load(const Experiment& e, Findings& out) {
              "a charge that is not regulated");
 }
 
-// No clamp reaches further than the stand itself takes (run/setup/stand_setup.h), and a length at
-// which the chamber holds no air has no pressure.
+// Checks lengths: no clamp reaches further than the stand permits (run/setup/stand_setup.h), and at
+// a length without volume of air there would be no pressure.
 void check_volumes(const Experiment& e, Findings& out) {
   const auto check = [&](const std::string& key, double length) {
     for (const actuator::Actuator& a : e.actuators) {
@@ -442,7 +445,7 @@ void check_volumes(const Experiment& e, Findings& out) {
   if (e.stand->start_length > 0) check("start.length", e.stand->start_length);
 }
 
-// More memory than there is, for a typing error.
+// Limits the samples, so that a typing error does not exhaust the memory.
 void check_samples(const Experiment& e, Findings& out) {
   constexpr double most = 2'000'000;  // samples
   const double period = e.stand->sweep.step > 0 ? e.stand->duration : e.log.period;
@@ -483,10 +486,10 @@ void check_faults_of_stand(const Experiment& e, Findings& out) {
   check_faults(e.faults, fault_parts(e), out.list());
 }
 
-// A period gives a valve one opening (control/joint/command.h).
+// Checks single pulses: a period gives a valve one opening at most (control/joint/command.h).
 void check_pulses(const Stand::Drive& d, Findings& out) {
   const auto ticks = [](double seconds) { return std::llround(seconds / signals::tick_seconds); };
-  std::set<std::tuple<bool, bool, std::int64_t>> edges;  // of which valve, opens, in which period
+  std::set<std::tuple<bool, bool, std::int64_t>> edges;  // exhaust or inlet; begin or end; period
   for (std::size_t i = 0; i < d.pulses.size(); ++i) {
     const Stand::Drive::Pulse& p = d.pulses[i];
     const std::int64_t from = ticks(p.at), until = from + ticks(p.open), period = ticks(d.period);

@@ -1,4 +1,5 @@
-// experiment/check.h - what each value allows, but not all of them together.
+// experiment/check.h - checks of an experiment for values that contradict each other, although each
+// is in its range.
 #pragma once
 
 #include <string_view>
@@ -8,13 +9,14 @@
 
 namespace sinew::experiment {
 
-// Throws config::Error with all that contradicts itself in what a file of that kind says.
+// Throws config::Error with all contradictions among the values of a file of that kind.
 void refuse_contradictions(std::string_view kind, const Experiment& experiment);
 
-// Adds what a test stand's values contradict.
+// Adds the contradictions among a test stand's values.
 void check_stand(const Experiment& experiment, std::vector<robot::Contradiction>& wrong);
 
-// Throws config::Error with what is wrong, each where its key stands; nothing where nothing is.
+// Throws config::Error with the contradictions, each at the place of its key; does nothing if there
+// are none.
 void refuse(const std::vector<robot::Contradiction>& wrong, const Experiment& experiment);
 
 }  // namespace sinew::experiment

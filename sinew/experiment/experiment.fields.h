@@ -1,5 +1,5 @@
-// experiment/experiment.fields.h - the keys of experiments/*.toml that are the run's own. The
-// tables of robot and plan stand in their folders' field tables.
+// experiment/experiment.fields.h - the keys of experiments/*.toml that belong to the run. The
+// keys of the tables of robot and plan are in the field tables of their folders.
 #pragma once
 
 #include <string_view>
@@ -18,9 +18,9 @@
 
 namespace sinew::experiment {
 
-// The keys of an experiment's list [[fault]].
+// Keys of an experiment's list [[fault]].
 
-// The unit and the range of a fault's amount follow from its kind.
+// Visits the amount, with a unit and range that follow from the fault's kind.
 template <class Visitor>
 void amount_field(Visitor& v, Fault& fault) {
   const std::string_view unit = unit_of_amount(fault.what);
@@ -36,7 +36,7 @@ void amount_field(Visitor& v, Fault& fault) {
            fault.amount);
 }
 
-// The size of a leak.
+// Visits the size of a leak.
 template <class Visitor>
 void leak_fields(Visitor& v, Fault& fault) {
   v.number({.name = "area",
@@ -70,7 +70,7 @@ void leak_fields(Visitor& v, Fault& fault) {
                     "area = \"0.1 mm2\"");
 }
 
-// The keys of a fault of the air beside its part and its times.
+// Visits the keys of a fault of the air, except its part and its times.
 template <class Visitor>
 void air_fields(Visitor& v, Fault& fault) {
   using What = Fault::What;
@@ -123,7 +123,7 @@ void fields(Visitor& v, Fault& fault) {
                     "what = \"offset\"");
 }
 
-// The keys of [log].
+// Keys of [log].
 
 template <class Visitor>
 void fields(Visitor& v, Log& log) {
@@ -177,7 +177,7 @@ void fields(Visitor& v, PulseTable& p) {
             p.opening);
 }
 
-// Machine first: the plan's tables are named after its joints.
+// Visits the machine's keys. These come before the plan's, whose tables are named after its joints.
 template <class Visitor>
 void machine_fields(Visitor& v, Experiment& e) {
   if (e.stand) {
@@ -200,7 +200,7 @@ void machine_fields(Visitor& v, Experiment& e) {
           [&](auto& g) { fields(g, e.pulses); });
 }
 
-// What a file of that kind says of the machine.
+// Visits the keys of the machine that a file of that kind contains.
 template <class Visitor>
 void machine_fields(Visitor& v, std::string_view kind, Experiment& e) {
   if (kind == "robot" || kind == "experiment") machine_fields(v, e);

@@ -59,9 +59,9 @@ std::string_view word_of(What what) {
 
 namespace {
 
-// Returns the element's muscle as "bpa", where its air comes by valves also "bpa.inlet",
-// "bpa.exhaust" and "supply"; the stand's transducers, so that they can be refused. None where the
-// pressure is prescribed: nothing that breaks would change it.
+// Returns the element's muscle as "bpa", with valves also "bpa.inlet", "bpa.exhaust" and "supply";
+// and the stand's transducers, so that faults of these can be refused by name. Returns nothing if
+// the pressure is prescribed: faults would not change it.
 std::vector<FaultPart> parts_of_stand(const Experiment& e) {
   using Kind = FaultPart::Kind;
   const Stand::Element& element = e.stand->element;
@@ -153,8 +153,8 @@ robot::Contradiction wrong_word(const std::string& key, const Fault& fault, cons
           ""};
 }
 
-// Faults of the air that would contradict each other are those of one part; a muscle's hose is not
-// its wall.
+// Returns whether two faults of the air concern the same part, so that they would contradict each
+// other. A muscle's hose and its wall are separate parts.
 bool same_part(const Fault& a, const Fault& b) {
   return !is_of_sensor(a.what) && !is_of_sensor(b.what) && a.of == b.of &&
          (a.what == What::blocked) == (b.what == What::blocked);
@@ -174,7 +174,7 @@ void check_overlaps(std::span<const Fault> faults, List& out) {
     }
 }
 
-// The first tick from `at` on at which the sensor is read.
+// Returns the first tick from `at` on at which the sensor is read.
 signals::Tick next_reading(const Experiment& e, const std::string& sensor, double at) {
   const auto index = static_cast<std::size_t>(robot::find_sensor(e.robot, sensor));
   const signals::Tick period = e.robot.low_level.pwm_ticks;

@@ -3,7 +3,7 @@
 namespace sinew::experiment {
 
 bool matches(std::string_view pattern, std::string_view text) {
-  // Where the last star stood, and how much it has swallowed so far.
+  // Position of the last star in the pattern, and the end of the text that it has matched so far.
   std::size_t p = 0, t = 0, star = pattern.npos, swallowed = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {

@@ -1,4 +1,4 @@
-// experiment/globs.h - which topics "/joint/*/angle" means.
+// experiment/globs.h - selection of topics by patterns such as "/joint/*/angle".
 #pragma once
 
 #include <string>
@@ -10,11 +10,12 @@
 
 namespace sinew::experiment {
 
-// * stands for any run of characters, "/" included.
+// Returns whether the pattern matches the text; * matches any characters, "/" included.
 bool matches(std::string_view pattern, std::string_view text);
 
-// True for each topic that a pattern means: itself, or all below it ("/joint/hip"). Throws
-// config::Error for a pattern that means none, `where` and `key` being the list's.
+// Returns for each topic whether a pattern selects it: by its own name or as a topic below it
+// ("/joint/hip"). Throws config::Error for a pattern without a topic; `where` and `key` are the
+// list's place.
 std::vector<bool> select(const std::vector<std::string>& patterns,
                          const std::vector<std::string_view>& topics, const config::Location& where,
                          const std::string& key = "");

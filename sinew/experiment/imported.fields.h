@@ -1,4 +1,4 @@
-// experiment/imported.fields.h - the keys of [[imported]], in a resolved file.
+// experiment/imported.fields.h - keys of [[imported]] in a resolved file.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// experiment/imported.h - what says of a run that it was recorded elsewhere: [[imported]] of its
-// resolved.toml, one for each file. An experiment that is run from such a file drops it.
+// experiment/imported.h - record of the files that an imported run was made from: [[imported]] of
+// its resolved.toml, one entry per file. An experiment that is run from such a file drops it.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace sinew::experiment {
 
-// One recording that a run was made of.
+// A recording that a run was made from.
 struct ImportedFile {
-  std::string file;                   // as it was named
+  std::string file;                   // name as the user gave it
   std::string kind;                   // CSV, MCAP, MATLAB, out.dat
   std::string size;                   // "1048576 bytes"
-  std::string crc32;                  // of its bytes, eight hexadecimal digits
-  std::string started = "not known";  // on the clock on the wall
+  std::string crc32;                  // checksum of its bytes, eight hexadecimal digits
+  std::string started = "not known";  // wall time
   int rows = 0;
-  int values = 0;    // that went into the log
-  int left_out = 0;  // that are no numbers, or stand before the log's time 0
+  int values = 0;    // values that went into the log
+  int left_out = 0;  // values that are not finite, or precede the log's time 0
 };
 
 }  // namespace sinew::experiment

@@ -29,7 +29,7 @@ Problem not_an_experiment(const config::Node& root, const std::string& path) {
   return p;
 }
 
-// The valves' pulses: as numbers in the file, from predict.dat, or the identity.
+// Reads the valves' pulses: from numbers in the file, from predict.dat, or else the identity.
 void read_timing(Experiment& e) {
   constexpr std::size_t rows = config::ValveTiming::rows;
   if (e.pulses.closing.size() == rows && e.pulses.opening.size() == rows) {
@@ -45,13 +45,13 @@ void read_timing(Experiment& e) {
   }
 }
 
-// Numbers of robots/<name>/ must say where they come from, wherever that folder is.
+// Returns whether a file is in robots/<name>/, where numbers must have a source.
 bool in_robots(const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   return folder.filename() == "robots" || folder.parent_path().filename() == "robots";
 }
 
-// What a file of that kind holds; the rest of the experiment keeps its default.
+// Reads a file of that kind; the rest of the experiment keeps its defaults.
 Experiment read(const config::Node& root, std::string_view kind, const std::string& path) {
   const bool runs = kind == "experiment";
   Experiment e;
@@ -67,7 +67,7 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
   std::string format, written_by;
   std::vector<ImportedFile> imported;
   reader.text({.name = "format", .doc = "kind and version"}, format);
-  if (runs) {  // a resolved.toml says it
+  if (runs) {  // present in a resolved.toml
     reader.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, written_by);
     fields(reader, imported);
   }
@@ -87,7 +87,7 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
   return e;
 }
 
-// The order in which a person reads it.
+// Writes the values in the order in which they are read best.
 void write(config::Writer& writer, std::string_view kind, Experiment& e) {
   if (kind == "experiment") run_fields(writer, e);
   machine_fields(writer, kind, e);
@@ -156,12 +156,12 @@ std::string resolved(const Experiment& experiment, const std::string& version) {
 using signals::Tick;
 
 Tick last_tick(const Experiment& e) {
-  // One tick more than the run of a stand takes, so that its last instant is sampled too.
+  // One tick is added to the run of a stand, so that its last instant is sampled too.
   if (e.stand) return std::llround(e.stand->duration / signals::tick_seconds) + 1;
   const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
   const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
   const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
-  // One period for the last valves to shut, and for a sample of where the plan has led to.
+  // One period is added for the last valves to shut and for a sample at the plan's end.
   const Tick last = e.robot.low_level.pwm_ticks;
   return plan + std::llround(vent / signals::tick_seconds) + last;
 }

@@ -1,4 +1,4 @@
-// Files read alone, and what load() leaves to others.
+// Tests of loading: files read alone, and checks that load() leaves to other functions.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -51,8 +51,8 @@ TEST(MachineFile, ValuesComeInSiUnderTheKeysOfTheirOrigins) {
   EXPECT_EQ(values.find("phase"), nullptr);
 }
 
-// A number that is set without its unit: the hint proposes what the file itself has there, to the
-// last bit. Every quantity of a walk and of its robot.
+// A number without its unit: the hint proposes exactly the value of the file, for every quantity of
+// a walk and of its robot.
 TEST(Load, TheHintOfAMissingUnitIsWhatTheFileSays) {
   int tried = 0;
   for (const config::Origin& origin : load(walk).origins) {
@@ -85,7 +85,7 @@ TEST(MachineFile, ARobotAloneIsHeldToItsNames) {
   EXPECT_NE(load_with("muscle.hip_flexor.role=extensor").find("robot.toml:"), std::string::npos);
 }
 
-// The level's unit follows from the measure: one mistake, one message.
+// The level's unit follows from the measure, so one mistake gives one message.
 TEST(Load, AMisspeltMeasureIsOneProblem) {
   for (const char* name : {"foot.normal_forc", "foot.normalforce", "joint.hip.angel"}) {
     const std::string told = refusal([&] {
@@ -120,7 +120,7 @@ TEST(Load, LeavesWhatIsOutOfReachToWhoWantsToRefuseIt) {
   EXPECT_NE(words.find("phase.propulsion: found a path out of reach"), std::string::npos) << words;
 }
 
-// What is to be judged says what agreement is worth, and a band of its own says why.
+// A figure that is judged needs a class, and its own band needs a reason.
 TEST(Load, AJudgedFigureNeedsItsClassAndItsBandAReason) {
   const auto with = [](const std::string& more) {
     return refusal([&] {

@@ -1,5 +1,5 @@
-// experiment/machine_file.h - any of the TOML files read alone: an experiment whole; a robot,
-// actuator, valves or wiring file as the part of an experiment that it is.
+// experiment/machine_file.h - reading of a single TOML file: a whole experiment, or a robot,
+// actuator, valves or wiring file as part of an otherwise default experiment.
 #pragma once
 
 #include <string>
@@ -12,20 +12,20 @@ namespace sinew::experiment {
 
 struct MachineFile {
   std::string kind;       // "experiment", "robot", "actuator", "valves" or "wiring"
-  Experiment experiment;  // what the file does not say keeps its default
+  Experiment experiment;  // values that are not in the file have their defaults
 };
 
-// Throws config::Error with everything that is wrong with the file; inside robots/ that includes
-// values without a source.
+// Reads a file. Throws config::Error with all errors; inside robots/ values without a source are
+// errors too.
 MachineFile load_machine_file(const std::string& path, const std::vector<std::string>& sets = {});
 
-// The same from a tree that is composed already.
+// Reads a file from a tree that is already composed.
 MachineFile load_machine_file(const config::Node& root, const std::string& path);
 
-// Every value as it is used, in SI, under the keys that its origin has.
+// Returns every value in SI, under the keys of its origin.
 config::Node values_in_si(MachineFile file);
 
-// What the file says, as a file that needs no other: every value in SI, with its source.
+// Returns the file's contents as a file that needs no other: every value in SI, with its source.
 std::string resolved(const MachineFile& file, const std::string& version);
 
 }  // namespace sinew::experiment

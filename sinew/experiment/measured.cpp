@@ -12,7 +12,7 @@ std::string_view unit_of(robot::Transducer::Of of) {
   return of == Of::length ? "m" : of == Of::force ? "N" : of == Of::pressure ? "Pa gauge" : "m/s2";
 }
 
-// Counts of each sensor, in their order; nothing where the table has not all of them.
+// Returns the counts of each sensor, in order; empty if the table lacks one.
 std::vector<const signals::Series*> counts_of(const Experiment& e, const signals::Table& table) {
   std::vector<const signals::Series*> out;
   for (const robot::Transducer& t : e.stand->sensors)
@@ -21,7 +21,7 @@ std::vector<const signals::Series*> counts_of(const Experiment& e, const signals
   return out;
 }
 
-// The rows that are written down: the first at or after each instant.
+// Returns the rows to write: the first at or after each instant.
 std::vector<std::size_t> rows_of(const Experiment& e, const signals::Times& time_ns) {
   const double period = e.stand->measured.period > 0 ? e.stand->measured.period : e.log.period;
   std::vector<std::size_t> out;

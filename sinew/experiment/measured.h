@@ -1,10 +1,10 @@
-// experiment/measured.h - what the stand's transducers showed, as the CSV that a rig would
+// experiment/measured.h - measurements of a stand's transducers as a CSV file, as a test rig would
 // write and `sinew identify` reads.
 //
 //   time [s],force [N],length [m],pressure [Pa gauge]
 //
-// A row per measured.period from measured.from on; a column per sensor, under its own name, with
-// all that its transducer does to the truth. Nothing in it is known to a simulation alone.
+// The file has a row per measured.period from measured.from on and a column per sensor, under its
+// name and with all errors of its transducer. It contains nothing that only a simulation has.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@
 
 namespace sinew::experiment {
 
-// The rows: instants, and what each sensor showed, in the order of the experiment's.
+// Measured rows: instants and the value of each sensor, in the order of the experiment's sensors.
 struct Notes {
   std::vector<double> time;                 // [s]
-  std::vector<std::vector<double>> values;  // of each sensor, SI; pressure is gauge
+  std::vector<std::vector<double>> values;  // values of each sensor, SI; gauge pressure
 };
 Notes notes(const Experiment& experiment, const signals::Table& table);
 
-// The same as text. Empty where nothing was read: no sensors, or a sweep.
+// Returns the measurements as CSV. Empty if there are none: no sensors, or a sweep.
 std::string measured_csv(const Experiment& experiment, const signals::Table& table);
 
 }  // namespace sinew::experiment

@@ -1,4 +1,4 @@
-// experiment/stand.fields.h - the keys of an experiment on a test stand.
+// experiment/stand.fields.h - keys of an experiment on a test stand.
 #pragma once
 
 #include <string_view>
@@ -101,8 +101,8 @@ void fields(Visitor& v, Stand::Measured& m) {
   robot::amount(v, "from", "s", 0, "the first row", m.from);
 }
 
-// Visits the keys of an experiment that describe its stand; title, seed, air and log are those of
-// any experiment.
+// Visits the keys that describe an experiment's stand; title, seed, air and log are keys of every
+// experiment.
 template <class Visitor>
 void fields(Visitor& v, Stand& s) {
   v.number({.name = "duration", .unit = "s", .min = 1e-3, .max = 1e5, .doc = "of the run"},

@@ -1,5 +1,5 @@
-// experiment/stand.h - what an experiment does with a test stand: its start, what drives its
-// valves, and what is measured.
+// experiment/stand.h - test stand of an experiment: its start, the drive of its valves, and what is
+// measured.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 namespace sinew::experiment {
 
 struct Stand : robot::Stand {
-  // The drive opens and shuts the valves: run/controllers/drive.h.
+  // Drive that opens and shuts the valves (run/controllers/drive.h).
   struct Drive {
-    // Names the law: nothing; pulses of a duty; single pulses; by the model to a length; by a
-    // sensor to a length.
+    // Law of the drive: none; pulses with a duty; single pulses; a length by the model; a length by
+    // a sensor.
     enum class Kind { none, pwm, pulses, feed_forward, feedback };
-    // Names how the feedback corrects an error: by full pulses beyond the dead band, or a duty by
-    // the error.
+    // Correction of the feedback: full pulses beyond the dead band, or a duty proportional to the
+    // error.
     enum class Law { on_off, proportional };
 
     // One opening of a valve.
@@ -26,37 +26,37 @@ struct Stand : robot::Stand {
     };
 
     Kind kind = Kind::none;
-    double period = 0.04;                          // of the pulses, and of the law [s]
-    double duty = 0;                               // pwm: of the inlet [-]
-    std::vector<signals::Schedule::Point> duties;  // pwm: from their instants on
+    double period = 0.04;                          // period of the pulses and of the law [s]
+    double duty = 0;                               // pwm: duty of the inlet [-]
+    std::vector<signals::Schedule::Point> duties;  // pwm: duties from their instants on
     std::vector<Pulse> pulses;
-    double desired = 0;                             // feed-forward, feedback: length [m]
-    std::vector<signals::Schedule::Point> lengths;  // the same over time
-    double believed_load = 0;                       // feed-forward: hangs on the element [N]
+    double desired = 0;                             // feed-forward, feedback: desired length [m]
+    std::vector<signals::Schedule::Point> lengths;  // desired length over time
+    double believed_load = 0;                       // feed-forward: assumed load on the element [N]
     Law law = Law::proportional;                    // feedback
-    std::string sensor;                             // feedback: of the length
-    double dead_band = 0;                           // feedback: error without a pulse [m]
+    std::string sensor;                             // feedback: sensor of the length
+    double dead_band = 0;                           // feedback: largest error without a pulse [m]
     double gain = 0;                                // proportional: duty per error [1/m]
   };
 
-  // Each duty on a stand of its own, all from the same start: settled length against duty.
+  // Sweep of the duty, each on a separate stand with the same start: settled length over duty.
   struct Sweep {
     double from = 0, to = 0, step = 0;  // duties; step 0: no sweep [-]
   };
 
-  // measured.csv: what an operator of the stand writes down.
+  // Rows of measured.csv, the record of a stand's operator.
   struct Measured {
-    double period = 0;  // between rows; 0: that of the log [s]
-    double from = 0;    // the first [s]
+    double period = 0;  // between rows; 0: the log's period [s]
+    double from = 0;    // time of the first row [s]
   };
 
-  double duration = 0;       // of the run [s]
-  double step = 5e-4;        // between nodes, at most [s]
-  double accuracy = 3.4e-7;  // of a swing, per radian of it, between nodes [-]
+  double duration = 0;       // length of the run [s]
+  double step = 5e-4;        // longest step between nodes [s]
+  double accuracy = 3.4e-7;  // error of an oscillation per radian, between nodes [-]
 
   double start_pressure = 0;  // absolute [Pa]
-  double start_length = 0;    // 0: where the load hangs [m]
-  double displacement = 0;    // [m]
+  double start_length = 0;    // 0: where the load is in balance [m]
+  double displacement = 0;    // shift from there with the same air, positive down [m]
   Drive drive;
   Sweep sweep;
   Measured measured;

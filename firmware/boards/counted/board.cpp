@@ -1,9 +1,9 @@
-// firmware/boards/counted/board.cpp - no board: the application's ticks are called one by one and
-// their instructions counted, while a host in the same image configures, arms and runs the leg with
-// commands of all kinds (firmware/worst-tick.sh).
+// firmware/boards/counted/board.cpp - a board for counting instructions: the application's ticks
+// are called one by one and their instructions counted, while a host in the same image configures,
+// arms and runs the leg with commands of all kinds (firmware/worst-tick.sh).
 //
-// The emulator lets 1024 ns pass with each instruction (-icount shift=10), and a timer of 25 MHz
-// counts 25.6 in them, so that a number of counts is one number of instructions.
+// The emulator advances 1024 ns with each instruction (-icount shift=10), and a timer of 25 MHz
+// counts 25.6 in this time, so that a count determines the number of instructions.
 #include "firmware/board.h"
 
 #include <array>
@@ -27,7 +27,7 @@ constexpr std::uint32_t ticks_of_a_run = 60'000;
 
 constexpr std::uintptr_t timer = 0x40001000, timer_value = timer + 4, timer_reload = timer + 8;
 
-std::uint32_t counts() { return reg(timer_value); }  // downwards
+std::uint32_t counts() { return reg(timer_value); }  // decreasing
 std::uint32_t instructions(std::uint32_t from, std::uint32_t to) {
   return ((from - to) * 10 + 128) / 256;
 }
@@ -41,7 +41,7 @@ struct Figures {
   }
 };
 Figures of_ticks, to_valves, kept_away;
-std::array<std::uint32_t, 100> worst_at;  // by the tick of the period
+std::array<std::uint32_t, 100> worst_at;  // index: tick of the period
 std::uint32_t nothing = 0, tick_begun = 0, away_since = 0;
 bool in_tick = false;
 
@@ -90,7 +90,7 @@ void send_command() {
   command.from += 100;
 }
 
-// One message in a tick, so that the line's room lasts.
+// Sends one message per tick at most, so that the line's buffer does not overflow.
 void host() {
   if (now == 0) send(sender().begin());
   if (now > 0 && now <= sender().chunks) send(sender().chunk(now - 1));
@@ -102,7 +102,7 @@ void host() {
   if (now == 2'020 || (now > 2'020 && (now - 2'020) % 100 == 50)) send_command();
 }
 
-// --- what it says -------------------------------------------------------------------------------
+// --- output -------------------------------------------------------------------------------------
 
 void print_number(const char* before, std::uint32_t n) {
   std::array<char, 12> text{};
@@ -167,7 +167,7 @@ void wake_sender() {
   for (std::uint8_t byte = 0; next_to_send(byte);) {}
 }
 
-// Nothing is left to be done: the next tick.
+// Runs the next tick, since run() has nothing left to do.
 void idle() {
   host();
   in_tick = true;

@@ -1,12 +1,12 @@
 // firmware/boards/mps2_an386/board.cpp - Arm's MPS2 with image AN386, a Cortex-M4F at 25 MHz, as
-// qemu-system-arm emulates it: its UART, timer and watchdog are the board's own (Cortex-M System
-// Design Kit, ARM DDI 0479). It has neither a converter nor valves: those are the host's, by the
-// records V and R of sinew/control/board/lock_step.h, where the emulator is started with the names
-// of two pipes; without, readings rest at the middle of their scale and nobody sees the valves.
+// emulated by qemu-system-arm: UART, timers and watchdog are the board's own (Cortex-M System
+// Design Kit, ARM DDI 0479). Converter and valves are the host's, by the records V and R of
+// sinew/control/board/lock_step.h, if the emulator is started with the names of two pipes.
+// Otherwise readings are the middle of the scale and the valves have no effect.
 //
 //   -semihosting-config enable=on,target=native,arg=board[,arg=TO,arg=FROM]
 //
-// In place of the pipes the one word `starve` stops the watchdog's feeding after a second.
+// The word `starve` in place of the pipes stops the feeding of the watchdog after a second.
 #include "firmware/board.h"
 
 #include <array>
@@ -31,7 +31,7 @@ constexpr std::uint32_t clocks_a_tick = clock / 10'000;
 
 // --- registers ----------------------------------------------------------------------------------
 
-// Two timers that count down: one for the ticks, one that runs for ever and tells how many passed.
+// Two timers that count down: one for the ticks, and a free-running one to count missed ticks.
 constexpr std::uintptr_t ticking = 0x40000000, running = 0x40001000;
 constexpr std::uintptr_t control = 0x0, value = 0x4, reload = 0x8, interrupt = 0xC;
 constexpr std::uint32_t enabled = 1, interrupts = 8;
@@ -39,19 +39,20 @@ constexpr std::uint32_t enabled = 1, interrupts = 8;
 constexpr std::uintptr_t uart = 0x40004000;
 constexpr std::uintptr_t uart_data = uart, uart_state = uart + 0x4, uart_control = uart + 0x8,
                          uart_interrupt = uart + 0xC, uart_divider = uart + 0x10;
-constexpr std::uint32_t full_to_send = 1, full_of_received = 2;  // of its state
-constexpr std::uint32_t sent = 1, has_come = 2;                  // of its interrupts
+constexpr std::uint32_t full_to_send = 1, full_of_received = 2;  // bits of its state
+constexpr std::uint32_t sent = 1, has_come = 2;                  // bits of its interrupts
 constexpr std::uint32_t both_ways_with_interrupts = 0xF;
 
-// It interrupts when its time is over, and resets when that happens again before it is fed.
+// The watchdog interrupts when its time is over, and resets the second time if it is not fed
+// before.
 constexpr std::uintptr_t watchdog = 0x40008000;
 constexpr std::uintptr_t watchdog_load = watchdog, watchdog_control = watchdog + 0x8,
                          watchdog_clear = watchdog + 0xC, watchdog_lock = watchdog + 0xC00;
 constexpr std::uint32_t interrupt_and_reset = 3, unlocked = 0x1ACCE551;
 
-constexpr std::uint32_t line_came = 0, line_sent = 1, time_is_over = 8;  // interrupts' numbers
+constexpr std::uint32_t line_came = 0, line_sent = 1, time_is_over = 8;  // interrupt numbers
 
-// --- what survives a reset ----------------------------------------------------------------------
+// --- memory that is kept over a reset -----------------------------------------------------------
 
 constexpr std::uint32_t watchdog_bit = 0x62697465;
 
@@ -69,7 +70,8 @@ alignas(Host) std::array<std::uint8_t, sizeof(Host)> host_room;
 Host* host = nullptr;
 std::array<char, 512> words;
 
-// The emulator's UART sends a byte in no time; a line of 921,600 baud carries nine in a tick.
+// The emulator's UART sends a byte in no time, so bytes are limited to those of a line of 921,600
+// baud: nine per tick.
 constexpr std::uint32_t bytes_a_tick = 9;
 std::uint32_t bytes_left = 0;
 
@@ -82,7 +84,7 @@ bool same(const char* a, const char* b) {
   return *a == *b;
 }
 
-// The words behind the program's name.
+// Reads the words after the program's name.
 void read_command_line() {
   command_line(words);
   std::array<const char*, 3> word{};
@@ -130,11 +132,11 @@ namespace hardware {
 
 namespace {
 constinit TickCount count;
-std::uint32_t clocks() { return ~reg(running + value); }  // up
+std::uint32_t clocks() { return ~reg(running + value); }  // increasing
 
 signals::Channel converted;
 
-// Within an interrupt of the tick: nothing else goes on but the line.
+// Waits in the tick's interrupt: only the line's interrupts run meanwhile.
 void stand_still(std::uint32_t ticks) {
   const std::uint32_t since = clocks();
   while (clocks() - since < ticks * clocks_a_tick) {}
@@ -142,7 +144,7 @@ void stand_still(std::uint32_t ticks) {
 }  // namespace
 
 void start() {
-  asm volatile("" : : "r"(board::application_image));  // stays in the image
+  asm volatile("" : : "r"(board::application_image));  // keeps the mark in the image
   bitten_ = kept.why == watchdog_bit;
   kept.why = 0;
   ++kept.starts;
@@ -163,12 +165,12 @@ void start_line(std::uint32_t baud) {
   cortex_m::enable(line_sent, cortex_m::of_line);
 }
 
-// The computer around the emulator may be busy with something else.
+// The computer that runs the emulator may be busy with other programs.
 std::uint32_t longest_pause() { return 10'000; }
 
 void start_watchdog() {
   reg(watchdog_lock) = unlocked;
-  reg(watchdog_load) = clock / 100;  // 10 ms, and 10 ms again
+  reg(watchdog_load) = clock / 100;  // 10 ms to the interrupt, and 10 ms to the reset
   reg(watchdog_control) = interrupt_and_reset;
 }
 
@@ -189,7 +191,8 @@ std::uint32_t ticks_passed() { return count.passed(clocks()); }
 
 void start_conversion(signals::Channel channel) { converted = channel; }
 
-// The host knows which instant a reading is of; it is asked when the result is due.
+// Returns the host's reading. The host has the instant of the sample; it is requested when the
+// result is due.
 signals::Reading reading(Tick run) {
   if (host == nullptr) return {2'048, Status::ok};
   std::array<std::uint8_t, 10> ask;
@@ -221,11 +224,11 @@ void drive(const Drive& d) {
 void keep_ticks_away() { cortex_m::keep_ticks_away(); }
 void let_ticks_come() { cortex_m::let_ticks_come(); }
 
-// The interrupt itself looks whether there is something to send and room for it.
+// The interrupt checks whether there is something to send and room for it.
 void wake_sender() { cortex_m::request(line_sent); }
 
-// It does not sleep: the emulator's clock would jump to whenever the computer around it wakes it
-// again, and ticks would be missed (up to 25 were).
+// Does not sleep: the emulator's clock would jump to the time at which the host computer wakes it,
+// and ticks would be missed (up to 25 were).
 void idle() { look_at_stack(); }
 
 }  // namespace hardware
@@ -248,13 +251,13 @@ void fault() {
   sinew::firmware::quit(1);
 }
 
-// The watchdog's first bite; it resets with the second one.
+// Handles the watchdog's first time-out; the second one resets the board.
 void bite() {
   sinew::firmware::kept.why = sinew::firmware::watchdog_bit;
   for (;;) {}
 }
 
-// What is asked for is cleared before the byte is taken: the next one may come in between.
+// Clears the request before it reads the bytes, since another may arrive in between.
 void byte_came() {
   using namespace sinew::firmware;
   reg(uart_interrupt) = has_come;

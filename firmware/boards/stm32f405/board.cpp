@@ -1,12 +1,11 @@
 // firmware/boards/stm32f405/board.cpp - STM32F405RG, a Cortex-M4F at 168 MHz (ST RM0090, DS8626),
-// as it stands on small boards that are sold. Never run on one by us: it boots in qemu-system-arm's
-// `netduinoplus2`, which has its serial line and timers, and neither its clocks nor its pins,
+// as on small boards on the market. It has not been tested on a real board. It boots in
+// qemu-system-arm's `netduinoplus2`, which has its serial line and timers but not its clocks, pins,
 // watchdog and noise source (docs/how-to/hardware.md).
 //
 //   inputs 0 … 7      PA0 … PA7      the converter's inputs 0 … 7
 //          8 … 13     PC0 … PC5                          10 … 15
-//   outputs 0 … 11    PB4 … PB15     valves; at each driver a resistor of its own towards no
-//   current
+//   outputs 0 … 11    PB4 … PB15     valves; each driver needs a resistor towards no current
 //           12 … 15   PC6 … PC9
 //   supply            PC12           the dump valve's coil
 //   line              PA9 out, PA10 in
@@ -26,7 +25,7 @@ using cortex_m::reg;
 using signals::Status;
 using signals::Tick;
 
-constexpr std::uint32_t crystal = 8;  // [MHz], another board's may be 12 or 25
+constexpr std::uint32_t crystal = 8;  // [MHz]; other boards have 12 or 25
 constexpr std::uint32_t timer_clock = 84'000'000, line_clock = 84'000'000;  // [Hz]
 constexpr std::uint32_t clocks_a_tick = timer_clock / 10'000, clocks_a_us = timer_clock / 1'000'000;
 
@@ -51,18 +50,18 @@ constexpr std::uintptr_t converter_state = converter, converter_control = conver
                          converter_times_high = converter + 0x0C,
                          converter_times = converter + 0x10, converter_input = converter + 0x34,
                          converter_data = converter + 0x4C, converter_common = 0x40012304;
-constexpr std::uintptr_t watchdog = 0x40003000;  // its clock is its own
+constexpr std::uintptr_t watchdog = 0x40003000;  // has a clock of its own
 constexpr std::uintptr_t noise = 0x50060800;
 
 constexpr std::uint32_t line_came = 1u << 5, line_room = 1u << 7, line_overrun = 1u << 3;
 constexpr std::uint32_t line_on = 1u << 13 | 1u << 3 | 1u << 2 | line_came;
 constexpr std::uint32_t conversion_done = 1u << 1, conversion_start = 1u << 30;
 
-constexpr std::uint32_t compared = 1u << 1;  // of a timer's state and interrupts
+constexpr std::uint32_t compared = 1u << 1;  // bit of a timer's state and interrupts
 
 constexpr std::uint32_t interrupt_of_ticks = 28, interrupt_of_line = 37, interrupt_of_edges = 50;
 
-// --- what survives a reset ----------------------------------------------------------------------
+// --- memory that is kept over a reset -----------------------------------------------------------
 
 struct Kept {
   std::uint32_t starts;
@@ -70,8 +69,8 @@ struct Kept {
 [[gnu::section(".kept")]] Kept kept;
 bool bitten_ = false;
 
-// Waits for a bit, and gives up: an oscillator that does not start must not keep the valves'
-// outputs, which are set up before it, from being safe.
+// Returns whether a bit was set within a limited time. The outputs of the valves are set up before
+// the first call, so they are safe even if an oscillator does not start.
 bool wait_for(std::uintptr_t address, std::uint32_t bits) {
   for (std::uint32_t i = 0; i < 100'000; ++i)
     if ((reg(address) & bits) == bits) return true;
@@ -85,9 +84,10 @@ constexpr std::uint32_t output = 1, alternate = 2, analog = 3;
 
 // --- pins ---------------------------------------------------------------------------------------
 
-// The upper half of a word resets pins, the lower half sets them: a port changes at once.
+// Words for the set/reset registers: the upper half resets pins, the lower half sets them, so a
+// port changes at once.
 struct Pins {
-  std::uint32_t b = 0, c = 0;  // nothing changes
+  std::uint32_t b = 0, c = 0;  // 0: no change
 };
 constexpr Pins pins(std::uint32_t coils, bool supply) {
   const std::uint32_t b = (coils & 0xFFFu) << 4;
@@ -102,7 +102,7 @@ void put(const Pins& p) {
 }
 
 constinit WaitingWord<Pins> waiting;
-constinit volatile std::uint32_t late_edges = 0;  // words that missed their instant; for a debugger
+constinit volatile std::uint32_t late_edges = 0;  // words that missed their instant, for a debugger
 
 void put_late() {
   Pins p;
@@ -111,7 +111,7 @@ void put_late() {
   late_edges = late_edges + 1;
 }
 
-// All coils off before their pins become outputs.
+// Configures the pins. All coils are off before the pins become outputs.
 void start_pins() {
   reg(rcc_ahb1) = reg(rcc_ahb1) | 7u;
   put(no_current);
@@ -126,9 +126,9 @@ void start_pins() {
   }
 }
 
-// 168 MHz by the crystal, else by the oscillator on the chip, which may be 1 % off. Without them a
-// tick would be no tick: nothing goes on then. No chip has its own oscillator off here, only an
-// emulator that knows none.
+// Sets 168 MHz from the crystal, or else from the oscillator on the chip, which may be 1 % off.
+// Without the PLL a tick would have the wrong length, so the program waits here. The oscillator on
+// the chip is on in all chips; it is off only in an emulator without these registers.
 void start_clocks() {
   constexpr std::uint32_t crystal_on = 1u << 16, crystal_ready = 1u << 17, pll_on = 1u << 24,
                           pll_ready = 1u << 25, pll_by_crystal = 1u << 22, by_pll = 2;
@@ -136,7 +136,7 @@ void start_clocks() {
   reg(flash_wait) = 0x705;  // five wait states, caches on
   reg(rcc_control) = reg(rcc_control) | crystal_on;
   const bool has_crystal = wait_for(rcc_control, crystal_ready);
-  const std::uint32_t divider = has_crystal ? crystal : 16;  // to 1 MHz; times 336, by 2
+  const std::uint32_t divider = has_crystal ? crystal : 16;  // to 1 MHz; times 336, divided by 2
   reg(rcc_pll) = 7u << 24 | (has_crystal ? pll_by_crystal : 0) | 336u << 6 | divider;
   reg(rcc_control) = reg(rcc_control) | pll_on;
   while (!wait_for(rcc_control, pll_ready)) {}
@@ -144,8 +144,8 @@ void start_clocks() {
 }
 
 void start_converter() {
-  reg(converter_common) = 1u << 16;   // 84 MHz by 4
-  reg(converter_times) = 0x1B6DB6DB;  // 56 clocks of sampling for each input: 3.2 us in all
+  reg(converter_common) = 1u << 16;   // 84 MHz divided by 4
+  reg(converter_times) = 0x1B6DB6DB;  // 56 clocks of sampling for each input, 3.2 us in all
   reg(converter_times_high) = 0x36DB6DB;
   reg(converter_control) = 1;
 }
@@ -167,7 +167,7 @@ void start() {
   reg(rcc_why) = reg(rcc_why) | forget;
   ++kept.starts;
   start_clocks();
-  reg(rcc_ahb2) = reg(rcc_ahb2) | 1u << 6;            // the noise source
+  reg(rcc_ahb2) = reg(rcc_ahb2) | 1u << 6;            // noise source
   reg(rcc_apb1) = reg(rcc_apb1) | 1u | 1u << 3;       // both timers
   reg(rcc_apb2) = reg(rcc_apb2) | 1u << 4 | 1u << 8;  // line and converter
   reg(noise) = 4;
@@ -183,7 +183,8 @@ const char* name() { return "stm32f405"; }
 bool bitten() { return bitten_; }
 bool active_low() { return low_gives_current; }
 
-// Noise where there is some: what a battery kept may be the same after a while without current.
+// Uses noise if available: after a time without power, memory kept by a battery may hold the same
+// count.
 std::uint32_t nonce() {
   const bool there = wait_for(noise + 4, 1);
   return (there ? reg(noise + 8) : 0) ^ (kept.starts << 16 | 1u);
@@ -198,7 +199,7 @@ void start_line(std::uint32_t baud) {
 // A USB adapter may hold bytes back for 16 ms.
 std::uint32_t longest_pause() { return 200; }
 
-// 20 ms by a clock that may be between 17 and 47 kHz: 14 to 38 ms. The prescaler is 4.
+// Starts the watchdog: 20 ms by a clock between 17 and 47 kHz, so 14 to 38 ms. The prescaler is 4.
 void start_watchdog() {
   reg(watchdog) = 0xCCCC;
   reg(watchdog) = 0x5555;
@@ -247,7 +248,7 @@ void drive(const Drive& d) {
 
 void keep_ticks_away() { cortex_m::keep_ticks_away(); }
 void let_ticks_come() { cortex_m::let_ticks_come(); }
-// The emulator's line has no interrupt for room: one is asked for.
+// The emulator's line has no interrupt for free room, so one is requested here.
 void wake_sender() {
   reg(line_control) = line_on | line_room;
   cortex_m::request(interrupt_of_line);
@@ -269,7 +270,7 @@ extern "C" {
   run();
 }
 
-// All coils off, until the watchdog bites.
+// Switches all coils off and waits for the watchdog's reset.
 void fault() {
   using namespace sinew::firmware;
   cortex_m::keep_all_away();
@@ -277,7 +278,7 @@ void fault() {
   for (;;) {}
 }
 
-// A byte that overran another is in the frame that its CRC throws away.
+// A byte after an overrun belongs to a frame that its CRC rejects.
 void line_works() {
   using namespace sinew::firmware;
   if (reg(line_state) & (line_came | line_overrun))
@@ -293,7 +294,8 @@ void line_works() {
   }
 }
 
-// No word waits for longer than a tick, whatever becomes of the compare.
+// Outputs a word that is still waiting, so that none waits longer than a tick even if the compare
+// failed.
 void time_over() {
   using namespace sinew::firmware;
   reg(ticking + timer_state) = 0;
@@ -301,7 +303,7 @@ void time_over() {
   tick();
 }
 
-// Pins first: all that is before them moves the edge.
+// Writes the pins first: any code before it would delay the edge.
 void edge_due() {
   using namespace sinew::firmware;
   Pins p;

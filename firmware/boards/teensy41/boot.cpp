@@ -1,12 +1,12 @@
-// firmware/boards/teensy41/boot.cpp - from current on to run(): what the processor's boot ROM finds
-// in the flash chip, the first instructions, memory, and where interrupts go.
+// firmware/boards/teensy41/boot.cpp - start-up until run(): data in the flash chip for the
+// processor's boot ROM, the first instructions, memory, and the interrupt vectors.
 //
-//   0x60000000   how the chip is read: 512 bytes that begin with FCFB
-//   0x60001000   where the program is, and its first instruction
+//   0x60000000   how to read the chip: 512 bytes that begin with FCFB
+//   0x60001000   place of the program and its first instruction
 //
-// After the ROM's manual (i.MX RT1060 reference manual, chapter 9, system boot); the numbers of the
-// flash chip and of the memories' banks are those with which every Teensy 4.1 starts (PJRC's core
-// library, bootdata.c and startup.c).
+// Sources: i.MX RT1060 reference manual, chapter 9, system boot; numbers of the flash chip and of
+// the memory banks as every Teensy 4.1 starts with them (PJRC's core library, bootdata.c and
+// startup.c).
 #include <array>
 #include <cstdint>
 
@@ -14,7 +14,8 @@
 #include "firmware/cortex_m.h"
 
 extern "C" {
-// From the linker script: where the program runs, where it lies, how much of the chip it fills.
+// Symbols of the linker script: the addresses of the program in memory and in the chip, and the
+// part of the chip that it uses.
 extern std::uint32_t code_begin[], code_end[], code_from[], image_size[];
 
 [[noreturn]] void first();
@@ -33,38 +34,38 @@ using cortex_m::reg;
 // --- the flash chip, a Winbond W25Q64JV of 8 MB on four wires ------------------------------------
 
 constexpr std::uint32_t command = 1, address = 2, mode = 7, write = 8, read = 9, pause = 12,
-                        again = 31;         // steps of a sequence
-constexpr std::uint32_t one = 0, four = 2;  // wires
+                        again = 31;         // instructions of a sequence
+constexpr std::uint32_t one = 0, four = 2;  // number of wires, encoded
 constexpr std::uint32_t step(std::uint32_t what, std::uint32_t wires, std::uint32_t with) {
   return what << 10 | wires << 8 | with;
 }
 
-// The chip reads, erases and so on when it is told up to eight steps, of which two are in a word.
+// Each command of the chip is a sequence of up to eight instructions, two per word.
 constexpr std::uint32_t two(std::uint32_t a, std::uint32_t b = 0) { return b << 16 | a; }
 
 constexpr std::array<std::uint32_t, 128> flash_chip() {
-  std::array<std::uint32_t, 128> w{};  // by the byte's place in the block, divided by 4
+  std::array<std::uint32_t, 128> w{};  // index: byte offset in the block, divided by 4
   w[0x000 / 4] = 0x42464346;           // "FCFB"
-  w[0x004 / 4] = 0x56010000;           // its version
-  w[0x00C / 4] = 0x00030301;           // 3 clocks of hold, 3 of set-up; it samples by its own clock
+  w[0x004 / 4] = 0x56010000;           // version
+  w[0x00C / 4] = 0x00030301;           // 3 clocks of hold, 3 of set-up; sample clock looped back
   w[0x044 / 4] = 0x00080401;           // 133 MHz, four wires, NOR
-  w[0x050 / 4] = 8u << 20;             // bytes
+  w[0x050 / 4] = 8u << 20;             // size in bytes
   const auto sequence = [&](std::size_t number) { return &w[0x080 / 4 + 4 * number]; };
-  std::uint32_t* to = sequence(0);  // read; the chip keeps the command, `again` omits it
+  std::uint32_t* to = sequence(0);  // read; the chip stays in this command, `again` omits it
   to[0] = two(step(command, one, 0xEB), step(address, four, 24));
   to[1] = two(step(mode, four, 0x20), step(pause, four, 4));
   to[2] = two(step(read, four, 4), step(again, one, 1));
-  sequence(1)[0] = two(step(command, one, 0x05), step(read, one, 4));      // its state
-  sequence(3)[0] = two(step(command, one, 0x06));                          // writing is allowed
+  sequence(1)[0] = two(step(command, one, 0x05), step(read, one, 4));      // read the status
+  sequence(3)[0] = two(step(command, one, 0x06));                          // enable writing
   sequence(5)[0] = two(step(command, one, 0x20), step(address, one, 24));  // erase 4 KB
   sequence(8)[0] = two(step(command, one, 0xD8), step(address, one, 24));  // erase 64 KB
   sequence(9)[0] = two(step(command, one, 0x02), step(address, one, 24));  // write a page
   sequence(9)[1] = two(step(write, one, 4));
-  sequence(11)[0] = two(step(command, one, 0x60));  // erase all
-  w[0x1C0 / 4] = 256;                               // bytes of a page
-  w[0x1C4 / 4] = 4'096;                             // of a sector
+  sequence(11)[0] = two(step(command, one, 0x60));  // erase the chip
+  w[0x1C0 / 4] = 256;                               // page size [bytes]
+  w[0x1C4 / 4] = 4'096;                             // sector size [bytes]
   w[0x1C8 / 4] = 1;                                 // 30 MHz for commands
-  w[0x1D0 / 4] = 64u << 10;                         // of a block
+  w[0x1D0 / 4] = 64u << 10;                         // block size [bytes]
   return w;
 }
 static_assert(flash_chip()[0x080 / 4] == 0x0A1804EB && flash_chip()[0x084 / 4] == 0x32041E20 &&
@@ -80,7 +81,7 @@ struct Image {
   const void* extent;
   const void* itself;
   std::uint32_t no_signature, nothing_more;
-  const void* begin;  // its extent: in the chip, from here on
+  const void* begin;  // extent of the image in the chip
   const void* size;
   std::uint32_t no_plugin;
 };
@@ -91,11 +92,11 @@ const std::uintptr_t chip = 0x60000000;
 
 // --- memory -------------------------------------------------------------------------------------
 
-constexpr std::uintptr_t gpr = 0x400AC000;  // IOMUXC_GPR: what is shared out on the chip
+constexpr std::uintptr_t gpr = 0x400AC000;  // IOMUXC_GPR: general settings of the chip
 constexpr std::uintptr_t tcm_sizes = gpr + 0x38, tcm_on = gpr + 0x40, banks = gpr + 0x44;
 
-// The processor may read ahead, at addresses where nothing answers. What it may not touch is
-// forbidden (MPU): all, then what there is, a later region before an earlier one.
+// The processor may read ahead at addresses without memory. The MPU therefore forbids all addresses
+// and then permits those in use; a later region overrides an earlier one.
 struct Region {
   std::uint32_t begin, log2_size, may;
 };
@@ -106,7 +107,7 @@ constexpr Region regions[] = {
     {0x00000000, 17, memory | to_read},             // code
     {0x20000000, 19, memory | to_write | no_code},  // data
     {0x40000000, 26, device | to_write | no_code},  // registers
-    {0x60000000, 23, memory | to_read | no_code},   // the flash chip, from which data are copied
+    {0x60000000, 23, memory | to_read | no_code},   // flash chip, source of the data
 };
 
 void protect_memory() {
@@ -148,31 +149,31 @@ constexpr std::array<Handler, 160> interrupts() {
 
 extern "C" {
 
-// Runs in the flash chip, on the ROM's stack, before there is code anywhere else: it calls nothing.
-// The RAM of 16 banks becomes 4 for code and 12 for data; the copy is by way of `volatile`, lest
-// the compiler calls memcpy for it.
+// Runs in the flash chip on the ROM's stack. No other code is in memory yet, so it calls no
+// functions. Of the 16 banks of RAM 4 are set up for code and 12 for data. The copy uses `volatile`
+// so that the compiler does not call memcpy for it.
 [[noreturn, gnu::section(".boot.first")]] void first() {
   using namespace sinew::firmware;
-  reg(banks) = 0xAAAAAAFF;      // two bits each: 3 is code, 2 data
-  reg(tcm_on) = 0x00200007;     // as `banks` has it, not as the fuses do
-  reg(tcm_sizes) = 0x00AA0000;  // as large as they may be
+  reg(banks) = 0xAAAAAAFF;      // two bits per bank: 3 is code, 2 data
+  reg(tcm_on) = 0x00200007;     // use `banks`, not the fuses
+  reg(tcm_sizes) = 0x00AA0000;  // largest sizes
   asm volatile("dsb\n isb" ::: "memory");
-  for (int i = 0; i < 100; ++i) asm volatile("nop");  // some Teensies did not start without
+  for (int i = 0; i < 100; ++i) asm volatile("nop");  // some boards need this delay
   const volatile std::uint32_t* from = code_from;
   for (volatile std::uint32_t* to = code_begin; to < code_end; ++to) *to = *from++;
   asm volatile("dsb\n isb\n mov sp, %0\n bx %1" ::"r"(stack_top), "r"(reset) : "memory");
   __builtin_unreachable();
 }
 
-// In the memory beside the processor. The ROM may have left its system timer running, and
-// interrupts that it asked for.
+// Runs in the tightly coupled memory. The ROM may have left its system timer and interrupts
+// enabled.
 [[noreturn]] void reset() {
   using namespace sinew::firmware;
   reg(0xE000ED08) = reinterpret_cast<std::uintptr_t>(&vectors);
   reg(0xE000E010) = 0;
   for (std::uintptr_t word = 0; word < 5; ++word) {
-    reg(0xE000E180 + 4 * word) = ~0u;  // off
-    reg(0xE000E280 + 4 * word) = ~0u;  // forgotten
+    reg(0xE000E180 + 4 * word) = ~0u;  // disabled
+    reg(0xE000E280 + 4 * word) = ~0u;  // not pending
   }
   cortex_m::start_fpu();
   protect_memory();

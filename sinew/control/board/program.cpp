@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint8_t of(Type type) noexcept { return static_cast<std::uint8_t>(type); }
 
-// All that is said of a machine with so many joints and channels, and no more: a tick has no time
-// for the rest.
+// Copies the parts that telemetry has for that many joints and channels; a tick has no time to copy
+// the rest.
 void copy(const control::Seen& from, control::Seen& to, std::size_t joints,
           std::size_t channels) noexcept {
   to.phase = from.phase;
@@ -64,7 +64,7 @@ bool Program::at_rest() const noexcept {
 
 // --- a tick -------------------------------------------------------------------------------------
 
-// Also that of the run's first command.
+// Returns whether a period begins, including the one of a run's first command.
 bool Program::begins_period() noexcept {
   safety_.begin(now_);
   if (starts_ && safety_.state() == BoardState::armed) return true;
@@ -74,8 +74,8 @@ bool Program::begins_period() noexcept {
   return true;
 }
 
-// What is known as the period begins. One that is still being said is not disturbed: the host sees
-// a gap.
+// Records the telemetry of the period that begins. If the last one is not completely sent yet, it
+// is kept and the host sees a gap.
 void Program::note() noexcept {
   if (speaking_.load(std::memory_order_acquire)) {
     ++dropped_;
@@ -107,7 +107,7 @@ void Program::obey_command() noexcept {
   command_begun_ = run;
   starts_ = false;
   bool ends = false;
-  // What holds is changed once by a command, however long it is good for.
+  // A command changes the setpoints once, even if it is valid for several periods.
   if (to_obey != nullptr && to_obey->from != obeyed_) {
     for (std::size_t j = 0; j < to_obey->joints; ++j) held_.joint[j] = to_obey->joint[j];
     obeyed_ = to_obey->from;
@@ -143,7 +143,7 @@ bool Program::end_tick() noexcept {
   return feed;
 }
 
-// --- what a host says ---------------------------------------------------------------------------
+// --- messages of a host -------------------------------------------------------------------------
 
 std::size_t Program::receive(std::span<const std::uint8_t> bytes) noexcept {
   const std::size_t n = bytes.size() < in_.room() ? bytes.size() : in_.room();
@@ -187,7 +187,7 @@ void Program::obey() noexcept {
   if (code_ != Code::done) ++refused_;
 }
 
-// To whom is it, is it new, and of our version? Frames to other boards are nobody's business.
+// Checks the address, sequence and version of a frame. Frames to other boards are ignored.
 Code Program::judge() noexcept {
   const std::uint8_t to = frame_->envelope.board;
   const bool identify = frame_->type == of(Type::identify);
@@ -345,7 +345,7 @@ Code Program::arm(const link::ArmSecond& m) noexcept {
   return Code::done;
 }
 
-// An armed board takes the one that its run begins with before any other.
+// Queues a command. An armed board first accepts only the command that begins a run.
 Code Program::command(const link::CommandFor& m) noexcept {
   const bool armed = safety_.state() == BoardState::armed;
   if (!armed && safety_.state() != BoardState::running && safety_.state() != BoardState::hold)
@@ -456,14 +456,14 @@ void Program::answer_words() noexcept {
   if (!line_.push({bytes.data(), n})) ++dropped_;
 }
 
-// With the ticks kept away: what they change is copied.
+// Copies data that ticks change, while ticks are kept away.
 bool Program::gather() noexcept {
   if (!event_due_) tell_state();
   if (!edges_due_) gather_edges();
   return event_due_ || edges_due_;
 }
 
-// One event for each state that is entered, with why.
+// Reports each new state once, with its reason.
 void Program::tell_state() noexcept {
   const BoardState state = safety_.state();
   if (started_told_ && state == told_) return;
@@ -478,7 +478,7 @@ void Program::tell_state() noexcept {
   if (bad && safety_.fault() != BoardFault::asked) log_stops_ = true;
 }
 
-// Edges of one message are less than 65,536 ticks apart.
+// Collects edges for one message; they must be less than 65,536 ticks apart.
 void Program::gather_edges() noexcept {
   if (edge_count_ == 0) return;
   edges_ = {.tick = edge_[0].at};
@@ -495,7 +495,7 @@ void Program::gather_edges() noexcept {
   edges_due_ = true;
 }
 
-// One message of each kind at a time, so that a long one delays none.
+// Sends at most one message of each kind, so that a long one does not delay the others.
 bool Program::speak() noexcept {
   if (event_due_) say(event_);
   if (edges_due_) say(edges_);
@@ -530,8 +530,7 @@ bool Program::speak() noexcept {
   return log_wanted_;
 }
 
-// A record at a time, as long as the line has room for them; one without data says that there is
-// nothing more.
+// Sends one record of the log if the line has room for it; a record without data marks the end.
 void Program::speak_log() noexcept {
   if (line_.room() < 2 * link::max_frame) return;
   link::FaultLog out{.part = static_cast<std::uint16_t>(log_from_),

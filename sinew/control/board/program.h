@@ -1,17 +1,17 @@
-// control/board/program.h - a controller board's program without its hardware: bytes of a line come
-// in and go out, ticks pass, valves and the supply's valve are what it says.
+// control/board/program.h - a controller board's program without its hardware: bytes of a line are
+// received and sent, ticks pass, and outputs for the valves and the supply's valve are returned.
 //
-// Two sides share it. A timer calls the tick, which takes its time and no more; in the time
-// between, serve() works the line off. serve() must not be cut in two by a tick where it says so:
-// the hardware gives it a way to keep the ticks away for some hundred instructions (`Ticks`).
+// It runs in two contexts. A timer calls the tick, which has a bounded time; between ticks serve()
+// handles the line. Parts of serve() must not be interrupted by a tick: the hardware provides
+// functions that keep ticks away for some hundred instructions (`Ticks`).
 //
-//   tick:    outputs(program.begin_tick());        valves first: their instant counts
+//   tick:    outputs(program.begin_tick());        valves first, since they need exact timing
 //            if (const Conversion* c = program.due()) program.take(*c, adc());
 //            if (program.end_tick()) feed_watchdog();
 //   between: program.receive(bytes); while (program.serve(ticks)); program.transmit(buffer);
 //
-// A run's ticks count from its first command, which the host sends `from` 0 to an armed board.
-// Before that, telemetry carries the ticks since the reset.
+// A run's ticks count from its first command, which the host sends to an armed board with `from` 0.
+// Before that, telemetry has the ticks since the reset.
 //
 // Embedded core: no heap, no exceptions, no clock.
 #pragma once
@@ -33,19 +33,19 @@
 
 namespace sinew::board {
 
-// What a board says of itself.
+// Identity of a board.
 struct Identification {
   link::Name board{}, firmware{};
-  std::uint8_t number = 1;  // on its line
-  std::uint32_t nonce = 1;  // where those of arming begin: another one after each reset
-  bool bitten = false;      // the watchdog has reset it
-  bool active_low = false;  // its outputs have 0 for current in a coil
+  std::uint8_t number = 1;  // number of the board on its line
+  std::uint32_t nonce = 1;  // start of the numbers for arming, different after each reset
+  bool bitten = false;      // the watchdog has reset the board
+  bool active_low = false;  // level 0 gives current in a coil
 };
 
-// What valves and the supply are to have from a tick on.
+// Outputs for valves and supply from a tick on.
 struct Outputs {
   control::OpenMask open = 0;
-  bool current = true;  // false: no coil has any (a dump)
+  bool current = true;  // false: all coils are without current (a dump)
   bool supply = false;  // the dump valve has current
 
   friend constexpr bool operator==(const Outputs&, const Outputs&) = default;
@@ -56,13 +56,13 @@ class Program {
   static constexpr std::size_t line_in = 512, line_out = 4'096, log_size = 12'288;
   static constexpr std::size_t edges_kept = 128, logged_periods = 20;  // 200 ms
 
-  // `who` is what the board says of itself.
+  // `who` is the board's identity.
   explicit Program(const Identification& who) noexcept;
 
   // --- a tick ---
 
-  // `told` is called where a run's period begins, between what is said of the last one and the
-  // command of this one: where host and board go in lock step it waits for the host.
+  // Starts a tick. `told` is called at the start of a period, between the report of the last
+  // period and the command of the new one: in lock step it waits for the host.
   template <class Told>
   Outputs begin_tick(Told told) noexcept {
     if (begins_period()) {
@@ -75,26 +75,27 @@ class Program {
   Outputs begin_tick() noexcept {
     return begin_tick([] {});
   }
-  // The conversion whose result is there in this tick, or nullptr.
+  // Returns the conversion whose result is due in this tick, or nullptr.
   const signals::Conversion* due() noexcept { return safety_.due(now_); }
-  // The conversion that hardware starts in this tick, to be read in a later one, or nullptr.
+  // Returns the conversion that the hardware starts in this tick and that is read later, or
+  // nullptr.
   const signals::Conversion* begins() const noexcept { return safety_.begins(now_); }
   void take(const signals::Conversion&, signals::Reading) noexcept;
-  // All of the tick was worked off and nothing has changed by itself: the watchdog may be fed.
+  // Returns whether the tick was complete and memory is unchanged, so that the watchdog may be fed.
   bool end_tick() noexcept;
 
-  // So many ticks have passed without a call.
+  // Counts ticks that have passed without a call.
   void miss(std::uint32_t ticks) noexcept { now_ += ticks; }
 
   // --- between ticks ---
 
-  // Returns how many it took.
+  // Takes received bytes. Returns the number taken.
   std::size_t receive(std::span<const std::uint8_t> bytes) noexcept;
-  // No byte has come for longer than one may be late within a frame.
+  // Notes that no byte has come for longer than allowed within a frame.
   void silent() noexcept;
 
-  // Works off what has come and puts down what is to be said. `Ticks` has keep_away() and
-  // let_come(). True: there is more to do.
+  // Handles received bytes and prepares messages. `Ticks` has keep_away() and let_come(). Returns
+  // whether there is more to do.
   template <class Ticks>
   bool serve(Ticks&& ticks) noexcept {
     const bool more = next_frame();
@@ -106,15 +107,15 @@ class Program {
     return speak() || said || more;
   }
 
-  // The next bytes for the line; how many.
+  // Takes the next bytes for the line. Returns their number.
   std::size_t transmit(std::span<std::uint8_t> out) noexcept { return line_.pop(out); }
 
-  // --- for whoever looks ---
+  // --- state ---
 
-  // Returns the board's states and valves; and the tick that it is at.
+  // Return the board's states and valves, and the current tick.
   const control::Safety& safety() const noexcept { return safety_; }
   signals::Tick now() const noexcept { return now_; }
-  std::uint32_t dropped() const noexcept { return dropped_; }  // messages the line had no room for
+  std::uint32_t dropped() const noexcept { return dropped_; }  // messages lost for lack of room
 
  private:
   // A tick
@@ -123,7 +124,7 @@ class Program {
   void obey_command() noexcept;
   Outputs drive() noexcept;
 
-  // A host's messages
+  // messages of a host
   bool next_frame() noexcept;
   bool next_word() noexcept;
   void obey() noexcept;
@@ -141,7 +142,7 @@ class Program {
   bool runs() const noexcept;
   bool at_rest() const noexcept;
 
-  // What is said
+  // messages of the board
   template <class M>
   void say(const M& message) noexcept;
   void say(std::uint8_t type, std::span<const std::uint8_t> body) noexcept;
@@ -157,25 +158,25 @@ class Program {
   Identification who_;
   control::Safety safety_;
   signals::Tick now_ = 0;
-  std::uint32_t idle_ticks_ = 0;  // since telemetry without a run
+  std::uint32_t idle_ticks_ = 0;  // since the last telemetry outside a run
 
   // A run
   link::CommandQueue queue_{100};
-  control::Command held_;            // what holds, with the host's changes
-  signals::Tick command_begun_ = 0;  // the period whose command was taken last
-  signals::Tick obeyed_ = -1;        // where the one that holds began
-  bool starts_ = false;              // a command to begin with has come
+  control::Command held_;            // current command, including the host's changes
+  signals::Tick command_begun_ = 0;  // start of the last period whose command was taken
+  signals::Tick obeyed_ = -1;        // `from` of the current command
+  bool starts_ = false;              // a first command has come
   bool changed_ = false;
 
-  // The line's way in
+  // receiving
   Ring<line_in> in_;
   link::Decoder decoder_;
   link::SequenceWindow window_;
   const link::Frame* frame_ = nullptr;
   link::Code code_ = link::Code::done;
   const char* why_ = nullptr;
-  std::uint32_t value_ = 0;  // of the answer
-  bool quiet_ = false;       // done is not answered
+  std::uint32_t value_ = 0;  // of the reply
+  bool quiet_ = false;       // no reply to a message that is done
   std::uint32_t refused_ = 0, late_ = 0;
   link::ConfigurationReceiver receiver_;
   link::Configuration incoming_;
@@ -186,13 +187,13 @@ class Program {
   link::WordStep step_;
   bool step_due_ = false;
 
-  // ... and out
+  // sending
   Ring<line_out> line_;
   std::uint8_t sequence_ = 0;
   std::uint32_t dropped_ = 0;
   link::Telemetry telemetry_;
   std::uint8_t part_ = 0;
-  std::atomic<bool> speaking_ = false;  // telemetry_ is not whole in the line yet
+  std::atomic<bool> speaking_ = false;  // telemetry_ is not completely sent yet
   bool identity_wanted_ = false, readings_wanted_ = false, log_wanted_ = false;
   std::size_t log_from_ = 0;
   link::Event event_;
@@ -200,14 +201,14 @@ class Program {
   control::BoardState told_ = control::BoardState::fault;
   bool started_told_ = false;
 
-  // Edges of a run, oldest first
+  // edges of a run, oldest first
   std::array<signals::Edge, edges_kept> edge_;
   std::size_t edge_count_ = 0;
   std::uint32_t edges_lost_ = 0;
   link::Edges edges_;
   bool edges_wanted_ = false, edges_due_ = false;
 
-  // Telemetry of the last 200 ms, until a fault stops it
+  // telemetry of the last 200 ms, until a fault stops it
   Log<log_size> log_;
   bool log_stops_ = false, log_stopped_ = false;
 };

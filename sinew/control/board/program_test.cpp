@@ -1,4 +1,4 @@
-// A board's program at the end of a line: what it obeys, what it refuses, what it says.
+// Tests a board's program at the end of a line: what it obeys, refuses and reports.
 #include "sinew/control/board/program.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Bytes all_of(const link::Telemetry& t) {
   return out;
 }
 
-// --- who is there -------------------------------------------------------------------------------
+// --- identity -----------------------------------------------------------------------------------
 
 TEST(Program, SaysWhoItIsAndThatItHasStarted) {
   Bench b({.board = {'b', 'e', 'n', 'c', 'h'}, .firmware = {'1'}});
@@ -139,7 +139,7 @@ TEST(Program, AFrameThatIsSentTwiceIsObeyedOnce) {
   b.run(100);
   EXPECT_EQ(b.telemetry.link.repeated, 1u);
   EXPECT_EQ(b.answers.back().sequence, sequence);
-  // ... but for a shut-down.
+  // A shutdown is the exception.
   b.put(link::frame_of(link::ShutDown{}, {1, sequence}));
   b.run(1);
   EXPECT_EQ(b.program.safety().state(), BoardState::vent);
@@ -147,8 +147,8 @@ TEST(Program, AFrameThatIsSentTwiceIsObeyedOnce) {
 
 // --- a run --------------------------------------------------------------------------------------
 
-// The board at the end of its line is the supervised controller here: telemetry of each period and
-// all edges to the bit, whatever is commanded and read, in lock step.
+// In lock step, a board at the end of its line equals a local supervised controller: telemetry of
+// each period and all edges are bit-identical for all commands and readings.
 TEST(Program, IsTheSupervisedControllerToTheBit) {
   std::mt19937 random(1);
   const auto reads = [](std::uint8_t channel, Tick t) {
@@ -173,7 +173,7 @@ TEST(Program, IsTheSupervisedControllerToTheBit) {
     };
     b.told = [&] {
       if (b.program.safety().state() == BoardState::armed) return;
-      link::Telemetry here = b.telemetry;  // with what is the board's alone
+      link::Telemetry here = b.telemetry;  // keeps fields that only the board has
       here.seen = alone.seen();
       here.supervised = alone.supervised();
       ASSERT_EQ(b.telemetry.tick, t);
@@ -182,7 +182,7 @@ TEST(Program, IsTheSupervisedControllerToTheBit) {
     };
     next_command();  // the first one starts it
     for (; t < 10'000; ++t) {
-      // Both know of the period before its command comes.
+      // Both begin the period before its command comes.
       (void)alone.starts_period(t);
       b.tick();
       if (alone.starts_period(t)) alone.command(command);
@@ -241,7 +241,8 @@ TEST(Program, GainsDutiesAndEnablingHoldUntilACommandSaysOtherwise) {
   EXPECT_EQ(b.last(), Code::value);
 }
 
-// A plan's end is no fault: inlets shut at once, a vent, then all shut and ready for the next run.
+// A plan's end is not a fault: inlets shut at once, muscles are vented, then all valves are shut
+// and the board is ready for the next run.
 TEST(Program, ACommandThatEndsTheRunVentsItAndLeavesTheBoardIdle) {
   Bench b;
   b.ready();
@@ -280,7 +281,7 @@ TEST(Program, AHostThatFallsSilentIsHeldVentedAndTold) {
   EXPECT_EQ(b.events.back().fault, BoardFault::host_silent);
 }
 
-// The log is the telemetry of the last 200 ms, body by body, and what ended them is in it.
+// The log is the telemetry of the last 200 ms, body by body, including the fault.
 TEST(Program, TheLogOfAFaultIsTheTelemetryBeforeIt) {
   Bench b;
   b.ready();
@@ -306,7 +307,7 @@ TEST(Program, TheLogOfAFaultIsTheTelemetryBeforeIt) {
   for (; b.program.safety().state() == BoardState::running; ++t) b.tick();
   ASSERT_LT(t, 5'400);
   const std::size_t known = said.size();
-  for (const Tick end = t + 30'000; t < end; ++t) b.tick();  // the log waits
+  for (const Tick end = t + 30'000; t < end; ++t) b.tick();  // the log is kept
   b.send(link::ReadFaultLog{0});
   b.serve();
   ASSERT_GT(b.log.size(), 20u);
@@ -315,7 +316,7 @@ TEST(Program, TheLogOfAFaultIsTheTelemetryBeforeIt) {
   b.log.pop_back();
   const std::size_t parts = link::parts_of(3, 7);
   EXPECT_EQ(b.log.size(), 20u * parts);
-  // They end with the first period that knew of the fault.
+  // They end with the first period that has the fault.
   const std::size_t last = known + parts;
   for (std::size_t i = 0; i < b.log.size(); ++i) {
     const link::FaultLog& m = b.log[i];
@@ -326,8 +327,8 @@ TEST(Program, TheLogOfAFaultIsTheTelemetryBeforeIt) {
 
 // --- a bad line ---------------------------------------------------------------------------------
 
-// Whatever the line does to frames that would arm it and let air in: a frame is obeyed as it was
-// sent, or not at all.
+// With damaged frames that would arm the board and let air in: a frame is obeyed as it was sent, or
+// ignored.
 TEST(Program, SpoiledFramesLetNoAirIn) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 40; ++trial) {

@@ -1,5 +1,5 @@
-// control/board/ring.h - bytes that wait, oldest first; and records of them of which old ones are
-// given up.
+// control/board/ring.h - a ring of waiting bytes, oldest first; and a log of records that drops old
+// ones.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@ template <std::size_t Size>
 class Ring {
  public:
   std::size_t size() const noexcept { return size_; }
-  // How many more bytes there is room for.
+  // Returns the number of bytes that can be added.
   std::size_t room() const noexcept { return Size - size_; }
 
-  // All of them or, false, none.
+  // Adds all bytes, or none and returns false.
   bool push(std::span<const std::uint8_t> bytes) noexcept {
     if (bytes.size() > room()) return false;
     for (const std::uint8_t byte : bytes) bytes_[(first_ + size_++) % Size] = byte;
     return true;
   }
 
-  // As many as there are and `out` holds; how many.
+  // Removes up to out.size() bytes. Returns their number.
   std::size_t pop(std::span<std::uint8_t> out) noexcept {
     const std::size_t n = out.size() < size_ ? out.size() : size_;
     for (std::size_t i = 0; i < n; ++i) out[i] = bytes_[(first_ + i) % Size];
@@ -35,7 +35,7 @@ class Ring {
     size_ -= n;
   }
 
-  // The byte behind so many; place < size().
+  // Returns the byte at that distance from the oldest; place < size().
   std::uint8_t at(std::size_t place) const noexcept { return bytes_[(first_ + place) % Size]; }
 
  private:
@@ -43,24 +43,25 @@ class Ring {
   std::size_t first_ = 0, size_ = 0;
 };
 
-// Log keeps the records of the last periods, each a kind and up to 255 bytes.
+// Records of the last periods, each with a kind and up to 255 bytes.
 template <std::size_t Size>
 class Log {
  public:
-  // One of the records that wait.
+  // A stored record.
   struct Record {
     std::uint8_t kind = 0, size = 0;
-    std::size_t place = 0;  // of its first byte, for byte()
+    std::size_t place = 0;  // place of its first byte, for byte()
   };
 
-  // A period begins with the next record; those before the last `periods` are given up.
+  // Begins a period with the next record; only the last `periods` periods are kept.
   void begin_period(std::size_t periods) noexcept {
     while (periods_ >= periods && periods_ > 0) drop_period();
     ++periods_;
     opens_ = true;
   }
 
-  // Old periods make room. Records of a period that is longer than all the room are left out.
+  // Adds a record and drops old periods if necessary. Records of a period that does not fit are
+  // left out.
   void add(std::uint8_t kind, std::span<const std::uint8_t> data) noexcept {
     if (data.size() > 255 || data.size() + head > Size) return;
     while (bytes_.room() < data.size() + head && periods_ > 1) drop_period();
@@ -72,17 +73,17 @@ class Log {
     ++records_;
   }
 
-  // Gives all of them up.
+  // Removes all records.
   void clear() noexcept {
     bytes_.drop(bytes_.size());
     records_ = periods_ = 0;
     opens_ = false;
   }
 
-  // How many records wait, and how many periods they are of.
+  // Return the number of records and of their periods.
   std::size_t records() const noexcept { return records_; }
   std::size_t periods() const noexcept { return periods_; }
-  // i < records()
+  // Returns a record, i < records().
   Record record(std::size_t i) const noexcept {
     std::size_t place = 0;
     for (; i > 0; --i) place += head + bytes_.at(place + 1);
@@ -91,7 +92,7 @@ class Log {
   std::uint8_t byte(std::size_t place) const noexcept { return bytes_.at(place); }
 
  private:
-  static constexpr std::size_t head = 3;  // kind, size, does a period begin here?
+  static constexpr std::size_t head = 3;  // kind, size, whether a period begins here
 
   void drop_period() noexcept {
     do {

@@ -1,5 +1,5 @@
-// control/board/test_host.h - a host on a line without delay, and a board whose sensors say what a
-// test wants.
+// control/board/test_host.h - a host on a line without delay, and a board whose sensors a test
+// controls.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -115,7 +115,7 @@ struct Bench {
     send(link::ArmFirst{crc});
     send(link::ArmSecond{answers.back().value, crc});
   }
-  // From power-up to an armed board.
+  // Runs from power-up to an armed board.
   void ready(const link::Configuration& configuration = leg_configuration()) {
     configure(configuration);
     ASSERT_EQ(last(), Code::done);
@@ -132,7 +132,7 @@ struct Bench {
   bool feed = false;
   std::uint8_t sequence = 0;
   std::uint32_t crc = 0;
-  std::function<void(Bytes&)> spoil;  // a frame on its way to the board
+  std::function<void(Bytes&)> spoil;  // changes a frame on its way to the board
   std::function<signals::Reading(std::uint8_t channel, Tick run, signals::Reading)> reads;
   std::function<void()> told;
   std::function<void(const link::Telemetry&)> on_telemetry;

@@ -1,4 +1,4 @@
-// What stands in place of the plan's, and which lists are refused.
+// Tests values that override the plan's, and lists that are refused.
 #include "sinew/control/gait/change.h"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@ bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// What holds before the first phase: rest angles, as B.1 sets `thetades` to `potoffset`.
+// Returns the setpoints before the first phase: rest angles, as B.1 sets `thetades` to `potoffset`.
 DesiredJoint at_rest(const robot::Joint& joint, const JointPlan& plan) {
   DesiredJoint desired;
   desired.angle = joint.rest_angle;
@@ -75,8 +75,8 @@ void GaitController::wait(const Measured& measured) noexcept {
   if (desired_.unreachable) ++unreachable_periods_;
 }
 
-// Enters the next phase; false: there is none, the last step is over. Who began within a step has
-// a part of another one to go.
+// Enters the next phase. Returns false if the last step is over. A leg that began within a step has
+// one more partial step.
 bool GaitController::go_on() noexcept {
   if (position_ + 1 < sequence_.size()) {
     enter(position_ + 1);
@@ -89,7 +89,7 @@ bool GaitController::go_on() noexcept {
   return true;
 }
 
-// Is it, after all its steps, where it began?
+// Returns whether, after all its steps, it is at the place where it began.
 bool GaitController::is_back() const noexcept {
   if (desired_.step < plan_.repeat) return false;
   return position_ > first_ || (position_ == first_ && k_ >= first_k_);
@@ -124,7 +124,7 @@ void GaitController::enter(std::size_t position) noexcept {
     desired_.joint[i].enabled = sequence_[position].enabled[i];
 }
 
-// A phase that took its time has reached s = 1, also where no period showed it.
+// A phase that was not ended early has reached s = 1, even if no period had that value.
 void GaitController::leave(bool early, const Measured& measured) noexcept {
   if (!early) describe(1.0, measured);
 }
@@ -166,10 +166,10 @@ double GaitController::value(const Measure& measure, const Measured& measured) c
     case Measure::Kind::unknown:
       break;
   }
-  return std::nan("");  // beyond no level
+  return std::nan("");  // compares as false with every level
 }
 
-// Everything that is desired at progress s of the present phase.
+// Sets all setpoints for progress s of the current phase.
 void GaitController::describe(double s, const Measured& measured) noexcept {
   const Phase& phase = plan_.phases[static_cast<std::size_t>(desired_.phase)];
   desired_.progress = s;
@@ -194,7 +194,7 @@ void GaitController::follow_path(const Phase& phase, double s, const Measured& m
   for (std::size_t i = 0; i < inverse.angle.size(); ++i) desired_.joint[i].angle = inverse.angle[i];
 }
 
-// What has been reached last holds where a phase asks for nothing.
+// Sets the cylinder. Without a position in the phase the last one is kept.
 void GaitController::set_cylinder(const CylinderPhase& phase, double s) noexcept {
   DesiredCylinder& cylinder = desired_.cylinder;
   cylinder.open_loop = phase.feedforward.given();

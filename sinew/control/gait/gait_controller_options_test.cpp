@@ -1,4 +1,4 @@
-// Ranges, the force that sets the height, the cylinder, and machines that are not the leg.
+// Tests ranges, the force that sets the height, the cylinder, and machines other than the leg.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using test::inch;
 constexpr double turn = 2 * std::numbers::pi;
 const robot::TwoLinks links{8.875 * inch, 6.25 * inch};
 
-// The way round that raises the angle from the range's first end  [rad].
+// Returns the angle from the range's first end in increasing direction [rad].
 double up_from(double first, double angle) { return robot::normalised(angle - first); }
 
 TEST(Within, AnAngleInsideStaysAndOneOutsideGoesToTheNearerEnd) {
@@ -33,7 +33,7 @@ TEST(Within, AnAngleInsideStaysAndOneOutsideGoesToTheNearerEnd) {
       ASSERT_EQ(kept, angle);
       continue;
     }
-    // Nearer the short way round.
+    // Distance on the circle in the shorter direction.
     const auto apart = [&](double a) { return std::abs(std::remainder(angle - a, turn)); };
     ASSERT_NEAR(apart(kept), std::min(apart(first), apart(last)), 1e-12);
     ASSERT_LE(std::min(up_from(first, kept), turn - up_from(first, kept)), last - first + 1e-12);
@@ -73,7 +73,7 @@ TEST(GroundForce, IsProportionalAndBounded) {
   EXPECT_EQ(correction(g, std::nan("")), 0);  // no reading, no correction
 }
 
-// The tensions of which [75] makes that normal force, on a leg that stands.
+// Returns tensions for which [75] gives that normal force, for a standing leg.
 Measured standing(const robot::Robot& robot, double normal) {
   Measured m;
   const robot::Inverse inv = robot::inverse(links, {1 * inch, -13 * inch});
@@ -102,7 +102,7 @@ TEST(GaitController, TheMeasuredForceMovesThePathOfItsPhaseAlone) {
   EXPECT_NEAR(aim.y, brain.desired().foot.y, 1e-12);
 }
 
-// B.1, commented out: thetades[0] = 400 + 800 (y + 13.5), in counts and inches.
+// In comments of B.1: thetades[0] = 400 + 800 (y + 13.5), in counts and inches.
 TEST(GaitController, TheCylinderFollowsTheFootsHeight) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
@@ -115,7 +115,7 @@ TEST(GaitController, TheCylinderFollowsTheFootsHeight) {
     const double counts = 400 + 800 * (brain.desired().foot.y / inch + 13.5);
     ASSERT_NEAR(400 + 800 * brain.desired().cylinder.position / inch, counts, 1e-9);
   }
-  // The next phases ask for nothing: it stays where s = 1 brought it, y = -13.2503 in.
+  // The next phases have no position: it stays at that of s = 1, y = -13.2503 in.
   const double left = foot_at(plan.phases[0], 1).y + 13.5 * inch;
   brain.update({}, 200);
   EXPECT_NEAR(brain.desired().cylinder.position, left, 1e-15);
@@ -145,7 +145,7 @@ TEST(GaitController, TheCylinderOpenLoop) {
   EXPECT_FALSE(brain.update({}, 150).cylinder.open_loop);
 }
 
-// An ankle without muscles behind the knee, a muscle across hip and knee, a knee without extensor.
+// An ankle without muscles after the knee, a muscle over hip and knee, a knee without extensor.
 robot::Robot odd_machine() {
   robot::Robot robot = robot::test::leg();
   robot.links.push_back({"sole", 2 * inch, 0.05, 1 * inch, 1e-5});
@@ -177,7 +177,7 @@ TEST(GaitController, APassiveJointIsLeftAlone) {
   }
 }
 
-// Virtual work: what the tensions do over a small turn is what the force does over the foot's way.
+// Virtual work: the work of the tensions over a small turn equals that of the force on the foot.
 TEST(GaitController, GroundReactionOfAnyMuscles) {
   const robot::Robot robot = odd_machine();
   const GaitController brain(robot, test::walk(robot));

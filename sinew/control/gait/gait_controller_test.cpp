@@ -17,7 +17,7 @@ using test::inch;
 
 const robot::TwoLinks links{8.875 * inch, 6.25 * inch};
 
-// Periods that the brain spent in each phase, by name, until it had finished.
+// Returns the periods spent in each phase, by name, until the controller has finished.
 std::map<std::string, int> spent(GaitController& brain, const Measured& measured = {}) {
   std::map<std::string, int> count;
   for (std::int64_t p = 0; p < 100000; ++p) {
@@ -80,7 +80,7 @@ TEST(GaitController, TheSamePeriodAgainGivesTheSame) {
     for (int i = 0; i < 3; ++i) thrice.update({}, p);
     EXPECT_EQ(once.update({}, p).joint[0].angle, thrice.desired().joint[0].angle);
   }
-  // Periods that were not asked for have passed all the same.
+  // Skipped periods have passed all the same.
   GaitController jumps(robot, test::walk(robot));
   EXPECT_EQ(jumps.update({}, 399).joint[1].angle, once.desired().joint[1].angle);
 }
@@ -113,7 +113,7 @@ TEST(GaitController, HoldsAtTheEndIfToldTo) {
   EXPECT_NEAR(brain.desired().foot.x, -6.5 * inch, 1e-15);
 }
 
-// A foot that stands: the tensions of which [75] makes 5 N upwards.
+// Returns measurements of a standing foot: tensions for which [75] gives 5 N upwards.
 Measured standing(const robot::Robot& robot, robot::Point force) {
   Measured m;
   const robot::Inverse inv = robot::inverse(links, {2.5 * inch, -13 * inch});
@@ -144,7 +144,7 @@ TEST(GaitController, APhaseEndsWhereTheFootStands) {
   plan.repeat = 1;
 
   GaitController never(robot, plan);
-  EXPECT_EQ(spent(never, standing(robot, {0, 3})).at("foot_plant"), 30);  // at the latest
+  EXPECT_EQ(spent(never, standing(robot, {0, 3})).at("foot_plant"), 30);  // latest end
 
   GaitController brain(robot, plan);
   std::int64_t p = 0;

@@ -1,11 +1,11 @@
-// control/gait/legs.h - one gait controller per leg, and what coordinates them.
+// control/gait/legs.h - coordination of several legs, each with its own gait controller.
 //
-// Every leg follows the sequence for itself, ahead of it by its offset (robot.h). What it knows is
-// its own: angles, tensions and [75] of its own foot. What coordinates them is the plan's time: a
-// leg that has ended a phase early stays at the start of its next one until all others are as far,
-// so that the offsets last, whatever ends the phases.
+// Every leg follows the sequence independently, ahead by its offset (robot.h), and uses only its
+// own measurements: angles, tensions and [75] of its foot. The legs are coordinated by the plan's
+// time: a leg that has ended a phase early waits at the start of its next one until all others have
+// reached that time, so that the offsets are kept even if phases end early.
 //
-// A robot without [leg.*] has one leg, which is all of it: nothing but its GaitController.
+// A robot without [leg.*] has one leg, which is the whole robot and needs only a GaitController.
 #pragma once
 
 #include <array>
@@ -23,26 +23,26 @@ using MachineMeasured = MeasuredOf<robot::max_joints, robot::max_muscles>;
 
 class Legs {
  public:
-  // contradictions(robot, plan) must be empty.
+  // Requires that contradictions(robot, plan) is empty.
   Legs(const robot::Robot& robot, const Plan& plan);
 
-  // At the start of brain period `period_index` (0, 1, 2, ...), with what the machine measures, in
-  // the robot's order.
+  // Updates all legs at the start of the gait controller's period `period_index` (0, 1, 2,
+  // ...) from the machine's measurements, in the robot's order.
   void update(const MachineMeasured& machine, std::int64_t period_index) noexcept;
 
-  // How many legs there are; and of one its parts, its brain, and what that wants.
+  // Return the number of legs, and a leg's parts, gait controller and setpoints.
   std::size_t count() const noexcept { return brains_.size(); }
   const robot::LegParts& parts(std::size_t leg) const noexcept { return parts_[leg]; }
   const GaitController& brain(std::size_t leg) const noexcept { return brains_[leg]; }
   const Desired& desired(std::size_t leg) const noexcept { return brains_[leg].desired(); }
 
-  // Everything that their next words depend on, beside the plan and what they will be told; of legs
-  // that are not there, the default. Copied like bytes.
+  // Everything that the next setpoints depend on, apart from the plan and future measurements; for
+  // legs that do not exist, the default. Trivially copyable.
   using State = std::array<GaitController::State, robot::max_legs>;
   State state() const noexcept;
   void restore(const State& state) noexcept;  // of legs with an equal plan
 
-  // All of them.
+  // Return whether all legs are finished, and the sum of their unreachable periods.
   bool finished() const noexcept;
   std::int64_t unreachable_periods() const noexcept;
 

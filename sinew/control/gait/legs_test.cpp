@@ -1,4 +1,4 @@
-// Legs share a plan, and each has a controller of its own.
+// Tests legs that share a plan, each with its own controller.
 #include "sinew/control/gait/legs.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::string phase_of(const Legs& legs, std::size_t leg) {
   return phase < 0 ? "" : legs.brain(leg).plan().phases[static_cast<std::size_t>(phase)].name;
 }
 
-// One leg alone gets what its brain says, whatever it measures.
+// One leg alone has the setpoints of its controller, for all measurements.
 TEST(Legs, OneLegIsItsBrain) {
   const robot::Robot robot = robot::test::leg();
   const Plan plan = test::walk(robot);
@@ -50,7 +50,7 @@ TEST(Legs, OneLegIsItsBrain) {
   }
 }
 
-// The first leg wants half a step later what the second one wants; both end together.
+// The first leg has the setpoints of the second one half a step later; both end together.
 TEST(Legs, AntiphaseIsHalfAStepAhead) {
   const robot::Robot robot = antiphase();
   const Plan plan = test::walk(robot);
@@ -73,8 +73,8 @@ TEST(Legs, AntiphaseIsHalfAStepAhead) {
   for (std::size_t leg = 0; leg < 2; ++leg) EXPECT_TRUE(legs.desired(leg).vent);
 }
 
-// A measure of one leg ends that leg's phase alone; it then stays at the start of the next
-// until the other one is as far, and the offset is as before.
+// A measure of one leg ends only that leg's phase; it then waits at the start of the next one until
+// the other leg has reached it, and the offset is kept.
 TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
   const robot::Robot robot = antiphase();
   Plan plan = test::walk(robot);
@@ -96,7 +96,7 @@ TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
     legs.update(m, k);
     ASSERT_LT(k, step);
   }
-  EXPECT_EQ(k - 1, 150 + 3);  // as if the swing had taken its time
+  EXPECT_EQ(k - 1, 150 + 3);  // as if the swing had taken its full time
   EXPECT_EQ(legs.brain(0).planned_periods(), legs.brain(1).planned_periods());
 
   // The right knee's angle is the right leg's measure.
@@ -109,7 +109,7 @@ TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
   EXPECT_EQ(phase_of(others, 1), "foot_plant");
 }
 
-// [75] of each leg's own tensions.
+// [75] uses each leg's own tensions.
 TEST(Legs, GroundReactionOfEachLeg) {
   const robot::Robot robot = antiphase(), one = robot::test::leg();
   Legs legs(robot, test::walk(robot));
@@ -128,7 +128,7 @@ TEST(Legs, GroundReactionOfEachLeg) {
   EXPECT_NE(reaction(0).y, reaction(1).y);
 }
 
-// A leg may have an order of the phases of its own.
+// A leg may have its own order of phases.
 TEST(Legs, APlanOfItsOwn) {
   robot::Robot robot = robot::test::two_legs();
   robot.legs[1].plan = "late";
@@ -148,7 +148,7 @@ TEST(Legs, APlanOfItsOwn) {
   EXPECT_EQ(wrong[1].key + wrong[1].found, "leg.right.plan\"later\"");
 }
 
-// A mistake of several legs is said once.
+// A mistake in several legs is reported once.
 TEST(Legs, ContradictionsAreSaidOnce) {
   const robot::Robot robot = antiphase();
   Plan plan = test::walk(robot);

@@ -19,7 +19,7 @@ robot::Point between(const Points& p, std::size_t i, double share) noexcept {
   return {p.x[i] + (p.x[i + 1] - p.x[i]) * share, p.y[i] + (p.y[i + 1] - p.y[i]) * share};
 }
 
-// The point at the share s of the polyline's length.
+// Returns the point at the share s of the polyline's length.
 robot::Point along(const Points& p, double s) noexcept {
   const std::size_t n = std::min(p.x.size(), p.y.size());
   if (n == 0) return {};

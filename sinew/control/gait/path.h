@@ -1,6 +1,6 @@
-// control/gait/path.h - where a phase wants the foot, and profiles over a phase, at progress s.
+// control/gait/path.h - foot position and profiles of a phase at progress s.
 //
-// No heap; s beyond 0 .. 1 stands for the nearer end.
+// No heap; s is clamped to 0 .. 1.
 #pragma once
 
 #include "sinew/control/gait/plan.h"
@@ -8,16 +8,17 @@
 
 namespace sinew::gait {
 
-// The profile at s; `otherwise` where it is empty.
+// Returns the profile at s; `otherwise` if it is empty.
 double value_at(const Profile&, double s, double otherwise) noexcept;
 
-// c0 + c1 u + c2 u^2 + ...
+// Returns c0 + c1 u + c2 u^2 + ...
 double polynomial_at(const Profile& coefficients, double u) noexcept;
 
-// How far the measured normal force lifts a path (> 0) or lowers it  [m]; 0 without a reading.
+// Returns the change of height of a path by the measured normal force, positive upwards [m]; 0
+// without a reading.
 double correction(const GroundForce&, double normal_force) noexcept;
 
-// [65]-[70] for the thesis's walk  [m]. The phase must have a path.
+// Returns the foot's position, [65]-[70] for the thesis's walk [m]. The phase must have a path.
 robot::Point foot_at(const Phase&, double s) noexcept;
 
 }  // namespace sinew::gait

@@ -31,7 +31,8 @@ TEST(Path, CornersOfTheWalk) {
   expect_point(foot_at(plan.phases[2], 0), 2, -13.5);  // [69], [70]
   expect_point(foot_at(plan.phases[2], 1), -6.5, -13.5);
 
-  // The three pieces close; the printed polynomial misses its neighbours by 2 and 1 thousandths.
+  // The three pieces are closed; the printed polynomial misses its neighbours by 2 and 1
+  // thousandths.
   EXPECT_NEAR(lift, -13.5, 0.0020);
   EXPECT_NEAR(front, -13.25, 0.0010);
 }
@@ -50,7 +51,7 @@ TEST(Path, IsContinuousWithinAPhase) {
   }
 }
 
-// errata, 6.1: what the walk asks of the knee, which flexes to 289 deg at most (table 6-1).
+// errata, 6.1: the walk requires angles of the knee beyond its limit of 289 deg (table 6-1).
 TEST(Path, DesiredAnglesOfTheThesis) {
   const Plan plan = test::walk(robot::test::leg());
   double least = 360 * degree, beyond = 0;

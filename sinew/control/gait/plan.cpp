@@ -13,7 +13,7 @@ namespace sinew::gait {
 
 namespace {
 
-// "joint.hip.angle" -> "hip", where the name has that head and tail.
+// Returns "hip" of "joint.hip.angle", or nothing if the name does not have that head and tail.
 std::string_view middle(std::string_view name, std::string_view head, std::string_view tail) {
   if (name.size() <= head.size() + tail.size()) return {};
   if (!name.starts_with(head) || !name.ends_with(tail)) return {};
@@ -116,7 +116,7 @@ int find_phase(const Plan& plan, std::string_view name) {
   return found == plan.phases.end() ? -1 : static_cast<int>(found - plan.phases.begin());
 }
 
-// What is wrong with a plan, before anything moves.
+// Contradictions of a plan, found before a run.
 
 namespace {
 
@@ -166,7 +166,7 @@ void check_path(const robot::Robot& robot, const Phase& phase, List& out) {
   }
 }
 
-// A joint follows its laws or the given duties, not both; inlet and exhaust not together.
+// Refuses duties together with joint angles for a joint, and unknown disabled joints.
 void check_joints(const Plan& plan, const Phase& phase, List& out) {
   for (std::size_t i = 0; i < phase.joints.size() && i < plan.joints.size(); ++i) {
     const JointPhase& joint = phase.joints[i];
@@ -196,7 +196,7 @@ void check_until(const robot::Robot& robot, const Phase& phase, List& out) {
         {key, quoted(phase.until.measure), "a leg with two links [75]", "an angle or a tension"});
 }
 
-// The force that sets the height belongs to a foot path, and needs room to do so.
+// Refuses a controlled force in a phase without a foot path, or without room to move.
 void check_ground_force(const Phase& phase, List& out) {
   const GroundForce& g = phase.ground_force;
   const std::string key = "phase." + phase.name + ".ground_force";
@@ -224,7 +224,7 @@ void check_cylinder(const robot::Robot& robot, const Phase& phase, List& out) {
                    "position"});
 }
 
-// Ends of a range, counter-clockwise from the first to the second.
+// Checks ranges: their ends are counter-clockwise from the first to the second.
 void check_ranges(const Plan& plan, List& out) {
   for (const JointPlan& joint : plan.joints) {
     const std::string key = "control.joint_range." + joint.name;
@@ -247,8 +247,8 @@ void check_times(const Plan& plan, List& out) {
     out.push_back({"control.brain_period", "no time", "more than 0 s", "10 ms"});
 }
 
-// A change must name a driven joint and, where it names a leg, one that is there; it has a value or
-// a release.
+// Checks changes: each must name a driven joint and, if it names a leg, an existing one; it has
+// either a value or a release.
 void check_changes(const robot::Robot& robot, const Plan& plan, List& out) {
   std::string legs;
   for (const robot::Leg& leg : robot.legs) legs += (legs.empty() ? "" : " or ") + leg.name;
@@ -281,7 +281,7 @@ std::string point(robot::Point p) {
   return text;
 }
 
-// One stretch of s in which the foot path is out of reach, and its worst point.
+// A stretch of s in which the foot path is out of reach, and its worst point.
 struct Stretch {
   double from = 0, to = 0;
   double worst_s = 0, worst = 0;  // [m] beyond the reach
@@ -333,7 +333,7 @@ void check_reach(const robot::TwoLinks& leg, const Plan& plan, const Phase& phas
 
 namespace {
 
-// A contradiction that several legs have in common is said once.
+// Adds contradictions, each one once even if several legs have it.
 void add_new(const List& more, List& out) {
   for (const robot::Contradiction& c : more)
     if (std::ranges::none_of(out,
@@ -353,7 +353,7 @@ List of_phases(const robot::Robot& leg, const Plan& plan) {
   return out;
 }
 
-// The orders of phases that legs name, and what is in them.
+// Checks the orders of phases that legs name.
 void check_others(const robot::Robot& robot, const Plan& plan, List& out) {
   for (const Sequence& other : plan.others) {
     const std::string key = "plan." + other.name + ".phases";

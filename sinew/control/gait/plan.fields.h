@@ -1,6 +1,7 @@
-// control/gait/plan.fields.h - the keys of [control], [sequence], [phase.<name>] and [[change]].
+// control/gait/plan.fields.h - keys of [control], [sequence], [phase.<name>] and [[change]].
 //
-// Tables with one key per joint need the robot's joints: start from plan_for(robot).
+// Tables with one key per joint need the robot's joints, so the plan must come from
+// plan_for(robot).
 #pragma once
 
 #include <string>
@@ -48,7 +49,7 @@ void fields(Visitor& v, GainProfiles& g) {
             g.velocity);
 }
 
-// A cylinder's chambers are up and down, as flexor and extensor.
+// Visits duties. The chambers of a cylinder are up and down in place of flexor and extensor.
 template <class Visitor>
 void fields(Visitor& v, DutyProfiles& d, bool cylinder = false) {
   const auto duty = [&](std::string_view name, Profile& profile) {
@@ -102,7 +103,7 @@ void fields(Visitor& v, Until& until) {
   v.choice({.name = "is", .optional = true, .doc = "on which side of the level"}, until.is,
            {{"above", Until::Is::above}, {"below", Until::Is::below}});
 
-  // Without a measure a level has no unit: one complaint is enough.
+  // Without a measure a level has no unit; only the missing measure is reported.
   const std::string_view unit = unit_of(until.measure);
   if (unit.empty() && !until.measure.empty()) {
     units::complain(v, "measure", "\"" + until.measure + "\"", "a measured quantity",
@@ -118,7 +119,7 @@ void fields(Visitor& v, Until& until) {
            until.level);
 }
 
-// Tables whose keys are the driven joints.
+// Visits tables whose keys are the driven joints.
 template <class Visitor>
 void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
   phase.joints.resize(plan.joints.size());
@@ -209,7 +210,7 @@ void fields(Visitor& v, robot::Gains& g) {
            g.velocity);
 }
 
-// [control]
+// Keys of [control].
 template <class Visitor>
 void control_fields(Visitor& v, Plan& plan) {
   v.number({.name = "brain_period",
@@ -260,7 +261,7 @@ void fields(Visitor& v, Change& c) {
   v.text({.name = "leg", .optional = true, .doc = "of several; absent: every leg's"}, c.leg);
   v.flag({.name = "release", .optional = true, .doc = "the plan's own value again"}, c.release);
 
-  // Without a key the value has no unit: one complaint is enough.
+  // Without a key the value has no unit; only the missing key is reported.
   const std::string_view unit = unit_of_setting(c.key);
   if (unit.empty() && !c.key.empty()) {
     units::complain(v, "key", "\"" + c.key + "\"", std::string(keys));

@@ -1,14 +1,15 @@
-// control/gait/plan.h - what the brain does over time: phases, their order, how often.
+// control/gait/plan.h - plan of the gait controller over time: phases, their order and number of
+// repetitions.
 //
-//   [control]        what holds until a phase says otherwise
-//   [sequence]       the phases of a step, repeated
+//   [control]        values that are in effect until a phase changes them
+//   [sequence]       phases of a step, repeated
 //   [plan.<name>]    another order of them, for a leg that names it
-//   [phase.<name>]   a foot path or joint angles, and what else changes in that phase
-//   [[change]]       what stands in place of all that from a time on (change.h)
+//   [phase.<name>]   a foot path or joint angles, and other changes in that phase
+//   [[change]]       values that override all these from a time on (change.h)
 //
-// Within a phase the progress s runs from 0 to 1. What may change over a phase is a *profile*: a
-// list of values. None: stays as it was. One: holds from this phase on. Several: passed through at
-// equal steps of s, straight in between; what was reached last holds from there on.
+// Within a phase the progress s increases from 0 to 1. A value that may change over a phase is a
+// *profile*, a list of values. Empty: unchanged. One value: in effect from this phase on. Several:
+// reached at equal steps of s, with linear interpolation; the last value stays in effect.
 #pragma once
 
 #include <cmath>
@@ -25,25 +26,25 @@ namespace sinew::gait {
 
 using Profile = std::vector<double>;
 
-// One coordinate of the foot path, about the first joint  [m].
+// One coordinate of the foot path relative to the first joint [m].
 struct Coordinate {
-  // Says by which variable the polynomial goes: the share of the phase, or the foot's x.
+  // Variable of the polynomial: the share of the phase, or the foot's x.
   enum class Of { s, x };
 
-  double from = robot::not_set, to = robot::not_set;  // straight in s, in place of a polynomial
+  double from = robot::not_set, to = robot::not_set;  // linear in s, instead of a polynomial
   Profile polynomial;                                 // c0 + c1 u + c2 u^2 + ..., u = s or x
   Of of = Of::s;
 
-  // Does it go straight from one value to another? Is it given at all?
+  // Return whether the coordinate is linear between two values, and whether it is given.
   bool straight() const { return std::isfinite(from) || std::isfinite(to); }
   bool given() const { return straight() || !polynomial.empty(); }
 };
 
-// A polyline, run through at constant speed: s is the share of its length.
+// A polyline, traversed at constant speed: s is the share of its length.
 struct Points {
   std::vector<double> x, y;  // [m]
 
-  // Are there any points?
+  // Returns whether there are points.
   bool given() const { return !x.empty() || !y.empty(); }
 };
 
@@ -53,96 +54,97 @@ struct GainProfiles {
   Profile velocity;   // [s/count]
 };
 
-// Open loop: duties in place of the joint's laws, while the phase lasts. What is not given is 0.
+// Open loop: duties that replace the joint's laws during the phase. Missing profiles are 0.
 struct DutyProfiles {
   Profile flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust;  // [-] 0 .. 1
 
-  // Is any of the four given?
+  // Returns whether any of the four is given.
   bool given() const {
     return !(flexor_inlet.empty() && flexor_exhaust.empty() && extensor_inlet.empty() &&
              extensor_exhaust.empty());
   }
 };
 
-// Of one joint in one phase.
+// Values of one joint in one phase.
 struct JointPhase {
-  Profile angle;      // in place of the foot path's [rad]
+  Profile angle;      // instead of the foot path's angle [rad]
   Profile stiffness;  // [N m/rad]
   GainProfiles gains;
   DutyProfiles feedforward;
 };
 
-// Of the air cylinder that carries the body, B.1's joint 0: its desired travel, up from the
-// extended stop. None: stays where it was; before the first one, at the stop. Or open loop; the
-// chamber `up` then is the flexor, and inlet and exhaust of a chamber may be open together.
+// Values of the air cylinder that carries the body, B.1's joint 0: its desired travel, upwards from
+// the extended stop. Without a position it keeps the last one; initially it is at the stop.
+// Alternatively duties (open loop): the chamber `up` is the flexor, and inlet and exhaust of a
+// chamber may be open together.
 struct CylinderPhase {
-  // Says by which variable the polynomial goes: the share of the phase, or the foot's height.
+  // Variable of the polynomial: the share of the phase, or the foot's height.
   enum class Of { s, foot_y };
 
   Profile position;    // over the phase [m]
-  Profile polynomial;  // in its place: c0 + c1 u + ..., u = s or the foot path's height [m]
+  Profile polynomial;  // instead of position: c0 + c1 u + ..., u = s or the foot path's height [m]
   Of of = Of::s;
   DutyProfiles feedforward;
 
-  // Is there a position to go to? Is anything given at all?
+  // Return whether there is a desired position, and whether anything is given.
   bool placed() const { return !position.empty() || !polynomial.empty(); }
   bool given() const { return placed() || feedforward.given(); }
 };
 
-// The normal force of [75] sets the height of a foot path, 6.3: where the foot carries less than
-// `desired` the path goes down, where it carries more it goes up.
+// Height of a foot path by the normal force of [75], 6.3: the path is lowered where the foot
+// carries less than `desired`, and raised where it carries more.
 //
 //   y = y_path + clamp(gain (F_y - desired), -limit, +limit)
 struct GroundForce {
   double desired = 0;  // [N]
-  double gain = 0;     // [m/N]; 0: the path stays as it is
-  double limit = 0;    // of the correction, either way [m]
+  double gain = 0;     // [m/N]; 0: no correction
+  double limit = 0;    // largest correction in either direction [m]
 
-  // Is the force controlled at all?
+  // Returns whether the force is controlled.
   bool given() const { return gain != 0; }
 };
 
-// Ends the phase early: at the first period, its own first one excepted, at which the measure
-// stands beyond the level. The phase's duration is the latest end.
+// Ends the phase early, at the first period, except its first one, at which the measure is beyond
+// the level. The phase's duration is the latest end.
 struct Until {
-  // Says on which side of the level the phase ends.
+  // Side of the level on which the phase ends.
   enum class Is { above, below };
 
-  std::string measure;  // "foot.normal_force", "joint.hip.angle", ...; empty: by time alone
+  std::string measure;  // "foot.normal_force", "joint.hip.angle", ...; empty: ends by time only
   Is is = Is::above;
   double level = 0;  // in the measure's SI unit
 };
 
-// A part of a step: where the foot goes, how stiff, and for how long.
+// A part of a step: foot path, stiffness and duration.
 struct Phase {
   std::string name;
   double duration = 0;         // [s]
-  double thesis_duration = 0;  // with thesis_timing, where the code's differs; 0: the same [s]
+  double thesis_duration = 0;  // with thesis_timing, if the code's differs; 0: equal [s]
 
   Coordinate x, y;
   Points points;
   GroundForce ground_force;
   CylinderPhase cylinder;
-  std::vector<JointPhase> joints;     // of Plan::joints
-  std::vector<std::string> disabled;  // joints that the low level leaves alone in this phase
+  std::vector<JointPhase> joints;     // in the order of Plan::joints
+  std::vector<std::string> disabled;  // joints that the low level does not control in this phase
   Until until;
 
-  // Does the foot have a path in it?
+  // Returns whether the phase has a foot path.
   bool has_path() const { return x.given() || y.given() || points.given(); }
 };
 
-// What holds from the start.
+// Initial values of a joint.
 struct JointPlan {
   std::string name;
   double stiffness = 0;  // K_des [N m/rad]
-  robot::Gains gains;    // the robot's, or the experiment's
+  robot::Gains gains;    // from the robot or the experiment
   bool enabled = true;
-  bool driven = true;         // false: a passive joint, of which no file says anything
-  std::vector<double> range;  // lowest and highest desired angle, the way round that raises the
+  bool driven = true;         // false: a passive joint, which has no values in files
+  std::vector<double> range;  // lowest and highest desired angle, in the direction of increasing
                               // angle; empty: any [rad]
 };
 
-// Another order of the phases, for a leg that names it.
+// Another order of the phases, for legs that name it.
 struct Sequence {
   std::string name;
   std::vector<std::string> phases;
@@ -151,59 +153,58 @@ struct Sequence {
 struct Plan {
   enum class Finish { vent, hold };  // vent: all exhausts open, all inlets shut
 
-  double brain_period = 0.01;  // [s]
-  double settle = 0;  // before the first phase, joints left alone [s]; not in the file's tables
-  bool thesis_timing = false;  // loops of the code: one more period per phase, s reaches 1
+  double brain_period = 0.01;  // period of the gait controller [s]
+  double settle = 0;  // before the first phase, joints disabled [s]; not in the file's tables
+  bool thesis_timing = false;  // as the code's loops: one more period per phase, s reaches 1
 
-  std::vector<JointPlan> joints;      // the robot's in its order; of several legs, a leg's
+  std::vector<JointPlan> joints;      // in the robot's order; for several legs, those of a leg
   std::vector<std::string> sequence;  // names of phases
   std::vector<Sequence> others;       // [plan.<name>]
   int repeat = 1;                     // steps
   Finish finish = Finish::vent;
   std::vector<Phase> phases;
-  std::vector<Change> changes;  // in any order; of one time, the later ones come later
+  std::vector<Change> changes;  // in any order; of several at one time the last one is in effect
 };
 
-// A plan that knows the robot's joints and gains; `fields` fills in the rest.
+// Returns a plan with the robot's joints and gains; `fields` reads the rest.
 Plan plan_for(const robot::Robot&);
 
-// The angle itself where it lies within the joint's range, else the nearer end  [rad].
+// Returns the angle if it is within the joint's range, else the nearer end [rad].
 double within(const std::vector<double>& range, double angle) noexcept;
 
-// What ends a phase, and what it is measured in.
+// Measured quantity that ends a phase.
 struct Measure {
-  // Names the quantity.
+  // Kind of quantity.
   enum class Kind { none, normal_force, friction_force, angle, stiffness, tension, unknown };
 
   Kind kind = Kind::none;
   int index = -1;  // joint or muscle
 };
-// Returns the measure that a name stands for.
+// Returns the measure with that name.
 Measure find_measure(const robot::Robot&, std::string_view name);
-std::string_view unit_of(std::string_view measure);  // SI; by the name alone, "" where it is none
+std::string_view unit_of(std::string_view measure);  // SI, from the name alone; "" if unknown
 
-// What the robot or the plan itself does not allow: names that lead nowhere, lists of unequal
-// length.
+// Returns contradictions within the robot or the plan: unknown names, lists of unequal length.
 std::vector<robot::Contradiction> contradictions(const robot::Robot&, const Plan&);
 
-// Every stretch of a foot path that the leg cannot reach: phase, s, target and reach. A run with
-// such a plan is possible, the brain then aims at the nearest point that can be reached.
+// Returns every stretch of a foot path that the leg cannot reach, with phase, s, target and reach.
+// A run with such a plan is possible: the gait controller then aims at the nearest reachable point.
 std::vector<robot::Contradiction> unreachable(const robot::Robot&, const Plan&);
 
-// Periods of a phase that nothing ends early, of one step, and of the whole run up to `finish`.
+// Return the periods of a phase that does not end early, of one step, and of the whole run up to
+// `finish`.
 int periods(const Plan&, const Phase&);
 int periods_per_step(const Plan&);
 std::int64_t periods(const Plan&);
 std::int64_t periods(const robot::Robot&, const Plan&);  // of the leg that takes longest
 
-// Returns what a leg follows: the plan, with the order of phases that the leg names in place of the
-// plan's.
+// Returns a leg's plan: the plan with the order of phases that the leg names.
 Plan plan_of_leg(const Plan& plan, const robot::LegParts& leg);
 
-// Periods from s = 0 to s = 1, whether or not the last of them is reached.
+// Returns the periods from s = 0 to s = 1, even if the last one is not reached.
 int steps_of_s(const Plan&, const Phase&);
 
-// Position in the list, or -1.
+// Returns the index in the list, or -1.
 int find_phase(const Plan&, std::string_view name);
 
 }  // namespace sinew::gait

@@ -23,7 +23,7 @@ Keys keys_after(const std::function<void(Plan&)>& damage) {
   return keys;
 }
 
-// Table 6-2: 1.5 s, 30 ms, 1.5 s; the code's loops run one time more and its plant 10 ms.
+// Table 6-2: 1.5 s, 30 ms, 1.5 s; the code's loops run once more and its plant takes 10 ms.
 TEST(Timing, PeriodsOfTheTextAndOfTheCode) {
   Plan plan = test::walk(robot::test::leg());
   EXPECT_EQ(periods(plan, plan.phases[0]), 150);
@@ -100,7 +100,7 @@ TEST(Unreachable, TheWalkIsInReach) {
 TEST(Unreachable, EveryStretchIsToldWithItsWorstPoint) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
-  // 15.125 in is the reach: out of it at both ends of the propulsion, in it between them.
+  // 15.125 in is the reach: the propulsion is outside at both ends and inside between them.
   plan.phases[2].x.from = 8 * inch;
   plan.phases[2].x.to = -8 * inch;
   const auto told = unreachable(robot, plan);
@@ -111,7 +111,7 @@ TEST(Unreachable, EveryStretchIsToldWithItsWorstPoint) {
   EXPECT_NE(told[0].expected.find("384.2 mm"), std::string::npos) << told[0].expected;
 }
 
-// Counts keys and looks for what a reader of the files would miss.
+// Visitor that counts keys and finds missing documentation.
 struct Census {
   int count = 0;
 

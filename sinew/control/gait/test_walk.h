@@ -1,4 +1,4 @@
-// control/gait/test_walk.h - the thesis's walk, [65]-[70] and table 6-2, as a plan.
+// control/gait/test_walk.h - plan of the thesis's walk, [65]-[70] and table 6-2.
 #pragma once
 
 #include "sinew/control/gait/plan.h"

@@ -1,10 +1,10 @@
-// Class JointController against the thesis's interrupt routine (appendix B, pwm_isr), told again
-// here with the thesis's types: `short` outputs, float gains, expressions in the x87's extended
-// precision, a state machine that looks at every valve in every tick. Same random readings,
-// commands and enable switches: same duties, same edges.
+// Compares class JointController with the thesis's interrupt routine (appendix B, pwm_isr),
+// repeated here with the thesis's types: `short` outputs, float gains, expressions in the x87's
+// extended precision, a state machine that checks every valve in every tick. Equal random readings,
+// commands and enable switches must give equal duties and edges.
 //
-// Where the reference departs from the code, as the laws do (laws.h): conversions to `short`
-// saturate at +-16000, the first law sees no speed, and a length of 0 keeps the last stiffness.
+// The reference differs from the code where the laws do (laws.h): conversions to `short` saturate
+// at +-16000, the first law has no speed, and a length of 0 keeps the last stiffness.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ struct Interrupt {
     return static_cast<short>(x > 16000 ? 16000 : x < -16000 ? -16000 : x);
   }
 
-  // What the ports changed to: pairs of valve and level.
+  // Returns the changes of the ports: pairs of valve and level.
   std::set<std::pair<int, bool>> output() {
     std::set<std::pair<int, bool>> changed;
     for (int v = 0; v < 12; ++v)
@@ -152,7 +152,7 @@ struct Interrupt {
   }
 };
 
-// --- the same world for both --------------------------------------------------------------------
+// --- the same readings and commands for both ----------------------------------------------------
 
 constexpr std::array<int, 3> thesis_joint = {1, 2, 0};  // of the test leg's hip, knee, cylinder
 
@@ -206,7 +206,7 @@ class Duel {
     ASSERT_EQ(spine_.seen().joint[j].law_at, t);
     Interrupt::Joint& theirs = isr_.joint[law];
     if (ours == theirs.duty) return;
-    // The stiffness is a float on both sides, but not the same roundings led there.
+    // The stiffness is a float on both sides, but is rounded differently.
     ASSERT_LT(std::abs(theirs.exact_u_k - std::round(theirs.exact_u_k)), 1e-3L)
         << "tick " << t << " joint " << j;
     theirs.duty = ours;
@@ -221,7 +221,7 @@ class Duel {
 
   int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
 
-  // Half of the time near where the leg works, else anywhere, the ends included.
+  // Half of the readings are near the leg's usual ones, the others anywhere, including the ends.
   void new_readings() {
     const std::array<int, 7> middle = {404, 1895, 1175, 1500, 1500, 1500, 1500};
     for (std::size_t i = 0; i < 7; ++i)
@@ -246,7 +246,8 @@ class Duel {
     hand_down();
   }
 
-  // Now and then; of a muscle's two valves one at most, which the code leaves to its user.
+  // Changes duties at random; at most one of a muscle's valves opens, as the code requires of its
+  // user.
   void new_duties(JointCommand& c) {
     if (below(4) == 0) c.open_loop = !c.open_loop;
     const auto duty = [&] { return below(121) - 10; };
@@ -284,7 +285,7 @@ class Duel {
 
 JointControllerConfig as_printed() {
   JointControllerConfig config = test_leg();
-  for (JointConfig& joint : config.joint) joint.pole_clamp = -10'000;  // the code knows no pole
+  for (JointConfig& joint : config.joint) joint.pole_clamp = -10'000;  // the code has no clamp
   return config;
 }
 
@@ -310,7 +311,7 @@ TEST(Appendix, CompensatedTiming) {
   expect_same(config, 12);
 }
 
-// Also tables that close and open again within a period, or let duty 0 open.
+// Includes tables that close and open again within a period, or open at duty 0.
 TEST(Appendix, AnyTiming) {
   std::mt19937 random(7);
   std::uniform_int_distribution<std::uint16_t> ticks(0, 101);
@@ -328,7 +329,7 @@ TEST(Appendix, CylinderWithFeedforward) {
   expect_same(config, 31);
 }
 
-// The blocks that appendix B keeps as comments: duties from outside, of the cylinder as well.
+// Tests the blocks that are comments in appendix B: duties from outside, of the cylinder too.
 TEST(Appendix, OpenLoopDutiesOfAllJoints) {
   JointControllerConfig config = as_printed();
   config.joint[cylinder].feedforward = {55, 55, 45, 45};

@@ -54,7 +54,7 @@ const char* problem_of_velocity(const VelocityConfig& v) noexcept {
   return nullptr;
 }
 
-// A source that one muscle cannot give.
+// Returns whether the stiffness source is a muscle that does not exist.
 bool source_without_muscle(const JointConfig& joint) noexcept {
   return (joint.stiffness_source == StiffnessSource::flexor_force && !joint.flexor.present) ||
          (joint.stiffness_source == StiffnessSource::extensor_force && !joint.extensor.present);
@@ -87,14 +87,15 @@ const char* problem_of_joint(const JointControllerConfig& config,
   return problem_of_muscle(joint.extensor, joint.kind);
 }
 
-// One coil, one pulse train: valves differ, but for the two of a muscle over two joints.
+// A valve and the joint that uses it. Each coil has one pulse train, so valves must differ, except
+// those of a muscle over two joints.
 struct Owner {
-  std::uint8_t valve = 0, joint = 0;  // the joint that named it first
-  std::uint8_t times = 0;             // as an inlet; 0: it is an exhaust
-  std::uint8_t exhaust = 0;           // beside this inlet
+  std::uint8_t valve = 0, joint = 0;  // first joint that uses the valve
+  std::uint8_t times = 0;             // number of uses as an inlet; 0: it is an exhaust
+  std::uint8_t exhaust = 0;           // exhaust that belongs to this inlet
 };
 
-// Small, for a board's stack.
+// List of used valves; small, since a board has a small stack.
 struct Owners {
   std::array<Owner, 4 * max_joints> owner{};
   std::size_t count = 0;
@@ -109,7 +110,8 @@ struct Owners {
 
 constexpr const char* same_valve = "two muscles use the same valve";
 
-// May `owner`'s valve also be the inlet of this muscle of joint `j`?
+// Returns nullptr if `owner`'s valve may also be the inlet of this muscle of joint `j`, or a
+// message.
 const char* problem_of_inlet(const JointControllerConfig& config, std::size_t j,
                              const MuscleConfig& m, Owner& owner) noexcept {
   const bool both_seal = config.joint[owner.joint].kind == JointKind::antagonist &&

@@ -16,7 +16,7 @@ namespace {
 
 enum ValveOfJoint : std::size_t { flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust };
 
-constexpr std::uint32_t fault_vent = 10'000;  // [ticks] of a machine that has no shutdown_vent
+constexpr std::uint32_t fault_vent = 10'000;  // if the machine has no shutdown_vent [ticks]
 
 }  // namespace
 
@@ -37,7 +37,7 @@ Scan JointController::scan() const noexcept {
 
 // --- time ---------------------------------------------------------------------------------------
 
-// Moves the cursor to the first conversion not before t. The loop visits every period's start, so
+// Moves the cursor to the first conversion at or after t. The loop visits every period's start, so
 // the search is short.
 void JointController::locate(Tick t) noexcept {
   while (t - period_start_ >= config_.period) {
@@ -88,13 +88,13 @@ void JointController::take(const Conversion& conversion, Reading reading, Tick t
       run_law(j, t);
 }
 
-// A bad reading leaves the last good counts in place.
+// Stores a reading. A bad one leaves the last good counts unchanged.
 void JointController::store(Channel channel, Reading reading, Tick t) noexcept {
   const std::size_t i = channel.index;
   if (i >= max_channels) return;
   seen_.reading[i].status = reading.status;
   if (reading.status == Status::ok) {
-    // What the laws' integers are made for.
+    // the range that the laws' integers are designed for
     seen_.reading[i].counts =
         reading.counts < signals::max_counts ? reading.counts : signals::max_counts;
     answered_[i] = true;
@@ -119,12 +119,12 @@ const MuscleConfig& JointController::muscle(std::size_t j, Side side) const noex
   return side == flexor ? config_.joint[j].flexor : config_.joint[j].extensor;
 }
 
-// Is there a muscle, and is it this joint's business to open its valves?
+// Returns whether the muscle exists and this joint drives its valves.
 bool JointController::drives(std::size_t j, Side side) const noexcept {
   return muscle(j, side).present && partner_[j][side].drives;
 }
 
-// Two joints that name the same inlet share its muscle.
+// Finds muscles over two joints: two joints with the same inlet share its muscle.
 void JointController::find_partners() noexcept {
   for (std::size_t a = 0; a < config_.joints; ++a)
     for (std::size_t b = a + 1; b < config_.joints; ++b)
@@ -167,8 +167,8 @@ void JointController::schedule(std::size_t j, Tick t) noexcept {
   find_first_edge();
 }
 
-// The host's openings are for the period that begins at t; where its first tick was skipped, the
-// valves are shut until the next one.
+// Schedules the host's openings for the period that begins at t. If its first tick was skipped, the
+// valves are shut until the next period.
 void JointController::schedule_openings(Tick t) noexcept {
   if (period_start_ == opened_) return;
   opened_ = period_start_;
@@ -198,7 +198,7 @@ void JointController::shut_down(Tick t) noexcept {
   vent(t + config_.output_delay, config_.shutdown_vent, Phase::venting, Phase::off);
 }
 
-// A law's edges are given up, a vent that has not begun is not.
+// Drops a law's edges in the skipped ticks; a vent that has not begun starts at t.
 void JointController::skip_to(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j)
     for (PulseTrain& train : valves_[j]) {
@@ -237,8 +237,8 @@ void JointController::trip(Status status, Channel channel, Tick t) noexcept {
   vent(t, lasts, Phase::venting, Phase::off);
 }
 
-// Also the muscles of disabled joints, as in the thesis's hardware_start_up. A 3-way valve that is
-// off vents for good; so does a regulator set to nothing.
+// Vents all muscles, also those of disabled joints, as the thesis's hardware_start_up does. A 3-way
+// valve without current vents permanently, as does a regulator set to zero.
 void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j)
     for (const Side side : sides) {
@@ -259,7 +259,7 @@ void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase a
   find_next_edge();
 }
 
-// The first call of a tick: here the phase changes.
+// Returns the edges of a tick. It is the first call of a tick and also changes the phase.
 std::span<const Edge> JointController::edges(Tick t) noexcept {
   if (t >= phase_end_) seen_.phase = next_phase_;
   if (timed_ && seen_.phase == Phase::running) {
@@ -277,7 +277,7 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
   return {out_.data(), out_count_};
 }
 
-// Closing edges go first, so that no muscle is open to both sides even for an instant.
+// Outputs closing edges first, so that a muscle is never open to supply and room at once.
 void JointController::hand_out(Tick t) noexcept {
   static_assert(max_joints * valves_per_joint <= 32);
   std::uint32_t opening = 0;
@@ -296,7 +296,7 @@ void JointController::hand_out(Tick t) noexcept {
   }
 }
 
-// The train's next edge.
+// Outputs the train's next edge.
 void JointController::drive(std::size_t j, std::size_t valve, Tick t) noexcept {
   if (out_count_ == out_.size()) return;
   const MuscleConfig& m = muscle(j, valve <= flexor_exhaust ? flexor : extensor);
@@ -340,7 +340,7 @@ void JointController::find_first_edge() noexcept {
     if (next_of_[j] < next_edge_) next_edge_ = next_of_[j];
 }
 
-// --- the laws of a joint, run when the last of its readings is there ---
+// --- the laws of a joint, run when the last of its readings has arrived ---
 
 namespace {
 
@@ -348,7 +348,8 @@ constexpr float ticks_per_second = 10'000.0f;
 
 }  // namespace
 
-// Never a law on a channel that has not answered yet, nor twice in a period.
+// Returns whether a law may run: all its channels have had a reading, and it has not run in this
+// period.
 bool JointController::ready(std::size_t j, Tick t) const noexcept {
   const JointConfig& joint = config_.joint[j];
   const Tick last = seen_.joint[j].law_at;
@@ -370,7 +371,7 @@ void JointController::run_law(std::size_t j, Tick t) noexcept {
   JointSeen& seen = seen_.joint[j];
   seen_.overruns += config_.laws_overrun;
 
-  // A cylinder's law sees no speed, as in the code.
+  // A cylinder's law has no speed, as in the thesis's code.
   seen.velocity = joint.kind == JointKind::cylinder ? 0.0f : speed(j);
   const Exact u_theta =
       angle_law(command.gains, joint.flexion, command.angle, counts(joint.angle), seen.velocity);
@@ -404,7 +405,8 @@ float JointController::speed(std::size_t j) noexcept {
   return estimate(joint.velocity, velocity_[j], now);
 }
 
-// By the joint's own angle and, of a muscle over two joints, by the other's.
+// Returns the muscles' lengths from the joint's own angle and, for a muscle over two joints, the
+// other's.
 Pair JointController::lengths(std::size_t j) const noexcept {
   const JointConfig& joint = config_.joint[j];
   Pair length = muscle_lengths(joint, counts(joint.angle));
@@ -431,7 +433,7 @@ Stiffness JointController::measured_stiffness(std::size_t j) const noexcept {
                          {counts(joint.flexor.tension), counts(joint.extensor.tension)});
 }
 
-// U_k, from a new stiffness or, near the pole of [27], from the last one.
+// Returns U_k from a new stiffness or, near the pole of [27], from the last one.
 Exact JointController::stiffness_output(std::size_t j) noexcept {
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
@@ -448,7 +450,7 @@ Exact JointController::stiffness_output(std::size_t j) noexcept {
   return u_k;
 }
 
-// What is not there is asked for nothing.
+// Sets the duties; those of an absent muscle are 0.
 void JointController::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   const JointConfig& joint = config_.joint[j];
   asked_[j] = asked(u_k, u_theta, config_.truncation);
@@ -459,7 +461,7 @@ void JointController::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexce
   if (!joint.extensor.present) duties.extensor_inlet = duties.extensor_exhaust = 0;
 }
 
-// While a joint is disabled its integrals wait at zero.
+// Sets the levels. While a joint is disabled its integrals are zero.
 void JointController::set_levels(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
@@ -495,7 +497,7 @@ void JointController::open_loop(std::size_t j) noexcept {
   }
 }
 
-// A muscle over two joints: the later law puts together what both of them ask.
+// Combines the duties of both joints for a muscle over two joints, at the later law.
 void JointController::share_duties(std::size_t j) noexcept {
   for (const Side side : sides) {
     const Partner& partner = partner_[j][side];

@@ -1,22 +1,22 @@
-// control/joint/joint_controller.h - the low-level controller, the leg's "spinal cord"
-// [thesis 5.1, 5.2].
+// control/joint/joint_controller.h - the low-level controller of the joints [thesis 5.1, 5.2].
 //
-// Reads the sensors in a fixed scan, runs each joint's two laws once per period and turns their
-// duties into valve edges. It never sees a port and owns no time: a loop asks what is next,
+// Reads the sensors in a fixed scan, runs each joint's two laws once per period and converts their
+// duties to valve edges. It uses neither a port nor a clock: a loop calls it for the next event,
 //
 //   Tick t = 0;
-//   for (; t < end; t = spine.next_event(t)) {
-//     if (spine.starts_period(t)) spine.command(brain.update(spine.seen(), t));
-//     for (const Edge& e : spine.edges(t)) port.drive(e);
-//     if (const Conversion* c = spine.due(t)) spine.take(*c, port.read(c->channel, t), t);
+//   for (; t < end; t = controller.next_event(t)) {
+//     if (controller.starts_period(t)) controller.command(gait.update(controller.seen(), t));
+//     for (const Edge& e : controller.edges(t)) port.drive(e);
+//     if (const Conversion* c = controller.due(t))
+//       controller.take(*c, port.read(c->channel, t), t);
 //   }
 //
-// and may as well visit every tick: the edges are the same. Ticks never decrease.
+// or visits every tick: the edges are the same. Ticks must not decrease.
 //
-//   startup --(startup_vent)--> running --(shut_down, fault, end)--> venting --(shutdown_vent)-->
-//   off
+//   startup --(startup_vent)--> running --(shut_down, fault, end)--> venting
+//   venting --(shutdown_vent)--> off
 //
-// Embedded core: no heap, no exceptions, no clock, single precision; the same bits on every
+// Embedded core: no heap, no exceptions, no clock, single precision; bit-identical on every
 // machine.
 #pragma once
 
@@ -38,57 +38,58 @@ namespace sinew::control {
 
 class JointController {
  public:
-  // problem(config) must be nullptr.
+  // Requires that problem(config) is nullptr.
   explicit JointController(const JointControllerConfig& config) noexcept;
 
-  // The spans point into this object.
+  // Returns the scan. The span refers to this object.
   signals::Scan scan() const noexcept;
 
-  // The first tick after t at which anything happens: period start, edge or conversion.
+  // Returns the first tick after t with an event: start of a period, edge or conversion.
   signals::Tick next_event(signals::Tick t) noexcept;
 
-  // Is t a multiple of the period? (A 64-bit remainder is a library call on a small machine.)
+  // Returns whether t is a multiple of the period. (A 64-bit remainder is a library call on a small
+  // machine.)
   bool starts_period(signals::Tick t) noexcept;
 
-  // From the high level, at a period's start.
+  // Sets the command of the gait controller; called at a period's start.
   void command(const Command& command) noexcept { command_ = command; }
 
-  // Edges to drive at tick t, decided earlier; closing ones first. Each is handed out once; the
-  // span holds until the next call.
+  // Returns the edges to drive at tick t, which were decided earlier; closing ones first. Each is
+  // returned once; the span is valid until the next call.
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;
 
-  // The conversion to be read at tick t, or nullptr.
+  // Returns the conversion to read at tick t, or nullptr.
   const signals::Conversion* due(signals::Tick t) noexcept;
-  // The conversion that hardware starts in this tick, to be read in a later one; after due().
+  // Returns the conversion that the hardware starts in this tick and that is read later, or
+  // nullptr. Called after due().
   const signals::Conversion* begins(signals::Tick t) const noexcept;
 
-  // Its result. Runs the laws that wait for it.
+  // Stores a conversion's result and runs the laws that wait for it.
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
 
-  // Returns what it knows of its body; and what it was made with.
+  // Return the state, and the configuration that it was constructed from.
   const Seen& seen() const noexcept { return seen_; }
   const JointControllerConfig& config() const noexcept { return config_; }
 
-  // The clock came too late for tick t, which is worked off all the same.
+  // Counts a tick that the clock missed. Its events are still processed.
   void missed(signals::Tick t) noexcept;
 
-  // Vent, then shut; the loop goes on until seen().phase is `off`.
+  // Vents, then shuts all valves; the loop continues until seen().phase is `off`.
   void shut_down(signals::Tick t) noexcept;
 
-  // --- for who supervises it (control/supervise); before edges(t), which hands out what follows
-  // ---
+  // --- for a supervisor (control/supervise); to be called before edges(t) ---
 
-  // Ticks were skipped before t: a valve that should have been switched in them is shut at t, and
-  // stays shut until its joint's next law.
+  // Skips the ticks before t: a valve that should have switched in them is shut at t and stays shut
+  // until its joint's next law.
   void skip_to(signals::Tick t) noexcept;
 
-  // Shut from t on, until the joint's next law decides again. Valves that do not seal stay: off,
-  // they would vent.
+  // Shut valves from t on, until the joint's next law. Valves that do not seal keep their state,
+  // since they would vent without current.
   void shut_inlets(signals::Tick t) noexcept;
   void shut_valves(std::size_t joint, signals::Tick t) noexcept;
 
-  // Ends the run as a fault of that channel: inlets shut and exhausts open from t on, without the
-  // delay of a law.
+  // Ends the run as a fault of that channel: inlets shut and exhausts open from t on, without a
+  // law's delay.
   void trip(signals::Status, signals::Channel, signals::Tick t) noexcept;
 
  private:
@@ -98,25 +99,25 @@ class JointController {
   enum Side : std::size_t { flexor, extensor };
   static constexpr Side sides[] = {flexor, extensor};
 
-  // A set point on its way to a regulator.
+  // A setpoint that a regulator will receive.
   struct PendingLevel {
     signals::Tick at = PulseTrain::never;
     std::uint16_t level = 0;
   };
 
-  // The other joint of a muscle over two; the later of their laws drives its valves.
+  // The other joint of a muscle over two joints; the joint whose law runs later drives the valves.
   struct Partner {
     std::int8_t joint = -1;
     Side side = flexor;
-    bool drives = true;  // this joint, not the partner
+    bool drives = true;  // true: this joint drives them, not the partner
   };
 
-  // Time and readings: spine.cpp
+  // time and readings
   void locate(signals::Tick t) noexcept;
   void store(signals::Channel, signals::Reading, signals::Tick t) noexcept;
   std::int32_t counts(signals::Channel c) const noexcept { return seen_.reading[c.index].counts; }
 
-  // Laws: spine_laws.cpp
+  // laws
   bool ready(std::size_t joint, signals::Tick t) const noexcept;
   void run_law(std::size_t joint, signals::Tick t) noexcept;
   float speed(std::size_t joint) noexcept;
@@ -128,7 +129,7 @@ class JointController {
   void open_loop(std::size_t joint) noexcept;
   void share_duties(std::size_t joint) noexcept;
 
-  // Valves: spine.cpp
+  // valves
   const MuscleConfig& muscle(std::size_t joint, Side side) const noexcept;
   bool drives(std::size_t joint, Side side) const noexcept;
   void find_partners() noexcept;
@@ -152,21 +153,21 @@ class JointController {
   std::array<RegulatorState, max_joints> regulator_;
   std::array<Pair, max_joints> asked_;  // signed duties of the last law [%]
   std::array<std::uint32_t, max_channels> bad_in_a_row_{};
-  std::array<bool, max_channels> answered_{};  // has had a good reading
+  std::array<bool, max_channels> answered_{};  // had a good reading
 
   // Time
   signals::Tick period_start_ = 0;
-  std::size_t cursor_ = 0;       // first conversion of the period not before the located tick
-  signals::Tick phase_end_ = 0;  // of startup or venting
+  std::size_t cursor_ = 0;       // first conversion of the period at or after the current tick
+  signals::Tick phase_end_ = 0;  // end of startup or venting
   Phase next_phase_ = Phase::running;
-  signals::Tick opened_ = -1;  // the period whose openings were scheduled last
+  signals::Tick opened_ = -1;  // period whose openings were scheduled last
 
   // Valves
-  bool timed_ = false;  // a joint is timed
+  bool timed_ = false;  // at least one joint is timed
   std::array<std::array<Partner, 2>, max_joints> partner_;
   std::array<JointValves, max_joints> valves_;
   std::array<std::array<PendingLevel, 2>, max_joints> levels_;
-  std::array<signals::Tick, max_joints> next_of_{};  // edge of each joint, and of them the first
+  std::array<signals::Tick, max_joints> next_of_{};  // next edge of each joint
   signals::Tick next_edge_ = PulseTrain::never;
   std::array<signals::Edge, max_joints * valves_per_joint> out_;
   std::size_t out_count_ = 0;

@@ -1,4 +1,4 @@
-// The spinal cord as a whole: events, safety, states, readings that fail, no heap.
+// Tests the joint controller as a whole: events, safety, states, bad readings, no heap.
 #include "sinew/control/joint/joint_controller.h"
 
 #include <gtest/gtest.h>
@@ -19,13 +19,12 @@ using signals::Reading;
 using signals::Status;
 using signals::Tick;
 
-// --- a world of random readings and commands that depend on the tick only
-// --------------------------
+// --- a plant with random readings and commands that depend on the tick only ---
 
 struct World {
   std::uint32_t seed = 1;
   int bad_per_thousand = 0;
-  bool commands = true;  // false: the first one holds
+  bool commands = true;  // false: the first command holds
   std::function<void(JointController&, Tick)> interfere = [](JointController&, Tick) {};
 
   std::uint32_t random(Tick t, std::uint32_t what) const {
@@ -148,13 +147,13 @@ TEST(JointController, VisitsPeriodsAndConversionsWithoutValves) {
 
 // --- safety -------------------------------------------------------------------------------------
 
-// Not even for an instant: edges are followed one by one.
+// Follows the edges one by one, so that an overlap of zero length is found too.
 void expect_never_both(const JointControllerConfig& config, const World& world, Tick end) {
   std::array<bool, 12> open{};
   for (const Event& e : run(config, world, end).edges) {
     ASSERT_NE(open[e.valve], e.open) << "an edge changes its valve";
     open[e.valve] = e.open;
-    if (e.valve < 8) {  // a muscle's
+    if (e.valve < 8) {  // of a muscle
       ASSERT_FALSE(open[e.valve & ~1] && open[e.valve | 1])
           << "tick " << e.at << " valve " << e.valve;
     }
@@ -198,7 +197,7 @@ TEST(JointController, StartupVentsThenRuns) {
   EXPECT_EQ(trace.seen[4].joint[hip].law_at, 309);
 }
 
-// From tick `at` on: inlets shut and exhausts open at once, all shut `vent` later, then nothing.
+// Expects inlets shut and exhausts open from tick `at` on, all shut `vent` later, then no edges.
 void expect_safe_after(const Trace& trace, Tick at, Tick vent) {
   std::array<bool, 12> open{};
   std::array<int, 12> edges_after{};
@@ -225,7 +224,7 @@ TEST(JointController, ShutDownVentsThenShuts) {
       config.startup_vent = startup;
       JointController spine(config);
       const World world{.interfere = [at](JointController& s, Tick t) {
-        if (t >= at && t < at + 1000) s.shut_down(t);  // asking again changes nothing
+        if (t >= at && t < at + 1000) s.shut_down(t);  // a repeated request changes nothing
       }};
       const Trace trace = run(spine, world, 20'000, true);
       expect_safe_after(trace, at, 3000);
@@ -264,7 +263,7 @@ TEST(JointController, BadReadingsHoldTheLastGoodOnes) {
   EXPECT_EQ(spine.seen().late, 1u);
   EXPECT_EQ(spine.seen().invalid, 1u);
   EXPECT_EQ(spine.seen().phase, Phase::running);
-  spine.take({{1}, 2, 3}, {60'000, Status::ok}, 1203);  // 12 bits, whatever the port says
+  spine.take({{1}, 2, 3}, {60'000, Status::ok}, 1203);  // limited to 12 bits
   EXPECT_EQ(spine.seen().reading[1].counts, 4095);
   spine.missed(1203);
   EXPECT_EQ(spine.seen().missed, 1u);
@@ -321,7 +320,7 @@ TEST(JointController, StiffnessIsHeldNearThePole) {
 
 TEST(JointController, EachJointIsEnabledOnItsOwn) {
   JointControllerConfig config = test_leg();
-  config.joint[cylinder].enabled = false;  // for good
+  config.joint[cylinder].enabled = false;  // permanently
   JointController spine(config);
   Command command = rest_command(config);
   command.joint[knee].enabled = command.joint[cylinder].enabled = true;

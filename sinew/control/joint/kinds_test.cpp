@@ -1,4 +1,5 @@
-// Joints other than the leg's: sources of stiffness, 3-way valves, regulators, dead band.
+// Tests joints of other kinds than the leg's: sources of stiffness, 3-way valves, regulators, dead
+// band.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,9 +15,9 @@ namespace {
 using signals::Edge;
 using signals::Tick;
 
-// --- where the stiffness comes from -------------------------------------------------------------
+// --- source of the stiffness --------------------------------------------------------------------
 
-// [26] with F = P f (3 L^2 - b^2) is [27]: both sources agree where both know the same.
+// [26] with F = P f (3 L^2 - b^2) is [27]: both sources agree on consistent data.
 TEST(StiffnessSource, PressureAndForceAgree) {
   JointConfig joint = test_leg().joint[hip];
   constexpr double factor = 5.5 * 6;  // lbf in/rad per (count/count), of both
@@ -50,7 +51,7 @@ TEST(StiffnessSource, EffectivenessIsHeldOutsideItsRange) {
   EXPECT_EQ(pressure_stiffness(m, 2400, -5), 0);
 }
 
-// One transducer is as good as two where both muscles pull alike, and off by what the load is.
+// One transducer is as good as two if both muscles pull equally, and has an error by the load.
 TEST(StiffnessSource, OneForceIsExactWithoutLoad) {
   JointConfig joint = test_leg().joint[hip];
   const auto k = [&](StiffnessSource source, int flexor, int extensor) {
@@ -74,7 +75,7 @@ TEST(StiffnessSource, TransducersOfDifferentScales) {
   EXPECT_EQ(k(0.5f, 1600), k(1, 800));
 }
 
-// No sensor of tension is scanned, and the laws run: with the angle alone.
+// Without scanned tension sensors the laws run with the angle only.
 TEST(StiffnessSource, NoneNeedsNoTension) {
   JointControllerConfig config = leg_with([](JointControllerConfig& c) {
     c.conversions = 3;
@@ -147,7 +148,7 @@ TEST(Overruns, AreTheLawsThatTakeTooLong) {
   EXPECT_EQ(quick.spine.seen().overruns, 0u);
 }
 
-// The same edges, but the levels of the exhausts.
+// The edges are the same, except for the levels of the exhausts.
 TEST(Exhaust, InvertedIsTheSameWithTheOtherLevel) {
   const auto edges = [](bool inverted) {
     Bench bench(leg_with([&](JointControllerConfig& c) {
@@ -171,7 +172,7 @@ TEST(Exhaust, InvertedIsTheSameWithTheOtherLevel) {
   }
   JointControllerConfig config = test_leg();
   config.joint[hip].flexor.exhaust_inverted = true;
-  EXPECT_NE(problem(config), nullptr);  // nothing would shut it at the start
+  EXPECT_NE(problem(config), nullptr);  // it would not be shut at the start
 }
 
 // --- 3-way valves -------------------------------------------------------------------------------
@@ -223,7 +224,7 @@ JointControllerConfig timed_actuator() {
   });
 }
 
-// Returns the edges in two periods of a controller that gets a command in the first one.
+// Returns the edges in two periods of a controller that receives a command in the first one.
 std::vector<Edge> edges_of(JointController& spine, Tick first_visited) {
   Command command = rest_command(spine.config());
   command.joint[hip].enabled = command.joint[hip].timed = true;
@@ -280,7 +281,7 @@ TEST(Regulated, SendsBothLevelsOncePerPeriod) {
   }
 }
 
-// The error that stays ends at one muscle full, the other empty, as the sealed muscles of 5.1 do.
+// A constant error ends with one muscle full and the other empty, as for the sealed muscles of 5.1.
 TEST(Regulated, IntegratesToTheEnd) {
   Bench bench(regulated_leg(0.002f));
   bench.reading[1] = 1895 - 400;

@@ -1,4 +1,4 @@
-// control/joint/laws.h - the two laws of a joint and how they become valve duties [54]-[60].
+// control/joint/laws.h - the two laws of a joint and their conversion to valve duties [54]-[60].
 //
 //   K_act   = K_flexor + K_extensor,  K = 6 F / (3 L - b^2/L)          [27], [60]
 //   U_k     = G_k (K_des - K_act)                                      [58]
@@ -7,16 +7,16 @@
 //   extensor inlet  =  U_k - U_theta   [54]      flexor inlet  =  U_k + U_theta   [56]
 //   extensor exhaust = -U_k + U_theta  [55]      flexor exhaust = -U_k - U_theta  [57]
 //
-// with negative duties shut. Angles and lengths in counts, forces in counts, stiffness in lbf
-// in/rad, U in percent of a period. Positive U_theta flexes; JointConfig::flexion says what that
-// does to the angle. Pure functions.
+// Negative duties mean shut. Angles, lengths and forces are in counts, stiffness in lbf in/rad, U
+// in percent of a period. Positive U_theta flexes; JointConfig::flexion relates this to the angle.
+// All functions are pure.
 //
-// Departures from appendix B, all outside what the leg's runs reach:
-//   - near its pole [27] gives no value, where the code casts whatever it finds to `short`
+// Differences from appendix B, all outside the range of the leg's runs:
+//   - near its pole [27] gives no value, where the code converts any result to `short`
 //   - outputs and sums saturate, where the code's `short` wraps
 //   - the speed is by default the step times 100/s, where the code divides by the double 0.01,
-//   which is larger
-//     by 2e-17: an output that is a whole number but for that comes out one lower in the code
+//   which
+//     is larger by 2e-17: an output that would be a whole number becomes one lower in the code
 #pragma once
 
 #include <cstdint>
@@ -27,27 +27,28 @@
 
 namespace sinew::control {
 
-// Of a joint's two muscles.
+// Values of a joint's two muscles.
 struct Pair {
   std::int32_t flexor = 0, extensor = 0;  // lengths, readings [count], or signed duties [%]
 };
 
-// A muscle shortens by as many counts as the joint turns towards it. `lengths_swapped` is the
-// code's way at the knee, where it forgets that flexion lowers the angle.
+// Returns the muscles' lengths. A muscle shortens by as many counts as the joint turns towards it.
+// `lengths_swapped` repeats the thesis's code at the knee, which ignores that flexion lowers the
+// angle.
 constexpr Pair muscle_lengths(const JointConfig& joint, std::int32_t angle) noexcept {
   const std::int32_t towards = joint.lengths_swapped ? -joint.flexion : joint.flexion;
   const std::int32_t flexed = towards * (angle - joint.angle_at_rest);
   return {joint.flexor.free_length - flexed, joint.extensor.free_length + flexed};
 }
 
-// Shorter than the pole of [27], L = b/sqrt(3), plus `clamp`.
+// Returns whether a muscle is shorter than the pole of [27], L = b/sqrt(3), plus `clamp`.
 constexpr bool near_pole(const MuscleConfig& muscle, std::int32_t clamp,
                          std::int32_t length) noexcept {
   const std::int64_t above = std::int64_t{length} - clamp;
   return above <= 0 || 3 * above * above <= muscle.thread_length_squared;
 }
 
-// 3 L - b^2/L of [27], [count]; 0 where there is none. The code divides whole numbers.
+// Returns 3 L - b^2/L of [27] [count], or 0 if L is 0. The thesis's code divides integers.
 constexpr float pole_term(std::int32_t length, std::int32_t b_squared, Truncation mode) noexcept {
   if (length == 0) return 0;
   if (mode == Truncation::each_law) return static_cast<float>(3 * length - b_squared / length);
@@ -57,10 +58,10 @@ constexpr float pole_term(std::int32_t length, std::int32_t b_squared, Truncatio
 
 struct Stiffness {
   float value = 0;     // [lbf in/rad]
-  bool valid = false;  // false: a muscle is too near the pole, keep the last one
+  bool valid = false;  // false: a muscle is too near the pole, keep the last value
 };
 
-// A muscle's F/(3 L - b^2/L), in counts of the flexor's transducer; 0 of one that is not there.
+// Returns a muscle's F/(3 L - b^2/L), in counts of the flexor's transducer; 0 for an absent muscle.
 constexpr Stiffness tension_share(const MuscleConfig& muscle, const JointConfig& joint,
                                   Truncation mode, std::int32_t length, float tension) noexcept {
   if (!muscle.present) return {0, true};
@@ -70,10 +71,10 @@ constexpr Stiffness tension_share(const MuscleConfig& muscle, const JointConfig&
   return {tension / pole, true};
 }
 
-// [60] with [27], tensions in counts. One pair of actuators or several in parallel: the tension is
-// the bundle's, so is the stiffness (thesis 5.1). With one transducer the other muscle is taken to
-// pull as hard: right for a joint at rest without a load, and what it carries besides is an error
-// of the stiffness.
+// Returns [60] with [27], tensions in counts. For several actuators in parallel the tension is the
+// bundle's, and so is the stiffness (thesis 5.1). With one transducer, equal tension is assumed for
+// the other muscle: this is right for an unloaded joint at rest; a load causes an error of the
+// stiffness.
 constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, const Pair& length,
                                     const Pair& tension) noexcept {
   float flexor_tension = static_cast<float>(tension.flexor);
@@ -89,7 +90,7 @@ constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, c
   return {six * (flexor.value + extensor.value), true};
 }
 
-// The same where nothing but the joint's own angle moves its muscles.
+// Returns the stiffness of a joint whose muscles move with its own angle only.
 constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, std::int32_t angle,
                                     std::int32_t flexor_tension,
                                     std::int32_t extensor_tension) noexcept {
@@ -97,8 +98,11 @@ constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, s
                          {flexor_tension, extensor_tension});
 }
 
-// [26] of one muscle from its gauge pressure, with [30]:  k = factor L p Eff(p)  [lbf in/rad].
-// No pole: what [27] divides by is not there. A vacuum gives none.
+// Returns [26] of one muscle from its gauge pressure, with [30], in lbf in/rad:
+//
+//   k = factor L p Eff(p)
+//
+// It has no pole, since it does not divide as [27] does. It is 0 at negative pressure.
 constexpr float pressure_stiffness(const MuscleConfig& muscle, std::int32_t length,
                                    std::int32_t reading) noexcept {
   const float p = static_cast<float>(reading - muscle.pressure_at_zero);
@@ -110,24 +114,24 @@ constexpr float pressure_stiffness(const MuscleConfig& muscle, std::int32_t leng
   return muscle.pressure_factor * static_cast<float>(length) * p * eff;
 }
 
-// [60] with [26].
+// Returns [60] with [26].
 constexpr float joint_stiffness_from_pressure(const JointConfig& joint, const Pair& length,
                                               const Pair& pressure) noexcept {
   return pressure_stiffness(joint.flexor, length.flexor, pressure.flexor) +
          pressure_stiffness(joint.extensor, length.extensor, pressure.extensor);
 }
 
-inline constexpr float gain_limit = 1e6f;           // a machine of a cricket's size needs thousands
+inline constexpr float gain_limit = 1e6f;           // very small machines need thousands
 inline constexpr float stiffness_limit = 1e6f;      // [lbf in/rad]
 inline constexpr std::int32_t angle_limit = 32767;  // [count]
 
-// [58]
+// Returns U_k of [58].
 constexpr Exact stiffness_law(float gain, float desired, float actual) noexcept {
   return clamped(gain, gain_limit) *
          two_sum(clamped(desired, stiffness_limit), -clamped(actual, stiffness_limit));
 }
 
-// [59], with the velocity term of appendix B; velocity.h has the speed [count/s].
+// Returns U_theta of [59] with the velocity term of appendix B; velocity.h has the speed [count/s].
 constexpr Exact angle_law(const Gains& gains, std::int8_t flexion, std::int32_t desired,
                           std::int32_t actual, float velocity) noexcept {
   const std::int32_t error = flexion * (clamped(desired, -angle_limit, angle_limit) - actual);
@@ -136,24 +140,25 @@ constexpr Exact angle_law(const Gains& gains, std::int8_t flexion, std::int32_t 
          two_product(clamped(gains.velocity, gain_limit), speed);
 }
 
-// 0 .. 100, what is negative makes no sense as a duty (thesis 5.1).
+// Clamps a duty to 0 .. 100; a negative duty means shut (thesis 5.1).
 constexpr std::int32_t clipped(std::int32_t duty) noexcept {
   return clamped(duty, 0, signals::max_duty);
 }
 
-// The same, and 0 below a dead band: pulses too short to open the valve only wear it.
+// Clamps a duty, and returns 0 below a dead band: pulses too short to open the valve only wear it.
 constexpr std::int32_t clipped(std::int32_t duty, std::int32_t dead_band) noexcept {
   return duty < dead_band ? 0 : clipped(duty);
 }
 
-// [54]-[57]: each muscle's signed duty to its two valves, of which one at least stays shut.
+// Applies [54]-[57]: converts each muscle's signed duty to those of its two valves, at least
+// one of which stays shut.
 constexpr Duties to_duties(const Pair& asked, std::int32_t dead_band = 0) noexcept {
   return {clipped(asked.flexor, dead_band), clipped(-asked.flexor, dead_band),
           clipped(asked.extensor, dead_band), clipped(-asked.extensor, dead_band)};
 }
 
-// Signed duties of both muscles from the laws' real outputs [%]: where they become whole percents
-// is the mode's choice.
+// Returns the signed duties of both muscles from the laws' real outputs [%], converted to whole
+// percents according to the mode.
 constexpr Pair asked(Exact stiffness, Exact angle, Truncation mode) noexcept {
   switch (mode) {
     case Truncation::sum:
@@ -167,9 +172,9 @@ constexpr Pair asked(Exact stiffness, Exact angle, Truncation mode) noexcept {
   return {u_k + u_theta, u_k - u_theta};
 }
 
-// A muscle over two joints gets one signed duty: the mean of what both ask, weighted by its moment
-// arms, r/(r + r_other). What both ask is done; what only one asks counts by its arm; with no arm
-// at the other joint it is an ordinary muscle.
+// Returns the signed duty of a muscle over two joints: the mean of both joints' duties, weighted by
+// its moment arms, r/(r + r_other). Equal duties are kept; with no arm at the other joint it is an
+// ordinary muscle.
 constexpr std::int32_t shared_duty(float share, std::int32_t own, float other_share,
                                    std::int32_t other, Truncation mode) noexcept {
   const Exact sum = two_product(share, static_cast<float>(own)) +
@@ -177,23 +182,24 @@ constexpr std::int32_t shared_duty(float share, std::int32_t own, float other_sh
   return mode == Truncation::none ? rounded(sum) : truncated(sum);
 }
 
-// Robot III (5.1): a 3-way valve joins its muscle to the supply for the duty and to the room for
-// the rest, so that the duty sets the pressure. `bias` is the duty without errors; there is no
-// valve that could shut, so the exhausts have none and a dead band makes no sense.
+// Returns the duties of Robot III (5.1): a 3-way valve connects its muscle to the supply for the
+// duty and to the room for the rest, so that the duty sets the pressure. `bias` is the duty at zero
+// error. These valves never seal, so exhausts have no duties and a dead band does not apply.
 constexpr Duties three_way_duties(std::int32_t bias, const Pair& asked) noexcept {
   return {clipped(bias + asked.flexor), 0, clipped(bias + asked.extensor), 0};
 }
 
-// Appendix B's joint 0: position of a double-acting cylinder. With feedforward on inlet and exhaust
-// of one chamber both are open together, by design: a standing flow that stiffens the piston.
+// Returns the duties of appendix B's joint 0, position control of a double-acting cylinder. With
+// feedforward on inlet and exhaust of one chamber both are open at once, by design: the constant
+// flow stiffens the piston.
 constexpr Duties cylinder_duties(const Duties& forward, Exact position, Truncation mode) noexcept {
   const std::int32_t u = mode == Truncation::none ? rounded(position) : truncated(position);
   return {clipped(forward.flexor_inlet + u), clipped(forward.flexor_exhaust - u),
           clipped(forward.extensor_inlet - u), clipped(forward.extensor_exhaust + u)};
 }
 
-// Duties from outside in place of a law's. An exhaust shuts out its muscle's inlet (ours: the code
-// takes any four), and there is none where a valve is never shut.
+// Returns duties that replace those of a law. A muscle's exhaust overrides its inlet (the thesis's
+// code accepts any four duties); valves that never shut have no exhaust.
 constexpr Duties open_loop_duties(const Duties& wanted, JointKind kind) noexcept {
   Duties d{clipped(wanted.flexor_inlet), clipped(wanted.flexor_exhaust),
            clipped(wanted.extensor_inlet), clipped(wanted.extensor_exhaust)};

@@ -1,4 +1,4 @@
-// The laws as functions: the thesis's numbers, exact truncation, the pole, the far ends.
+// Tests the laws as functions: the thesis's numbers, exact truncation, the pole, extreme inputs.
 #include "sinew/control/joint/laws.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Exact, ProductIsCutOffWhereSinglePrecisionRoundsUp) {
   EXPECT_EQ(truncated(two_product(0.9f, 10.0f)), static_cast<int>(0.9f * 10.0));
 }
 
-// The oracle: gains as whole multiples of 2^-60 in 128-bit integers, whose division truncates.
+// Reference: gains as whole multiples of 2^-60 in 128-bit integers, whose division truncates.
 TEST(Exact, AngleLawAgreesWithIntegerArithmetic) {
   __extension__ using Wide = __int128;
   constexpr int scale = 60;
@@ -63,7 +63,8 @@ TEST(Exact, RoundingGoesToTheNearest) {
   EXPECT_EQ(rounded({0, 0}), 0);
 }
 
-// The code divides by the double 0.01: 0.5 x 99.999999999999998 is cut off to 49. We take 100/s.
+// The code divides by the double 0.01: 0.5 x 99.999999999999998 is truncated to 49. Here it is
+// 100/s.
 TEST(Exact, SpeedIsTheStepTimesAHundred) {
   const Gains g{.velocity = 0.5f};
   EXPECT_EQ(truncated(angle_law(g, 1, 0, 1, difference(1, 0, 100.0f))), -50);
@@ -72,7 +73,7 @@ TEST(Exact, SpeedIsTheStepTimesAHundred) {
 
 // --- the angle law [59] -------------------------------------------------------------------------
 
-// 1 / 0.035 = 28.6 counts, 1 / 0.12 = 8.3 counts: the first whole percent lies beyond.
+// 1 / 0.035 = 28.6 counts, 1 / 0.12 = 8.3 counts: smaller errors give no whole percent.
 TEST(AngleLaw, DeadBand) {
   const auto u = [](const JointConfig& joint, int error) {
     return truncated(angle_law(joint.gains, +1, error, 0, 0.0f));
@@ -102,8 +103,8 @@ TEST(Stiffness, ThreadLengthIsTheActuators) {
   EXPECT_NEAR(leg.joint[hip].flexor.free_length / counts_per_rad, 3.15, 0.0005);
 }
 
-// At 0.4 rad of flexion, 12 lbf in the flexor and 6 in the extensor: 33.0 as the code has it, 46.8
-// with the lengths right.
+// At 0.4 rad of flexion with 12 lbf in the flexor and 6 in the extensor: 33.0 by the code, 46.8
+// with correct lengths.
 TEST(Stiffness, KneeWithLengthsSwappedAndCorrected) {
   JointConfig joint = leg.joint[knee];
   const int flexed = joint.angle_at_rest - static_cast<int>(std::lround(0.4 * counts_per_rad));
@@ -138,7 +139,7 @@ TEST(Stiffness, NoValueNearThePole) {
   EXPECT_TRUE(valid(pole + joint.pole_clamp + 1.5));
   EXPECT_FALSE(valid(pole + joint.pole_clamp - 1.5));
   EXPECT_FALSE(valid(pole - 200));
-  joint.pole_clamp = -10'000;  // through the pole: negative beyond it, as in the code
+  joint.pole_clamp = -10'000;  // computed through the pole: negative beyond it, as in the code
   EXPECT_TRUE(valid(pole - 200));
   EXPECT_LT(joint_stiffness(joint, Truncation::each_law, joint.angle_at_rest + 700, 1000, 0).value,
             0);
@@ -169,7 +170,7 @@ TEST(Duties, CylinderWorksAgainstItsFeedforward) {
             (Duties{65, 45, 35, 55}));
 }
 
-// --- the far ends; run under -fsanitize=undefined by the preset asan -----------------------------
+// --- extreme inputs; the preset asan runs these under -fsanitize=undefined ----------------------
 
 TEST(Laws, AnyInputGivesDuties) {
   constexpr float inf = std::numeric_limits<float>::infinity(),

@@ -1,4 +1,4 @@
-// One muscle at a joint, one over two joints, and configurations that cannot be.
+// Tests one muscle at a joint, one over two joints, and invalid configurations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using signals::Edge;
 
-// --- one muscle, and one for two joints ---------------------------------------------------------
+// --- one muscle at a joint, and one over two joints ---------------------------------------------
 
 TEST(SingleMuscle, LeavesTheOtherSideAlone) {
   Bench bench(leg_with([](JointControllerConfig& c) {
@@ -36,7 +36,7 @@ TEST(SingleMuscle, LeavesTheOtherSideAlone) {
   for (const Edge& e : bench.edges) EXPECT_LT(e.valve.index, 2);
 }
 
-// Hip flexor and knee flexor are one muscle.
+// Hip flexor and knee flexor are the same muscle.
 JointControllerConfig biarticular(float hip_share, float travel = 0) {
   return leg_with([&](JointControllerConfig& c) {
     c.joints = 2;
@@ -52,8 +52,8 @@ JointControllerConfig biarticular(float hip_share, float travel = 0) {
 TEST(SharedMuscle, DutyIsTheWeightedSum) {
   for (const float share : {0.0f, 0.25f, 0.5f, 1.0f}) {
     Bench bench(biarticular(share));
-    bench.reading[1] = 1895 - 1000;  // hip asks 35 %
-    bench.reading[2] = 1175 - 505;   // knee asks -60 %
+    bench.reading[1] = 1895 - 1000;  // hip: 35 %
+    bench.reading[2] = 1175 - 505;   // knee: -60 %
     bench.run(20);
     const int expected = static_cast<int>(share * 35 - (1 - share) * 60);
     for (const std::size_t j : {hip, knee}) {
@@ -71,7 +71,7 @@ TEST(SharedMuscle, BothAskingTheSameIsDone) {
       EXPECT_EQ(shared_duty(share, duty, 1 - share, duty, Truncation::each_law), duty);
 }
 
-// Each valve has one pulse train: no edge twice, none that changes nothing, never both open.
+// Each valve has one pulse train: no edge twice, no edge without a change, never both open.
 TEST(SharedMuscle, IsDrivenOnce) {
   Bench bench(biarticular(0.4f));
   std::mt19937 random(1);
@@ -105,7 +105,7 @@ TEST(SharedMuscle, ItsLengthFollowsBothJoints) {
   EXPECT_EQ(bench.spine.seen().joint[hip].stiffness, expected);
 }
 
-// --- configurations that cannot be --------------------------------------------------------------
+// --- invalid configurations ---------------------------------------------------------------------
 
 TEST(JointControllerConfig, ProblemsOfTheKinds) {
   const auto of = [](const std::function<void(JointControllerConfig&)>& change) {
@@ -132,7 +132,7 @@ TEST(JointControllerConfig, ProblemsOfTheKinds) {
   EXPECT_NE(
       of([](JointControllerConfig& c) { c.joint[hip].kind = JointKind::passive; }).find("passive"),
       std::string::npos);
-  // The inlet alone is not a shared muscle; nor can both sides of a joint be one.
+  // An equal inlet alone does not make a shared muscle; nor can both sides of a joint share one.
   EXPECT_NE(of([](JointControllerConfig& c) {
               c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet;
             }).find("same valve"),

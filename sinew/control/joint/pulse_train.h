@@ -1,15 +1,16 @@
-// control/joint/pulse_train.h - one valve's edges: pulse width modulation as in appendix B.
+// control/joint/pulse_train.h - edges of one valve: pulse width modulation as in appendix B.
 //
-// The interrupt routine of the thesis looks at each valve in every tick; its state and the count of
-// ticks since the law, 1 in the law's own tick, decide:
+// The thesis's interrupt routine checks each valve in every tick, by the valve's state and the
+// number of ticks since the law, which is 1 in the law's own tick:
 //
-//   on       switched off at the first count >= closing[duty]; looked at again in the next tick
-//   off      switched on at the first count >= opening[duty], and then let alone until the next law
-//   disabled switched off in the law's tick, let alone otherwise
+//   on       switched off at the first count >= closing[duty]; checked again in the next tick
+//   off      switched on at the first count >= opening[duty], then not checked until the next law
+//   disabled switched off in the law's tick, otherwise not changed
 //
-// So the duty of one period decides at its end whether the valve goes on, and the duty of the next
-// one when it goes off: from 0 to d costs a period, from d to 0 leaves a pulse of a tick. All that
-// is known when the law runs. A train therefore keeps the edges to come, not the state to poll.
+// So the duty of one period decides at its end whether the valve opens, and the duty of the next
+// one when it closes: a change from 0 to d is delayed by a period, one from d to 0 leaves a
+// pulse of a tick. All this is determined when the law runs, so a train stores future edges
+// instead of a state.
 #pragma once
 
 #include <array>
@@ -23,18 +24,18 @@
 
 namespace sinew::control {
 
-// What the train needs to know of its law's duty.
+// Parameters of a pulse, from its law's duty.
 struct Pulse {
   std::int32_t closing = 0, opening = 0;  // counts of ticks, from the timing table
   std::int32_t period = 100;              // [ticks]
-  std::int32_t delay = 1;                 // [ticks] from decision to edge, 1 .. period
+  std::int32_t delay = 1;                 // from decision to edge, 1 .. period [ticks]
 };
 
 class PulseTrain {
  public:
   static constexpr signals::Tick never = std::numeric_limits<signals::Tick>::max();
 
-  // The law has run at tick `law`: all edges until the next law.
+  // Plans all edges until the next law, when a law has run at tick `law`.
   constexpr void cycle(signals::Tick law, const Pulse& pulse, bool enabled) noexcept {
     const signals::Tick before_first = law - 1 + pulse.delay;  // edge of a decision at count 0
     std::int32_t count = 1;
@@ -49,7 +50,7 @@ class PulseTrain {
     if (open <= pulse.period) toggle_at(before_first + open);
   }
 
-  // On in [from, until), off after; whatever was to come is dropped.
+  // Opens the valve in [from, until) and drops all other future edges.
   constexpr void pulse(signals::Tick from, signals::Tick until) noexcept {
     if (until <= from) return shut(from);
     forget();
@@ -57,8 +58,8 @@ class PulseTrain {
     toggle_at(until);
   }
 
-  // Turns the valve on in this opening of the period that starts now. All earlier edges were
-  // driven.
+  // Opens the valve for this opening of the period that starts now. All earlier edges must have
+  // been driven.
   constexpr void open(signals::Tick start, std::int32_t period, const Opening& opening) noexcept {
     const std::int32_t from = opening.from, until = opening.until;
     const bool at_both_ends = until < from;
@@ -68,17 +69,17 @@ class PulseTrain {
     if (!at_both_ends && until < period) turn(start + until, false);
   }
 
-  // Off from `at` on.
+  // Shuts the valve from `at` on.
   constexpr void shut(signals::Tick at) noexcept {
     forget();
     if (on_) toggle_at(at);
   }
 
-  // Returns when the next edge is due, and whether it opens the valve.
+  // Return the tick of the next edge, and whether that edge opens the valve.
   constexpr signals::Tick next() const noexcept { return waiting_ ? edge_[first_] : never; }
   constexpr bool next_opens() const noexcept { return !driven_; }
 
-  // The next edge has been driven.
+  // Marks the next edge as driven.
   constexpr void drive() noexcept {
     driven_ = !driven_;
     first_ = static_cast<std::uint8_t>((first_ + 1) % capacity);
@@ -86,7 +87,7 @@ class PulseTrain {
   }
 
  private:
-  // Two of this period and, with a delay, two of the last one.
+  // two edges of this period and, with a delay, two of the last one
   static constexpr std::uint8_t capacity = 4;
 
   constexpr void forget() noexcept {
@@ -104,10 +105,10 @@ class PulseTrain {
     on_ = !on_;
   }
 
-  std::array<signals::Tick, capacity> edge_{};  // to come, ascending, from first_ on
+  std::array<signals::Tick, capacity> edge_{};  // future edges, ascending, starting at first_
   std::uint8_t first_ = 0, waiting_ = 0;
-  bool on_ = false;      // after the edges to come
-  bool driven_ = false;  // after the edges driven
+  bool on_ = false;      // state after all future edges
+  bool driven_ = false;  // state after the driven edges
 };
 
 }  // namespace sinew::control

@@ -1,4 +1,4 @@
-// One valve under constant and changing duties.
+// Tests one valve with constant and changing duties.
 #include "sinew/control/joint/pulse_train.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using signals::Tick;
 
-// Laws at ticks 0, 100, 200 ... with these duties; edges as (tick, open).
+// Returns the edges as (tick, open) for laws at ticks 0, 100, 200 ... with these duties.
 std::map<Tick, bool> edges(const std::vector<int>& duties, const signals::ValveTiming& timing,
                            int disabled_at = -1, int delay = 1) {
   std::map<Tick, bool> out;
@@ -33,7 +33,7 @@ std::map<Tick, bool> edges(const std::vector<int>& duties, const signals::ValveT
   return out;
 }
 
-// Open time within [from, until).
+// Returns the open time within [from, until).
 Tick open_ticks(const std::map<Tick, bool>& edges, Tick from, Tick until) {
   Tick sum = 0, opened = until;
   for (const auto& [at, opens] : edges) {
@@ -45,7 +45,7 @@ Tick open_ticks(const std::map<Tick, bool>& edges, Tick from, Tick until) {
   return sum + std::max<Tick>(0, until - opened);
 }
 
-// In each tick the valve is as its period's opening has it, whatever the one before was.
+// In each tick the valve follows its period's opening, independent of the previous one.
 TEST(PulseTrain, OpensAsAHostHasIt) {
   constexpr int period = 6;
   PulseTrain train;
@@ -78,7 +78,7 @@ TEST(PulseTrain, MeanIsTheDuty) {
         << duty;
 }
 
-// Opening and closing delays taken off the coil's times: the valve itself is open for the duty.
+// The coil's times are compensated for the delays, so that the valve itself is open for the duty.
 TEST(PulseTrain, CompensatedTableDeliversTheDuty) {
   constexpr Tick opening_delay = 5, closing_delay = 12;
   const signals::ValveTiming timing = signals::compensated_timing(opening_delay, closing_delay);

@@ -1,17 +1,17 @@
-// control/joint/regulator.h - the laws of a joint whose muscles hang on pressure regulators.
+// control/joint/regulator.h - laws of a joint whose muscles have pressure regulators.
 //
-// A regulator is told a pressure, not a flow, so the air no longer integrates (compare laws.h) and
-// the law has to:
+// A regulator sets a pressure, not a flow, so the air does not integrate as in laws.h, and the law
+// has to:
 //
 //   mean       = bias + U_k + I_k             I_k     += G_ik (K_des - K_act)
 //   difference = U_theta + I_theta            I_theta += G_itheta s (theta_des - theta_act)
 //
 //   flexor  = mean + difference,  extensor = mean - difference
 //
-// all in percent of the regulator's range, the integrals once per law, s = JointConfig::flexion. An
-// integral stays within what the set points can use, and stands still while both of them are at an
-// end and the error would drive them further (anti-windup). Set points are whole 12-bit levels,
-// once per period. Pure functions.
+// All values are in percent of the regulator's range; the integrals are updated once per law; s is
+// JointConfig::flexion. An integral is limited to what the setpoints can use, and is not changed
+// while both setpoints are at a limit and the error would drive them further (anti-windup).
+// Setpoints are whole 12-bit levels, once per period. All functions are pure.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +30,14 @@ struct RegulatorState {
   float mean = 0, difference = 0;  // I_k, I_theta [%]
 };
 
-// Set points of both muscles; signals::max_level is the end of the regulator's range.
+// Setpoints of both muscles; signals::max_level is the end of the regulator's range.
 struct Levels {
   std::uint16_t flexor = 0, extensor = 0;
 
   friend constexpr bool operator==(const Levels&, const Levels&) = default;
 };
 
-// The nearest level of a share in percent.
+// Returns the nearest level of a share in percent.
 constexpr std::uint16_t level_of(float percent) noexcept {
   const float inside = clamped(percent, 100.0f);
   const float level = inside * (static_cast<float>(signals::max_level) / 100.0f) + 0.5f;
@@ -48,16 +48,16 @@ struct RegulatorInput {
   float bias = 50;           // [%]
   float u_k = 0;             // [58] [%]
   float u_theta = 0;         // [59], positive flexes [%]
-  float stiffness_step = 0;  // what this law would add to I_k [%]
-  float angle_step = 0;      // and to I_theta [%]
+  float stiffness_step = 0;  // change of I_k by this law [%]
+  float angle_step = 0;      // change of I_theta by this law [%]
 };
 
-// Cuts x to the two bounds.
+// Clamps x to the two bounds.
 constexpr float held_between(float x, float low, float high) noexcept {
   return x < low ? low : x > high ? high : x;
 }
 
-// Returns the set points of flexor and extensor, and moves the integrals on by a period.
+// Returns the setpoints of flexor and extensor, and updates the integrals for a period.
 constexpr Levels regulate(RegulatorState& state, const RegulatorInput& in) noexcept {
   const auto mean = [&] { return in.bias + in.u_k + state.mean; };
   const auto turn = [&] { return in.u_theta + state.difference; };

@@ -1,4 +1,4 @@
-// The laws for pressure regulators: levels, integrals, and what ends them.
+// Tests the laws for pressure regulators: levels, integrals, and their limits.
 #include "sinew/control/joint/regulator.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(Regulator, LevelsCoverTheRange) {
     ASSERT_EQ(level_of(static_cast<float>(l) * 100.0f / signals::max_level), l);
 }
 
-// Without integrals: the mean is bias + U_k, half the difference U_theta.
+// Without integrals the mean is bias + U_k, and half the difference is U_theta.
 TEST(Regulator, StiffnessMovesTheMeanAndAngleTheDifference) {
   RegulatorState state;
   const Levels l = regulate(state, {.bias = 40, .u_k = 10, .u_theta = 20});
@@ -27,7 +27,7 @@ TEST(Regulator, StiffnessMovesTheMeanAndAngleTheDifference) {
   EXPECT_EQ(state.mean, 0);
 }
 
-// An error that stays moves both pressures apart at a constant rate, up to the ends of the range.
+// A constant error moves both pressures apart at a constant rate, up to the ends of the range.
 TEST(Regulator, IntegratesAnErrorThatStays) {
   RegulatorState state;
   for (int i = 1; i <= 40; ++i) {
@@ -36,7 +36,7 @@ TEST(Regulator, IntegratesAnErrorThatStays) {
   }
 }
 
-// However long it has been at the end, it comes back with the first step the other way.
+// After any time at the limit, the first step in the other direction moves it back.
 TEST(Regulator, WindsUpNoFurtherThanTheRange) {
   for (const float sign : {1.0f, -1.0f}) {
     RegulatorState state;
@@ -51,7 +51,7 @@ TEST(Regulator, WindsUpNoFurtherThanTheRange) {
   }
 }
 
-// The same of the mean, also where a large U_k holds it at the end meanwhile.
+// The mean is limited in the same way, also while a large U_k holds it at the limit.
 TEST(Regulator, MeanWindsUpNoFurtherEither) {
   RegulatorState state;
   for (int i = 0; i < 10'000; ++i) regulate(state, {.bias = 50, .u_k = 300, .stiffness_step = 2});

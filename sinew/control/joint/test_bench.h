@@ -1,4 +1,4 @@
-// control/joint/test_bench.h - a spinal cord with readings that are held, for tests.
+// control/joint/test_bench.h - a joint controller with constant readings, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace sinew::control {
 
-// Readings by channel, held; commands of all joints alike.
+// Constant readings by channel, and the same command for all joints.
 struct Bench {
   explicit Bench(const JointControllerConfig& config) : spine(config) {
     EXPECT_EQ(problem(config), nullptr);
@@ -32,7 +32,7 @@ struct Bench {
     }
   }
 
-  // The share of a period for which a valve is open, over the last periods.
+  // Returns the share of time for which a valve was open in the last periods.
   double open_share(int valve, int periods) const {
     const signals::Tick from = now - periods * spine.config().period;
     double open = 0;

@@ -1,5 +1,6 @@
-// control/joint/test_leg.h - the leg's spinal cord with the numbers of appendix B, for tests and
-// the firmware's self-test, which have no files to read. The leg itself is described in robots/leg.
+// control/joint/test_leg.h - configuration of the leg's joint controller with the numbers of
+// appendix B, for tests and the firmware's self-test, which have no files to read. The leg itself
+// is described in robots/leg.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,9 @@ namespace sinew::control {
 
 enum TestLegJoint : std::size_t { hip, knee, cylinder };
 
-// Channels 0..6 as scanned: cylinder, hip and knee position, then the tensions of hip flexor and
-// extensor, knee flexor and extensor. Valves 4 x joint + (0..3 in the order of Duties).
+// Channels 0..6 are scanned in this order: position of cylinder, hip and knee, then the tensions of
+// hip flexor and extensor, knee flexor and extensor. Valves are 4 x joint + (0..3 in the order of
+// Duties).
 constexpr JointControllerConfig test_leg() noexcept {
   JointControllerConfig leg;
   leg.joints = 3;

@@ -1,4 +1,5 @@
-// control/joint/velocity.h - a joint's speed from counts: what [59]'s velocity term gets.
+// control/joint/velocity.h - estimation of a joint's speed from counts, for the velocity term of
+// [59].
 //
 //   difference        (theta_0 - theta_1)/t_p                     6.5; one count is 1/t_p counts/s
 //   weighted average  sum of psi_i (theta_i - theta_0)          7.3; of a least-squares line of
@@ -10,11 +11,11 @@
 //                     v'     = a v + c F                          of  theta_0 - theta'
 //   sensor            (reading - its zero) times a scale          7.3's muscle spindle
 //
-// theta_i is the reading i periods ago [count], t_p the period [s], v the last estimate [count/s],
-// F the tension that raises the angle less the one that lowers it, mean of this reading and the
-// last [count]. The constants a, c, d, g are the motion of the joint over a period; who describes
-// the machine computes them (control/setup/estimators.h). All speeds are in counts of the angle's
-// converter per second. Pure functions.
+// Here theta_i is the reading i periods ago [count], t_p the period [s], v the last estimate
+// [count/s], and F the tension that raises the angle less the one that lowers it, mean of this
+// reading and the last [count]. The constants a, c, d, g describe the motion of the joint over a
+// period and are computed from the machine's description (control/setup/estimators.h). All speeds
+// are in counts of the angle's converter per second. All functions are pure.
 #pragma once
 
 #include <array>
@@ -27,9 +28,9 @@
 namespace sinew::control {
 
 inline constexpr std::size_t max_samples = 16;
-inline constexpr float speed_limit = 1e6f;  // [count/s], of any estimate
+inline constexpr float speed_limit = 1e6f;  // limit of any estimate [count/s]
 
-// Names how the speed is found.
+// Method of estimation.
 enum class Estimator : std::uint8_t {
   difference,
   weighted_average,
@@ -38,45 +39,45 @@ enum class Estimator : std::uint8_t {
   sensor,
 };
 
-// A joint's estimator as its controller is made with it.
+// Configuration of a joint's estimator.
 struct VelocityConfig {
   Estimator estimator = Estimator::difference;
 
   // Weighted average
-  std::uint8_t samples = 2;                 // angles looked at, 2 .. max_samples
-  std::array<float, max_samples> weight{};  // [1/s] newest first; the first is not used
+  std::uint8_t samples = 2;                 // number of angles used, 2 .. max_samples
+  std::array<float, max_samples> weight{};  // [1/s] newest first; the first is unused
 
   // Bounded observer and Kalman: the joint over one period
-  float decay = 1;       // a, share of the speed that is left [-]
-  float speed_gain = 0;  // c [count/s per count of tension]; 0: no tension is needed
-  float margin = 0;      // bounded: largest change of speed that the model does not know [count/s]
+  float decay = 1;            // a, share of the speed that remains [-]
+  float speed_gain = 0;       // c [count/s per count of tension]; 0: tension is not needed
+  float margin = 0;           // bounded: largest deviation from the model's speed [count/s]
   float limit = speed_limit;  // bounded: largest speed [count/s]
   float travel = 0;           // g, Kalman [s]
   float travel_gain = 0;      // d, Kalman [count per count of tension]
-  float angle_share = 0;      // Kalman: of the angle's error, into the angle [-]
-  float speed_share = 0;      // and into the speed [1/s]
+  float angle_share = 0;      // Kalman: share of the angle's error that corrects the angle [-]
+  float speed_share = 0;      // and the speed [1/s]
 
   // Sensor
   signals::Channel channel;
-  std::int32_t at_rest = 0;  // reading at no speed [count]
+  std::int32_t at_rest = 0;  // reading at zero speed [count]
   float scale = 0;           // speed of one count [count/s]
 };
 
-// The estimator's memory.
+// Memory of the estimator.
 struct VelocityState {
   std::array<std::int32_t, max_samples> angle{};  // newest first [count]
-  float predicted = 0;                            // Kalman's own angle [count]
-  float push = 0;                                 // F as last read [count]
+  float predicted = 0;                            // Kalman: predicted angle [count]
+  float push = 0;                                 // last reading of F [count]
   float speed = 0;                                // the last estimate [count/s]
   bool begun = false;
 };
 
-// `rate`: laws per second.
+// Returns the speed by difference; `rate` is the number of laws per second.
 constexpr float difference(std::int32_t angle, std::int32_t previous, float rate) noexcept {
   return static_cast<float>(angle - previous) * rate;
 }
 
-// The weights of a least-squares line through n angles  [1/s].
+// Returns the weights of a least-squares line through n angles [1/s].
 constexpr std::array<float, max_samples> line_weights(std::uint8_t n, float rate) noexcept {
   std::array<float, max_samples> weight{};
   const float count = static_cast<float>(n);
@@ -87,7 +88,8 @@ constexpr std::array<float, max_samples> line_weights(std::uint8_t n, float rate
   return weight;
 }
 
-// Weights are of differences from the newest angle, so that they need not sum to zero exactly.
+// Returns the weighted average. The weights apply to differences from the newest angle, so they
+// need not sum to zero exactly.
 constexpr float weighted_average(const VelocityConfig& config,
                                  const std::array<std::int32_t, max_samples>& angle) noexcept {
   float sum = 0;
@@ -96,7 +98,7 @@ constexpr float weighted_average(const VelocityConfig& config,
   return sum;
 }
 
-// `push`: F, above.
+// Returns the bounded observer's estimate; `push` is F, see above.
 constexpr float bounded(const VelocityConfig& config, float calculated, float last,
                         float push) noexcept {
   const float expected = config.decay * last + config.speed_gain * push;
@@ -104,7 +106,7 @@ constexpr float bounded(const VelocityConfig& config, float calculated, float la
   return clamped(near, config.limit);
 }
 
-// One period of the model, then the share of what the reading says otherwise.
+// Advances the model by one period, then corrects it by a share of the error.
 constexpr void kalman(const VelocityConfig& config, VelocityState& state, std::int32_t angle,
                       float push) noexcept {
   const float predicted = state.predicted + config.travel * state.speed + config.travel_gain * push;
@@ -114,7 +116,7 @@ constexpr void kalman(const VelocityConfig& config, VelocityState& state, std::i
   state.speed = clamped(expected + config.speed_share * error, speed_limit);
 }
 
-// What an estimator gets to see at a law.
+// Input of an estimator at a law.
 struct Motion {
   std::int32_t angle = 0;   // [count]
   float push = 0;           // tension that raises the angle less what lowers it [count]
@@ -122,7 +124,8 @@ struct Motion {
   float rate = 0;           // laws per second
 };
 
-// The first law sees no speed; it has only one angle.
+// Returns the new estimate. At the first law it is zero by most methods, since there is only one
+// angle.
 constexpr float estimate(const VelocityConfig& config, VelocityState& state,
                          const Motion& now) noexcept {
   const bool first = !state.begun;

@@ -1,4 +1,4 @@
-// The estimators by their laws: ramps, noise, bounds, and a joint that really moves.
+// Tests the estimators: ramps, noise, bounds, and a joint with real motion.
 #include "sinew/control/joint/velocity.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ VelocityConfig average_of(std::uint8_t n) {
   return {.estimator = Estimator::weighted_average, .samples = n, .weight = line_weights(n, rate)};
 }
 
-// What an estimator says after each of these angles.
+// Returns the estimates after each of these angles.
 std::vector<double> estimates(const VelocityConfig& config, const std::vector<std::int32_t>& angles,
                               const std::vector<float>& push = {}) {
   VelocityState state;
@@ -118,7 +118,7 @@ TEST(BoundedObserver, NeverExceedsItsBounds) {
   }
 }
 
-// With room enough it is the difference; with none it is the model.
+// With large bounds it equals the difference, with zero bounds the model.
 TEST(BoundedObserver, LiesBetweenDifferenceAndModel) {
   std::mt19937 random(4);
   std::vector<std::int32_t> angles;
@@ -135,7 +135,7 @@ TEST(BoundedObserver, LiesBetweenDifferenceAndModel) {
 
 // --- Kalman -------------------------------------------------------------------------------------
 
-// A model without error needs no correction; a wrong start dies out with it.
+// A model without error needs no correction; a wrong initial value decays.
 TEST(Kalman, FollowsARampWithoutError) {
   const VelocityConfig config{
       .estimator = Estimator::kalman, .travel = 0.01f, .angle_share = 0.4f, .speed_share = 10.0f};

@@ -12,7 +12,7 @@ std::uint32_t frame_size(const M& message) noexcept {
   return static_cast<std::uint32_t>(min_frame + io.size());
 }
 
-// Frames of up to `most` things each; `of(n)` is a message of n.
+// Returns the size of frames with up to `most` items each; `of(n)` is a message with n items.
 template <class Of>
 std::uint32_t frames_size(std::size_t things, std::size_t most, Of of) noexcept {
   std::uint32_t out = 0;
@@ -48,7 +48,7 @@ Load load_of(const control::JointControllerConfig& config, bool edges_wanted) no
   return out;
 }
 
-// bytes x 10 bits <= 90 % x baud x period x 100 us, without a quotient
+// bytes x 10 bits <= 90 % x baud x period x 100 us, without a division
 bool carries(std::uint32_t baud, const Load& load, std::uint16_t period) noexcept {
   const std::uint32_t most = load.to_host > load.to_board ? load.to_host : load.to_board;
   constexpr std::uint64_t ticks_per_second = 10'000;

@@ -1,14 +1,14 @@
-// control/link/baud.h - how fast a line must be for what a board says and is told in each period.
+// control/link/baud.h - rate of a line that carries all messages of each period.
 //
-// A byte takes ten bits on a serial line. Of each direction at most 90 % is used: senders start
-// late, and clocks differ.
+// A byte takes ten bits on a serial line. At most 90 % of each direction is used, since senders
+// start late and clocks differ.
 //
-//   to the host    all parts of the telemetry; edges where they are wanted, at most four of a valve
-//                  in a period (pulse_train.h: two of a law, two of the law before it); an answer
+//   to the host    all parts of the telemetry; edges if they are requested, at most four of a valve
+//                  in a period (pulse_train.h: two of a law, two of the law before it); a reply
 //                  without text; an event
 //   to the board   a command for all joints, gains of one joint
 //
-// Configuring and reading the fault log happen while no joint runs, and take as long as they take.
+// Configuration and the fault log are sent outside runs and may take longer than a period.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@
 namespace sinew::link {
 
 struct Load {
-  std::uint32_t to_host = 0, to_board = 0;  // [bytes] in a period, at most
+  std::uint32_t to_host = 0, to_board = 0;  // largest number in a period [bytes]
 };
 
-// Returns the bytes that a board of this configuration says and is told.
+// Returns the bytes that a board of this configuration sends and receives.
 Load load_of(const control::JointControllerConfig& config, bool edges_wanted) noexcept;
 
-// Does a line of so many bits a second carry it?
+// Returns whether a line of that rate [bits/s] carries the load.
 bool carries(std::uint32_t baud, const Load& load, std::uint16_t period) noexcept;
 
-// The rate of firmware/application.cpp  [bits/s].
+// Rate of firmware/application.cpp [bits/s].
 inline constexpr std::uint32_t firmware_baud = 921'600;
 
-// The slowest of the choices that carries all, 0 where none does.
+// Returns the slowest of the choices that carries all messages, or 0 if none does.
 std::uint32_t choose_baud(const control::JointControllerConfig& config, bool edges_wanted,
                           std::span<const std::uint32_t> choices) noexcept;
 

@@ -1,4 +1,4 @@
-// A line that is chosen carries what a board really sends.
+// Tests that a chosen rate carries what a board really sends.
 #include "sinew/control/link/baud.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t choices[] = {2'000'000, 115'200, 460'800, 921'600, 230'400, 1'000'000};
 
-// The largest that a board runs.
+// The largest machine of a board.
 control::JointControllerConfig largest() {
   control::JointControllerConfig out;
   out.joints = control::max_joints;
@@ -61,13 +61,13 @@ TEST(Baud, TheSlowestThatCarriesAllIsChosen) {
       for (const std::uint32_t other : choices)
         EXPECT_EQ(carries(other, load, period), baud != 0 && other >= baud) << other;
       if (baud == 0) continue;
-      // bits of a period against bits that pass in it
+      // bits of a period compared with bits that the line carries in it
       EXPECT_LE(10.0 * load.to_host, 0.9 * baud * period * 1e-4);
       EXPECT_LE(10.0 * load.to_board, 0.9 * baud * period * 1e-4);
     }
 }
 
-// Figures of docs/reference/wire.md.
+// Numbers of docs/reference/wire.md.
 TEST(Baud, OfTheLegAndOfTheLargestBoard) {
   EXPECT_EQ(load_of(control::test_leg(), false).to_host, 482u);
   EXPECT_EQ(load_of(control::test_leg(), false).to_board, 128u);

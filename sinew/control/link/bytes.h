@@ -1,15 +1,15 @@
-// control/link/bytes.h - numbers as bytes, little-endian, and back: never beyond the end, never out
-// of range.
+// control/link/bytes.h - conversion of numbers to bytes, little-endian, and back, with checks of
+// size and range.
 //
-// A message lists its fields once (messages.h); Writer and Reader go over the same list, so that
-// the two ends cannot differ. Both have
+// A message lists its fields once (messages.h); Writer and Reader use the same list, so that both
+// ends agree. Both have
 //
 //   whole(x)               an integer, a float, all of its bits
-//   limited(x, low, high)  the same, refused outside
-//   finite(x)              a float, refused where it is infinite or not a number
+//   limited(x, low, high)  the same, refused outside the range
+//   finite(x)              a float, refused if it is infinite or NaN
 //
-// and the functions below, for what is no number by itself. After a refusal ok() is false, and what
-// follows is neither written nor read.
+// and the functions below for other types. After a refusal ok() is false, and nothing more is
+// written or read.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace sinew::link {
 
 namespace as_bits {
 
-// The unsigned integer that has a type's bits.
+// Unsigned integer of the size of a type.
 template <class T>
 using Of = std::conditional_t<
     sizeof(T) == 1, std::uint8_t,
@@ -33,24 +33,24 @@ using Of = std::conditional_t<
 
 }  // namespace as_bits
 
-// All bits of the exponent are set in what is infinite or not a number.
+// Returns whether x is finite: infinity and NaN have all bits of the exponent set.
 constexpr bool is_finite(float x) noexcept {
   return (std::bit_cast<std::uint32_t>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Writes numbers into a place of bytes, one behind the other.
+// Writes numbers as consecutive bytes.
 class Writer {
  public:
   static constexpr bool reads = false;
 
-  // Begins at the front of `out`.
+  // Starts at the front of `out`.
   constexpr explicit Writer(std::span<std::uint8_t> out) noexcept : out_(out) {}
 
-  // Has everything fitted, and was it within its bounds? And how many bytes there are by now.
+  // Return whether all numbers fitted and were in range, and the number of bytes so far.
   constexpr bool ok() const noexcept { return ok_; }
   constexpr std::size_t size() const noexcept { return size_; }
 
-  // Writes the bytes of a number, the lowest first.
+  // Writes the bytes of a number, lowest first.
   template <class T>
   constexpr void whole(const T& x) noexcept {
     require(out_.size() - size_ >= sizeof(T));
@@ -62,7 +62,7 @@ class Writer {
     }
   }
 
-  // Writes a number that has to lie within the bounds, or be finite.
+  // Write a number that has to be within the bounds, or finite.
   template <class T>
   constexpr void limited(const T& x, T low, T high) noexcept {
     require(x >= low && x <= high);
@@ -81,17 +81,17 @@ class Writer {
   bool ok_ = true;
 };
 
-// A number that is not there, or out of range, is left as it was.
+// Reads numbers. A number that is missing or out of range leaves its variable unchanged.
 class Reader {
  public:
   static constexpr bool reads = true;
 
-  // Begins at the front of `in`.
+  // Starts at the front of `in`.
   constexpr explicit Reader(std::span<const std::uint8_t> in) noexcept : in_(in) {}
 
-  // Was everything there, and within its bounds?
+  // Returns whether all numbers were present and in range.
   constexpr bool ok() const noexcept { return ok_; }
-  // Bytes that were expected and are not there; else a refusal is one of a value.
+  // Returns whether bytes were missing; otherwise a refusal is due to a value.
   constexpr bool too_short() const noexcept { return too_short_; }
   constexpr std::size_t left() const noexcept { return in_.size() - size_; }
 
@@ -113,7 +113,7 @@ class Reader {
     x = std::bit_cast<T>(bits);
   }
 
-  // Reads a number that has to lie within the bounds, or be finite; else `x` stays as it is.
+  // Read a number that has to be within the bounds, or finite; otherwise `x` is unchanged.
   template <class T>
   constexpr void limited(T& x, T low, T high) noexcept {
     T found = low;
@@ -134,7 +134,7 @@ class Reader {
   bool ok_ = true, too_short_ = false;
 };
 
-// Sizer counts what a Writer would write.
+// Counts the bytes that a Writer would write.
 class Sizer {
  public:
   static constexpr bool reads = false;
@@ -156,9 +156,9 @@ class Sizer {
   std::size_t size_ = 0;
 };
 
-// --- what is no number by itself, for either of them --------------------------------------------
+// --- other types than numbers, for both directions ----------------------------------------------
 
-// `x` as a number of type T between low and high, or the other way round.
+// Converts `x` as a number of type T between low and high.
 template <class T, class Io, class X>
 constexpr void number_as(Io& io, X& x, T low, T high) noexcept {
   T value = low;
@@ -166,57 +166,57 @@ constexpr void number_as(Io& io, X& x, T low, T high) noexcept {
     io.limited(value, low, high);
     x = static_cast<X>(value);
   } else {
-    // What the smaller type cannot hold must not wrap into the range.
+    // A value that does not fit the smaller type must not wrap into the range.
     const bool fits = static_cast<X>(static_cast<T>(x)) == x;
     value = fits ? static_cast<T>(x) : static_cast<T>(high + 1);
     io.limited(value, low, high);
   }
 }
 
-// A byte, 0 or 1.
+// Converts a bool: one byte, 0 or 1.
 template <class Io, class X>
 constexpr void flag(Io& io, X& x) noexcept {
   number_as<std::uint8_t>(io, x, 0, 1);
 }
 
-// An enumerator, from the first one, 0, to `last`.
+// Converts an enumerator between 0 and `last`.
 template <class Io, class X>
 constexpr void choice(Io& io, X& x, std::remove_const_t<X> last) noexcept {
   number_as<std::uint8_t>(io, x, 0, static_cast<std::uint8_t>(last));
 }
 
-// How many there are, or a place among them, as a byte up to `most`; most < 255.
+// Converts a number or an index as a byte up to `most`; most < 255.
 template <class Io, class X>
 constexpr void count(Io& io, X& x, std::size_t most) noexcept {
   number_as<std::uint8_t>(io, x, 0, static_cast<std::uint8_t>(most));
 }
 
-// The first `n` of them, and never beyond the last: a number that was refused does not lead there.
+// Calls `use` for the first `n` items, at most for all of them, even if the number was refused.
 template <class Items, class Use>
 constexpr void first_of(Items& items, std::size_t n, Use use) noexcept {
   for (std::size_t i = 0; i < n && i < items.size(); ++i) use(items[i]);
 }
 
-// Letters of ASCII; behind the last one are zeros.
+// Converts letters of ASCII; after the last one are zeros.
 template <class Io, class X>
 constexpr void letters(Io& io, X& x) noexcept {
   for (auto& c : x) number_as<std::uint8_t>(io, c, 0, 126);
 }
 
-// True for M = X and M = const X: a list of fields serves for both directions.
+// Matches M = X and M = const X, so that one list of fields serves both directions.
 template <class M, class X>
 concept Is = std::same_as<std::remove_const_t<M>, X>;
 
-// Counts the members of an aggregate, so that a list of its fields notices
-// when one is added: static_assert(members<Gains>() == 3).
+// Counts the members of an aggregate, so that a list of its fields detects an added one:
+// static_assert(members<Gains>() == 3).
 
-// Stands for a member of any type.
+// Placeholder for a member: it converts to any type.
 struct AnyMember {
   template <class T>
-  operator T() const;  // never defined: only asked whether it would do
+  operator T() const;  // never defined, used in a requires expression only
 };
 
-// Returns how many members an aggregate has.
+// Returns the number of members of an aggregate.
 template <class T, class... Before>
 consteval std::size_t members() {
   if constexpr (requires { T{Before{}..., AnyMember{}}; })

@@ -1,4 +1,4 @@
-// Numbers become bytes and the same numbers again; nothing is written or read beyond the end.
+// Tests conversion of numbers to bytes and back; nothing is written or read beyond the end.
 #include "sinew/control/link/bytes.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(Bytes, AWriterStopsAtTheEnd) {
   to.whole(std::uint16_t{0xffff});
   EXPECT_FALSE(to.ok());
   EXPECT_EQ(to.size(), 4u);
-  to.whole(std::uint8_t{0xff});  // nothing follows a refusal
+  to.whole(std::uint8_t{0xff});  // nothing is written after a refusal
   EXPECT_EQ(to.size(), 4u);
   EXPECT_EQ(bytes[4], 0);
 }

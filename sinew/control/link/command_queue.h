@@ -1,13 +1,12 @@
-// control/link/command_queue.h - commands that have come, until their period begins and as long as
-// they are good.
+// control/link/command_queue.h - received commands, from their arrival until their last period.
 //
 //   period      0        1        2        3        4
-//   command           from = 1, periods = 2: good for 1 and 2, over in 3
+//   command           from = 1, periods = 2: valid in 1 and 2, expired in 3
 //
-// One that is over is refused, and so is one more than `ahead` periods before its time. When one
-// begins, those that began before it are over, however long they were good for: nothing goes back
-// to them. Of two that begin together the one that came last is taken. Where none is good, the host
-// is lost and at() says so: what then happens is the board's affair (it vents).
+// An expired command is refused, and so is one more than `ahead` periods before its time. When a
+// command begins, those that began before it expire, even if they were valid for longer. Of
+// two that begin together the later received one is used. If no command is valid, at() returns
+// nullptr: the host is lost, and the board has to react (it vents).
 #pragma once
 
 #include <array>
@@ -20,17 +19,17 @@ namespace sinew::link {
 
 class CommandQueue {
  public:
-  static constexpr std::size_t ahead = 4;  // periods that a command may come before its time
+  static constexpr std::size_t ahead = 4;  // periods that a command may arrive before its time
 
-  // `period` in ticks.
+  // `period` is in ticks.
   constexpr explicit CommandQueue(std::uint16_t period) noexcept : period_(period) {}
 
-  // `begun`: the first tick of the period that runs now, whose command is taken already. Done,
-  // past, future, or period.
+  // Adds a command. `begun` is the first tick of the current period, whose command is in use
+  // already. Returns done, past, future, or period.
   constexpr Code put(const CommandFor& command, signals::Tick begun) noexcept {
     const signals::Tick before = command.from - begun;  // both are within max_tick
     if (before > signals::Tick{ahead} * period_) return Code::future;
-    // It may be good for the period that runs; only what is still to come counts.
+    // It may be valid in the current period already; it has to be valid in a later one too.
     if (before + signals::Tick{command.periods} * period_ <= period_) return Code::past;
     if (command.from < newest_) return Code::past;
     if (static_cast<std::int32_t>(before) % period_ != 0) return Code::period;
@@ -38,7 +37,8 @@ class CommandQueue {
     return Code::done;
   }
 
-  // At a period's first tick: its command, nullptr where there is none. Ticks never decrease.
+  // Returns the command for the period that begins at this tick, or nullptr. Ticks must not
+  // decrease.
   constexpr const CommandFor* at(signals::Tick begins) noexcept {
     const CommandFor* out = nullptr;
     for (const Slot& s : slot_)
@@ -51,7 +51,7 @@ class CommandQueue {
     return out && begins < out->from + signals::Tick{out->periods} * period_ ? out : nullptr;
   }
 
-  // Forgets all of them.
+  // Removes all commands.
   constexpr void clear() noexcept { *this = CommandQueue(period_); }
 
  private:
@@ -60,7 +60,7 @@ class CommandQueue {
     bool used = false;
   };
 
-  // The place of the one that begins together with it, a free one, or the one that began first.
+  // Returns the slot of a command that begins at the same time, a free slot, or the oldest one.
   constexpr Slot& place_for(signals::Tick from) noexcept {
     Slot* out = &slot_[0];
     for (Slot& s : slot_)
@@ -73,8 +73,8 @@ class CommandQueue {
   }
 
   std::uint16_t period_;
-  signals::Tick newest_ = 0;  // of those that have begun, the last
-  // Those to come, and the one that holds.
+  signals::Tick newest_ = 0;  // begin of the last command that has begun
+  // future commands, and the current one
   std::array<Slot, ahead + 1> slot_;
 };
 

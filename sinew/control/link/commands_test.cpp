@@ -1,4 +1,4 @@
-// A frame is taken once, a command in its periods only.
+// Tests that a frame is accepted once, and a command in its periods only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,8 +101,8 @@ TEST(CommandQueue, TicksFarAwayAreRefusedNotMistaken) {
     }
 }
 
-// Against the whole history: of all that were taken and have begun, the one that begins last, as
-// long as it is good.
+// Compares with the whole history: of all accepted commands that have begun the latest one is in
+// effect, as long as it is valid.
 TEST(CommandQueue, IsTheHistoryLookedAtAnew) {
   std::mt19937 random(2);
   CommandQueue queue(period);

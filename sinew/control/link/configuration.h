@@ -1,8 +1,8 @@
-// control/link/configuration.h - a board's configuration as bytes, and its way over the wire.
+// control/link/configuration.h - a board's configuration as bytes, and its transfer over the wire.
 //
-// begin says how many bytes and their CRC-32, chunks follow one another without a gap, end asks for
-// it to be taken. It is taken as a whole or refused as a whole: after any refusal the host begins
-// anew, and the board has what it had.
+// begin has the number of bytes and their CRC-32, chunks follow without a gap, end requests that it
+// takes effect. It is accepted or refused as a whole: after a refusal the host begins again, and
+// the board keeps its previous configuration.
 #pragma once
 
 #include <array>
@@ -14,33 +14,34 @@
 
 namespace sinew::link {
 
-// A configuration's only size.
+// Size of every configuration.
 inline constexpr std::size_t configuration_size = 3454;
 
 using ConfigurationBytes = std::array<std::uint8_t, configuration_size>;
 
-// Why it is not taken; `words`, where the parts contradict each other.
+// Reason for a refusal; `words` if the parts contradict each other.
 struct Refusal {
   Code code = Code::done;
   const char* words = nullptr;
 };
 
-// False where a field has a value that cannot be.
+// Writes a configuration. Returns false if a field has an invalid value.
 bool write(const Configuration& configuration, ConfigurationBytes& out) noexcept;
 
-// All is in order, problem() of the parts included, where it answers done; else `out` is not whole.
-// It needs no second Configuration, for which a small machine's stack has no room.
+// Reads a configuration and checks problem() of its parts. If the result is not done, `out` is
+// incomplete. It needs no second Configuration, for which the stack of a microcontroller is too
+// small.
 Refusal read(std::span<const std::uint8_t> bytes, Configuration& out) noexcept;
 
-// A host's side: the frames to send, one after the other.
+// Sender of the host: the frames in order.
 class ConfigurationSender {
  public:
   static constexpr std::size_t chunks = (configuration_size + max_chunk - 1) / max_chunk;
 
-  // ok() is false where a field has a value that cannot be.
+  // ok() is false if a field has an invalid value.
   explicit ConfigurationSender(const Configuration& configuration) noexcept;
 
-  // Can it be sent at all? And the checksum of its bytes.
+  // Return whether it can be sent, and the checksum of its bytes.
   bool ok() const noexcept { return ok_; }
   std::uint32_t crc() const noexcept { return crc_; }
   ConfigureBegin begin() const noexcept;
@@ -54,16 +55,16 @@ class ConfigurationSender {
   bool ok_ = false;
 };
 
-// A board's side.
+// Receiver of the board.
 class ConfigurationReceiver {
  public:
-  // Answers each message of a transfer, in their order.
+  // Return the reply to a message of a transfer; messages must be in order.
   Code take(const ConfigureBegin& begin) noexcept;
   Code take(const ConfigureChunk& chunk) noexcept;
-  // Where the answer is not done, `out` is not whole.
+  // If the reply is not done, `out` is incomplete.
   Refusal take(const ConfigureEnd& end, Configuration& out) noexcept;
 
-  // The transfer is over, for another reason: the line was silent, joints were armed.
+  // Ends the transfer for another reason: the line was silent, or joints were armed.
   void forget() noexcept { begun_ = false; }
 
  private:

@@ -1,10 +1,10 @@
-// control/link/configuration_fields.h - what a board must know of its machine, field by field, in
-// the order of the wire (docs/reference/wire.md).
+// control/link/configuration_fields.h - fields of a board's configuration in the order of the wire
+// (docs/reference/wire.md).
 //
-// Not a struct's memory: compilers lay that out as they like. All joints, conversions and sensors
-// that there is room for are written, so that a configuration has one size. Who adds a field to one
-// of these structs is stopped here by an assertion: list it, raise configuration_layout and tell
-// docs/reference/wire.md.
+// Fields are listed since the memory layout of a struct depends on the compiler. All joints,
+// conversions and sensors up to the maximum are written, so that every configuration has the same
+// size. The assertions detect a field that was added to one of these structs: it has to be listed
+// here, with a new configuration_layout and an entry in docs/reference/wire.md.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace sinew::link {
 
-// Everything that a board is told of its machine.
+// Configuration of a board for its machine.
 struct Configuration {
   control::JointControllerConfig spine;
   control::SuperviseConfig limits;

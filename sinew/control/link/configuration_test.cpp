@@ -1,4 +1,4 @@
-// A configuration arrives whole and to the bit, or not at all.
+// Tests that a configuration is transferred completely and exactly, or not at all.
 #include "sinew/control/link/configuration.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(Configuration, ArrivesToTheBit) {
   }
 }
 
-// Every field of the structs, with any value that it can have; none stays behind.
+// Every field of the structs is transferred, with any valid value.
 TEST(Configuration, EveryFieldHasItsBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 100; ++i) {
@@ -63,8 +63,8 @@ TEST(Configuration, EveryFieldHasItsBytes) {
   }
 }
 
-// Bytes of a struct that no field list sets are those of its default: only holes are left. A field
-// of a type that hides from the count of members would be seen here.
+// Bytes of a struct that no field list sets keep their default: only padding may be left. This
+// would detect a field of a type that the count of members does not include.
 TEST(Configuration, NothingButHolesIsLeftOut) {
   const auto unset = [](std::mt19937& random, auto default_value) {
     using M = decltype(default_value);
@@ -135,7 +135,7 @@ TEST(Configuration, PartsThatContradictEachOtherAreRefusedInWords) {
 
 TEST(Configuration, EachProblemFitsAnAnswer) {
   Configuration bad{control::test_leg(), {}};
-  bad.spine.joint[control::hip].flexor.exhaust_inverted = true;  // the longest words of all
+  bad.spine.joint[control::hip].flexor.exhaust_inverted = true;  // the longest text
   ASSERT_NE(control::problem(bad.spine), nullptr);
   EXPECT_LE(std::string(control::problem(bad.spine)).size(), max_text);
 }
@@ -149,7 +149,7 @@ TEST(Configuration, AnotherLayoutIsRefused) {
   EXPECT_EQ(read(bytes, out).code, Code::layout);
 }
 
-// --- a transfer that goes wrong -----------------------------------------------------------------
+// --- failed transfers ---------------------------------------------------------------------------
 
 class Transfer : public ::testing::Test {
  protected:
@@ -157,7 +157,7 @@ class Transfer : public ::testing::Test {
     ASSERT_EQ(board.receiver.take(sender.begin()), Code::done);
     for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(board.receiver.take(sender.chunk(i)), Code::done);
   }
-  // It begins anew, and then all goes well.
+  // A new transfer succeeds.
   void expect_refused_as_a_whole() {
     EXPECT_EQ(board.receiver.take(sender.end(), board.has).code, Code::order);
     EXPECT_EQ(bytes_of(board.has), bytes_of({}));

@@ -30,7 +30,7 @@ std::size_t encode(std::uint8_t type, Envelope envelope, std::span<const std::ui
 }
 
 std::size_t Decoder::push(std::span<const std::uint8_t> bytes) noexcept {
-  if (bytes.size() > buffer_.size() - end_) {  // to the buffer's begin with what is left
+  if (bytes.size() > buffer_.size() - end_) {  // moves the rest to the start of the buffer
     for (std::size_t i = begin_; i < end_; ++i) buffer_[i - begin_] = buffer_[i];
     silence_ = silence_ > begin_ ? silence_ - begin_ : 0;
     end_ -= begin_;
@@ -59,7 +59,7 @@ const Frame* Decoder::next() noexcept {
   return nullptr;
 }
 
-// Looks at the place where the next frame may begin.
+// Checks the position at which the next frame may begin.
 Decoder::Look Decoder::look() noexcept {
   const std::uint8_t* at = buffer_.data() + begin_;
   if (at[0] != sync_first) return Look::skip;
@@ -73,7 +73,7 @@ Decoder::Look Decoder::look() noexcept {
   return judge({at, size});
 }
 
-// Are so many bytes there, without a silence between them?
+// Checks whether that many bytes are present without a silence between them.
 Decoder::Look Decoder::reach(std::size_t bytes) const noexcept {
   if (begin_ < silence_ && begin_ + bytes > silence_) return Look::skip;
   return end_ - begin_ < bytes ? Look::wait : Look::frame;

@@ -3,13 +3,13 @@
 //
 //   AA 55  type  sequence  length  payload ...  CRC-16
 //
-// as a laboratory of braided actuators frames its own (Portland State's AARL-Embedded-Comms): the
-// CRC-16 is over type to payload, little-endian. A payload of ours is
+// like the frames of a laboratory for braided actuators (Portland State's AARL-Embedded-Comms): the
+// CRC-16 is over type to payload, little-endian. The payload here is
 //
 //   version  board  body ...  CRC-32          CRC-32 over type to body
 //
-// so that two checks of different kind cover each byte behind the AA 55, the length among them: by
-// itself the CRC-16 lets one wrong frame of 65,536 pass.
+// so that two different checks cover each byte after the AA 55, including the length: the CRC-16
+// alone accepts one wrong frame of 65,536.
 //
 // Embedded core: no heap, no exceptions, no clock.
 #pragma once
@@ -31,13 +31,13 @@ inline constexpr std::size_t max_body = max_payload - min_payload;
 inline constexpr std::size_t min_frame = header_size + min_payload + crc16_size;
 inline constexpr std::size_t max_frame = header_size + max_payload + crc16_size;
 
-// A frame to every board on the line; only identify and shut_down are taken so.
+// Address of every board on the line; accepted for identify and shut_down only.
 inline constexpr std::uint8_t every_board = 255;
 
-// From whom or to whom, and which one it is.
+// Address and number of a frame.
 struct Envelope {
   std::uint8_t board = 1;
-  std::uint8_t sequence = 0;  // one more for each frame that is sent, 0 after 255
+  std::uint8_t sequence = 0;  // incremented for each frame, 0 after 255
 
   friend constexpr bool operator==(const Envelope&, const Envelope&) = default;
 };
@@ -46,45 +46,45 @@ struct Frame {
   std::uint8_t type = 0;
   std::uint8_t version = protocol_version;
   Envelope envelope;
-  std::span<const std::uint8_t> body;  // points into the decoder, until more is pushed
+  std::span<const std::uint8_t> body;  // refers to the decoder's buffer, until more is pushed
 };
 
-// Its size in `out`; 0 where the body is longer than max_body, or `out` too short.
+// Returns the frame's size in `out`; 0 if the body is longer than max_body, or `out` too short.
 std::size_t encode(std::uint8_t type, Envelope envelope, std::span<const std::uint8_t> body,
                    std::span<std::uint8_t> out) noexcept;
 
-// What came in, and what was thrown away. A place where a frame might have begun and did not is
-// counted by its reason, then passed over by one byte.
+// Counts of received frames and discarded bytes. A position at which a frame could begin but none
+// does is counted by the reason, then one byte is skipped.
 struct LineCount {
-  std::uint32_t frames = 0;  // handed out
-  std::uint32_t length = 0;  // too short for a payload of ours
+  std::uint32_t frames = 0;  // returned frames
+  std::uint32_t length = 0;  // too short for a payload
   std::uint32_t crc16 = 0;
-  std::uint32_t crc32 = 0;    // with the right CRC-16
-  std::uint32_t half = 0;     // the line was silent before it ended
-  std::uint32_t skipped = 0;  // bytes that are of no frame
+  std::uint32_t crc32 = 0;    // with correct CRC-16
+  std::uint32_t half = 0;     // silence on the line before the end
+  std::uint32_t skipped = 0;  // bytes outside of frames
 
   friend constexpr bool operator==(const LineCount&, const LineCount&) = default;
 };
 
-// Decoder finds the frames in a stream of bytes, however it is cut in pieces. A good frame is found
-// also behind, or within the length of, one that failed: every byte but the first of what failed is
-// looked at again.
+// Decoder finds frames in a stream of bytes that arrives in arbitrary pieces. A good frame is found
+// even after, or within the length of, a bad one: after a failure only one byte is skipped.
 //
 //   decoder.push(bytes);
 //   while (const Frame* f = decoder.next()) ...
 class Decoder {
  public:
-  // How many it took: all, up to max_frame, if next() has said nullptr before.
+  // Returns the number of bytes taken: all, up to max_frame, if next() has returned nullptr before.
   std::size_t push(std::span<const std::uint8_t> bytes) noexcept;
 
-  // The next frame, nullptr where bytes are missing. Frames of another version are handed out as
-  // well: their reader answers that it does not know them.
+  // Returns the next frame, or nullptr if bytes are missing. Frames of another version are returned
+  // too: their receiver replies that it does not support them.
   const Frame* next() noexcept;
 
-  // The line was silent for longer than it may within a frame: what is incomplete was none.
+  // Notes that the line was silent for longer than allowed within a frame: an incomplete frame is
+  // discarded.
   void silent() noexcept { silence_ = end_; }
 
-  // Returns what the line has done to the frames so far.
+  // Returns the counts so far.
   const LineCount& line() const noexcept { return line_; }
 
  private:
@@ -96,8 +96,8 @@ class Decoder {
   Look failed(std::uint32_t& reason) noexcept;
 
   std::array<std::uint8_t, 2 * max_frame> buffer_{};
-  std::size_t begin_ = 0, end_ = 0;  // what is not worked off yet
-  std::size_t silence_ = 0;          // no frame reaches over this place
+  std::size_t begin_ = 0, end_ = 0;  // unprocessed bytes
+  std::size_t silence_ = 0;          // no frame extends over this position
   Frame frame_;
   LineCount line_;
 };

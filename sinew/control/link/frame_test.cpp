@@ -1,5 +1,4 @@
-// Frames in a stream: all that were sent are found, whatever stands between them; one that was
-// spoiled is not.
+// Tests frames in a stream: all good frames are found between other bytes; a damaged one is not.
 #include "sinew/control/link/frame.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +17,7 @@ void append(Bytes& to, const Bytes& more) { to.insert(to.end(), more.begin(), mo
 Bytes noise(std::mt19937& random, std::size_t most) {
   Bytes out(random() % (most + 1));
   for (std::uint8_t& b : out) {
-    // Bytes that a frame begins with are frequent, so that much looks like a frame.
+    // Bytes with which a frame begins are frequent, so that many positions look like a frame.
     const std::uint8_t likely[] = {sync_first, sync_second, 6, 40, 255};
     b = random() % 2 ? likely[random() % 5] : static_cast<std::uint8_t>(random());
   }
@@ -72,7 +71,7 @@ TEST(Decoder, FindsAllFramesHoweverTheStreamIsCut) {
   }
 }
 
-// A length that was spoiled reaches over the frames behind it.
+// A damaged length extends over the following frames.
 TEST(Decoder, AGoodFrameBehindASpoiledOneIsNotSwallowed) {
   std::mt19937 random(2);
   for (int length = 0; length < 256; ++length) {
@@ -95,7 +94,7 @@ TEST(Decoder, HalfAFrameBeforeASilenceIsNone) {
     const auto keep = [&](const Frame& f) { found.push_back(bytes_of(f)); };
     feed(decoder, std::span(cut).first(n), keep);
     decoder.silent();
-    feed(decoder, std::span(cut).subspan(n), keep);  // the rest of it comes too late
+    feed(decoder, std::span(cut).subspan(n), keep);  // the rest comes too late
     EXPECT_TRUE(found.empty()) << n;
     EXPECT_GE(decoder.line().half, 1u);
     feed(decoder, good, keep);
@@ -105,7 +104,7 @@ TEST(Decoder, HalfAFrameBeforeASilenceIsNone) {
   }
 }
 
-// The body has a frame's first bytes all over; still only one is found.
+// The body is full of a frame's first bytes; still only one frame is found.
 TEST(Decoder, SyncBytesWithinAFrameDoNotMatter) {
   Bytes out(max_frame), body(max_body);
   for (std::size_t i = 0; i < body.size(); ++i) body[i] = i % 2 ? sync_second : sync_first;
@@ -129,9 +128,9 @@ TEST(Decoder, OtherVersionsAreHandedOutAndNotObeyed) {
   }
 }
 
-// --- what was spoiled never passes --------------------------------------------------------------
+// --- damaged frames are never accepted ----------------------------------------------------------
 
-// What comes before and behind stays as it is, so that a longer length finds bytes to go on with.
+// The bytes before and after stay unchanged, so that a longer length includes some of them.
 struct Among {
   Among() {
     std::mt19937 random(4);
@@ -141,7 +140,7 @@ struct Among {
   Bytes behind;
 };
 
-// Only what stands behind is found.
+// Returns whether only the frame after the damaged one is found.
 bool spoiled_is_lost(const Bytes& spoiled, const Bytes& behind) {
   Decoder decoder;
   std::size_t found = 0;
@@ -160,7 +159,7 @@ bool spoiled_is_lost(const Bytes& spoiled, const Bytes& behind) {
   return as_sent && found == 2;
 }
 
-// Without frames behind: quicker, for quantity.
+// Without following frames: faster, for many cases.
 bool nothing_passes(Decoder& decoder, std::span<const std::uint8_t> spoiled) {
   std::size_t found = 0;
   decoder.push(spoiled);
@@ -178,9 +177,9 @@ TEST(Spoiled, ThreeFlippedBitsOfTheShortestFramesNeverPass) {
     if (frame.size() > 22) return;
     for (std::size_t a = 0; a < bits; ++a) {
       flip(frame, a);
-      for (std::size_t b = a; b < bits; ++b) {  // b = a: one bit alone
+      for (std::size_t b = a; b < bits; ++b) {  // b = a: one bit
         if (b > a) flip(frame, b);
-        for (std::size_t c = b; c < bits; ++c) {  // c = b: two
+        for (std::size_t c = b; c < bits; ++c) {  // c = b: two bits
           if (c > b) flip(frame, c);
           if (!nothing_passes(decoder, frame))
             ADD_FAILURE() << int{frame[2]} << ": " << a << ' ' << b << ' ' << c;
@@ -208,9 +207,9 @@ TEST(Spoiled, OneAndTwoFlippedBitsBeforeOtherFramesNeverPass) {
     }
 }
 
-// Every burst of up to 16 bits, at every place of a frame. What a burst behind the length does to
-// the sums does not depend on what else is in the frame; those over sync and length the guard tries
-// for all types.
+// Every burst of up to 16 bits, at every position of a frame. The effect of a burst after the
+// length on the sums does not depend on the rest of the frame; the guard tests bursts over sync and
+// length for all types.
 TEST(Spoiled, BurstsOfSixteenBitsNeverPass) {
   Decoder decoder;
   Bytes frame = frame_of(ShutDown{});
@@ -224,7 +223,7 @@ TEST(Spoiled, BurstsOfSixteenBitsNeverPass) {
     }
 }
 
-// Samples of the same for all types, short and long.
+// The same for samples of all types, short and long.
 TEST(Spoiled, SamplesOfEveryTypeNeverPass) {
   std::mt19937 random(6);
   const Among among;

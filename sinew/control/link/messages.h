@@ -1,19 +1,19 @@
 // control/link/messages.h - messages of a host to a board (docs/reference/wire.md has the bytes).
 //
-// A message is a struct; fields() beside it lists what goes over the wire, in order. encode() and
-// decode() go over that list, so that neither end can have another one. What cannot be, a flag of
-// 2, a joint 9, a gain that is no number, is neither sent nor taken.
+// A message is a struct; its fields() lists what is sent, in order. encode() and decode() use that
+// list, so that both ends agree. Invalid values, such as a flag of 2, a joint 9, or a gain that is
+// NaN, are neither sent nor accepted.
 //
 //   host                                board
 //   identify                            identity
-//   configure_begin, _chunk..., _end    answer to each; refused as a whole
-//   arm_first                           answer with a number of the board's choice
-//   arm_second with that number         answer: armed
+//   configure_begin, _chunk..., _end    reply to each; refused as a whole
+//   arm_first                           reply with a number that the board chooses
+//   arm_second with that number         reply: armed
 //   command, every period               telemetry, every period
-//   shut_down                           answer, and it has happened
+//   shut_down                           reply, after it has been done
 //
-// Angles in counts, stiffness in lbf in/rad, duties in percent, times in ticks of 100 us, as
-// everywhere in the low level.
+// Angles are in counts, stiffness in lbf in/rad, duties in percent, times in ticks of 100 us, as in
+// the whole low level.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@
 
 namespace sinew::link {
 
-// The number of each message on the wire.
+// Number of each message on the wire.
 enum class Type : std::uint8_t {
   identify = 0x01,
   configure_begin,
@@ -49,7 +49,7 @@ enum class Type : std::uint8_t {
   thesis_words,
   shut_down,
 
-  // A board's
+  // sent by a board
   identity = 0x81,
   answer,
   state,
@@ -61,42 +61,42 @@ enum class Type : std::uint8_t {
   fault_log,
 };
 
-// Why something is refused, in a board's answer.
+// Result of a message, in a board's reply.
 enum class Code : std::uint8_t {
   done,
   version,        // a frame of another protocol version
-  type,           // no message that a board takes
-  length,         // not the length of this type
-  value,          // a number that cannot be
-  state,          // not now: joints run, or none is configured
-  sequence,       // seen before
+  type,           // unknown to a board
+  length,         // wrong length for this type
+  value,          // invalid number
+  state,          // not permitted now: joints run, or none is configured
+  sequence,       // frame was received before
   past,           // a command whose periods are over
   future,         // a command too far ahead
-  period,         // a command that does not begin with a period
-  order,          // configure: no begin before, or a second one
-  gap,            // configure: a chunk that does not follow the last one
-  size,           // configure: not as many bytes as a configuration has
-  checksum,       // configure: the CRC over all does not fit
-  layout,         // configure: bytes of another layout, or a number that cannot be
-  configuration,  // configure: the parts contradict each other; the answer's text says which
-  nonce,          // arm: not the board's number, or for another configuration
+  period,         // a command that does not begin at a period's start
+  order,          // configure: begin is missing or repeated
+  gap,            // configure: a chunk does not follow the last one
+  size,           // configure: wrong number of bytes
+  checksum,       // configure: wrong CRC
+  layout,         // configure: another layout, or an invalid number
+  configuration,  // configure: the parts contradict each other; the reply's text has the reason
+  nonce,          // arm: not the board's number, or another configuration
 };
 inline constexpr Code last_code = Code::nonce;
 
-// Ticks on the wire are from -1, never, to 3,600 years.
+// Ticks on the wire are between -1, never, and 3,600 years.
 inline constexpr signals::Tick max_tick = signals::Tick{1} << 60;
 
 // --- a host's messages --------------------------------------------------------------------------
 
-// Asks the board who it is.
+// Requests the board's identity.
 struct Identify {
   static constexpr Type type = Type::identify;
 };
-// Announces a configuration; its bytes follow in chunks, and an end.
+// Announces a configuration, which is followed by chunks and an end.
 struct ConfigureBegin {
   static constexpr Type type = Type::configure_begin;
-  std::uint16_t bytes = 0;  // of the whole configuration
-  std::uint32_t crc = 0;    // crc32 over all of them
+  std::uint16_t bytes = 0;  // size of the configuration
+  std::uint32_t crc = 0;    // crc32 of these bytes
 };
 inline constexpr std::size_t max_chunk = 200;
 // Carries a part of a configuration.
@@ -106,35 +106,35 @@ struct ConfigureChunk {
   std::uint8_t count = 0;  // 1 .. max_chunk
   std::array<std::uint8_t, max_chunk> data{};
 };
-// Ends a configuration, which the board then takes or refuses.
+// Ends a configuration, which the board then accepts or refuses.
 struct ConfigureEnd {
   static constexpr Type type = Type::configure_end;
-  std::uint32_t crc = 0;  // the same again
+  std::uint32_t crc = 0;  // the same as in ConfigureBegin
 };
 
-// Air is let in only after two different frames, of which the second repeats what the board made
-// up.
+// Arming takes two different frames, the second of which repeats a number from the board's reply to
+// the first. No air is let in before.
 struct ArmFirst {
   static constexpr Type type = Type::arm_first;
-  std::uint32_t configuration = 0;  // crc32 of the configuration that the host believes is there
+  std::uint32_t configuration = 0;  // crc32 of the configuration that the host has sent
 };
 struct ArmSecond {
   static constexpr Type type = Type::arm_second;
-  std::uint32_t nonce = 0;  // from the answer to the first
+  std::uint32_t nonce = 0;  // number in the reply to the first frame
   std::uint32_t configuration = 0;
 };
 
-// What holds from a period on. Joints that are not named keep their last command.
+// Sets the command from a period on. Joints that are not included keep their last command.
 struct CommandFor {
   static constexpr Type type = Type::command;
-  signals::Tick from = 0;    // the first tick of a period
-  std::uint8_t periods = 1;  // how many it is good for, 1 .. 100; then the host is taken for lost
-  bool ends = false;         // the run ends with it: the joints are vented as a plan's end does it
-  std::uint8_t joints = 0;   // how many follow, the board's first ones
+  signals::Tick from = 0;    // first tick of a period
+  std::uint8_t periods = 1;  // number of valid periods, 1 .. 100; then the host is lost
+  bool ends = false;         // ends the run: the joints are vented as at a plan's end
+  std::uint8_t joints = 0;   // number of joints that follow, the board's first ones
   std::array<control::JointCommand, control::max_joints> joint;
 };
 
-// These change what holds between a host's commands.
+// These change the current command between a host's commands.
 struct SetGains {
   static constexpr Type type = Type::set_gains;
   std::uint8_t joint = 0;
@@ -147,45 +147,45 @@ struct SetFeedforward {
 };
 struct Enable {
   static constexpr Type type = Type::enable;
-  std::uint8_t joints = 0;  // a bit for each
+  std::uint8_t joints = 0;  // a bit for each joint
   bool enabled = false;
 };
 
-// Asks for all readings.
-struct ReadSensors {  // answered by readings
+// Requests all readings.
+struct ReadSensors {  // replied to by readings
   static constexpr Type type = Type::read_sensors;
 };
-// Asks for the valves' edges to be told, or no more.
+// Requests that edges are reported, or not.
 struct EdgesWanted {
   static constexpr Type type = Type::edges_wanted;
   bool wanted = false;
 };
-// Asks for the last periods before a fault.
-struct ReadFaultLog {  // answered by fault_log, from that part on
+// Requests the telemetry before a fault.
+struct ReadFaultLog {  // replied to by fault_log, from that part on
   static constexpr Type type = Type::read_fault_log;
   std::uint16_t from = 0;
 };
-// Says that somebody has looked into the fault.
+// Clears a fault whose cause has been found.
 struct ClearFault {
   static constexpr Type type = Type::clear_fault;
 };
-// Says that the host lives.
-struct Heartbeat {  // where no command says that the host lives
+// Keeps the board armed while no command is sent.
+struct Heartbeat {
   static constexpr Type type = Type::heartbeat;
 };
-// Lets the board speak as the thesis's computers did, or no more.
+// Switches the byte protocol of the thesis's computers on or off.
 struct ThesisWords {  // thesis_words.h
   static constexpr Type type = Type::thesis_words;
   bool on = false;
 };
-// Vents, and ends the run.
+// Vents and ends the run, at once and in every state.
 struct ShutDown {  // at once, in every state
   static constexpr Type type = Type::shut_down;
 };
 
 // --- their fields -------------------------------------------------------------------------------
 
-// Reads or writes a tick that a run can have.
+// Converts a tick of a run.
 template <class Io, class M>
 constexpr void tick(Io& io, M& t) noexcept {
   io.limited(t, signals::Tick{-1}, max_tick);
@@ -209,8 +209,8 @@ constexpr void fields(Io& io, M& g) noexcept {
   io.finite(g.stiffness);
   io.finite(g.velocity);
 }
-// A joint is driven by its law, by duties or, if it is timed, by openings. These use the bytes of
-// the angle (inlet) and of the duties (exhaust).
+// A joint is driven by its law, by duties or, if it is timed, by openings. Openings use the
+// bytes of the angle (inlet) and of the duties (exhaust).
 template <class Io, Is<control::JointCommand> M>
 constexpr void fields(Io& io, M& c) noexcept {
   std::int32_t angle = c.angle;
@@ -270,7 +270,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.joints, control::max_joints);
   first_of(m.joint, m.joints, [&](auto& x) { fields(io, x); });
 }
-// Reads or writes the number of a joint.
+// Converts the number of a joint.
 template <class Io, class M>
 constexpr void joint_number(Io& io, M& joint) noexcept {
   count(io, joint, control::max_joints - 1);
@@ -305,17 +305,17 @@ constexpr void fields(Io& io, M& m) noexcept {
 
 // --- messages in frames -------------------------------------------------------------------------
 
-// The body alone; 0 bytes where the message has a value that cannot be.
+// Body of a message; empty if the message has an invalid value.
 struct Body {
   std::array<std::uint8_t, max_body> bytes{};
   std::size_t size = 0;
   bool ok = false;
 
-  // Returns the bytes that are used.
+  // Returns the bytes in use.
   std::span<const std::uint8_t> span() const noexcept { return {bytes.data(), size}; }
 };
 
-// Returns a message as bytes; `ok` is false where one of its values cannot be sent.
+// Returns a message as bytes; `ok` is false if one of its values is invalid.
 template <class M>
 Body body_of(const M& message) noexcept {
   Body out;
@@ -326,14 +326,15 @@ Body body_of(const M& message) noexcept {
   return out;
 }
 
-// The frame's size in `out`; 0 where the message has a value that cannot be, or does not fit.
+// Returns the frame's size in `out`; 0 if the message has an invalid value or does not fit.
 template <class M>
 std::size_t encode(const M& message, Envelope envelope, std::span<std::uint8_t> out) noexcept {
   const Body body = body_of(message);
   return body.ok ? encode(static_cast<std::uint8_t>(M::type), envelope, body.span(), out) : 0;
 }
 
-// The fields of a body, which has no byte too many; done or why not. Then `out` is not whole.
+// Reads the fields of a body, which must have no further bytes. Returns done, or the reason for a
+// refusal; then `out` is incomplete.
 template <class M>
 Code read(std::span<const std::uint8_t> body, M& out) noexcept {
   Reader from(body);
@@ -343,7 +344,7 @@ Code read(std::span<const std::uint8_t> body, M& out) noexcept {
   return from.left() == 0 ? Code::done : Code::length;
 }
 
-// Reads the message of a frame. Returns why it is none, or done.
+// Reads the message of a frame. Returns done, or the reason for a refusal.
 template <class M>
 Code decode(const Frame& frame, M& out) noexcept {
   if (frame.version != protocol_version) return Code::version;

@@ -1,5 +1,5 @@
-// A message that was sent is the one that is read, to the bit; what cannot be is neither sent nor
-// read.
+// Tests that a received message equals the sent one, bit for bit; invalid values are neither sent
+// nor accepted.
 #include "sinew/control/link/messages.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(Messages, ABodyOfAnyOtherLengthIsRefused) {
   });
 }
 
-// Whatever bytes come: what is taken is what those bytes say, and all of it can be.
+// For random bytes: an accepted message has exactly these bytes, and all its values are valid.
 TEST(Messages, AnyBodyIsRefusedOrReadToTheByte) {
   std::mt19937 random(4);
   int taken = 0;
@@ -117,7 +117,7 @@ TEST(Messages, CommandsThatCannotBeAreNotSent) {
   }
 }
 
-// Nor is anything behind the last place read: the sanitizers would say so.
+// Nothing is read after the last place either: the sanitizers would report it.
 TEST(Messages, CountsBeyondTheRoomAreNotSent) {
   EXPECT_TRUE(frame_of(CommandFor{.joints = 255}).empty());
   EXPECT_TRUE(frame_of(ConfigureChunk{.count = 255}).empty());

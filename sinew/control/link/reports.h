@@ -1,8 +1,8 @@
 // control/link/reports.h - reports of a board to a host (docs/reference/wire.md has the bytes).
 //
-// Telemetry of a period is several messages with the same tick, numbered among themselves: together
-// they are all of control::Seen and control::Supervised, bit for bit, for the board's joints and
-// channels (telemetry.h cuts and joins them). One that is lost makes a gap.
+// The telemetry of a period is several messages with the same tick and numbered parts: together
+// they contain all of control::Seen and control::Supervised, bit for bit, for the board's joints
+// and channels (telemetry.h splits and joins them). A lost message leaves a gap.
 #pragma once
 
 #include <array>
@@ -16,52 +16,52 @@
 namespace sinew::link {
 
 inline constexpr std::size_t name_size = 16;
-using Name = std::array<char, name_size>;  // zeros behind the last letter
+using Name = std::array<char, name_size>;  // padded with zeros
 
-// Says who the board is, and in which state.
+// Identity and state of the board.
 struct Identity {
   static constexpr Type type = Type::identity;
   std::uint8_t protocol = protocol_version;
   control::BoardState state = control::BoardState::fault;
   Name firmware{}, board{};
-  std::uint32_t configuration = 0;  // crc32 of the one it has; 0: none
+  std::uint32_t configuration = 0;  // crc32 of the current one; 0: none
   std::uint16_t configuration_bytes = 0;
-  std::uint8_t joints = 0, channels = 0, conversions = 0;  // it has room for
+  std::uint8_t joints = 0, channels = 0, conversions = 0;  // largest numbers
   signals::Tick tick = 0;
-  control::BoardFault fault = control::BoardFault::none;  // why it is in its state
-  bool active_low = false;  // its outputs have 0 for current in a coil
+  control::BoardFault fault = control::BoardFault::none;  // reason for its state
+  bool active_low = false;                                // level 0 gives current in a coil
 };
 
 inline constexpr std::size_t max_text = 100;
-// Answers a message that wants one.
+// Reply to a message.
 struct Answer {
   static constexpr Type type = Type::answer;
-  std::uint8_t to = 0, sequence = 0;  // type and sequence of what it answers
+  std::uint8_t to = 0, sequence = 0;  // type and sequence of the message
   Code code = Code::done;
   std::uint32_t value = 0;  // arm_first: the board's number
   std::uint8_t letters = 0;
-  std::array<char, max_text> text{};  // what is wrong, in words
+  std::array<char, max_text> text{};  // reason for a refusal
 };
 
-// What a board's end of the line has thrown away.
+// Counts of frames that the board has discarded.
 struct LinkSeen {
   LineCount line;
-  std::uint32_t refused = 0;   // messages, answered with a code
-  std::uint32_t lost = 0;      // frames, by gaps in their sequence
-  std::uint32_t repeated = 0;  // frames that had been seen before
+  std::uint32_t refused = 0;   // messages that were refused with a code
+  std::uint32_t lost = 0;      // frames, by gaps in the sequence
+  std::uint32_t repeated = 0;  // repeated frames
   std::uint32_t late = 0;      // commands that came too late
 
   friend constexpr bool operator==(const LinkSeen&, const LinkSeen&) = default;
 };
 
-// The telemetry's messages of one tick are parts 0 .. parts - 1.
+// Part of the telemetry of one tick: 0 .. parts - 1.
 struct Part {
-  signals::Tick tick = 0;  // the first of a period: as the brain sees it there
+  signals::Tick tick = 0;  // first tick of a period, as for the gait controller
   std::uint8_t part = 0, parts = 1;
 };
 inline constexpr std::size_t max_parts = 8;
 
-// Seen and Supervised but for their arrays.
+// Seen and Supervised without their arrays.
 struct State {
   static constexpr Type type = Type::state;
   Part of;
@@ -72,7 +72,7 @@ struct State {
   control::Supervised supervised;  // without sensors
   LinkSeen link;
 };
-// A State that is written from where its parts stand: a board's stack has no room for copies.
+// A State that refers to its parts, since a board's stack has no room for copies.
 struct StateView {
   Part of;
   control::BoardState state;
@@ -83,12 +83,12 @@ struct StateView {
   const LinkSeen& link;
 };
 
-// A channel as the board sees it.
+// A channel of a board.
 struct ChannelSeen {
   signals::Reading reading;
-  std::uint16_t counts = 0;  // as converted last, believed or not
+  std::uint16_t counts = 0;  // last conversion, accepted or not
 };
-// Tells all channels.
+// Readings of all channels.
 struct Readings {
   static constexpr Type type = Type::readings;
   Part of;
@@ -97,7 +97,7 @@ struct Readings {
 };
 
 inline constexpr std::size_t counters_in_message = 16;
-// Tells how often readings of some channels were not believed.
+// Counts of rejected readings of some channels.
 struct Counters {
   static constexpr Type type = Type::counters;
   Part of;
@@ -106,7 +106,7 @@ struct Counters {
 };
 
 inline constexpr std::size_t joints_in_message = 4;
-// Tells some joints' laws.
+// Laws of some joints.
 struct Joints {
   static constexpr Type type = Type::joints;
   Part of;
@@ -114,28 +114,28 @@ struct Joints {
   std::array<control::JointSeen, joints_in_message> joint;
 };
 
-// Tells that the board has done something by itself.
+// A start of the board or a change of its state.
 struct Event {
   static constexpr Type type = Type::event;
   enum class What : std::uint8_t {
-    started,  // the board, after a reset
-    state,    // it has entered another one
+    started,  // after a reset
+    state,    // it has entered another state
   };
   signals::Tick tick = 0;
   What what = What::started;
   control::BoardState state = control::BoardState::fault;
-  control::BoardFault fault = control::BoardFault::none;  // why
+  control::BoardFault fault = control::BoardFault::none;  // reason for the state
 };
 
-// A valve's edge, as it was driven.
+// A driven edge of a valve.
 struct EdgeSeen {
-  std::uint16_t offset = 0;  // [ticks] since `tick`
+  std::uint16_t offset = 0;  // since `tick` [ticks]
   std::uint8_t valve = 0;
   bool open = false;
   std::uint16_t level = 0;
 };
 inline constexpr std::size_t max_edges = 32;
-// Tells edges of a period.
+// Edges of a period.
 struct Edges {
   static constexpr Type type = Type::edges;
   signals::Tick tick = 0;
@@ -143,7 +143,7 @@ struct Edges {
   std::array<EdgeSeen, max_edges> edge;
 };
 
-// The telemetry of the last 200 ms before a fault, message by message: its type and its body.
+// A message of the telemetry of the last 200 ms before a fault: its type and its body.
 inline constexpr std::size_t max_logged = 240;
 struct FaultLog {
   static constexpr Type type = Type::fault_log;
@@ -244,7 +244,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.count, control::max_channels);
   first_of(m.channel, m.count, [&](auto& x) { fields(io, x); });
 }
-// `counts` goes with the readings.
+// `counts` is sent with the readings.
 template <class Io, Is<control::SensorSeen> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.rejected);

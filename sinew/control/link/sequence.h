@@ -1,9 +1,9 @@
-// control/link/sequence.h - which frames of the other end are new, and how many of them were lost.
+// control/link/sequence.h - detection of repeated and lost frames by their sequence numbers.
 //
-// A sender counts its frames, 0 after 255. Ahead of the last one by 1 to 127 is new, what lies
-// between was lost; the same or behind it is a repetition and is not taken again. More than 127
-// lost in a row look like old ones: identify, which moves nothing, sets the count anew while no
-// joint is armed.
+// A sender counts its frames, 0 after 255. A frame 1 to 127 ahead of the last one is new, and the
+// ones between were lost; an equal number or one behind is a repetition and is not accepted. More
+// than 127 consecutive lost frames look like repetitions: identify, which moves nothing, restarts
+// the count while no joint is armed.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace sinew::link {
 
 class SequenceWindow {
  public:
-  // False: seen before, or older than what was.
+  // Returns whether a frame is new.
   constexpr bool take(std::uint8_t sequence) noexcept {
     const std::uint8_t ahead = static_cast<std::uint8_t>(sequence - last_);
     if (begun_ && (ahead == 0 || ahead > newest_ahead)) {
@@ -25,10 +25,10 @@ class SequenceWindow {
     return true;
   }
 
-  // The next frame is taken, whatever its number.
+  // Accepts the next frame with any number.
   constexpr void restart() noexcept { begun_ = false; }
 
-  // How many frames were lost, and how many came twice.
+  // Return the number of lost and of repeated frames.
   constexpr std::uint32_t lost() const noexcept { return lost_; }
   constexpr std::uint32_t repeated() const noexcept { return repeated_; }
 

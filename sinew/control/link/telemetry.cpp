@@ -5,12 +5,12 @@
 namespace sinew::link {
 namespace {
 
-// Who adds a field to one of these lists it in reports.h.
+// These detect added fields, which have to be listed in reports.h.
 static_assert(members<control::Seen>() == 9 && members<control::JointSeen>() == 10);
 static_assert(members<control::Supervised>() == 8 && members<control::SensorSeen>() == 4);
 static_assert(members<control::Trip>() == 8 && members<control::Levels>() == 2);
 
-// The parts behind state and readings.
+// A part after state and readings.
 struct Place {
   Type type = Type::counters;
   std::size_t first = 0, count = 0;

@@ -1,4 +1,4 @@
-// What a board knows arrives to the bit; what is lost is a gap.
+// Tests that telemetry is transferred exactly, and that lost parts leave a gap.
 #include "sinew/control/link/telemetry.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t period = 100;
 
-// All fields of both, as the wire writes them, for any number of joints and channels.
+// All fields of both that are sent, for any number of joints and channels.
 Bytes all_of(const Telemetry& t) {
   Bytes out;
   for (std::uint8_t p = 0; p < parts_of(t.joints, t.channels); ++p) {
@@ -46,7 +46,7 @@ Telemetry any_telemetry(std::mt19937& random, signals::Tick tick) {
   return out;
 }
 
-// What a line carries of it, without the parts of which a bit is set.
+// Returns the telemetry after its transfer, without the parts whose bit is set.
 const Telemetry* carry(TelemetryJoiner& joiner, const Telemetry& t, unsigned without = 0) {
   const Telemetry* out = nullptr;
   for (std::uint8_t p = 0; p < parts_of(t.joints, t.channels); ++p) {
@@ -71,7 +71,8 @@ TEST(Telemetry, ArrivesToTheBit) {
   EXPECT_EQ(joiner.lost(), 0u);
 }
 
-// A supervised leg among lies and late ticks: compared as memory, which has no holes in these.
+// A supervised leg with false readings and late ticks, compared as memory (these structs have no
+// padding).
 TEST(Telemetry, OfASupervisedLegIsWhatItHasSeen) {
   control::Stand stand;
   stand.lie = control::lying(control::hip_angle, 4095, 40, 2);
@@ -146,7 +147,7 @@ TEST(Telemetry, OtherMessagesBetweenItsPartsDoNotDisturbIt) {
   EXPECT_NE(got, nullptr);
 }
 
-// The parts are logged as they are.
+// The parts are logged without change.
 TEST(Telemetry, EachPartFitsTheFaultLog) {
   std::mt19937 random(5);
   Telemetry t = any_telemetry(random, 0);

@@ -1,4 +1,4 @@
-// control/link/test_wire.h - all messages, any of them, and lines that spoil them: for the folder's
+// control/link/test_wire.h - random messages of all types, and damaged lines: for the folder's
 // tests, the guard and the fuzzer.
 #pragma once
 
@@ -35,7 +35,8 @@ void each_message(Use use) {
   each_board_message(use);
 }
 
-// Anything fills a message with values that can be; floats that need not be finite are any bits.
+// Visitor that fills a message with random valid values; floats that need not be finite have any
+// bits.
 class Anything {
  public:
   static constexpr bool reads = true;
@@ -58,7 +59,7 @@ class Anything {
 
  private:
   std::mt19937* random_;
-  bool most_;  // numbers with limits are at the upper one: the longest message
+  bool most_;  // limited numbers have the upper limit: the longest message
 };
 
 template <class M>
@@ -76,7 +77,7 @@ Bytes frame_of(const M& message, Envelope envelope = {}) {
   return out;
 }
 
-// A frame of any type, or any of one direction.
+// Returns a frame of any type, or of any type that a host sends.
 inline Bytes any_frame(std::mt19937& random, std::uint8_t sequence, bool host_only = false) {
   std::size_t types = 0;
   each_message([&](auto) { ++types; });
@@ -93,7 +94,7 @@ inline Bytes any_frame(std::mt19937& random, std::uint8_t sequence, bool host_on
   return out;
 }
 
-// What a decoder hands out, as bytes again: those of the stream, if it is right.
+// Returns a decoded frame as bytes, which should equal those of the stream.
 inline Bytes bytes_of(const Frame& frame) {
   Bytes out(max_frame);
   out.resize(encode(frame.type, frame.envelope, frame.body, out));
@@ -108,7 +109,7 @@ void feed(Decoder& decoder, std::span<const std::uint8_t> bytes, Use use) {
   } while (!bytes.empty());
 }
 
-// All frames of a stream that ends.
+// Returns all frames of a stream that ends.
 inline std::vector<Bytes> frames_of(std::span<const std::uint8_t> stream) {
   std::vector<Bytes> out;
   Decoder decoder;
@@ -119,13 +120,13 @@ inline std::vector<Bytes> frames_of(std::span<const std::uint8_t> stream) {
   return out;
 }
 
-// --- a line that spoils what it carries ---------------------------------------------------------
+// --- a line that damages data -------------------------------------------------------------------
 
 inline void flip(std::span<std::uint8_t> bytes, std::size_t bit) {
   bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1u << bit % 8));
 }
 
-// Flips bits of a pattern, the first of which is at `bit`, in the order in which a line sends them.
+// Flips the bits of a pattern that starts at `bit`, in the order in which a line sends them.
 inline void burst(std::span<std::uint8_t> bytes, std::size_t bit, std::uint32_t pattern) {
   for (std::size_t i = bit; pattern != 0; ++i, pattern >>= 1)
     if (pattern & 1u) flip(bytes, i);

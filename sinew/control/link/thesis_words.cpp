@@ -19,7 +19,7 @@ enum Word : std::uint8_t {
   disableall = 24,
   recvffdc = 25,
   recvthetades = 30,
-  recvstiffdes = 41,  // of joint 1
+  recvstiffdes = 41,  // for joint 1
   recvalldes = 50,
   immediate_shutdown = 255,
 };
@@ -34,7 +34,7 @@ WordStep readings(std::uint8_t first, std::uint8_t count) noexcept {
 
 std::uint8_t bit(std::uint8_t joint) noexcept { return static_cast<std::uint8_t>(1u << joint); }
 
-// Pots 0-2, then flexor and extensor of joint 1, and of joint 2.
+// Returns the channel: pots 0-2, then flexor and extensor of joint 1, and of joint 2.
 signals::Channel channel_of(std::size_t sensor, const ThesisJoints& joints,
                             const control::JointControllerConfig& config) noexcept {
   if (sensor < pots) return config.joint[joints.joint[sensor]].angle;
@@ -89,7 +89,7 @@ bool WordReader::silent() noexcept {
 }
 
 WordStep WordReader::frame_byte(std::uint8_t byte) noexcept {
-  if (framed_ == 1 && byte != sync_second) {  // it was none
+  if (framed_ == 1 && byte != sync_second) {  // not a frame
     framed_ = 0;
     return word(byte);
   }
@@ -176,7 +176,7 @@ void WordReader::desire_stiffness(WordStep& step, std::size_t thesis_joint,
   step.stiffness[j] = static_cast<float>(value) / 100.0f;
 }
 
-// All values of a word are there.
+// Returns the result of a word with all its values.
 WordStep WordReader::values() noexcept {
   if (word_ == recvffdc)
     return {.what = What::feedforward,

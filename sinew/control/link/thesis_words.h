@@ -1,22 +1,22 @@
-// control/link/thesis_words.h - the bytes with which the thesis's two computers talk [B.2].
+// control/link/thesis_words.h - the bytes that the thesis's two computers exchange [B.2].
 //
 //   0-2  sendpot        3   sendallpots    5-8  sendgage     9     sendallgages   10  sendallsnrs
 //   20-22 enablejoint   23  enableall      24   disableall
 //   25   recvffdc       30-32 recvthetades 41-42 recvstiffdes      50  recvalldes
 //   255  immediate shutdown
 //
-// answered by F, finished, B, bad command, R, ready for 16 bits. B.2 lists the bytes; how values
-// look it does not say. Here each is 16 bits, the low byte first, and R asks for each: angles and
-// readings in counts, stiffness in hundredths of lbf in/rad, duties in percent. recvalldes takes
-// the angles of joints 0, 1, 2 and the stiffnesses of 1 and 2; gages are flexor and extensor of
-// joint 1, then of 2.
+// The replies are F, finished, B, bad command, and R, ready for 16 bits. B.2 lists the bytes but
+// not the format of values. Here each value is 16 bits, low byte first, and R requests each: angles
+// and readings in counts, stiffness in hundredths of lbf in/rad, duties in percent. recvalldes
+// takes the angles of joints 0, 1, 2 and the stiffnesses of 1 and 2; gages are flexor and
+// extensor of joint 1, then of 2.
 //
-// A framed message begins and ends this mode. Between words the first byte of a frame, AA, is no
-// word: it and the rest of its frame go to the decoder.
+// A framed message begins and ends this mode. Between words the first byte of a frame, AA, is not a
+// word: it and the rest of its frame are passed to the decoder.
 //
-// Two bytes 255 shut down wherever it stands, but within a frame: between words the first does; as
-// a value FFFF is none that can be; and as the second byte of a value the first one makes it one
-// that cannot be, and the second stands between words.
+// Two bytes 255 shut down in every state, except within a frame: between words the first one does;
+// as a value FFFF is invalid; and as the second byte of a value the first one makes it invalid, and
+// the second one is then between words.
 #pragma once
 
 #include <array>
@@ -32,25 +32,25 @@ namespace sinew::link {
 
 inline constexpr char finished = 'F', bad_command = 'B', ready_for_16 = 'R';
 
-// The thesis's joints 0, 1, 2, cylinder, hip and knee, in a board's numbers.
+// The thesis's joints 0, 1, 2, which are cylinder, hip and knee, by the board's numbers.
 struct ThesisJoints {
   std::array<std::uint8_t, 3> joint{};
-  bool found = false;  // false: the board has another machine, and no words
+  bool found = false;  // false: another machine, which words do not support
 };
 ThesisJoints thesis_joints(const control::JointControllerConfig& config) noexcept;
 
-// What a byte leads to.
+// Result of a byte.
 struct WordStep {
-  // Names it.
+  // Kind of result.
   enum class What : std::uint8_t {
-    nothing,   // more bytes are needed, none is asked for
-    frame,     // the byte is of a frame: to the decoder with it
-    ready,     // answer R
-    bad,       // answer B
-    readings,  // answer write_readings(), which ends with F
-    enable,    // do it and answer F, as with all below
+    nothing,   // more bytes are needed, no reply
+    frame,     // the byte belongs to a frame: pass it to the decoder
+    ready,     // reply R
+    bad,       // reply B
+    readings,  // reply write_readings(), which ends with F
+    enable,    // execute it and reply F, as for all below
     feedforward,
-    desired,  // change what is desired: apply()
+    desired,  // change the setpoints: apply()
     shut_down,
   };
   What what = What::nothing;
@@ -58,21 +58,21 @@ struct WordStep {
   Enable enable;
   SetFeedforward feedforward;
 
-  // desired, by the board's joints
-  std::uint8_t angles = 0, stiffnesses = 0;  // a bit for each that is given
+  // desired: by the board's joints
+  std::uint8_t angles = 0, stiffnesses = 0;  // a bit for each given value
   std::array<std::int32_t, control::max_joints> angle{};
   std::array<float, control::max_joints> stiffness{};
 
-  // What was not given stays.
+  // Changes the given values only.
   void apply(control::Command& command) const noexcept;
 };
 
-// The readings that a step asks for and F; 0 where `out` is too short.
+// Writes the requested readings and F. Returns the size; 0 if `out` is too short.
 std::size_t write_readings(const WordStep& step, const ThesisJoints& joints,
                            const control::JointControllerConfig& config, const control::Seen& seen,
                            std::span<std::uint8_t> out) noexcept;
 
-// Understands the thesis's bytes, one after the other.
+// Interprets the thesis's bytes one by one.
 class WordReader {
  public:
   // joints.found must be true.
@@ -81,7 +81,7 @@ class WordReader {
   // Takes the next byte.
   WordStep take(std::uint8_t byte) noexcept;
 
-  // The line was silent in the midst of a value or a frame: it is given up. True: answer B.
+  // Discards an unfinished value or frame after silence on the line. Returns whether to reply B.
   bool silent() noexcept;
 
  private:
@@ -99,13 +99,13 @@ class WordReader {
                         std::uint16_t value) const noexcept;
 
   ThesisJoints joints_;
-  std::uint8_t word_ = 0;              // that waits for values
-  std::uint8_t wanted_ = 0, got_ = 0;  // values of it
+  std::uint8_t word_ = 0;              // word that waits for values
+  std::uint8_t wanted_ = 0, got_ = 0;  // its number of values, and those received
   std::array<std::uint16_t, max_values> value_{};
   std::uint8_t low_ = 0;
-  bool half_ = false;         // the low byte has come
-  std::uint16_t framed_ = 0;  // bytes of a frame so far
-  std::uint16_t frame_ = 0;   // its size, once its length is known
+  bool half_ = false;         // the low byte was received
+  std::uint16_t framed_ = 0;  // bytes of the current frame
+  std::uint16_t frame_ = 0;   // size of that frame, once its length is known
 };
 
 }  // namespace sinew::link

@@ -1,4 +1,5 @@
-// The bytes of B.2 do what its table says, and two bytes 255 always shut down.
+// Tests that the bytes of B.2 have the effects of its table, and that two bytes 255 always shut
+// down.
 #include "sinew/control/link/thesis_words.h"
 
 #include <gtest/gtest.h>
@@ -138,7 +139,7 @@ TEST_F(Words, ASilenceEndsAValue) {
   EXPECT_EQ(take({3}).what, What::readings);
 }
 
-// Whatever came before, but for an unfinished frame.
+// In every state except an unfinished frame.
 TEST_F(Words, TwoBytes255ShutDown) {
   std::mt19937 random(1);
   constexpr std::uint8_t words[] = {0, 3, 10, 21, 25, 30, 31, 32, 41, 42, 50, 77, 255};

@@ -1,5 +1,5 @@
-// docs/reference/wire.md agrees with the code: its tables have the fields of each message at
-// their places, its examples are frames to the byte.
+// Tests docs/reference/wire.md: its tables have the fields of each message at the right places, and
+// its examples are the exact frames.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -28,7 +28,7 @@ const Lines& page() {
 
 // --- tables -------------------------------------------------------------------------------------
 
-// A number on the wire: where it stands and its type.
+// A number on the wire: its offset and type.
 using Place = std::pair<std::size_t, std::string>;
 using Places = std::vector<Place>;
 
@@ -36,7 +36,7 @@ std::size_t size_of(const std::string& type) {
   return std::stoul(type.substr(1)) / 8;  // u8, i64, f32
 }
 
-// Layout notes what a Writer would write.
+// Records the numbers that a Writer would write.
 class Layout {
  public:
   static constexpr bool reads = false;
@@ -63,7 +63,7 @@ Places places_of(const M& message) {
   return io.places;
 }
 
-// The cells of the rows under a heading, without their titles.
+// Returns the cells of the rows under a heading, without their titles.
 std::vector<Lines> rows_under(const std::string& heading) {
   std::vector<Lines> out;
   auto line = std::find_if(page().begin(), page().end(), [&](const std::string& l) {
@@ -87,7 +87,7 @@ std::vector<Lines> rows_under(const std::string& heading) {
 
 Lines types_under(const std::string& heading);
 
-// The types that a cell stands for: u8, u8[4], (u8 u16)[32], [a joint](#a-joint)[8].
+// Returns the types of a cell: u8, u8[4], (u8 u16)[32], [a joint](#a-joint)[8].
 Lines types_in(std::string cell) {
   std::size_t times = 1;
   const std::size_t bracket = cell.rfind('[');
@@ -107,7 +107,7 @@ Lines types_in(std::string cell) {
   return out;
 }
 
-// Rows "12 + 5 c" are repeated as often as the message says; they are no part of it here.
+// Rows "12 + 5 c" are repeated as often as the message has items; they are left out here.
 bool is_repeated(const Lines& row) { return row[0].find('+') != std::string::npos; }
 
 Places places_under(const std::string& heading) {
@@ -129,7 +129,7 @@ Lines types_under(const std::string& heading) {
   return out;
 }
 
-// Where repeated things begin, and how far they are from one another.
+// Offset and distance of repeated items.
 std::pair<std::size_t, std::size_t> repeated_under(const std::string& heading) {
   for (const Lines& row : rows_under(heading))
     if (is_repeated(row))
@@ -137,7 +137,7 @@ std::pair<std::size_t, std::size_t> repeated_under(const std::string& heading) {
   return {0, 0};
 }
 
-// Each type's heading, and the message without things that are repeated and with one of them.
+// Each type's heading, and the message without repeated items and with one of them.
 struct Section {
   std::string heading;
   Places none, one;
@@ -227,7 +227,7 @@ TEST(WirePage, HasEachCode) {
 
 // --- examples -----------------------------------------------------------------------------------
 
-// By their first line.
+// Examples by their first line.
 std::map<std::string, Bytes> examples_of_page() {
   std::map<std::string, Bytes> out;
   for (std::size_t i = 0; i < page().size(); ++i) {

@@ -1,4 +1,4 @@
-// control/link/words.h - a refusal, and why a board is where it is, in words for a host's message.
+// control/link/words.h - texts for refusals and for faults of a board, for a host's messages.
 #pragma once
 
 #include "sinew/control/link/messages.h"

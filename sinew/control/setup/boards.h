@@ -1,5 +1,5 @@
-// control/setup/boards.h - the low level as it is built: one controller per board, each with its
-// own constants, limits and scan in its own numbers, and what these numbers are in the machine.
+// control/setup/boards.h - construction of the low level: one controller per board with its own
+// constants, limits and scan, and the relation of its numbers to the machine's.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,23 @@
 
 namespace sinew::control {
 
-// A board of the low level as it is to be built.
+// Configuration of a board of the low level.
 struct Board {
   JointControllerConfig spine;
   SuperviseConfig limits;
 
-  // By the board's own numbers, those of the machine: joints in the robot's order, with the
-  // cylinder's behind them; sensors; valves, 2 x muscle + (0 inlet | 1 exhaust), and the four of a
-  // cylinder behind them.
+  // Numbers of the machine, by the board's own numbers: joints in the robot's order, then the
+  // cylinder; sensors; valves, 2 x muscle + (0 inlet | 1 exhaust), then the four of a cylinder.
   std::vector<std::uint8_t> joint, channel, valve;
 };
 
-// Returns the boards by their numbers, which count from 1. Throws std::invalid_argument where the
-// low level cannot be built so.
+// Returns the boards in the order of their numbers, which count from 1. Throws
+// std::invalid_argument if the low level cannot be built.
 std::vector<Board> boards(const Installation& installation);
 
 // Returns the board of a test stand. It has a timed joint if valves fill the stand's element, and
-// the transducers as channels in their order. They are converted in the last ticks of a period
-// [ticks], so that the host has the newest readings when the next period begins. Throws as boards()
+// the transducers as channels in their order. These are converted in the last ticks of a period
+// [ticks], so that the host has recent readings when the next period begins. Throws as boards()
 // does.
 Board stand_board(const robot::Stand& stand, bool three_way, std::uint16_t period);
 

@@ -32,7 +32,7 @@ void set_weights(const robot::Velocity& from, double rate, VelocityConfig& out) 
     out.weight[i] = static_cast<float>(from.weights[i]);
 }
 
-// In counts: of the angle per radian, and per count of tension.
+// Sets the model in counts: of the angle per radian, and per count of tension.
 void set_model(const robot::Velocity& from, double counts_per_rad, double torque_per_count,
                double rate, VelocityConfig& out) {
   const JointMotion motion = joint_motion(from.inertia, from.damping, 1.0 / rate);
@@ -58,7 +58,7 @@ void set_model(const robot::Velocity& from, double counts_per_rad, double torque
 JointMotion joint_motion(double inertia, double damping, double period) {
   const double k = inertia > 0 ? damping / inertia : 0.0;
   const double x = k * period;
-  if (x < 1e-4)  // by the series, where the differences below lose their digits
+  if (x < 1e-4)  // series, since the differences below lose digits
     return {1 - x * (1 - 0.5 * x), period * (1 - 0.5 * x), period * period * (0.5 - x / 6)};
   const double decay = units::exp(-x), travel = (1 - decay) / k;
   return {decay, travel, (period - travel) / k};

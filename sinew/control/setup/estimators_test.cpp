@@ -1,5 +1,5 @@
-// The estimators' constants by their laws: the joint's motion, the Riccati equation, and the speed
-// of simulated joints.
+// Tests the estimators' constants: the joint's motion, the Riccati equation, and the speed of
+// simulated joints.
 #include "sinew/control/setup/estimators.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double period = 0.01;
 
-// J theta'' = 1 - D theta', from rest and from speed 1, by many small steps.
+// Integrates J theta'' = 1 - D theta', from rest or from speed 1, in many small steps.
 struct Small {
   double angle = 0, speed = 0;
   Small(double inertia, double damping, double push, double start) : speed(start) {
@@ -39,7 +39,7 @@ TEST(JointMotion, IsTheEquationOfMotionOverAPeriod) {
   }
 }
 
-// One more period of the Riccati equation changes nothing, and the covariance is one.
+// One more period of the Riccati equation changes nothing, and the covariance is valid.
 TEST(Kalman, SharesAreThoseOfTheSteadyState) {
   for (const double damping : {0.0, 0.1, 1.0})
     for (const double acceleration : {1e2, 1e4, 1e6}) {
@@ -61,7 +61,7 @@ TEST(Kalman, SharesAreThoseOfTheSteadyState) {
 
 // A joint with a constant known torque and a random one that changes every period, read in counts.
 struct Simulated {
-  double mean = 0, variance = 0;  // of the estimated less the true speed
+  double mean = 0, variance = 0;  // of estimated minus true speed
   double difference_variance = 0;
 };
 
@@ -104,7 +104,7 @@ Simulated simulate(double damping, double unknown, int periods) {
 
 TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationSays) {
   for (const double unknown : {2e3, 2e4}) {
-    const double damping = 0.4;  // keeps the angle within what a float's count can tell
+    const double damping = 0.4;  // keeps the angle within the resolution of a float
     const Simulated s = simulate(damping, unknown, 200'000);
     const double expected =
         steady_state(joint_motion(0.02, damping, period), unknown, std::sqrt(0.25 + 1.0 / 12))

@@ -1,5 +1,5 @@
-// control/setup/installation.h - what a low level is set up for: a robot with the parts that its
-// file names, the air that it works with, and how long it vents before it begins.
+// control/setup/installation.h - input of the low level's set-up: a robot with the parts that its
+// file names, its air supply, and the time of venting before the start.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ namespace sinew::control {
 
 struct Installation {
   robot::Robot robot;
-  std::vector<actuator::Actuator> actuators;  // that its muscles name
+  std::vector<actuator::Actuator> actuators;  // those of its muscles
   std::vector<gas::Valve> valves;
   double atmosphere = 0;       // [Pa]
   double supply_pressure = 0;  // absolute [Pa]
   signals::ValveTiming timing = signals::identity_timing();
-  double settle = 0;  // exhausts open, before the first phase [s]
+  double settle = 0;  // time with open exhausts before the first phase [s]
 };
 
 }  // namespace sinew::control

@@ -18,7 +18,7 @@ namespace {
 using Role = robot::Muscle::Role;
 using List = std::vector<robot::Contradiction>;
 
-// The controller's unit of stiffness, lbf in/rad  [N m/rad].
+// Unit of stiffness in the controller, lbf in/rad [N m/rad].
 constexpr double stiffness_unit = units::pound_force * units::inch;
 
 signals::Channel channel(int sensor) {
@@ -33,9 +33,9 @@ double period_of(const robot::Robot& robot) {
   return robot.low_level.pwm_ticks * signals::tick_seconds;
 }
 
-// What a muscle's cord runs over at a joint that it pulls.
+// Lever arm of a muscle's tendon at a joint that it pulls.
 struct Pull {
-  double arm = 0;   // the low level knows one, of a cam that is not round the one at rest [m]
+  double arm = 0;   // of a cam that is not round: the radius at rest [m]
   double sign = 1;  // +1: raises the joint's angle
 };
 
@@ -46,14 +46,14 @@ Pull pull(const robot::Muscle& m, const robot::Joint& joint) {
   return {robot::cam_radius(first ? m.cam : m.second.cam, joint, joint.rest_angle), sign};
 }
 
-// [N] of a count by the assumed scale; 0 without a transducer.
+// Returns the force of a count by the assumed scale [N]; 0 without a transducer.
 double newtons_per_count(const robot::Robot& robot, int muscle) {
   const int s = robot::tension_sensor_of(robot, muscle);
   if (s < 0) return 0;
   return 1.0 / (robot.converter.counts_per_volt() * sensor(robot, s).assumed_scale);
 }
 
-// A muscle as its joint's laws take it.
+// A muscle in the units of its joint's laws.
 class MuscleSide {
  public:
   MuscleSide(const Installation& in, int joint, int muscle)
@@ -65,10 +65,10 @@ class MuscleSide {
         counts_per_rad_(sensor(in.robot, robot::angle_sensor_of(in.robot, joint)).assumed_scale),
         counts_per_metre_(counts_per_rad_ / pull_.arm) {}
 
-  // Torque of a count of its tension  [N m].
+  // Returns the torque of a count of its tension [N m].
   double torque_per_count() const { return pull_.arm * newtons_per_count(in_.robot, index_); }
 
-  // As the stiffness law takes it, before it is cut to whole counts  [count].
+  // Return lengths for the stiffness law, before truncation to whole counts [count].
   double free_length() const {
     const double assumed = in_.robot.low_level.assumed_mount_length;
     return counts_per_metre_ * (assumed > 0 ? assumed : muscle_.mount_length);
@@ -88,7 +88,7 @@ class MuscleSide {
     c.inlet = {static_cast<std::uint8_t>(2 * index_)};
     c.exhaust = {static_cast<std::uint8_t>(2 * index_ + 1)};
     c.free_length = static_cast<std::int32_t>(free_length());
-    // b in counts, cut as in B.1: 3235^2 = 10465225.
+    // b in counts, truncated as in B.1: 3235^2 = 10465225.
     const auto b = static_cast<std::int32_t>(thread_length());
     c.thread_length_squared = b * b;
     if (flexor_torque_per_count > 0)
@@ -99,14 +99,14 @@ class MuscleSide {
   }
 
  private:
-  // [26], of a count of so many pascals.
+  // Returns the factor of [26] for counts of that many pascals.
   double pressure_factor(double pascals) const {
     const actuator::Actuator a = robot::actuator_of(muscle_, in_.actuators);
     return 6.0 * muscle_.count * actuator::braid_factor(a.braid) * pull_.arm * pull_.arm /
            counts_per_metre_ * pascals / stiffness_unit;
   }
 
-  // [26] and [30] in counts of gauge pressure.
+  // Sets [26] and [30] in counts of gauge pressure.
   void set_pressure(const actuator::Actuator& a, MuscleConfig& c) const {
     const int s = robot::pressure_sensor_of(in_.robot, index_);
     if (s < 0) return;
@@ -116,7 +116,7 @@ class MuscleSide {
     c.pressure_at_zero = static_cast<std::int32_t>(std::lround(from.assumed_at_rest));
     c.pressure_factor = static_cast<float>(pressure_factor(pascals));
     const actuator::Effectiveness& e = a.effectiveness;
-    // As a polynomial of gauge pressure, whichever it is fitted to.
+    // Convert to a polynomial of gauge pressure, also from one of absolute pressure.
     const double zero =
         e.argument == actuator::Effectiveness::Argument::absolute ? in_.atmosphere : 0.0;
     const double c0 = e.c0 + zero * (e.c1 + zero * e.c2), c1 = e.c1 + 2 * zero * e.c2;
@@ -126,8 +126,8 @@ class MuscleSide {
     c.valid_to = static_cast<float>(e.valid_to / pascals);
   }
 
-  // A muscle over two joints: its share of the duty by moment arm, and how the other joint moves
-  // it.
+  // For a muscle over two joints: sets its share of the duty by moment arm, and its length gained
+  // per count of the other joint's angle.
   void set_second(MuscleConfig& c) const {
     if (muscle_.second.joint.empty()) return;
     const bool first = muscle_.joint == joint_.name;
@@ -147,7 +147,7 @@ class MuscleSide {
   double counts_per_rad_, counts_per_metre_;
 };
 
-// Where a number does not fit, the sensor's scale or the cam may be wrong as well as the length.
+// If a number does not fit, the cause may be the sensor's scale or the cam as well as the length.
 void MuscleSide::add_misfits(double flexor_torque_per_count, List& out) const {
   const robot::LowLevel& low = in_.robot.low_level;
   const std::string muscle = "muscle." + muscle_.name;
@@ -207,7 +207,8 @@ StiffnessSource source(robot::StiffnessSource from) {
   return from == From::none ? To::none : To::force;
 }
 
-// 767/(819.2 x 0.17) = 5.5075 by the assumed scales; B.1 rounds to 5.5, for its 1 in cam.
+// Sets the stiffness factor: 767/(819.2 x 0.17) = 5.5075 by the assumed scales; B.1 rounds to 5.5,
+// for its 1 in cam.
 void set_stiffness_factor(const robot::Robot& robot, double arm, double counts_per_rad, int muscle,
                           JointConfig& out) {
   out.moment_arm_factor = static_cast<float>(arm / units::inch);
@@ -222,7 +223,7 @@ void set_stiffness_factor(const robot::Robot& robot, double arm, double counts_p
       static_cast<float>(counts_per_rad / (robot.converter.counts_per_volt() * volts_per_pound));
 }
 
-// Integral gains per law, in percent and the controller's unit of stiffness.
+// Sets the integral gains per law, in percent and the controller's unit of stiffness.
 void set_pressure_law(const robot::PressureLaw& law, double period, JointConfig& c) {
   c.bias = static_cast<std::int32_t>(std::lround(law.bias * 100.0));
   c.regulator.angle_integral = static_cast<float>(law.angle_integral * period * 100.0);
@@ -256,7 +257,7 @@ void set_muscles(const Installation& in, int index, JointConfig& c) {
   c.velocity = velocity_config(robot, index, torque, 1.0 / period_of(robot));
 }
 
-// The law runs when the last of the readings that it needs is there.
+// Returns the tick of the last reading that the law needs.
 std::uint16_t law_tick(const robot::Robot& robot, const JointConfig& c) {
   int tick = 0;
   for (const signals::Channel needed : readings_of(c))
@@ -288,8 +289,8 @@ JointConfig joint_config(const Installation& in, int index) {
   return c;
 }
 
-// Joint 0 of B.1 is the last one here: up is its flexor, down its extensor; the valves come after
-// the muscles'.
+// Returns the configuration of joint 0 of B.1, which is the last one here: up is its flexor, down
+// its extensor; its valves come after those of the muscles.
 JointConfig cylinder_config(const robot::Robot& robot) {
   const robot::Cylinder& from = robot.cylinder;
   const int travel = robot::cylinder_sensor(robot);
@@ -333,7 +334,7 @@ void set_scan(const robot::Robot& robot, JointControllerConfig& c) {
 
 }  // namespace
 
-// The thesis's interrupt comes a hundred times in a period, whatever the period (5.2).
+// The thesis's interrupt runs a hundred times per period, for every period (5.2).
 bool laws_overrun(const robot::Robot& robot) {
   return robot.low_level.interrupt_time > period_of(robot) / 100.0 * (1.0 + 1e-9);
 }

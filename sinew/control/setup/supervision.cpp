@@ -16,26 +16,27 @@ namespace {
 using Kind = robot::Sensor::Kind;
 
 constexpr double fastest_angle = 60;    // [rad/s]
-constexpr double beyond_reach = 0.1;    // of the way from the rest angle
+constexpr double beyond_reach = 0.1;    // share of the way from the rest angle
 constexpr double beyond_stroke = 0.25;  // a piston rebounds from its stops
-constexpr double beyond_supply = 0.1;   // of its gauge pressure
+constexpr double beyond_supply = 0.1;   // share of its gauge pressure
 constexpr double noise_bound = 6;       // standard deviations, robot/sensing.h
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-// Reach is how far a sensor's quantity can go down and up from its rest.
+// Distances by which a sensor's quantity can decrease and increase from its rest value.
 struct Reach {
   double down = nowhere, up = nowhere;  // both above 0
 };
 
-// The smallest radius that a cord has over a joint  [m].
+// Returns the smallest radius that a tendon has at a joint [m].
 double smallest_arm(const robot::Cam& cam, const robot::Joint& joint) {
   double arm = std::isfinite(cam.radius) ? cam.radius : joint.moment_arm;
   if (!cam.radii.empty()) arm = *std::ranges::min_element(cam.radii);
   return arm;
 }
 
-// A muscle is stretched against its pull, at most until its threads are straight. One over two
-// joints can be let out by the other.
+// Returns the reach of a joint. A muscle is stretched by the joint's motion against its pull, at
+// most until its threads are straight. Muscles over two joints are ignored, since the other joint
+// can slacken them.
 Reach reach_of(const Installation& in, const robot::Joint& joint) {
   Reach reach;
   for (const robot::Muscle& m : in.robot.muscles) {
@@ -50,13 +51,13 @@ Reach reach_of(const Installation& in, const robot::Joint& joint) {
   return reach;
 }
 
-// [low, high] in counts of what lies within the reach by either of the sensor's scales.
+// Range [low, high] of counts within the reach, by both the real and the assumed scale of a sensor.
 class Range {
  public:
   Range(const robot::Sensor& sensor, int top) : sensor_(sensor), top_(top) {}
 
-  // Never the converter's ends, unless it rests at one. A converter of three bits has none to
-  // spare.
+  // Sets both limits. They exclude the converter's ends, unless the sensor rests at one or the
+  // converter has too few bits.
   void inside(const Reach& reach, double real, double assumed) {
     double low = nowhere, high = -nowhere;
     for (const auto& [rest, scale] :
@@ -74,7 +75,7 @@ class Range {
     high_ = bounded(std::ceil(high + noise), first, last);
   }
 
-  // Its highest count is that of the supply.
+  // Sets the highest count, that of the supply pressure with a margin.
   void below(double real, double assumed, double most) {
     const double high =
         std::max(sensor_.at_rest + real * most, sensor_.assumed_at_rest + assumed * most);
@@ -87,7 +88,7 @@ class Range {
   }
 
  private:
-  // Infinite values come to the ends.
+  // Clamps x; infinite values become the ends.
   static double bounded(double x, double low, double high) { return std::clamp(x, low, high); }
 
   const robot::Sensor& sensor_;
@@ -128,8 +129,8 @@ void set_rate(const Installation& in, const robot::Sensor& s, SensorLimits& out)
   out.max_step = static_cast<std::uint16_t>(std::clamp<double>(step, 1, signals::max_counts));
 }
 
-// The valves that move it; what regulators hold moves without any. A cylinder's work all the time,
-// also at its stop: its position is judged only where the file asks for it.
+// Sets the joint whose valves move the quantity; regulated muscles have none. A cylinder's valves
+// work all the time, even at its stop, so its position is checked only if the file requests it.
 void set_driver(const robot::Robot& robot, const JointControllerConfig& spine,
                 const robot::Sensor& s, SensorLimits& out) {
   int joint = -1;
@@ -153,7 +154,7 @@ void set_driver(const robot::Robot& robot, const JointControllerConfig& spine,
   }
 }
 
-// A turn beyond the converter either way: what is further away is no place to go to.
+// Limits commanded angles to one converter range beyond either end.
 void set_commands(const Installation& in, SuperviseConfig& out) {
   const double period = in.robot.low_level.pwm_ticks * signals::tick_seconds;
   for (std::size_t j = 0; j < in.robot.joints.size(); ++j) {

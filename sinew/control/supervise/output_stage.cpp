@@ -5,12 +5,12 @@
 namespace sinew::control {
 namespace {
 
-// Zero for a valve that no board has.
+// Returns the valve's bit, or zero for a valve that no board has.
 constexpr OpenMask bit(signals::Valve valve) noexcept {
   return valve.index < max_valves ? OpenMask{1} << valve.index : 0u;
 }
 
-// This processor's own library would be asked for std::popcount.
+// std::popcount would need a function of the compiler's library on this processor.
 constexpr std::uint32_t count(OpenMask valves) noexcept {
   std::uint32_t out = 0;
   for (; valves != 0; valves &= valves - 1) ++out;
@@ -49,7 +49,7 @@ void OutputStage::shut_all() noexcept {
 void OutputStage::vent(signals::Tick now) noexcept {
   shut_all();
   asked_ = exhausts_;
-  has_shut_ &= ~exhausts_;  // nothing waits
+  has_shut_ &= ~exhausts_;  // without a refractory time
   (void)at(now);
 }
 

@@ -27,8 +27,8 @@ TEST(OutputStage, AfterAResetAllIsShutAndNoCoilHasCurrent) {
   EXPECT_EQ(rest_word(true), ~0u);
 }
 
-// A closed form for each valve: current where open differs from inverted, and 0 is current where
-// the driver is active low.
+// Expected level of each valve: current if open differs from inverted; an active-low driver has 0
+// for current.
 TEST(OutputStage, PolarityIsTheDriversAlone) {
   std::mt19937 random(1);
   for (int i = 0; i < 1'000; ++i) {
@@ -54,8 +54,8 @@ TEST(OutputStage, AnEdgeOfAnInvertedExhaustOpensItByTakingItsCurrent) {
   EXPECT_EQ(drive_word(out.at(2), out.inverted(), false), one(1));
 }
 
-// Whatever is asked for: no muscle is open to both sides, what is open was asked for, and what is
-// not shut for a reason that is counted.
+// For all requests: no muscle is open to both sides, only requested valves are open, and those that
+// stay shut are counted.
 TEST(OutputStage, NeverBothSidesOfAMuscle) {
   std::mt19937 random(2);
   OutputStage out(test_leg(), 0);
@@ -102,7 +102,7 @@ TEST(OutputStage, AValveThatHasShutStaysShutForItsRefractoryTime) {
     std::uint32_t openings = 0;
     for (Tick t = 0; t < 50'000; ++t) {
       if (random() % 4 == 0) {
-        const int valve = static_cast<int>(2 * (random() % 6));  // inlets alone
+        const int valve = static_cast<int>(2 * (random() % 6));  // inlets only
         asked ^= one(valve);
         out.drive(edge(valve, (asked & one(valve)) != 0));
       }
@@ -114,7 +114,7 @@ TEST(OutputStage, AValveThatHasShutStaysShutForItsRefractoryTime) {
           ASSERT_GE(t - shut_at[k], refractory);
         }
         if ((before & ~open & one(v)) != 0) shut_at[k] = t;
-        // It opens as soon as it may.
+        // It opens as soon as permitted.
         if ((asked & one(v)) != 0 && t - shut_at[k] >= refractory) {
           ASSERT_NE(open & one(v), 0u);
         }

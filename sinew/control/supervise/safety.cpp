@@ -80,7 +80,7 @@ const char* Safety::configure(const JointControllerConfig& machine, const Superv
   return nullptr;
 }
 
-// --- what a host asks ---------------------------------------------------------------------------
+// --- requests of a host -------------------------------------------------------------------------
 
 bool Safety::clear(bool wish, Tick) noexcept {
   const bool rises = wish && !wished_;
@@ -93,7 +93,7 @@ bool Safety::clear(bool wish, Tick) noexcept {
   return true;
 }
 
-// Nothing was read yet.
+// Marks all channels as not read yet.
 void Safety::forget_sensors() noexcept {
   for (Reading& reading : last_) reading.status = Status::late;
   scan_tick_ = 0;
@@ -118,7 +118,7 @@ bool Safety::arm_second(Tick now) noexcept {
   first_frame_ = false;
   if (state_ != BoardState::idle || !in_time || !sensors_good()) return false;
   heard_at_ = now;
-  // All that a tick would have no time for.
+  // This takes more time than a tick of a run has.
   run_.emplace(machine_, limits_).expect_every_tick();
   out_.shut_all();
   for (std::uint32_t& scans : empty_) scans = 0;
@@ -158,7 +158,7 @@ void Safety::finish(Tick now) noexcept {
   fail(BoardState::vent, BoardFault::asked, now);
 }
 
-// --- what goes wrong ----------------------------------------------------------------------------
+// --- faults -------------------------------------------------------------------------------------
 
 void Safety::fail(BoardState state, BoardFault fault, Tick now) noexcept {
   if (state == BoardState::hold) held_since_ = now;
@@ -172,8 +172,8 @@ void Safety::vent(BoardFault fault, Trip::Cause cause, std::uint32_t limit, Tick
   fail(BoardState::vent, fault, now);
 }
 
-// Without current an inverted valve is open, every other one shut. Constants that have changed are
-// no constants: the host sends them again.
+// Dumps. Without current an inverted valve is open, every other one shut. If the constants have
+// changed, the host has to send them again.
 void Safety::dump(BoardFault fault) noexcept {
   out_.shut_all();
   forget_sensors();
@@ -200,7 +200,7 @@ void Safety::watch_host(Tick now) noexcept {
     vent(BoardFault::held_too_long, Trip::Cause::held, config_.hold_limit, now);
 }
 
-// The controller has ended the run by itself, or is still at it.
+// Changes to vent if the controller has ended the run by itself.
 void Safety::watch_run(Tick now) noexcept {
   const Phase phase = run_->seen().phase;
   if (phase != Phase::venting && phase != Phase::off) return;
@@ -223,7 +223,7 @@ void Safety::watch_vent(Tick now) noexcept {
   }
   if (now - vent_since_ >= static_cast<Tick>(config_.vent_limit))
     return dump(BoardFault::not_empty);
-  if (over) out_.vent(now);  // longer than the controller would
+  if (over) out_.vent(now);  // longer than the controller vents
 }
 
 void Safety::end_vent() noexcept {
@@ -234,7 +234,7 @@ void Safety::end_vent() noexcept {
 
 // --- parameters ---------------------------------------------------------------------------------
 
-// The constants as they came, and those that a run goes by.
+// Returns the constants as they were received, and the copies that the run uses.
 Safety::Span Safety::parameters(std::uint8_t which) const noexcept {
   if (which == 0) return {&machine_, size_of(machine_)};
   if (which == 1) return {&limits_, size_of(limits_)};
@@ -259,7 +259,8 @@ void Safety::next_parameters() noexcept {
   while (span_ < spans && parameters(span_).size == 0);
 }
 
-// A few bytes a tick. The first look is what later ones are held against.
+// Checks a few bytes per tick. The first complete check determines the sum that later ones must
+// have.
 void Safety::check_parameters() noexcept {
   for (std::uint32_t left = per_tick_; left > 0 && span_ < spans;) {
     const Span span = parameters(span_);
@@ -300,7 +301,7 @@ std::span<const Edge> Safety::edges(Tick now) noexcept {
   return edges;
 }
 
-// While nothing runs the scan goes on by itself.
+// Returns the conversion to read. Outside a run the scan continues by itself.
 const Conversion* Safety::due(Tick now) noexcept {
   const Conversion* c = nullptr;
   if (runs()) {
@@ -315,7 +316,7 @@ const Conversion* Safety::due(Tick now) noexcept {
   return c;
 }
 
-// Alone, a scan is a tick further by now.
+// Returns the conversion to start. Outside a run due() has already advanced the scan by a tick.
 const Conversion* Safety::begins(Tick now) const noexcept {
   if (runs()) return run_->begins(now - start_);
   if (!configured_ || cursor_ >= machine_.conversions) return nullptr;

@@ -1,4 +1,4 @@
-// Sensors, clock, memory and air that go wrong: rows of docs/reference/supervision.md.
+// Tests faults of sensors, clock, memory and air: rows of docs/reference/supervision.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using signals::Reading;
 
 // --- sensors and clock --------------------------------------------------------------------------
 
-// Open, short, saturated: outside what can be; faster than it can be; no end of conversion.
+// Open, short or saturated: out of range; faster than possible; conversion not finished.
 TEST(Safety, ASensorThatFailsVentsInThreeScans) {
   JointControllerConfig leg = test_leg();
   leg.hold_limit = 3;
@@ -37,8 +37,8 @@ TEST(Safety, ASensorThatFailsVentsInThreeScans) {
   }
 }
 
-// Missed ticks: one is counted; after two what lets air in is shut at the first tick there is, with
-// what should have shut meanwhile; 10 ms end the run.
+// Missed ticks: one is counted; after two, inlets are shut at the first tick, as are valves that
+// should have shut meanwhile; 10 ms end the run.
 TEST(Safety, OneMissedTickIsCountedTwoShutTheInletsAndTenMillisecondsVent) {
   constexpr OpenMask inlets = 0x055;  // of hip and knee
   for (const Tick missed : {1, 2, 30, 99, 100, 5'000}) {
@@ -77,7 +77,7 @@ TEST(Safety, OneChangedBitOfTheParametersDumpsWithinTwoLooks) {
     auto* bytes = const_cast<unsigned char*>(
         of_limits ? reinterpret_cast<const unsigned char*>(&run.limits())
                   : reinterpret_cast<const unsigned char*>(&run.config()));
-    // A place that no law looks at while this run goes on: the last joints, the last channels.
+    // Memory that no law uses in this run: the last joints, the last channels.
     const std::size_t size = of_limits ? sizeof(SuperviseConfig) : sizeof(JointControllerConfig);
     const std::size_t joint = offsetof(JointControllerConfig, joint) + 5 * sizeof(JointConfig);
     const std::size_t at = of_limits

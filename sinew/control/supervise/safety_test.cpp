@@ -1,5 +1,5 @@
-// A board's states from power-up through a run, and what holds whatever comes;
-// safety_faults_test.cpp breaks sensors, clock and memory.
+// Tests a board's states from power-up through a run, and conditions that always hold;
+// safety_faults_test.cpp has faults of sensors, clock and memory.
 #include "sinew/control/supervise/safety.h"
 
 #include <gtest/gtest.h>
@@ -123,10 +123,10 @@ TEST(Safety, AMachineThatCannotBeIsRefusedAndNothingIsArmed) {
 
 // --- a run --------------------------------------------------------------------------------------
 
-// Edge for edge and count for count, whatever is commanded and read.
+// The edges and counts are equal for all commands and readings.
 TEST(Safety, WithoutAFaultItIsTheSupervisedController) {
   std::mt19937 random(1);
-  const auto reads = [](std::uint8_t channel, Tick t) {  // any counts, known to both
+  const auto reads = [](std::uint8_t channel, Tick t) {  // any counts, equal for both
     return Reading{static_cast<std::uint16_t>((channel * 997 + t * 31) % 4096), Status::ok};
   };
   for (unsigned trial = 0; trial < 20; ++trial) {
@@ -142,7 +142,7 @@ TEST(Safety, WithoutAFaultItIsTheSupervisedController) {
     };
     std::mt19937 commands(trial);
     b.command = any_command(commands, leg, false);
-    b.start();  // with it the run's first tick
+    b.start();  // includes the run's first tick
     for (Tick t = 1; t < 20'000; ++t) {
       if (t % leg.period == 0) b.command = any_command(commands, leg, false);
       b.tick();
@@ -181,7 +181,7 @@ TEST(Safety, AHostThatIsSilentFor100MillisecondsHoldsAndForASecondVents) {
   SupervisedBench b;
   b.start();
   b.run(999);
-  const Tick last = b.now - 100;  // it commands at every 100th tick; the last one was so long ago
+  const Tick last = b.now - 100;  // it commands at every 100th tick; the last one was then
   b.commands = false;
   ASSERT_TRUE(b.reaches(BoardState::hold, 2'000));
   EXPECT_LE(b.entered - last, 1'000 + 1);
@@ -236,7 +236,7 @@ TEST(Safety, AHoldLastsNoLongerThanTwoSeconds) {
   bad.joint[hip].angle = 1'000'000;
   Tick held = -1;
   while (b.now < 60'000 && b.board.state() != BoardState::vent) {
-    if (b.now % 9'000 == 0) b.board.command(bad, b.now);  // alive, and of no use
+    if (b.now % 9'000 == 0) b.board.command(bad, b.now);  // alive, but bad commands
     b.tick();
     if (held < 0 && b.board.state() == BoardState::hold) held = b.entered;
   }
@@ -260,9 +260,9 @@ TEST(Safety, ShutDownVentsInTheSameTickAndEndsIdle) {
   EXPECT_EQ(b.board.fault(), BoardFault::asked);
 }
 
-// --- whatever comes -----------------------------------------------------------------------------
+// --- random inputs ------------------------------------------------------------------------------
 
-// How far it has gone; a run may only go further, but for a hold that ends.
+// Strictness of a state; in a run it may only increase, except at the end of a hold.
 int depth(BoardState state) {
   switch (state) {
     case BoardState::running:

@@ -1,4 +1,4 @@
-// docs/reference/supervision.md names tests and bounds: the tests are there, the bounds are the
+// Tests that the tests named in docs/reference/supervision.md exist and that its bounds are the
 // defaults.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string trimmed(const std::string& text) {
   return from == std::string::npos ? "" : text.substr(from, to - from + 1);
 }
 
-// The rows of the table of faults.
+// Returns the rows of the table of faults.
 std::vector<Row> faults() {
   std::ifstream file(sinew::test::source_dir() + "/docs/reference/supervision.md");
   std::vector<Row> rows;
@@ -55,7 +55,7 @@ std::string cell(const std::string& fault, std::size_t column) {
   return "";
 }
 
-// [ticks] without a round of run(), that end feeding.
+// Returns the ticks without a round of run() after which the watchdog is not fed.
 std::uint32_t patience_of_the_application() {
   std::ifstream file(sinew::test::source_dir() + "/firmware/application.cpp");
   const std::string before = "std::uint32_t patience = ";

@@ -11,7 +11,7 @@ using signals::Tick;
 
 namespace {
 
-// Returns a limit as a signed number; one that is too large for it becomes the largest.
+// Returns a limit as a signed number; a larger one is clamped.
 std::int32_t shown(std::uint32_t limit) noexcept {
   constexpr std::uint32_t most = 0x7fffffffu;
   return static_cast<std::int32_t>(limit < most ? limit : most);
@@ -19,7 +19,7 @@ std::int32_t shown(std::uint32_t limit) noexcept {
 
 std::int32_t distance(std::int32_t a, std::int32_t b) noexcept { return a < b ? b - a : a - b; }
 
-// False for what is not a number, too.
+// Returns whether x is within the limit; false for NaN.
 bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
 
 bool within(std::int32_t x, std::int32_t low, std::int32_t high) noexcept {
@@ -60,7 +60,7 @@ const char* problem(const SuperviseConfig& config) noexcept {
 Supervisor::Supervisor(const JointControllerConfig& spine, const SuperviseConfig& limits) noexcept
     : spine_(spine), limits_(limits), good_(rest_command(spine)) {}
 
-// While something can still be ended.
+// Returns whether the run has not ended yet.
 bool Supervisor::active() const noexcept {
   return seen().phase == Phase::startup || seen().phase == Phase::running;
 }
@@ -77,7 +77,7 @@ void Supervisor::end_run(Trip::Cause cause, std::uint32_t limit, Tick t) noexcep
 
 // --- the clock ----------------------------------------------------------------------------------
 
-// The first call of a new tick: is it the one that was announced?
+// Checks, at the first call of a new tick, that it is the announced one.
 void Supervisor::enter(Tick t) noexcept {
   if (t <= now_) return;
   const Tick announced = now_ < 0 ? t : every_tick_ ? now_ + 1 : spine_.next_event(now_);
@@ -102,8 +102,8 @@ void Supervisor::gap(Tick announced, Tick t) noexcept {
     if (const Conversion* c = spine_.due(skipped)) skip(*c, t);
 }
 
-// A reading that nobody fetched. A joint whose law it should have set off has valves that nobody
-// would shut for a period.
+// Handles a reading that was not taken in time. If it should have started a joint's law, the
+// joint's valves are shut, since they would otherwise keep their state for a period.
 void Supervisor::skip(const Conversion& conversion, Tick t) noexcept {
   count_scan(conversion.channel);
   if (seen().phase != Phase::running) return;
@@ -142,11 +142,11 @@ const Conversion* Supervisor::due(Tick t) noexcept {
 
 // --- readings -----------------------------------------------------------------------------------
 
-// A reading that is not believed is handed on as one that did not come.
+// Passes a rejected reading on as one that is invalid.
 void Supervisor::take(const Conversion& conversion, Reading reading, Tick t) noexcept {
   enter(t);
   const std::size_t i = conversion.channel.index;
-  // Once the run is ended no law asks what is true: nothing is judged or counted any more.
+  // After the end of a run readings are no longer checked or counted, since no law uses them.
   const bool judged = supervised_.trip.cause == Trip::Cause::none;
   if (judged && i < max_channels && reading.status == Status::ok) {
     supervised_.sensor[i].counts = reading.counts;
@@ -163,7 +163,7 @@ void Supervisor::take(const Conversion& conversion, Reading reading, Tick t) noe
   spine_.take(conversion, reading, t);
 }
 
-// One more without a good reading.
+// Counts a scan without a good reading.
 void Supervisor::count_scan(Channel channel) noexcept {
   if (channel.index >= max_channels) return;
   std::uint16_t& scans = watch_[channel.index].scans;
@@ -193,7 +193,7 @@ void Supervisor::reject(Channel channel, std::uint16_t counts, Trip::Cause cause
   ++supervised_.sensor[channel.index].rejected;
   ++supervised_.rejected;
   watch.equal = 0;
-  // Among a sensor's first readings it cannot be known which one is wrong.
+  // Among a sensor's first readings it is unknown which one is wrong.
   if (cause == Trip::Cause::rate && watch.agreed < limits_.bad_readings) watch.agreed = 0;
   if (++watch.bad != limits_.bad_readings) return;
   Trip wrong{.cause = cause, .at = t, .channel = channel, .counts = counts, .before = watch.good};
@@ -206,7 +206,7 @@ void Supervisor::reject(Channel channel, std::uint16_t counts, Trip::Cause cause
   trip(wrong, t + 1);
 }
 
-// Has a valve of what moves it been told to open by the last law?
+// Returns whether the last law has opened a valve that moves the measured quantity.
 bool Supervisor::driven(const SensorLimits& limit) const noexcept {
   if (limit.joint < 0 || seen().phase != Phase::running) return false;
   const JointSeen& joint = seen().joint[static_cast<std::size_t>(limit.joint)];
@@ -261,7 +261,7 @@ bool Supervisor::possible(const Openings& openings) const noexcept {
   return true;
 }
 
-// Judges the commands of joints that have laws; the commands of passive joints are never read.
+// Checks the commands of joints that have laws; passive joints ignore theirs.
 void Supervisor::command(const Command& command) noexcept {
   for (std::size_t j = 0; j < config().joints; ++j) {
     if (config().joint[j].kind == JointKind::passive || possible(j, command.joint[j])) continue;
@@ -274,7 +274,7 @@ void Supervisor::command(const Command& command) noexcept {
   spine_.command(command);
 }
 
-// The last good one holds; from the third on nothing is let in or out.
+// Keeps the last good command; from the third rejected one in a row all valves are shut.
 void Supervisor::reject_command(std::uint8_t joint) noexcept {
   ++supervised_.rejected_commands;
   bad_joint_ = joint;

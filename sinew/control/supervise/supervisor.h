@@ -1,23 +1,22 @@
-// control/supervise/supervisor.h - a spinal cord that does not believe everything.
+// control/supervise/supervisor.h - a joint controller with checks of its inputs.
 //
-// Stands before control::JointController with the same functions, so that the loop cannot tell. It
-// looks at what comes in, readings, commands and the clock, and changes what goes on to the spinal
-// cord only where something is wrong; where nothing is, the edges are the spinal cord's, bit for
-// bit.
+// Wraps control::JointController with the same functions, so that a loop can use either. It checks
+// readings, commands and the clock, and changes them only if something is wrong; otherwise the
+// edges are those of the joint controller, bit for bit.
 //
-//   what is wrong                   at once                         going on
+//   problem                         immediate effect                if it continues
 //   a reading outside its range,    the last good one is kept       the third in a row: vent
-//   or faster than it can move
-//   a reading that repeats itself   counted from the 50th on        vent, where its limit is set
+//   or faster than possible
+//   a reading that repeats itself   counted from the 50th on        vent, if its limit is set
 //   while driven
-//   a command: not a number, out    the last good one is kept       the third in a row: hold, all
-//   of range, faster than allowed                                   valves shut; the sixth: vent
-//   a tick later than announced     a valve or a law that it        2 ticks: all inlets are shut;
+//   a command: NaN, out of range    the last good one is kept       the third in a row: hold, all
+//   or faster than allowed                                          valves shut; the sixth: vent
+//   a tick later than announced     valves and laws that it         2 ticks: all inlets are shut;
 //                                   skipped: shut until the         10 ms: vent
 //                                   joint's next law
 //
-// Vent is the spinal cord's shut-down without its delay: inlets shut and exhausts open from the
-// next tick on, then all is shut. There is no way back.
+// Vent is the joint controller's shutdown without its delay: inlets shut and exhausts open from the
+// next tick on, then all valves shut. It cannot be undone.
 //
 // Embedded core: no heap, no exceptions, no clock, single precision.
 #pragma once
@@ -34,18 +33,19 @@
 
 namespace sinew::control {
 
-// Holds what the supervisor has counted and why it ended a run, for the log and the summary.
+// Counts of the supervisor and its reason for ending a run, for the log and the summary.
 
 struct SensorSeen {
-  std::uint16_t counts = 0;    // as converted last, whether it was believed or not
-  std::uint32_t rejected = 0;  // readings that were not believed
-  std::uint32_t frozen = 0;    // scans in which it repeated itself for too long
-  std::uint32_t longest = 0;   // of them, in a row
+  std::uint16_t counts = 0;    // last conversion, accepted or not
+  std::uint32_t rejected = 0;  // rejected readings
+  std::uint32_t frozen = 0;    // scans in which it was equal for too long
+  std::uint32_t longest = 0;   // longest sequence of equal readings while frozen
 };
 
-// Why the run was ended; what is not of the cause is 0. The last three are a board's (safety.h).
+// Reason for the end of the run; fields that do not apply to the cause are 0. The last three causes
+// are a board's (safety.h).
 struct Trip {
-  // Names what was not believed any more.
+  // Cause of the end.
   enum class Cause : std::uint8_t {
     none,
     range,
@@ -54,39 +54,39 @@ struct Trip {
     gap,
     command,
     host,   // silent for too long
-    held,   // all valves were shut for as long as they may be
-    asked,  // shut down at once, by whoever may ask
+    held,   // all valves were shut for the longest permitted time
+    asked,  // shutdown was requested
   };
 
   Cause cause = Cause::none;
-  signals::Tick at = 0;      // when the supervisor knew
+  signals::Tick at = 0;      // when the supervisor noticed
   signals::Channel channel;  // range, rate, frozen
-  std::uint16_t counts = 0;  // that it read there; before = last good ones
+  std::uint16_t counts = 0;  // reading; before = last good one
   std::uint16_t before = 0;  // [count]
-  std::int32_t low = 0;      // the limit that was broken: range [count]; else `high`: rate
+  std::int32_t low = 0;      // the limit that was exceeded: range [count]; else `high`: rate
   std::int32_t high = 0;     // [count], frozen [scans], gap, host, held [ticks], command [commands]
   std::uint8_t joint = 0;    // command
 };
 
-// Holds the supervisor's counts of a run, and why it ended.
+// Counts of a run.
 struct Supervised {
   std::array<SensorSeen, max_channels> sensor;
   std::uint32_t rejected = 0;  // readings of all sensors
   std::uint32_t rejected_commands = 0;
-  std::uint32_t gaps = 0;       // ticks that came later than announced
-  std::uint32_t worst_gap = 0;  // [ticks] too late
-  bool holding = false;         // all valves are shut: too many commands in a row were bad
-  std::uint32_t holds = 0;      // how often
+  std::uint32_t gaps = 0;       // number of ticks that came later than announced
+  std::uint32_t worst_gap = 0;  // longest delay [ticks]
+  bool holding = false;         // all valves are shut: too many bad commands in a row
+  std::uint32_t holds = 0;      // number of holds
   Trip trip;
 };
 
 class Supervisor {
  public:
-  // problem() of both must be nullptr.
+  // Requires that problem() of both is nullptr.
   Supervisor(const JointControllerConfig& spine, const SuperviseConfig& limits) noexcept;
 
-  // As of JointController; a tick that is later than announced is noticed by the first of its
-  // calls.
+  // As in JointController; the first of these calls in a tick checks whether the tick is later than
+  // announced.
   signals::Scan scan() const noexcept { return spine_.scan(); }
   signals::Tick next_event(signals::Tick t) noexcept;
   bool starts_period(signals::Tick t) noexcept;
@@ -100,30 +100,30 @@ class Supervisor {
   void missed(signals::Tick t) noexcept { spine_.missed(t); }
   void shut_down(signals::Tick t) noexcept { spine_.shut_down(t); }
 
-  // --- for who knows more than readings, commands and the clock (safety.h) ---
+  // --- for a caller with further checks (safety.h) ---
 
   // Shuts all valves until the next good command.
   void hold() noexcept;
 
-  // From now on each tick is announced, as by a board's timer: one that is missed is a gap also
-  // where nothing would have happened.
+  // From now on every tick is announced, as by a board's timer: a missed tick is a gap even if it
+  // had no event.
   void expect_every_tick() noexcept { every_tick_ = true; }
 
-  // Vents from t on, without the delay of a law.
+  // Vents from t on, without a law's delay.
   void end_run(Trip::Cause cause, std::uint32_t limit, signals::Tick t) noexcept;
 
-  // Returns what was counted; and the limits that it goes by.
+  // Return the counts, and the limits in use.
   const Supervised& supervised() const noexcept { return supervised_; }
   const SuperviseConfig& limits() const noexcept { return limits_; }
 
  private:
-  // Watch is the memory of one channel.
+  // State of the checks of one channel.
   struct Watch {
-    std::uint16_t good = 0;    // the last good reading [count]
-    std::uint16_t scans = 1;   // since then, the next one included
-    std::uint32_t agreed = 0;  // good readings so far, counted up to bad_readings
-    std::uint32_t bad = 0;     // in a row
-    std::uint32_t equal = 0;   // in a row, that repeated themselves while driven
+    std::uint16_t good = 0;    // last good reading [count]
+    std::uint16_t scans = 1;   // scans since then, including the next one
+    std::uint32_t agreed = 0;  // good readings so far, up to bad_readings
+    std::uint32_t bad = 0;     // consecutive bad readings
+    std::uint32_t equal = 0;   // consecutive equal readings while driven
   };
 
   bool active() const noexcept;
@@ -151,13 +151,13 @@ class Supervisor {
   SuperviseConfig limits_;
   Supervised supervised_;
 
-  signals::Tick now_ = -1;  // the last visited tick
+  signals::Tick now_ = -1;  // last visited tick
   bool every_tick_ = false;
   std::array<Watch, max_channels> watch_;
-  Command good_;                    // the last good command
-  bool commanded_ = false;          // there was one
-  std::uint32_t bad_commands_ = 0;  // in a row
-  std::uint8_t bad_joint_ = 0;      // of the last one
+  Command good_;                    // last good command
+  bool commanded_ = false;          // there has been a good command
+  std::uint32_t bad_commands_ = 0;  // consecutive bad commands
+  std::uint8_t bad_joint_ = 0;      // joint of the last bad command
 };
 
 }  // namespace sinew::control

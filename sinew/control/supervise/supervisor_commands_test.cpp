@@ -1,4 +1,4 @@
-// Commands that are wrong and ticks that come late, and what the supervisor makes of them.
+// Tests the supervisor with wrong commands and late ticks.
 #include "sinew/control/supervise/supervisor.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Supervisor, ACommandFasterThanItsLimitIsRejected) {
   SuperviseConfig config = limits();
   config.command[hip].max_step = 20;
   Stand stand(config);
-  stand.command.joint[hip].angle += 500;  // where it begins is free
+  stand.command.joint[hip].angle += 500;  // the first angle is not limited
   stand.run(3);
   EXPECT_EQ(stand.supervised().rejected_commands, 0u);
   stand.command.joint[hip].angle += 20;
@@ -156,7 +156,7 @@ TEST(Supervisor, AGapOfTenMillisecondsVents) {
   }
 }
 
-// A law that fell into the gap would have shut the valve.
+// A law in the gap would have shut the valve.
 TEST(Supervisor, AJointWhoseLawWasSkippedIsShut) {
   Stand stand;
   stand.fill();
@@ -168,7 +168,7 @@ TEST(Supervisor, AJointWhoseLawWasSkippedIsShut) {
   EXPECT_FALSE(stand.valves.is_open(4 * hip + 3));
   EXPECT_TRUE(stand.valves.is_open(4 * knee));  // its law comes later
   stand.run(2);
-  EXPECT_TRUE(stand.valves.is_open(4 * hip));  // and the hip's again
+  EXPECT_TRUE(stand.valves.is_open(4 * hip));  // the hip's law comes again
 }
 
 }  // namespace

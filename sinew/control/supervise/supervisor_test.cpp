@@ -1,4 +1,4 @@
-// Readings that are wrong, and what the supervisor makes of them; and what holds whatever comes.
+// Tests the supervisor with wrong readings, and conditions that always hold.
 #include "sinew/control/supervise/supervisor.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Supervisor, AMachineWithoutAVentTimeIsVentedForASecond) {
   EXPECT_FALSE(stand.valves.an_exhaust_open());
 }
 
-// The laws go on with the last good counts: the edges are those of a leg that stood still.
+// The laws continue with the last good counts: the edges are those of a leg at rest.
 TEST(Supervisor, SingleBadSamplesNeverEndARun) {
   Stand honest, stand;
   stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
@@ -101,7 +101,7 @@ TEST(Supervisor, FasterThanItCanMoveThreeTimesVents) {
   EXPECT_EQ(possible.supervised().rejected, 2u);
 }
 
-// As fast as the limit, for as long as there is room: nothing is rejected.
+// At the limit's rate, for as long as the range allows, no reading is rejected.
 TEST(Supervisor, AsFastAsItCanIsFine) {
   Stand stand;
   stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
@@ -113,7 +113,7 @@ TEST(Supervisor, AsFastAsItCanIsFine) {
   EXPECT_EQ(stand.supervised().rejected, 0u);
 }
 
-// A lie in the very first scan is no yardstick for the truth.
+// A false reading in the first scan does not make later good ones bad.
 TEST(Supervisor, TheFirstReadingMayLie) {
   Stand stand;
   stand.lie = lying(hip_angle, 3900, 0, 1);
@@ -137,7 +137,7 @@ TEST(Supervisor, AFrozenReadingIsCountedAndNamed) {
   Stand stand;
   stand.run(200);
   EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
-  // All but the first: a law has run before the second.
+  // All but the first reading: a law has run before the second.
   EXPECT_EQ(stand.supervised().sensor[hip_angle].frozen, 199u);
   EXPECT_EQ(stand.supervised().sensor[hip_angle].longest, 199u);
   EXPECT_EQ(stand.supervised().sensor[hip_tension].frozen, 199u);
@@ -153,7 +153,7 @@ TEST(Supervisor, AFrozenReadingIsCountedAndNamed) {
   Stand idle;
   for (JointCommand& c : idle.command.joint) c.duties = {};
   idle.run(400);
-  EXPECT_EQ(idle.supervised().sensor[hip_angle].frozen, 0u);  // nobody drives it
+  EXPECT_EQ(idle.supervised().sensor[hip_angle].frozen, 0u);  // not driven
 }
 
 TEST(Supervisor, AFrozenReadingEndsARunOnlyByItsLimit) {
@@ -167,9 +167,9 @@ TEST(Supervisor, AFrozenReadingEndsARunOnlyByItsLimit) {
   EXPECT_TRUE(stand.vented.has_value());
 }
 
-// --- laws over whatever comes -------------------------------------------------------------------
+// --- laws with random inputs --------------------------------------------------------------------
 
-// Without limits and without gaps the edges are the spinal cord's.
+// Without limits and gaps the edges are those of the joint controller.
 TEST(Supervisor, WhereNothingIsWrongTheEdgesAreTheSpines) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 30; ++trial) {
@@ -196,8 +196,8 @@ TEST(Supervisor, WhereNothingIsWrongTheEdgesAreTheSpines) {
   }
 }
 
-// Among skipped ticks the spinal cord alone opens inlet and exhaust of a muscle together; that is
-// what it is supervised for.
+// With skipped ticks an unsupervised joint controller opens inlet and exhaust of a muscle together;
+// the supervisor prevents this.
 TEST(Supervisor, NeverBothOpenAmongSkippedTicks) {
   std::mt19937 random(7);
   FuzzCount alone, supervised;
@@ -218,8 +218,8 @@ TEST(Supervisor, NeverBothOpenAmongSkippedTicks) {
   RecordProperty("both_open_alone", static_cast<int>(alone.both_open));
 }
 
-// Pulses of 30 ticks: after the edges of a visited tick no valve is open that should be shut by
-// then, whatever was skipped before, also the law that would have shut it.
+// With pulses of 30 ticks: after the edges of a visited tick no valve is open that should have
+// shut, even if ticks or the law that would shut it were skipped.
 TEST(Supervisor, WhatShouldHaveShutInAGapShutsAtTheFirstTickAfterIt) {
   constexpr Tick pulse = 30;
   std::mt19937 random(11);

@@ -1,5 +1,4 @@
-// control/supervise/test_bench.h - a board with a leg on it, whose host and sensors do as a test
-// wants.
+// control/supervise/test_bench.h - a board with a leg whose host and sensors a test controls.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +12,7 @@
 
 namespace sinew::control {
 
-// Every inlet and every exhaust of test_leg's muscles and cylinder: valves 4 x joint + 0, 2 and
-// 1, 3.
+// Inlets (valves 4 x joint + 0, 2) and exhausts (1, 3) of test_leg's muscles and cylinder.
 inline constexpr OpenMask leg_inlets = 0x555, leg_exhausts = 0xaaa;
 
 struct SupervisedBench {
@@ -23,13 +21,13 @@ struct SupervisedBench {
                            const JointControllerConfig& leg = test_leg()) {
     command = rest_command(leg);
     for (JointCommand& c : command.joint) {
-      c.enabled = c.open_loop = true;  // valves work, whatever the readings are
+      c.enabled = c.open_loop = true;  // valves open independent of the readings
       c.duties = {30, 0, 0, 30};
     }
     EXPECT_EQ(board.configure(leg, sensors, safety), nullptr);
   }
 
-  // One tick of the board.
+  // Runs one tick of the board.
   void tick() {
     board.begin(now);
     const bool starts = board.state() == BoardState::armed || board.starts_period(now);
@@ -55,18 +53,18 @@ struct SupervisedBench {
   void run(signals::Tick ticks) {
     for (const signals::Tick end = now + ticks; now < end;) tick();
   }
-  // Until a state is reached; false: it was not, in so many ticks.
+  // Runs until a state is reached. Returns false if it was not reached in that many ticks.
   bool reaches(BoardState state, signals::Tick ticks) {
     for (const signals::Tick end = now + ticks; now < end && board.state() != state;) tick();
     return board.state() == state;
   }
 
-  // From power-up to the first command.
+  // Runs from power-up to the first command.
   void start() {
     board.clear(false, now);
-    run(200);  // a scan, for sensors that can be trusted
+    run(200);  // a scan, so that the sensors are good
     EXPECT_TRUE(board.clear(true, now));
-    run(1'100);  // the parameters are known
+    run(1'100);  // a complete check of the parameters
     EXPECT_TRUE(board.arm_first(now));
     EXPECT_TRUE(board.arm_second(now));
     commands = true;
@@ -76,15 +74,15 @@ struct SupervisedBench {
 
   Safety board;
   Command command;
-  bool commands = false;  // the host sends one for each period
+  bool commands = false;  // the host sends a command for each period
   std::function<signals::Reading(std::uint8_t channel, signals::Tick, signals::Reading)> lie;
   std::function<void(const signals::Edge&)> on_edge;
   signals::Tick now = 0;
   OpenMask open = 0;
-  signals::Tick changed_at = 0;  // when the valves last did
-  bool fed = false;              // the watchdog, in the last tick
+  signals::Tick changed_at = 0;  // tick of the valves' last change
+  bool fed = false;              // the watchdog was fed in the last tick
   BoardState last = BoardState::fault;
-  signals::Tick entered = 0;  // when the last state began
+  signals::Tick entered = 0;  // tick at which the last state began
 };
 
 }  // namespace sinew::control

@@ -1,5 +1,5 @@
-// control/supervise/test_fuzz.h - controllers among skipped ticks, lying readings and impossible
-// commands, and what must hold whatever comes: for the folder's tests and the guard.
+// control/supervise/test_fuzz.h - runs of controllers with skipped ticks, false readings and
+// impossible commands, and conditions that must always hold: for the folder's tests and the guard.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace sinew::control {
 
-// ValveWatch follows the edges that a machine's valves were sent, and tells which of them are open.
+// ValveWatch tracks the state of a machine's valves from the edges that are driven.
 class ValveWatch {
  public:
   explicit ValveWatch(const JointControllerConfig& config) : config_(config) {
@@ -24,7 +24,7 @@ class ValveWatch {
 
   void drive(const signals::Edge& e) { open_[e.valve.index] = e.open != inverted_[e.valve.index]; }
 
-  // Inlet and exhaust of one muscle; a cylinder's four valves may be (B.1).
+  // Returns whether inlet and exhaust of a muscle are both open; a cylinder's valves may be (B.1).
   bool both_open() const {
     for (std::size_t j = 0; j < config_.joints; ++j) {
       const JointConfig& joint = config_.joint[j];
@@ -35,7 +35,7 @@ class ValveWatch {
     return false;
   }
 
-  // True where a valve of that kind is open at any muscle or chamber.
+  // Return whether a valve of that kind is open at any muscle or chamber.
   bool an_inlet_open() const { return any(&MuscleConfig::inlet); }
   bool an_exhaust_open() const { return any(&MuscleConfig::exhaust); }
   bool all_exhausts_open() const {
@@ -67,7 +67,7 @@ class ValveWatch {
   std::array<bool, 256> open_{}, inverted_{};
 };
 
-// Any command, now and then one that cannot be.
+// Returns a random command, which may be impossible.
 inline Command any_command(std::mt19937& random, const JointControllerConfig& config,
                            bool impossible) {
   std::uniform_real_distribution<float> unit(0, 1);
@@ -106,16 +106,16 @@ inline Command any_command(std::mt19937& random, const JointControllerConfig& co
   return command;
 }
 
-// 1 to 3 ticks late mostly, seldom up to 20 ms.
+// Returns a random delay: mostly 1 to 3 ticks, rarely up to 20 ms.
 inline signals::Tick any_gap(std::mt19937& random) {
   return 1 + static_cast<signals::Tick>(random() % (random() % 8 == 0 ? 200 : 3));
 }
 
 struct FuzzOptions {
-  unsigned gap_every = 0;         // events, on average; 0: no tick is skipped
+  unsigned gap_every = 0;         // events, on average; 0: no skipped ticks
   unsigned impossible_every = 0;  // commands
   unsigned late_every = 0;        // readings
-  unsigned counts = 4096;         // readings are below it; 4095 is the converter's last
+  unsigned counts = 4096;         // upper bound of readings; 4095 is the converter's last
 };
 
 struct FuzzCount {
@@ -127,7 +127,7 @@ inline bool finite(const JointSeen& s) {
          std::isfinite(s.angle_output) && std::isfinite(s.velocity);
 }
 
-// `Controller` is a JointController or a Supervisor; readings are any counts.
+// Runs a JointController or a Supervisor with random readings.
 template <class Controller>
 void fuzz(Controller& controller, int periods, const FuzzOptions& options, std::mt19937& random,
           FuzzCount& count) {
@@ -159,7 +159,7 @@ void fuzz(Controller& controller, int periods, const FuzzOptions& options, std::
   }
 }
 
-// Different joints, delays and timings.
+// Returns a leg with random joints, delays and timings.
 inline JointControllerConfig any_leg(std::mt19937& random) {
   JointControllerConfig config = test_leg();
   config.joint[cylinder].feedforward = {55, 55, 45, 45};

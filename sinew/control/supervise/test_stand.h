@@ -1,4 +1,4 @@
-// control/supervise/test_stand.h - a supervised leg whose readings lie as a test wants.
+// control/supervise/test_stand.h - a supervised leg whose readings a test can falsify.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using signals::Tick;
 
 inline constexpr std::uint8_t hip_angle = 1, hip_tension = 3;
 
-// A leg whose potentiometers stand between 100 and 4000 and turn by at most 50 counts in a scan.
+// Limits of a leg whose potentiometers read 100 to 4000 and change by at most 50 counts per scan.
 inline SuperviseConfig limits() {
   SuperviseConfig out;
   for (const std::uint8_t channel : {0, 1, 2}) {
@@ -33,7 +33,7 @@ inline SuperviseConfig limits() {
   return out;
 }
 
-// A supervised leg at its rest angles. Its readings lie where a test sets `lie`.
+// A supervised leg at its rest angles. `lie` changes its readings.
 struct Stand {
   explicit Stand(const SuperviseConfig& config = limits(),
                  const JointControllerConfig& leg = test_leg())
@@ -41,12 +41,12 @@ struct Stand {
     EXPECT_EQ(problem(config), nullptr);
     command = rest_command(leg);
     for (JointCommand& c : command.joint) {
-      c.enabled = c.open_loop = true;  // valves work, whatever the readings are
+      c.enabled = c.open_loop = true;  // valves open independent of the readings
       c.duties = {30, 0, 0, 30};
     }
   }
 
-  // One tick, and where the loop goes from there.
+  // Runs one tick and returns the loop's next one.
   Tick visit(Tick t) {
     if (spine.starts_period(t)) spine.command(command);
     for (const signals::Edge& e : spine.edges(t)) {
@@ -72,7 +72,7 @@ struct Stand {
     constexpr std::uint16_t counts[] = {404, 1895, 1175, 800, 800, 800, 800};
     return counts[channel];
   }
-  // The hip's and knee's flexors are filled all the time.
+  // Fills the flexors of hip and knee all the time.
   void fill() {
     for (JointCommand& c : command.joint) c.duties = {100, 0, 0, 100};
   }
@@ -84,10 +84,10 @@ struct Stand {
   Command command;
   std::function<signals::Reading(std::uint8_t channel, int scan, signals::Reading)> lie;
   Tick now = 0;
-  std::optional<Tick> vented;  // the first tick with all exhausts open after a trip
+  std::optional<Tick> vented;  // first tick with all exhausts open and all inlets shut after a trip
 };
 
-// A lie of one channel from a scan on, for so many scans.
+// Returns a function that falsifies one channel from a scan on, for a number of scans.
 inline auto lying(std::uint8_t channel, std::uint16_t counts, int from, int scans = 1'000'000) {
   return [=](std::uint8_t c, int scan, signals::Reading r) {
     if (c == channel && scan >= from && scan < from + scans) r.counts = counts;

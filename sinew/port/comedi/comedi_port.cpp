@@ -17,10 +17,10 @@ using signals::Tick;
 
 namespace {
 
-// So much later than its tick a loop drives no machine any more (docs/reference/supervision.md)
-// [ticks].
+// Delay of the loop behind its tick at which the machine is no longer driven
+// (docs/reference/supervision.md) [ticks].
 constexpr Tick too_late = 100;
-// Conversions of a channel without a good one between them that end a run.
+// Consecutive failed conversions of a channel that end a run.
 constexpr int too_many = 3;
 
 std::int64_t nanoseconds(Tick ticks) {
@@ -28,7 +28,7 @@ std::int64_t nanoseconds(Tick ticks) {
       std::llround(1e9 * signals::tick_seconds * static_cast<double>(ticks)));
 }
 
-// Signals that would end the program wait until this is gone.
+// Blocks signals that would end the program for as long as an object of this class exists.
 class Undisturbed {
  public:
   Undisturbed() noexcept {
@@ -106,7 +106,7 @@ void ComediPort::open() {
   refuse(said + what_to_do(said));
 }
 
-// Refuses what does not fit before any output is touched.
+// Throws CardError if the card does not fit, before an output is touched.
 void ComediPort::fit() {
   int bits = 0, channels = 0;  // numbers count from 0
   for (const auto& o : machine_.outputs) bits = std::max(bits, o.bit + 1);
@@ -146,7 +146,7 @@ void ComediPort::fit_inputs(int channels) {
   offset_ = facts_.low / wanted;
 }
 
-// Makes outputs of those that are needed, with no current in any coil before and after.
+// Configures the needed lines as outputs. All coils are without current before and after.
 void ComediPort::take_outputs() {
   const auto failed = [this] { refuse(std::string("the outputs: ") + functions_->words()); };
   if (!functions_->own(card_, facts_.output))
@@ -160,8 +160,8 @@ void ComediPort::take_outputs() {
   if (!write(0)) failed();
 }
 
-// The valves that have current, by their bits. An edge is electrical, and so is a bit: what a coil
-// opens or shuts is known to the controller.
+// Switches the current of the valves' coils, one bit each. A bit is electrical, as an edge is:
+// whether current opens or shuts a valve is known to the controller only.
 bool ComediPort::write(std::uint32_t coils) noexcept {
   return functions_->write(card_, facts_.output, bits_,
                            control::drive_word(coils, 0, machine_.active_low) & bits_);
@@ -179,7 +179,8 @@ Status ComediPort::start(const signals::Scan&) noexcept {
   return Status::fault;
 }
 
-// Sticky, and known before anything is written: pulses that were to be apart would come together.
+// Returns whether the loop keeps its time. Once it was too late the result stays false. It is
+// checked before each write, since pulses that should be apart would be written together.
 bool ComediPort::on_time() noexcept {
   if (why_ == Why::nothing && beat_->behind() >= too_late) why_ = Why::behind;
   return why_ == Why::nothing;
@@ -200,7 +201,8 @@ Status ComediPort::drive(signals::Edge edge) noexcept {
   return Status::ok;
 }
 
-// A run that came to its end has vented by itself, and need not wait for it again.
+// Records whether the machine has vented: a run that ended normally has vented by itself, and
+// stop() need not vent again.
 void ComediPort::watch_the_vent(Tick at) noexcept {
   if (coils_ == vent_) {
     if (venting_since_ < 0) venting_since_ = at;
@@ -211,7 +213,7 @@ void ComediPort::watch_the_vent(Tick at) noexcept {
   if ((coils_ & inlets_) != 0) vented_ = false;
 }
 
-// The controller vents, and so drive goes on.
+// Counts a failed conversion. drive() continues after it, since the controller vents the machine.
 Reading ComediPort::bad(std::size_t channel, Status status) noexcept {
   if (++bad_in_a_row_[channel] >= too_many && dead_ < 0) dead_ = static_cast<int>(channel);
   return {last_[channel], dead_ < 0 ? status : Status::fault};
@@ -233,7 +235,8 @@ Reading ComediPort::read(signals::Channel channel, Tick) noexcept {
   return {last, Status::ok};
 }
 
-// What cannot be written is tried to the end: one valve that still obeys is better than none.
+// Vents and shuts all valves. It continues after a failed write: one valve that still obeys is
+// better than none.
 bool ComediPort::vent_and_rest() noexcept {
   bool good = true;
   if (!vented_) {

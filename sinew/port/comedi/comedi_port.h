@@ -1,16 +1,18 @@
-// port/comedi/comedi_port.h - a machine at a data acquisition card in this computer, as the thesis
-// had its leg (5.2): the card's converter reads the sensors, its digital outputs switch the valves.
+// port/comedi/comedi_port.h - a machine at a data acquisition card in this computer, like the
+// leg of the thesis (5.2): the card's converter reads the sensors, its digital outputs switch the
+// valves.
 //
-// A conversion is started and awaited by one call, at the tick at which it is read: the sampled
-// instant is a tick later than in a simulation. One that takes longer than a tick is late.
+// One call starts a conversion and waits for it, at the tick at which it is read: the sampled
+// instant is a tick later than in a simulation. A conversion that takes longer than a tick is late.
 //
 //   count = top (low + (high - low) n / n_top) / full_scale, held within 0 .. top
 //
-// where n is what the card's converter says in its range low .. high [V]. A card of the robot's
-// resolution and range hands on its own counts. A finer one is scaled, a coarser one refused.
+// n is the count of the card's converter in its range low .. high [V]. The counts of a card with
+// the robot's resolution and range are passed on unchanged. Those of a finer card are scaled; a
+// coarser card is refused.
 //
-// Three scans without a good conversion of a channel are a fault, whatever the robot's hold_limit
-// allows a simulation: nothing drives a machine blind.
+// Three scans without a good conversion of a channel are a fault, even if the robot's hold_limit
+// allows a simulation more: a machine is not driven without its sensors.
 #pragma once
 
 #include <cstdint>
@@ -24,43 +26,44 @@
 
 namespace sinew::plant {
 
-// Says why a card cannot be opened or driven, and what to do.
+// Reports why a card cannot be opened or driven, and how to correct it.
 class CardError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The machine as a card has it before it.
+// Wiring of a machine to a card.
 struct CardMachine {
   // A sensor's wire.
   struct Input {
     std::string sensor;
-    int channel = 0;  // of the converter
+    int channel = 0;  // channel of the converter, from 0
   };
   struct Output {
-    std::string valve;      // "hip_flexor inlet", for a message
-    int bit = -1;           // of the digital outputs; -1: no such valve
+    std::string valve;      // "hip_flexor inlet", for messages
+    int bit = -1;           // digital output; -1: the valve does not exist
     bool inlet = false;     // it lets air in
     bool vents = false;     // it lets a muscle's air out
-    bool inverted = false;  // its coil shuts it
+    bool inverted = false;  // current in its coil shuts it
   };
-  std::vector<Input> inputs;    // by the machine's channels
-  std::vector<Output> outputs;  // by the machine's valves
+  std::vector<Input> inputs;    // in the order of the machine's channels
+  std::vector<Output> outputs;  // in the order of the machine's valves
   double full_scale = 5;        // [V]
   int top = 4095;               // the robot's highest count
-  bool active_low = true;       // a bit that is 0 gives its coil current
-  signals::Tick vent = 0;       // how long the exhausts stay open before all is shut
+  bool active_low = true;       // bit 0 energizes the coil
+  signals::Tick vent = 0;       // time for which the exhausts stay open before all valves shut
 };
 
-// The functions of the card's module. Throws CardError where this program was built without.
+// Returns the functions of the card's module. Throws CardError if this program was built without
+// it.
 const SinewCard& card_functions();
 
 class ComediPort final : public signals::Port {
  public:
-  // Opens the card and leaves no coil with current. Throws CardError for a card that there is not,
-  // or that does not fit the machine. `beat` is the loop's clock, and outlives this.
+  // Opens the card and switches off the current of all coils. Throws CardError if the card does not
+  // exist or does not fit the machine. `beat` is the loop's clock and must outlive this object.
   ComediPort(const std::string& device, CardMachine machine, const host::Beat& beat);
-  // No coil has current afterwards, whatever came before.
+  // Switches off the current of all coils, in every state.
   ~ComediPort();
   ComediPort(const ComediPort&) = delete;
   ComediPort& operator=(const ComediPort&) = delete;
@@ -68,13 +71,13 @@ class ComediPort final : public signals::Port {
   signals::Status start(const signals::Scan&) noexcept override;
   signals::Status drive(signals::Edge) noexcept override;
   signals::Reading read(signals::Channel, signals::Tick) noexcept override;
-  // Vents for as long as the machine needs, unless it has just been done, and shuts everything. No
-  // signal ends it.
+  // Vents for as long as the machine needs, unless it has just vented, and shuts all valves.
+  // Signals do not interrupt it.
   signals::Status stop(signals::Tick) noexcept override;
 
   // Returns the card's name.
   const std::string& board() const noexcept { return board_; }
-  // Why it failed in the loop; empty where it did not.
+  // Returns why the card failed in the loop; empty if it did not fail.
   std::string problem() const;
 
  private:
@@ -97,16 +100,16 @@ class ComediPort final : public signals::Port {
   const host::Beat* beat_;
   void* card_ = nullptr;
   SinewCardFacts facts_{};
-  double offset_ = 0, gain_ = 1;         // of the counts, as above
-  std::uint32_t bits_ = 0, inlets_ = 0;  // of the card's outputs
-  std::uint32_t vent_ = 0;               // coils with current while it vents
-  std::uint32_t coils_ = 0;              // with current now
-  std::vector<std::uint16_t> last_;      // good counts, by channel
+  double offset_ = 0, gain_ = 1;         // scale of the counts, see above
+  std::uint32_t bits_ = 0, inlets_ = 0;  // masks of the card's outputs
+  std::uint32_t vent_ = 0;               // coils that have current while the machine vents
+  std::uint32_t coils_ = 0;              // coils that have current now
+  std::vector<std::uint16_t> last_;      // last good counts, by channel
   bool started_ = false, vented_ = false, stopped_ = false;
   signals::Tick venting_since_ = -1;
   Why why_ = Why::nothing;
-  std::vector<int> bad_in_a_row_;  // conversions, by channel
-  int dead_ = -1;                  // the channel that ended the run; sticky
+  std::vector<int> bad_in_a_row_;  // failed conversions, by channel
+  int dead_ = -1;                  // channel that ended the run; kept until the next start
 };
 
 }  // namespace sinew::plant

@@ -63,7 +63,7 @@ void LockStepBoard::answer_period() {
   emulator_.put(all);
 }
 
-// The board is let go on only by somebody who waits for it.
+// Returns the line's bytes. The board runs its next period only while a caller waits here.
 std::ptrdiff_t LockStepBoard::read(std::span<std::uint8_t> out, double seconds) {
   constexpr double period = 0.01;
   while (in_.empty()) {
@@ -119,7 +119,7 @@ EmulatedBoard::EmulatedBoard(const std::string& image, Wires wires)
           for (;;)
             if (emulator_.next_record() != 0) throw Emulator::Gone{};
         } catch (const Emulator::Gone&) {
-          emulator_.kill();  // it is nobody's board any more
+          emulator_.kill();  // an unexpected record: the program is not usable
         }
       }) {
   ::close(sockets_.its);
@@ -131,7 +131,7 @@ EmulatedBoard::~EmulatedBoard() {
   wires_.join();
 }
 
-// An emulator that takes nothing for a second is taken for gone, as a serial line is.
+// Returns false if the emulator accepts nothing for a second, as for a serial line.
 bool EmulatedBoard::write(std::span<const std::uint8_t> bytes) const {
   while (!bytes.empty()) {
     const ssize_t n =

@@ -1,9 +1,9 @@
-// port/hardware/emulated_board.h - a controller board's real program in QEMU, in one of two ways:
+// port/hardware/emulated_board.h - a controller board's real program in QEMU, run in two ways:
 //
 //   LockStepBoard    the emulator waits for its host in each period: a run is the same each time,
 //                    whatever else the computer does, and has the simulation's bits
 //   EmulatedBoard    the whole application with its interrupts at its emulated serial line, where
-//                    host and board have clocks of their own, as on a bench
+//                    host and board have separate clocks, as on a bench
 #pragma once
 
 #include <atomic>
@@ -24,11 +24,11 @@ class LockStepBoard {
   // Starts `lock-step.elf`. Throws BoardError.
   LockStepBoard(const std::string& image, Wires wires);
 
-  // To it; valid as long as the board is there. Time of the line is the board's: a read waits for
-  // so many of its periods.
+  // Returns functions that use this object; they are valid as long as it exists. The line's time is
+  // the board's: a read of `seconds` waits for that many of the board's periods of 10 ms.
   BoardLine line();
 
-  // Ends the program. Returns what it had of memory, where it still answered.
+  // Ends the program. Returns its use of memory, if it still replied.
   struct Sizes {
     std::uint32_t stack = 0, memory = 0;  // [bytes]
   };
@@ -37,13 +37,13 @@ class LockStepBoard {
  private:
   std::ptrdiff_t read(std::span<std::uint8_t> out, double seconds);
   void answer_period();
-  bool record();  // true: a period begins
+  bool record();  // returns whether a period begins
 
   Emulator emulator_;
-  std::vector<std::uint8_t> in_, out_;  // of the line
-  bool waits_ = false;                  // the board, for what is to go into its line
+  std::vector<std::uint8_t> in_, out_;  // bytes of the line
+  bool waits_ = false;                  // whether the board waits for the bytes of its line
   bool gone_ = false;
-  std::int64_t periods_ = 0;  // that it was let run for
+  std::int64_t periods_ = 0;  // number of periods it has run
   std::optional<Sizes> sizes_;
 };
 
@@ -55,7 +55,8 @@ class EmulatedBoard {
   EmulatedBoard(const EmulatedBoard&) = delete;
   EmulatedBoard& operator=(const EmulatedBoard&) = delete;
 
-  // To it; valid as long as the board is there. Time of the line is that of the wall.
+  // Returns functions that use this object; they are valid as long as it exists. The line's time is
+  // wall time.
   BoardLine line();
 
  private:
@@ -69,7 +70,7 @@ class EmulatedBoard {
   };
   Sockets sockets_;
   Emulator emulator_;
-  std::thread wires_;  // serves them; nobody else touches the emulator's pipes
+  std::thread wires_;  // serves the emulator's pipes; no other thread may touch them
 };
 
 }  // namespace sinew::plant

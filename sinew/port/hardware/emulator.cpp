@@ -30,13 +30,15 @@ std::string pipe_at(const std::string& path) {
 
 void set_blocking(int file) { ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK); }
 
-// What goes on in the child: it ends with this program, whatever that ends by. Does not return.
+// Runs in the child process and does not return. The child ends when this program ends for any
+// reason.
 [[noreturn]] void be(char* const* arguments, pid_t parent, int line, int its_line, int why) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
-  // A Ctrl-C is the program's: it ends the run and vents the board, which has to be there then.
+  // Ctrl-C must reach only the program: it ends the run and vents the board, which must still
+  // exist.
   ::setpgid(0, 0);
-  // Where it fails it prints its registers, which say nothing to a user.
+  // A failing emulator prints its registers, which are of no use to a user.
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int file : {0, 1, 2}) ::dup2(nothing, file);
   if (line >= 0) ::dup2(line, its_line);
@@ -46,7 +48,7 @@ void set_blocking(int file) { ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O
   ::_exit(127);
 }
 
-// Starts it, and waits until it is another program.
+// Starts the child and waits until it runs the emulator.
 pid_t become(char* const* arguments, int line, int its_line) {
   int why[2];
   if (::pipe2(why, O_CLOEXEC) != 0)
@@ -64,7 +66,7 @@ pid_t become(char* const* arguments, int line, int its_line) {
                    "; Debian: apt install qemu-system-arm");
 }
 
-// Its image says what it is for.
+// Checks by a mark in the image that the program is of the required kind.
 void require_kind(const std::string& image, bool in_lock_step) {
   std::ifstream in(image, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -100,9 +102,10 @@ Emulator::Emulator(const std::string& image, Wires wires, int line) : wires_(std
   }
 }
 
-// With a line there is a clock too: 8 ns for an instruction, as a processor of some 150 MHz has.
+// An emulator with a serial line also has a clock: 8 ns per instruction, as a processor
+// of some 150 MHz takes.
 void Emulator::start(const std::string& image, int line) {
-  constexpr int its_line = 3;  // the emulator's number for it
+  constexpr int its_line = 3;  // number of the socket in the emulator
   std::vector<std::string> words{
       "qemu-system-arm", "-M",   "mps2-an386", "-display", "none",
       "-monitor",        "none", "-kernel",    image,      "-semihosting-config"};
@@ -120,11 +123,11 @@ void Emulator::start(const std::string& image, int line) {
   process_ = become(arguments.data(), line, its_line);
 }
 
-// The board opens both pipes before it says anything; whoever opens one to write waits for a
-// reader.
+// The board opens both pipes before it sends anything. Opening a pipe for writing fails until it
+// has a reader.
 void Emulator::open_pipes() {
   from_ = ::open(from_path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  for (int i = 0; i < 1'000 && to_ < 0; ++i) {  // of 10 ms
+  for (int i = 0; i < 1'000 && to_ < 0; ++i) {  // 10 ms each
     to_ = ::open(to_path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
     if (to_ >= 0) break;
     int status = 0;
@@ -183,7 +186,7 @@ std::int64_t Emulator::number(int bytes) {
   return static_cast<std::int64_t>(out);
 }
 
-// A pipe without a reader raises SIGPIPE, which is nobody's wish: it is kept away for this call.
+// A pipe without a reader raises SIGPIPE, which would end the program: it is blocked for this call.
 void Emulator::put(std::span<const std::uint8_t> bytes) {
   sigset_t broken, before;
   ::sigemptyset(&broken);
@@ -210,7 +213,8 @@ void Emulator::valves() {
   wires_.valves(tick, open, (flags & board::has_current) != 0);
 }
 
-// A board that suffers asks for the same reading again, or not any more.
+// Sends a failure instead of a reading, if there is one. The board then requests the same reading
+// again or, after a reset, does not.
 bool Emulator::suffers(signals::Tick tick) {
   const Mishap mishap = wires_.mishap ? wires_.mishap(tick) : Mishap{};
   if (mishap.what == Mishap::What::none) return false;

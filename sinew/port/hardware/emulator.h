@@ -1,5 +1,5 @@
-// port/hardware/emulator.h - a board's program in QEMU with a body at its wires: the emulator
-// stands still while the body's side answers (control/board/lock_step.h has the records).
+// port/hardware/emulator.h - a board's program in QEMU with a plant at its wires. The emulator
+// waits while the plant's side replies (control/board/lock_step.h has the records).
 #pragma once
 
 #include <sys/types.h>
@@ -14,42 +14,43 @@
 
 namespace sinew::plant {
 
-// What befalls the program of a board itself, for tests: it stands still for so many ticks, as one
-// that hangs where they are more than its watchdog waits, or is reset.
+// Failure of a board's program itself, for tests. A stall longer than the watchdog's time looks
+// like a program that hangs.
 struct Mishap {
-  // Names it: nothing; the board hangs for so many ticks; it is reset.
+  // Kind of failure: none, a stall of `ticks` ticks, or a reset.
   enum class What : std::uint8_t { none, stall, reset } what = What::none;
   std::uint16_t ticks = 0;
 };
 
-// What the board's valves and its converter are connected to, in the board's numbers and the run's
-// ticks; -1 while nothing runs.
+// Functions that connect the board's valves and its converter to a plant, in the board's numbers
+// and the run's ticks; the tick is -1 outside a run.
 struct Wires {
-  // Valves have changed: bit i is open now. Without current all coils are at rest.
+  // Called when valves have changed: bit i is set if valve i is open. Without current all coils are
+  // at rest.
   std::function<void(signals::Tick tick, std::uint32_t open, bool current)> valves;
   std::function<signals::Reading(signals::Channel, signals::Tick tick)> read;
-  // Asked before each reading, of an application only; empty: nothing ever does.
+  // Called before each reading, for an application only; empty: no failures.
   std::function<Mishap(signals::Tick tick)> mishap = {};
 };
 
 class Emulator {
  public:
-  struct Gone {};  // it has ended, or says what it should not
+  struct Gone {};  // the process has ended or sent an unexpected record
 
-  // Starts a program of firmware/. Its serial line is at `line`, a socket of which the emulator has
-  // the other end; -1: it has none. Throws BoardError where that does not go.
+  // Starts a program of firmware/. `line` is a socket whose other end is the program's serial line;
+  // -1: the program has no serial line. Throws BoardError if the program cannot be started.
   Emulator(const std::string& image, Wires wires, int line);
   ~Emulator() { quit(); }
   Emulator(const Emulator&) = delete;
   Emulator& operator=(const Emulator&) = delete;
 
-  // Serves the wires until a record of another kind comes, and returns its letter. This and the
-  // two below throw Gone.
+  // Serves the wires until a record of another kind arrives, and returns its letter. This function
+  // and the next two throw Gone.
   std::uint8_t next_record();
   std::int64_t number(int bytes);
   void put(std::span<const std::uint8_t> bytes);
 
-  // Ends the process at once: whoever waits for a record gets Gone.
+  // Ends the process at once. A call that waits for a record then throws Gone.
   void kill() noexcept;
 
  private:

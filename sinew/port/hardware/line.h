@@ -1,5 +1,5 @@
-// port/hardware/line.h - bytes to a board and from it: a serial device, an emulator, a test's
-// board in the same process.
+// port/hardware/line.h - a two-way stream of bytes to a board: a serial device, an emulator, or a
+// test's board in the same process.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 namespace sinew::plant {
 
 struct BoardLine {
-  // Sends all of the bytes; false once the line is gone.
+  // Sends all bytes. Returns false once the line is closed.
   std::function<bool(std::span<const std::uint8_t>)> write;
-  // Waits for bytes, `seconds` of the board's time at most. Returns how many came, 0 where none
-  // did, and -1 once the line is gone.
+  // Waits for bytes, at most `seconds` of the board's time. Returns the number of bytes that
+  // arrived, 0 if none did, and -1 once the line is closed.
   std::function<std::ptrdiff_t(std::span<std::uint8_t>, double seconds)> read;
-  // Returns the board's time since any instant [s], by which a host's patience ends; empty: that of
-  // the wall. A line that waits for its host has a clock of its own.
+  // Returns the board's time since an arbitrary instant [s], which a host uses for its timeouts;
+  // empty: wall time. A line that waits for its host has a clock of its own.
   std::function<double()> now = {};
 };
 

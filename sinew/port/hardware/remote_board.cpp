@@ -14,11 +14,11 @@ using link::Code;
 
 namespace {
 
-// For how long an answer is waited for, and how often the question is sent.
+// Time that a reply is waited for, and the number of times that a request is sent.
 constexpr double answer_seconds = 0.5;
 constexpr int tries = 3;
-constexpr double read_seconds = 0.05;  // of one read at most, so that a signal is heeded
-// A board that is still armed so long after a run's first command gets it again.
+constexpr double read_seconds = 0.05;  // longest single read, so that signals are noticed
+// Time after a run's first command at which it is sent again to a board that is still armed.
 constexpr double patience_to_begin = 0.05;
 
 double wall_seconds() {
@@ -67,8 +67,8 @@ bool RemoteBoard::send(const M& message) noexcept {
   return size > 0 && line_.write({frame.data(), size});
 }
 
-// Hears the frames that have come, as far as the next telemetry: the joiner keeps one of them.
-// Returns whether there was any.
+// Handles the received frames up to the next telemetry: the joiner keeps only one. Returns whether
+// there was a frame.
 bool RemoteBoard::work_off() noexcept {
   bool heard = false;
   while (telemetry_ == nullptr) {
@@ -84,7 +84,7 @@ bool RemoteBoard::work_off() noexcept {
   return heard;
 }
 
-// One read of the line at most: false where nothing came in that time, or the line is gone.
+// Reads the line at most once. Returns false if nothing arrived in that time or the line is closed.
 bool RemoteBoard::listen(double seconds) noexcept {
   if (work_off()) return true;
   const std::ptrdiff_t n = line_.read(bytes_, seconds);
@@ -103,7 +103,8 @@ void RemoteBoard::hear(const link::Edges& edges) noexcept {
   }
 }
 
-// Records come in order; behind one that is lost none is taken, it is asked for again.
+// Takes records in order. Records after a lost one are ignored, since the lost one is requested
+// again.
 void RemoteBoard::hear(const link::FaultLog& record) {
   if (record.part != fault_log_.size()) return;
   if (record.count > 0)
@@ -136,8 +137,8 @@ void RemoteBoard::hear(const link::Frame& frame) noexcept {
 
 // --- before a run -------------------------------------------------------------------------------
 
-// As listen(), where what is waited for may be given up. A board that streams is heard all the
-// time, so a caller's loop reads the clock as well.
+// Reads like listen(), and throws if the line is closed or the wait is to be given up. A board that
+// streams always has data, so a caller's loop must also check the time.
 void RemoteBoard::listen_or_throw(double seconds) {
   telemetry_ = nullptr;
   (void)listen(std::min(seconds, read_seconds));
@@ -145,7 +146,8 @@ void RemoteBoard::listen_or_throw(double seconds) {
   if (stops_ && stops_()) throw BoardStopped();
 }
 
-// A frame or its answer may be lost: the same question comes again, as another frame.
+// Sends a message and returns its reply. Either may be lost: the message is then sent again in
+// another frame.
 template <class M>
 link::Answer RemoteBoard::ask(const M& message) {
   for (int i = 0; i < tries; ++i) {
@@ -197,8 +199,8 @@ link::Answer RemoteBoard::transfer(const link::ConfigurationSender& sender) {
   return answer.code == Code::done ? ask(sender.end()) : answer;
 }
 
-// A message whose reply was lost is there twice, and so is what a host that was ended has left of
-// a transfer: the board refuses that by its order, and another transfer begins again.
+// If a reply was lost, the board receives a message twice; a host that was ended may have left a
+// transfer unfinished. The board refuses both with `order`, and the transfer begins again.
 void RemoteBoard::configure(const link::Configuration& configuration) {
   const link::ConfigurationSender sender(configuration);
   if (!sender.ok()) throw BoardError("the configuration has a number that a board cannot have");
@@ -209,7 +211,7 @@ void RemoteBoard::configure(const link::Configuration& configuration) {
   configuration_ = sender.crc();
 }
 
-// Returns whether the board reports this state before its next telemetry has passed.
+// Returns whether the board reports this state before its next telemetry.
 bool RemoteBoard::is_seen(BoardState state, double seconds) {
   const double until = now() + seconds;
   do listen_or_throw(0.01);
@@ -217,7 +219,8 @@ bool RemoteBoard::is_seen(BoardState state, double seconds) {
   return state_ == state;
 }
 
-// A board says `state` until it knows its sensors and its own memory.
+// Sends a message until it is accepted. The board refuses with `state` until it has readings of its
+// sensors and has checked its memory.
 template <class M>
 void RemoteBoard::ask_until_done(const M& message, double seconds, const std::string& what) {
   constexpr double pause = 0.02;
@@ -226,7 +229,7 @@ void RemoteBoard::ask_until_done(const M& message, double seconds, const std::st
     const link::Answer answer = ask(message);
     if (answer.code == Code::done) return;
     if (answer.code != Code::state || now() >= until) refuse(answer, what);
-    // It is there already if the reply to an earlier try was lost.
+    // The board has left its fault already if the reply to an earlier try was lost.
     if (M::type == link::Type::clear_fault && is_seen(BoardState::idle, pause)) return;
     for (const double end = now() + pause; now() < end;) listen_or_throw(0.01);
   }
@@ -243,8 +246,8 @@ link::Answer RemoteBoard::arm_twice() {
   return ask(link::ArmSecond{answer_->value, configuration_});
 }
 
-// If the reply to the second frame was lost, the board is armed and refuses the same again;
-// where the frame came too late, both are sent again.
+// If the reply to the second frame was lost, the board is armed and refuses the repeated frame; if
+// the frame came too late, both are sent again.
 void RemoteBoard::arm() {
   for (int i = 1;; ++i) {
     const link::Answer second = arm_twice();
@@ -310,8 +313,8 @@ bool RemoteBoard::command(const link::CommandFor& command) noexcept {
 
 std::span<const signals::Edge> RemoteBoard::edges() noexcept { return edge_; }
 
-// Sends a run's first command again where an armed board reports that it did not get it. One that
-// did get it refuses another one as past.
+// Sends a run's first command again if an armed board reports that it did not receive it. A
+// board that did receive it refuses the repeated command as past.
 void RemoteBoard::begin_again() noexcept {
   if (has_run_ || !beginning_ || state_ != BoardState::armed || now() < begins_again_) return;
   begins_again_ = now() + patience_to_begin;
@@ -364,7 +367,7 @@ bool RemoteBoard::shut_down() noexcept {
 
 std::vector<link::Telemetry> RemoteBoard::fault_log() {
   constexpr double silence = 0.3;  // between two records
-  constexpr int most = 20;         // questions in all
+  constexpr int most = 20;         // requests in all
   fault_log_.clear();
   logged_all_ = false;
   wants_log_ = true;

@@ -1,8 +1,8 @@
-// port/hardware/remote_board.h - a controller board at the other end of a line, as its host has
-// it: who it is, what it was told, what it says.
+// port/hardware/remote_board.h - a controller board at the other end of a line, seen from its host:
+// its identity, commands to it and its telemetry.
 //
 //   RemoteBoard board(line, 1, 100);
-//   board.prepare(configuration);              // to an armed board, or throws why not
+//   board.prepare(configuration);              // arms the board, or throws
 //   board.command({.from = 0, ...});           // starts the run
 //   while (const link::Telemetry* t = board.next(1.0)) ...
 //
@@ -25,92 +25,97 @@
 
 namespace sinew::plant {
 
-// Says in words what a board did not do, and what may be done about it.
+// Reports what a board failed to do and what may be done about it.
 struct BoardError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Reports that a wait for a board was given up, as RemoteBoard::stop_when() requires.
+// Reports that a wait for a board was given up because the function of RemoteBoard::stop_when()
+// returned true.
 struct BoardStopped : BoardError {
-  // Has one text, as nothing has moved before a run begins.
+  // The text is always the same, since nothing has moved before a run begins.
   BoardStopped() : BoardError("interrupted before the run has begun; no valve has moved") {}
 };
 
-// Has a board that is found so to be looked into before it drives again? Its watchdog has bitten,
-// its memory has changed, or a muscle did not let its air out.
+// Returns whether the cause of this fault has to be found before the board drives again: its
+// watchdog has expired, its memory has changed, or a muscle did not empty.
 constexpr bool is_grave(control::BoardFault fault) noexcept {
   using enum control::BoardFault;
   return fault == watchdog || fault == parameters || fault == state || fault == not_empty;
 }
 
-// "the board was in fault: readings did not come", of a board that prepare() found so; "" where it
-// was only switched on, or left by its host.
+// Returns a text such as "the board was in fault: readings did not come" for a board that prepare()
+// found in fault or dump; "" if it was only switched on or left by its host.
 std::string fault_found(const link::Identity& who);
 
 class RemoteBoard {
  public:
-  // `number` is the board's on its line, `period` that of its controller [ticks].
+  // `number` is the board's number on its line, `period` that of its controller [ticks].
   RemoteBoard(BoardLine line, std::uint8_t number, std::uint16_t period);
 
   // --- before a run; each throws BoardError ---
 
-  // From now on all that waits outside a run ends with BoardStopped as soon as this returns true.
+  // Ends every wait outside a run with BoardStopped as soon as `stops` returns true.
   void stop_when(std::function<bool()> stops) { stops_ = std::move(stops); }
-  // Asks who is there.
+  // Requests the board's identity.
   link::Identity identify();
-  // Sends the constants and has them taken, whole.
+  // Sends the whole configuration and has the board adopt it.
   void configure(const link::Configuration& configuration);
   // Leaves a latched fault: the board's sensors must be good.
   void clear_fault();
-  // Lets it take a first command; valves still do not move.
+  // Arms the board: it then accepts a first command. Valves do not move yet.
   void arm();
-  // All of it, with edges wanted. Refuses a board whose outputs have other levels than its valves'
-  // drivers are said to take, and one whose fault somebody should look into, but for what the next
-  // two allow. The identity is that of before: its state and fault were what is cleared.
+  // Does all of the above and requests edges. Refuses a board whose output levels differ from
+  // those of its valves' drivers, and one with a fault whose cause has to be found; the next two
+  // functions change this. Returns the identity from before, with the state and fault that were
+  // cleared.
   link::Identity prepare(const link::Configuration& configuration);
-  // The drivers between its outputs and the coils take 0 for current, or 1. Never told: there are
-  // no wires.
+  // Sets the level at which the drivers between outputs and coils give current: low (0) or high
+  // (1). If this is not called, levels are not checked.
   void expect_levels(bool active_low) noexcept { expected_low_ = active_low; }
-  // A fault that has to be looked into has been.
+  // Permits prepare() to clear a fault whose cause has to be found.
   void allow_clearing() noexcept { may_clear_ = true; }
 
-  // Waits for the next telemetry, of a run or of none. nullptr: none came.
+  // Waits for the next telemetry, in a run or outside. Returns nullptr if none arrived.
   const link::Telemetry* look(double seconds);
 
   // --- a run; no exceptions ---
 
-  // False once the line is gone. The first command is sent again by next() while the board is still
-  // armed: without one it never begins.
+  // Returns false once the line is closed. next() sends the first command again while the board is
+  // still armed: a lost first command would otherwise never start the run.
   bool command(const link::CommandFor& command) noexcept;
-  // Waits for the next telemetry of a run, `seconds` at most. nullptr: none came; why() says why.
+  // Waits for the next telemetry of a run, at most `seconds`. Returns nullptr if none arrived;
+  // why() has the reason.
   const link::Telemetry* next(double seconds) noexcept;
-  // Edges that it has told of since the last call, in the run's ticks and the board's numbers. The
-  // span is valid until next().
+  // Returns the edges that the board has reported since the last call of next(), in the run's ticks
+  // and the board's numbers. The span is valid until the next call of next().
   std::span<const signals::Edge> edges() noexcept;
-  // Ends the run at once and waits for the valves to be at rest. True: the board says so.
+  // Ends the run at once and waits for the valves to be at rest. Returns whether the board reports
+  // so.
   bool shut_down() noexcept;
 
   // --- after a run ---
 
-  // The telemetry that the board keeps until it is armed again, oldest first, also what a spoiled
-  // line never brought: of the 200 ms before its fault, or of a run's end where there was none.
-  // Empty: nothing has run. Throws BoardError where it does not come whole.
+  // Returns the telemetry that the board keeps until it is armed again, oldest first, including
+  // records that were lost on the line: the 200 ms before its fault, or before a run's end without
+  // a fault. Empty: nothing has run. Throws BoardError if the log is incomplete.
   std::vector<link::Telemetry> fault_log();
 
-  // --- for whoever looks ---
+  // --- state ---
 
-  // Why next() has returned nullptr: it ended, it is silent, or the line is gone.
+  // Reason why next() has returned nullptr: the run is over, the board is silent, or the line is
+  // gone.
   enum class Why : std::uint8_t { none, over, silent, gone };
   Why why() const noexcept { return why_; }
   // The line's time [s].
   double now() const noexcept { return line_.now(); }
-  // The last state that it has told of, and why it is there.
+  // Return the last state that the board has reported, and its cause.
   control::BoardState state() const noexcept { return state_; }
   control::BoardFault fault() const noexcept { return fault_; }
-  // The last answer that was no `done`.
+  // Returns the last reply other than `done`.
   const std::optional<link::Answer>& refusal() const noexcept { return refusal_; }
   const link::LineCount& line() const noexcept { return decoder_.line(); }
-  // The line as the board has it, by its last telemetry.
+  // Returns the board's view of the line, from its last telemetry.
   const link::LinkSeen& line_there() const noexcept { return line_there_; }
 
  private:
@@ -140,16 +145,16 @@ class RemoteBoard {
   link::Decoder decoder_;
   link::TelemetryJoiner joiner_;
   std::array<std::uint8_t, 1024> bytes_{};
-  std::size_t first_ = 0, end_ = 0;  // of bytes_, not decoded yet
+  std::size_t first_ = 0, end_ = 0;  // part of bytes_ that is not decoded yet
 
   std::optional<link::Identity> identity_;
   std::optional<link::Answer> answer_, refusal_;
   const link::Telemetry* telemetry_ = nullptr;
-  std::optional<std::uint8_t> other_version_;  // of the protocol, that the board speaks
+  std::optional<std::uint8_t> other_version_;  // protocol version of a board of another version
   std::optional<bool> expected_low_;
   std::function<bool()> stops_;
-  std::optional<link::CommandFor> beginning_;  // of a run, until the board runs
-  double begins_again_ = 0;                    // when it is sent the next time [s]
+  std::optional<link::CommandFor> beginning_;  // first command, until the board runs
+  double begins_again_ = 0;                    // time at which it is sent again [s]
   bool may_clear_ = false;
   bool has_run_ = false;
   Why why_ = Why::none;
@@ -157,7 +162,7 @@ class RemoteBoard {
   control::BoardFault fault_ = control::BoardFault::none;
   link::LinkSeen line_there_;
   std::vector<signals::Edge> edge_;
-  std::vector<link::FaultLog> fault_log_;  // its records, from the first one on
+  std::vector<link::FaultLog> fault_log_;  // records in order, from the first one on
   bool logged_all_ = false, wants_log_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What a host says of a board that is not as it should be.
+// Tests a host's messages about a board that is in an unexpected state.
 #include "sinew/port/hardware/remote_board.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace sinew::plant::remote_board_test {
 namespace {
 
-// A board that sends one message whatever it receives. Each read of its line takes 10 ms.
+// A board that sends the same message after every reception. Each read of its line takes 10 ms.
 struct Parrot {
   BoardLine line() {
     return {[this](std::span<const std::uint8_t>) {
@@ -57,7 +57,7 @@ std::string refusal(
 
 TEST(RemoteBoard, AnotherVersionOfTheProtocolIsRefused) {
   EXPECT_EQ(refusal({.protocol = 3}), "the board has version 3 of the protocol, this program 2");
-  // The first version's identity as it came over the wire: 51 bytes.
+  // Identity of protocol version 1 as it was sent: 51 bytes.
   link::Bytes old = {0xaa, 0x55, 0x81, 0, 6 + 51, 1, 1};
   old.resize(old.size() + 51);
   old[7] = 1;
@@ -69,7 +69,7 @@ TEST(RemoteBoard, AnotherVersionOfTheProtocolIsRefused) {
   EXPECT_EQ(refusal_of(old), "the board has version 1 of the protocol, this program 2");
 }
 
-// Coils would have current while the board rests, and none while it drives.
+// All coils would have current while the board rests, and none while it drives.
 TEST(RemoteBoard, OutputsOfTheOtherLevelAreRefusedBeforeAnythingIsConfigured) {
   for (const bool board : {false, true})
     for (const bool robot : {false, true}) {
@@ -128,7 +128,7 @@ TEST(RemoteBoard, ABoardThatOnlySaysWhoItIsAnswersNothing) {
             "board 1 does not reply: is it on this line, at this rate?");
 }
 
-// A line that is never silent and carries only noise.
+// A line that carries noise without a pause.
 struct Noise {
   BoardLine line() {
     return {[](std::span<const std::uint8_t>) { return true; },
@@ -141,7 +141,7 @@ struct Noise {
             },
             [this] { return time; }};
   }
-  link::Bytes said;  // what the board sent before the noise began
+  link::Bytes said;  // sent by the board before the noise began
   std::mt19937 random{39};
   double time = 0;
 };

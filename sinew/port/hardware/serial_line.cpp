@@ -50,7 +50,7 @@ speed_t code_of(const std::string& device, std::uint32_t baud) {
   throw BoardError(device + ": " + std::strerror(error) + todo);
 }
 
-// Bytes as they are: no line ends, no echo, no control characters, no waiting within a read.
+// Sets raw mode: no line-end conversion, no echo, no control characters, no waiting within a read.
 bool make_raw(int file, speed_t code) {
   termios mode{};
   if (::tcgetattr(file, &mode) != 0) return false;
@@ -83,8 +83,8 @@ SerialLine::SerialLine(const std::string& device, std::uint32_t baud) {
   const speed_t code = code_of(device, baud);
   file_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) refuse(device, errno);
-  // Two hosts at one board would both be believed. The lock holds between programs of one user as
-  // well, for which the exclusive mode alone says nothing to root.
+  // A board would obey two hosts at once, so the device is locked. The lock is needed in addition
+  // to the exclusive mode, which does not hold against root.
   int error = 0;
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) error = EBUSY;
   if (error == 0 && ::isatty(file_) == 0) error = ENOTTY;
@@ -105,7 +105,7 @@ SerialLine::~SerialLine() {
   ::close(file_);
 }
 
-// A line that takes nothing for a second, or not a whole frame in five, is taken for gone.
+// Returns false if the line accepts nothing for a second, or not the whole frame within five.
 bool SerialLine::write(std::span<const std::uint8_t> bytes) const {
   using Clock = std::chrono::steady_clock;
   const auto until = Clock::now() + std::chrono::seconds(5);
@@ -124,7 +124,7 @@ bool SerialLine::write(std::span<const std::uint8_t> bytes) const {
   return true;
 }
 
-// A device that is unplugged hangs up; what came before is handed out first.
+// When a device is unplugged, bytes that arrived before are returned first.
 std::ptrdiff_t SerialLine::read(std::span<std::uint8_t> out, double seconds) const {
   pollfd ready{file_, POLLIN, 0};
   const int n = ::poll(&ready, 1, std::max(1, milliseconds(seconds)));

@@ -10,15 +10,15 @@ namespace sinew::plant {
 
 class SerialLine {
  public:
-  // Opens the device for this program alone, raw, 8 bits without parity, at `baud` bits a second.
-  // Throws BoardError that says what is in the way: no such device, no permission, another
-  // program at it, a rate that it cannot have.
+  // Opens the device exclusively, in raw mode with 8 bits, no parity and `baud` bits per second.
+  // Throws BoardError with the reason: no such device, no permission, the device is in use, or it
+  // does not support the rate.
   SerialLine(const std::string& device, std::uint32_t baud);
   ~SerialLine();
   SerialLine(const SerialLine&) = delete;
   SerialLine& operator=(const SerialLine&) = delete;
 
-  // To it; valid as long as this is there.
+  // Returns functions that use this object; they are valid as long as it exists.
   BoardLine line();
 
  private:
@@ -28,7 +28,7 @@ class SerialLine {
   int file_ = -1;
 };
 
-// The rates that a serial line may have, ascending.
+// Returns the rates that a serial line may have, ascending.
 std::span<const std::uint32_t> serial_rates();
 
 }  // namespace sinew::plant

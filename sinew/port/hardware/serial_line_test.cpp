@@ -1,4 +1,4 @@
-// A serial line at a pair of pseudo-terminals: the other end is the test.
+// Tests a serial line at a pair of pseudo-terminals; the test has the other end.
 #include "sinew/port/hardware/serial_line.h"
 
 #include <fcntl.h>
@@ -95,7 +95,7 @@ TEST(SerialLine, WhatCannotBeOpenedIsRefusedWithWhatToDo) {
             std::string::npos);
 }
 
-// What a board at another rate says arrives as other bytes.
+// Bytes of a board at another rate arrive changed.
 TEST(SerialLine, AHostAtAnotherRateHearsNoFramesAndSaysSo) {
   FarEnd far;
   SerialLine serial(far.device, 115'200);

@@ -15,7 +15,7 @@ Recorded::Recorded(const robot::Robot& robot, const signals::Table& table)
     const signals::Series* series = table.find(topic);
     if (!series || series->time_ns.empty()) throw std::invalid_argument("the log has no " + topic);
 
-    // The last sample of each period, which was taken after its scan.
+    // The last sample of each period is used: it was recorded after the period's scan.
     std::vector<std::uint16_t> counts;
     for (std::size_t i = 0; i < series->time_ns.size(); ++i) {
       const auto p = static_cast<std::size_t>(series->time_ns[i] / period_ns);

@@ -1,5 +1,5 @@
-// port/recorded/recorded.h - a log as a body: it returns the readings of that run, whatever it is
-// commanded. The same controller must then decide the same edges.
+// port/recorded/recorded.h - a log as a plant: it returns the readings of that run, independent of
+// the commands. The same controller must then decide the same edges.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace sinew::plant {
 
 class Recorded final : public signals::Port {
  public:
-  // Throws std::invalid_argument, naming the topic, where the table lacks a sensor's counts or has
+  // Throws std::invalid_argument with the topic's name if the table lacks a sensor's counts or has
   // fewer than one per period.
   Recorded(const robot::Robot& robot, const signals::Table& table);
 
@@ -22,26 +22,25 @@ class Recorded final : public signals::Port {
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // Returns the edges that it was told to drive.
+  // Returns the edges that drive() was called with.
   const std::vector<signals::Edge>& driven() const { return driven_; }
 
  private:
   std::vector<std::vector<std::uint16_t>> counts_;  // [channel][period]
-  std::vector<signals::Edge> driven_;               // reserved before the run
+  std::vector<signals::Edge> driven_;               // allocated before the run
   signals::Tick period_;
 };
 
-// A body whose valves follow a log, whatever a controller decides:
-// recorded commands for a simulated machine. It then has to move as the recorded one did, or the
-// model differs from it.
+// A plant whose valves follow the edges of a log and ignore the controller: recorded commands for a
+// simulated machine. A motion that differs from the recorded one is a fault of the model.
 class Driven final : public signals::Port {
  public:
-  // `body` outlives it; the edges come in ascending time.
+  // `body` must outlive this object; the edges are in ascending order of time.
   Driven(signals::Port& body, std::vector<signals::Edge> edges)
       : body_(body), edges_(std::move(edges)) {}
 
   signals::Status start(const signals::Scan& scan) noexcept override { return body_.start(scan); }
-  // A controller's own edges go nowhere.
+  // Ignores the controller's own edges.
   signals::Status drive(signals::Edge) noexcept override { return status_; }
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override {
     catch_up(now);

@@ -1,4 +1,4 @@
-// The module with libcomedi in it.
+// Module that wraps libcomedi.
 #include "sinew/port/comedi/module/card.h"
 
 #include <comedilib.h>
@@ -15,7 +15,7 @@ void close_card(void* card) { comedi_close(of(card)); }
 
 const char* words() { return comedi_strerror(comedi_errno()); }
 
-// The narrowest range of volts over 0 .. volts; -1 and the widest where none covers them.
+// Finds the narrowest range in volts that covers 0 .. volts; range -1 and the widest if none does.
 void choose_range(comedi_t* card, double volts, SinewCardFacts& out) {
   const auto input = static_cast<unsigned>(out.input);
   const int ranges = comedi_get_n_ranges(card, input, 0);
@@ -68,7 +68,7 @@ bool own(void* card, int subdevice) {
   return comedi_lock(of(card), static_cast<unsigned>(subdevice)) >= 0;
 }
 
-// A subdevice that only puts out knows no direction.
+// A subdevice that has outputs only has no direction to configure.
 bool make_output(void* card, int subdevice, int channel) {
   const auto s = static_cast<unsigned>(subdevice);
   if (comedi_get_subdevice_type(of(card), s) == COMEDI_SUBD_DO) return true;
