@@ -14,7 +14,7 @@ namespace {
 
 constexpr double most_values = 10000;
 
-// "0.05 %/count"; a word such as "2-way" is none.
+// A number with its unit, "0.05 %/count"; not a word such as "2-way".
 struct Number {
   double value = 0;
   std::string_view unit;
@@ -34,7 +34,7 @@ std::optional<Number> number_in(std::string_view text) {
   return out;
 }
 
-// Steps round: 0.30000000000000004 is 0.3.
+// Rounds to 12 digits, which removes the errors of steps: 0.30000000000000004 is 0.3.
 double rounded(double number) {
   const std::string text = fmt::format("{:.12g}", number);
   std::from_chars(text.data(), text.data() + text.size(), number);
@@ -46,7 +46,7 @@ Value number_value(double number, std::string_view unit) {
   return {unit.empty() ? cell : fmt::format("{} {}", cell, unit), cell, number};
 }
 
-// Numbers share one unit: that of the last, or of those that say one.
+// Adds a list of values. Numbers share one unit, that of the last, or of those that have one.
 void add_list(Axis& axis, const std::vector<std::string_view>& items, std::string_view text,
               std::string_view setting) {
   std::vector<std::optional<Number>> numbers;
@@ -65,7 +65,7 @@ void add_list(Axis& axis, const std::vector<std::string_view>& items, std::strin
   }
 }
 
-// How numbers between colons are written.
+// Expected form of numbers between colons, for errors.
 struct Form {
   std::string_view setting;
   std::size_t parts = 0;
@@ -73,7 +73,7 @@ struct Form {
   std::string example;
 };
 
-// Numbers between colons, the first two of them different; each may say the unit.
+// Returns the numbers between colons, of which the first two must differ; each may have the unit.
 std::vector<double> between_colons(Axis& axis, std::string_view text, const Form& form) {
   std::vector<double> out;
   for (std::string_view rest = text;;) {

@@ -1,7 +1,7 @@
-// tune/axis.h - one key of an experiment and the values that it takes.
+// tune/axis.h - one key of an experiment and its values in a sweep.
 //
-//   joint.hip.angle_gain=0.02,0.035,0.05 %/count     a list; the last unit is everybody's
-//   joint.hip.angle_gain=0.02:0.1:5 %/count          from : to : how many, both ends included
+//   joint.hip.angle_gain=0.02,0.035,0.05 %/count     a list; the last unit applies to all
+//   joint.hip.angle_gain=0.02:0.1:5 %/count          from : to : count, both ends included
 //   low_level.duty_rounding=none,truncate sum        words
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace sinew::tune {
 
 struct Value {
-  std::string text;              // as --set takes it, "0.035 %/count"
-  std::string cell;              // as a table shows it, "0.035"
-  std::optional<double> number;  // in the axis's unit; none: words
+  std::string text;              // as in --set, "0.035 %/count"
+  std::string cell;              // as in a table, "0.035"
+  std::optional<double> number;  // in the axis's unit; empty: a word
 };
 
 struct Axis {
   std::string key;
-  std::string unit;  // as written; empty: none
+  std::string unit;  // as written; may be empty
   std::vector<Value> values;
 
   std::string heading() const;          // "joint.hip.angle_gain [%/count]"
@@ -31,27 +31,27 @@ struct Axis {
 // Throws config::Error that begins with `setting`.
 Axis parse_axis(std::string_view text, std::string_view setting = "vary");
 
-// Parses "KEY=from:to unit": an axis of these two values. Throws config::Error that begins with
-// `setting`; `example` is what it suggests.
+// Parses "KEY=from:to unit" into an axis of these two values. Throws config::Error that begins with
+// `setting` and suggests `example`.
 Axis parse_ends(std::string_view text, std::string_view setting, const std::string& example);
 
-// seed = 1 … n: the experiment's noise.
+// Returns the axis seed = 1 … n, for the experiment's noise.
 Axis seeds(int n);
 
-// Parts of a list at its commas, those in brackets and quotes apart; without the blanks around.
+// Splits a list at its commas, except those within brackets and quotes; trims its parts.
 std::vector<std::string_view> list_of(std::string_view text);
 
 // Returns the text without the blanks around it.
 std::string_view trimmed(std::string_view text);
 
-// All combinations of the axes' values, the last axis counting fastest.
+// All combinations of the axes' values; the last axis varies fastest.
 class Grid {
  public:
-  // `axes` outlive the grid.
+  // `axes` must outlive the grid.
   explicit Grid(const std::vector<Axis>& axes) : axes_(&axes) {}
 
   std::size_t size() const;  // 1 without axes
-  // Returns the values of a point, one of each axis.
+  // Returns the values of a point, one per axis.
   std::vector<const Value*> point(std::size_t index) const;
 
  private:

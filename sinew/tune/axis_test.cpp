@@ -1,4 +1,4 @@
-// What --vary understands.
+// Parsing of --vary.
 #include "sinew/tune/axis.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Axis, ARangeHoldsBothEnds) {
   EXPECT_EQ(texts(parse_axis("k=3:1:3")), (Texts{"3", "2", "1"}));
 }
 
-// What goes into --set is the number that the table shows.
+// The number in --set is the number in the table.
 TEST(Axis, ARangesTextsAreItsNumbers) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1e3, 1e3);

@@ -53,7 +53,7 @@ std::vector<Figure> parse_figures(std::string_view text, std::string_view settin
 }
 
 void show_in(const units::ShownUnits& units, std::vector<Figure>& figures) {
-  // One unit for a whole column, whatever the size.
+  // One unit for a whole column, independent of the values.
   for (Figure& figure : figures)
     if (!figure.named && figure.unit != "1")
       figure.unit = analysis::shown_unit(figure.key, units, 0);

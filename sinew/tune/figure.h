@@ -1,7 +1,7 @@
-// tune/figure.h - what is asked of a run's summary: figures to report, conditions to hold.
+// tune/figure.h - figures of a run's summary: values to report and conditions.
 //
 //   joints.hip.tracking_rms_rad [deg]              reported in degrees
-//   joints.hip.tracking_rms_rad < 5 deg            holds or not
+//   joints.hip.tracking_rms_rad < 5 deg            true or false
 #pragma once
 
 #include <optional>
@@ -17,30 +17,31 @@
 namespace sinew::tune {
 
 struct Figure {
-  std::string key;     // of summary.json
-  std::string unit;    // to be shown in; "1": none
-  bool named = false;  // somebody wrote the unit
+  std::string key;     // a key of summary.json
+  std::string unit;    // unit in which it is shown; "1": no unit
+  bool named = false;  // whether the unit was given explicitly
 
-  // "joints.hip.tracking_rms [deg]": the unit that ends the key is the summary's own.
+  // Returns "joints.hip.tracking_rms [deg]", without the unit of the summary that ends the key.
   std::string heading() const;
-  // Empty where the summary has no such key. SI has the fewest digits that read back to the same
-  // bits, any other unit has nine.
+  // Returns the value as text; empty if the summary has no such key. SI values have the fewest
+  // digits that preserve every bit, other units nine digits.
   std::string cell(const analysis::Summary&, double atmosphere = units::atmosphere) const;
 };
 
-// "key", "key [unit]", several with commas. Throws config::Error that begins with `setting`.
+// Parses "key", "key [unit]", or several with commas. Throws config::Error that begins with
+// `setting`.
 std::vector<Figure> parse_figures(std::string_view text, std::string_view setting = "report");
 
-// Shows the figures that name no unit in those of `units`.
+// Sets the unit of each figure without an explicit unit to that of `units`.
 void show_in(const units::ShownUnits& units, std::vector<Figure>& figures);
 
-// Returns the figures that sources report of an experiment, each key once, in the source's unit.
+// Returns the figures that an experiment's sources report, each key once, in the source's unit.
 std::vector<Figure> reported_figures(const std::vector<config::Reported>& reported,
                                      double atmosphere = units::atmosphere);
 
-// A bound for a figure of a run.
+// A condition on a figure of a run.
 struct Condition {
-  // Says on which side of the limit the figure has to be.
+  // The required relation of the figure to the limit.
   enum class Is { below, at_most, above, at_least };
 
   std::string key;
@@ -48,14 +49,15 @@ struct Condition {
   double limit = 0;  // SI
   std::string text;  // as written
 
-  // False too where the summary has no such key.
+  // Returns whether the condition holds; false if the summary has no such key.
   bool holds(const analysis::Summary&) const;
 };
 
-// "key < value unit"; also <=, >, >=. Throws config::Error that begins with `setting`.
+// Parses "key < value unit"; also <=, >, >=. Throws config::Error that begins with `setting`.
 Condition parse_condition(std::string_view text, std::string_view setting = "where");
 
-// The key as the summary could have meant it: empty where it has it, or where nothing is near.
+// Returns the most similar key of the summary; empty if the summary has the key itself or none is
+// similar.
 std::string nearest_key(std::string_view key, const analysis::Summary&);
 
 }  // namespace sinew::tune

@@ -1,4 +1,4 @@
-// What --report and --where understand, and the search for the largest value.
+// Parsing of --report and --where, and the search for the largest value.
 #include "sinew/tune/figure.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(Condition, ComparesInSi) {
   EXPECT_NE(of("trolley.distance_m < 3").find("without a unit"), std::string::npos);
 }
 
-// The edge of a step is found to the interval halved that often.
+// The edge of a step is found within the interval after its halvings.
 TEST(Largest, FindsTheEdgeOfAKnownFunction) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> anywhere(0.0, 10.0);
@@ -97,7 +97,7 @@ TEST(Largest, SaysWhereThereIsNoEdge) {
   EXPECT_EQ(all.value, 3);
 }
 
-// Of what comes and goes it is the end of the lowest part.
+// If a condition holds in several intervals, the result is the end of the lowest one.
 TEST(Largest, TakesTheLowestPart) {
   const Largest found = largest({1, 2, 3, 4, 5}, 20, [](double x) { return x < 2.5 || x > 3.5; });
   EXPECT_NEAR(found.value, 2.5, 1e-5);

@@ -1,4 +1,4 @@
-// Why a row is what it is: one wording for each reason, by runs that have it.
+// The notes of a row: one wording per reason, checked with runs that have it.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ TEST(Notes, UsesNoAir) {
   EXPECT_EQ(row.cells, (std::vector<std::string>{"0", "uses no air"}));
 }
 
-// A source reports of the experiment as it is: a row that changes it is not judged by that.
+// Sources report values of the unchanged experiment, so a row that changes it is not compared.
 TEST(Notes, AChangedExperimentIsNotJudgedByWhatIsReported) {
   const Sweep s{.experiment = walk,
                 .sets = {"trolley.track_length=20 in"},

@@ -1,4 +1,4 @@
-// tune/refuse.h - how a setting of a study is refused.
+// tune/refuse.h - errors about the settings of a study.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace sinew::tune {
 
-// Throws config's error about `text`, which was given for `setting`: what is expected in its place,
-// and an example to try.
+// Throws config::Error about `text`, the value of `setting`, with what is expected and an example.
 [[noreturn]] inline void refuse(std::string_view setting, std::string_view text,
                                 std::string expected, std::string try_this = "") {
   config::fail({std::string(setting), 0, 0}, "", config::in_quotes(text), std::move(expected),

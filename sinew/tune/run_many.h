@@ -1,5 +1,5 @@
-// tune/run_many.h - runs of experiments by their files, as many at a time as the processor has
-// lanes (run/simulation/lanes.h). Each is what run_once says of it.
+// tune/run_many.h - runs of experiment files, in parallel in the lanes of the processor
+// (run/simulation/lanes.h). Each result equals that of run_once.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace sinew::tune {
 
-// A run that somebody wants.
+// A requested run.
 struct Wanted {
-  std::size_t point = 0;  // whoever asks knows it by this
+  std::size_t point = 0;  // identifies the run for the caller
   std::string experiment;
   std::vector<std::string> sets;
 };
 
 struct Many {
-  // Answers what is to be run next, if there is more. Must not throw.
+  // Returns the next run, if there is one. Must not throw.
   std::function<std::optional<Wanted>()> next;
-  // Takes what was run, in any order. Must not throw.
+  // Receives the results, in any order. Must not throw.
   std::function<void(std::size_t point, Ran)> done;
   bool allow_unreachable = false;
-  int lanes = 8;  // at most; 1: one after the other
+  int lanes = 8;  // largest number; 1: one after the other
 };
 void run_many(const Many& many);
 

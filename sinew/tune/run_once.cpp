@@ -15,7 +15,7 @@
 namespace sinew::tune {
 namespace {
 
-// The first of what is wrong, in one line of a table.
+// Returns the first problem, as one line of a table.
 std::string first_problem(const config::Error& e) {
   const std::size_t more = e.problems().size() - 1;
   return config::to_text(e.problems().front()) +
@@ -28,7 +28,7 @@ std::string status_of(const experiment::Experiment& e, const run::Outcome& outco
   return "ok";
 }
 
-// What the summary alone does not show of its figures.
+// Adds judgements of the figures that are not part of the summary.
 void judge(const run::Outcome& outcome, const analysis::Machine& machine, Ran& out) {
   out.no_air = !analysis::unused_air(outcome.table, machine).empty();
   for (const analysis::Verdict& v :
@@ -36,7 +36,7 @@ void judge(const run::Outcome& outcome, const analysis::Machine& machine, Ran& o
     if (v.is == analysis::Verdict::Is::differs) out.differs.push_back(v.key);
 }
 
-// Returns what `work` puts into a run, or why it refuses it.
+// Returns the run that `work` fills, or its refusal.
 template <class Work>
 Ran refusing(const Work& work) {
   Ran out;
@@ -50,7 +50,7 @@ Ran refusing(const Work& work) {
   return out;
 }
 
-// A run that can begin.
+// A run that is ready to begin.
 struct Prepared {
   Prepared(const Wanted& wanted, bool allow_unreachable)
       : Prepared(wanted, config::compose(wanted.experiment, wanted.sets), allow_unreachable) {}
@@ -66,7 +66,7 @@ struct Prepared {
   experiment::Experiment experiment;
 };
 
-// The log's files are not written: the summary is of the table in memory.
+// Summarises the table in memory; no log is written.
 void sum_up(const Prepared& p, const run::Outcome& outcome, Ran& out) {
   out.status = status_of(p.experiment, outcome);
   out.atmosphere = p.machine.atmosphere;

@@ -12,12 +12,12 @@ namespace {
 
 constexpr const char* example = "\"joint.hip.angle_gain=0.02:0.4 %/count log\"";
 
-// 64 bits for a point, or a digit, of a range: independent of how many points there are.
+// Returns 64 bits for a point, or a digit, of a range, independent of the number of points.
 std::uint64_t bits(std::uint64_t seed, std::size_t range, std::uint64_t point) {
   return units::mix(units::mix(units::mix(seed) + range) + point);
 }
 
-// In [0, 1): the upper 53 bits.
+// Returns a number in [0, 1) from the upper 53 bits.
 double share(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 std::vector<double> random_shares(const Sample& s) {
@@ -27,7 +27,7 @@ std::vector<double> random_shares(const Sample& s) {
   return out;
 }
 
-// Each range has its parts in an order of its own.
+// Permutes the parts of each range independently.
 std::vector<double> latin_shares(const Sample& s) {
   const std::size_t d = s.ranges.size();
   std::vector<double> out(s.points * d);
@@ -45,8 +45,8 @@ std::vector<double> latin_shares(const Sample& s) {
 
 }  // namespace
 
-// The engine leaves out the sequence's first point, which is 0: without it the first 2^m are not
-// spread evenly.
+// The engine omits the sequence's first point, which is 0. It is added here, since the first 2^m
+// points are not spread evenly without it.
 std::vector<double> sobol_shares(std::size_t d, std::size_t points, std::uint64_t seed) {
   std::vector<double> out(points * d);
   boost::random::sobol engine(d);

@@ -1,4 +1,4 @@
-// Points between bounds: how evenly they lie, and that they stay what they are.
+// Points between bounds: their distribution, and their independence of the number of points.
 #include "sinew/tune/sample.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Sample sample(Kind kind, std::size_t ranges, std::size_t points, std::uint64_t s
   return {kind, std::vector<Range>(ranges, parse_range("k=0:1")), points, seed};
 }
 
-// How many of the points lie in each of `parts` equal parts of a range.
+// Returns the number of points in each of `parts` equal parts of a range.
 std::vector<int> counts(const std::vector<double>& u, std::size_t d, std::size_t range, int parts) {
   std::vector<int> out(static_cast<std::size_t>(parts));
   for (std::size_t i = range; i < u.size(); i += d) ++out[static_cast<std::size_t>(u[i] * parts)];
@@ -40,7 +40,7 @@ TEST_P(EachKind, LiesInTheUnitCubeAndIsTheSameAgain) {
   }
 }
 
-// No range follows another: the correlation of independent ones is 1/sqrt(n), here 0.022.
+// Ranges are not correlated: the correlation of independent ones is 1/sqrt(n), here 0.022.
 TEST_P(EachKind, RangesDoNotFollowEachOther) {
   const std::size_t d = 6, n = 2048;
   const std::vector<double> u = shares(sample(GetParam(), d, n));
@@ -63,7 +63,7 @@ TEST(Sample, FirstPointsStayWhenMoreAreAskedFor) {
   }
 }
 
-// The law of a Latin hypercube: of n parts of each range every one has a point.
+// The property of a Latin hypercube: each of n parts of every range has a point.
 TEST(Sample, LatinHasEachPartOnce) {
   for (const int n : {1, 2, 17, 500}) {
     const std::vector<double> u = shares(sample(Kind::latin, 4, static_cast<std::size_t>(n)));
@@ -72,8 +72,9 @@ TEST(Sample, LatinHasEachPartOnce) {
   }
 }
 
-// The law of a digital net, kept by a shift of its digits, for whatever seed: of 2^m points each of
-// 2^m parts of a range has one; of the first two ranges so has each box of 2^a by 2^(m-a) parts.
+// The property of a digital net, which a shift of its digits preserves for every seed: each of 2^m
+// parts of a range has one of 2^m points, and so has each box of 2^a by 2^(m-a) parts of the first
+// two ranges.
 TEST(Sample, SobolFillsRangesAndTheFirstTwoTogether) {
   constexpr int m = 8, n = 1 << m;
   for (const std::uint64_t seed : {0, 1, 12345}) {
@@ -91,7 +92,8 @@ TEST(Sample, SobolFillsRangesAndTheFirstTwoTogether) {
   }
 }
 
-// The mean of prod (1 + (u - 1/2)/2) is 1. Independent points miss it by 0.36/sqrt(n) for d = 6.
+// The mean of prod (1 + (u - 1/2)/2) is 1. For d = 6, independent points have an error of
+// 0.36/sqrt(n).
 TEST(Sample, SobolIntegratesCloserThanIndependentPoints) {
   const std::size_t d = 6, n = 1024;
   const auto error = [&](Kind kind, std::uint64_t seed) {
@@ -129,7 +131,7 @@ TEST(Range, ScalesKeepTheirEnds) {
     ++seen[static_cast<std::size_t>(std::stoi(whole.at(u).text))];
     ++seen_back[static_cast<std::size_t>(std::stoi(back.at(u).text))];
   }
-  // A quarter each: 1000 with a standard deviation of 27.
+  // A quarter for each number: 1000 with a standard deviation of 27.
   for (int k = 1; k <= 4; ++k) {
     EXPECT_NEAR(seen[static_cast<std::size_t>(k)], 1000, 5 * 27);
     EXPECT_EQ(seen[static_cast<std::size_t>(k)], seen_back[static_cast<std::size_t>(5 - k)]);
@@ -155,7 +157,7 @@ TEST(Range, SaysWhatIsWrong) {
   EXPECT_NE(of("k=1:2.5 whole").find("whole ends"), string::npos);
 }
 
-// A share and its number are each other's.
+// share_of() is the inverse of at().
 TEST(Range, SharesComeBackFromTheirNumbers) {
   for (const char* text : {"a=2:5 m", "a=5:2 m", "a=0.02:0.4 m log", "a=0.4:0.02 m log"}) {
     const Range range = parse_range(text);

@@ -23,7 +23,7 @@ std::string three_digits(const std::string& number) {
   return number.empty() ? "" : fmt::format("{:.3g}", std::stod(number));
 }
 
-// Without the figure's name, and an interval behind its number.
+// Returns a row without the figure's name, with each interval after its number.
 std::vector<std::string> shown(const std::vector<std::string>& headings,
                                const std::vector<std::string>& row) {
   std::vector<std::string> out{row[1]};
@@ -64,7 +64,7 @@ std::string text_of(const Design& design, const Sweep& runs, const FigureSensiti
 
 namespace {
 
-// A column: its heading, and what of an effect stands in it.
+// A column: its heading, and the number of an effect that it shows.
 struct ShownNumber {
   const char* heading;
   Estimate Effect::*which;
@@ -89,7 +89,7 @@ const char* to_text(Method method) {
 
 std::string cell(double x) { return fmt::format("{:.6g}", x); }
 
-// Returns the figures of a column, not a number where a run has none.
+// Returns the figures of a column, NaN for a run without one.
 std::vector<double> column(const std::vector<Row>& rows, std::size_t index) {
   std::vector<double> out;
   for (const Row& row : rows)
@@ -185,7 +185,7 @@ std::string sensitivity_json(const Design& design, const Sweep& runs,
 namespace {
 
 constexpr std::size_t resamples = 1000;
-constexpr double morris_step = 2.0 / 3.0;  // of levels 0, 1/3, 2/3, 1
+constexpr double morris_step = 2.0 / 3.0;  // levels are 0, 1/3, 2/3, 1
 
 std::uint64_t draw(std::uint64_t seed, std::uint64_t what, std::uint64_t which) {
   return units::mix(units::mix(units::mix(seed ^ 0x5e5e) + what) + which);
@@ -203,7 +203,8 @@ std::vector<double> one_at_a_time(const Design& design) {
   return out;
 }
 
-// A path begins at a random level and takes the ranges in a random order, each once, up or down.
+// Returns the points of the paths. A path begins at a random level and changes each range once, up
+// or down, in a random order.
 std::vector<double> paths(const Design& design) {
   const std::size_t d = design.ranges;
   std::vector<double> out;
@@ -221,11 +222,11 @@ std::vector<double> paths(const Design& design) {
       out.insert(out.end(), at.begin(), at.end());
     }
   }
-  for (double& x : out) x = std::clamp(x, 0.0, 1.0);  // 1/3 + 2/3 rounds
+  for (double& x : out) x = std::clamp(x, 0.0, 1.0);  // 1/3 + 2/3 may round to more than 1
   return out;
 }
 
-// A, B and the AB_i of each row, row by row.
+// Returns A, B and the AB_i of each row, row by row.
 std::vector<double> rows(const Design& design) {
   const std::size_t d = design.ranges;
   const std::vector<double> both = tune::sobol_shares(2 * d, design.count, design.seed);
@@ -244,13 +245,13 @@ std::vector<double> rows(const Design& design) {
   return out;
 }
 
-// --- what they say ---
+// --- estimates ---
 
 bool finite(std::span<const double> figures) {
   return std::ranges::all_of(figures, [](double x) { return std::isfinite(x); });
 }
 
-// The blocks of figures, paths or rows, that are whole.
+// Returns the complete blocks of figures: paths or rows.
 std::vector<std::span<const double>> whole_blocks(std::span<const double> figures,
                                                   std::size_t length) {
   std::vector<std::span<const double>> out;
@@ -261,8 +262,8 @@ std::vector<std::span<const double>> whole_blocks(std::span<const double> figure
 
 using Blocks = std::vector<std::span<const double>>;
 
-// Returns statistics of the blocks with their intervals: of(blocks) gives as many numbers each
-// time.
+// Returns statistics of the blocks with their intervals. of(blocks) must always return the same
+// number of values.
 std::vector<Estimate> bootstrap(const Blocks& blocks, std::uint64_t seed,
                                 const std::function<std::vector<double>(const Blocks&)>& of) {
   const std::vector<double> values = of(blocks);
@@ -315,11 +316,11 @@ std::optional<Sensitivity> of_ends(const Design& design, std::span<const double>
   return out;
 }
 
-// Elementary effects of a path: which range a step moved, and which way, the design knows.
+// Estimates elementary effects of paths. The design gives the range and the direction of each step.
 std::optional<Sensitivity> of_paths(const Design& design, std::span<const double> f) {
   const std::size_t d = design.ranges;
   const std::vector<double> at = paths(design);
-  std::vector<double> effects(design.count * d, std::nan(""));  // by path and range
+  std::vector<double> effects(design.count * d, std::nan(""));  // indexed by path and range
   std::vector<double> there;
   for (std::size_t path = 0; path < design.count; ++path) {
     const std::span<const double> own = f.subspan(path * (d + 1), d + 1);
@@ -352,7 +353,7 @@ std::optional<Sensitivity> of_paths(const Design& design, std::span<const double
   return out;
 }
 
-// The mean is taken off first: the estimate of S_i is then far closer.
+// Subtracts the mean first, which makes the estimate of S_i far more accurate.
 std::vector<double> indices(const Blocks& rows, std::size_t i) {
   std::vector<double> ab;
   for (const auto& row : rows) ab.insert(ab.end(), {row[0], row[1]});

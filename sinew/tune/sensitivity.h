@@ -1,5 +1,5 @@
-// tune/sensitivity.h - which of several ranges a figure follows, and how strongly: designs of
-// points to be run, and what their figures say. Pure; sweep.h runs the points.
+// tune/sensitivity.h - sensitivity of a figure to several ranges: designs of points to be run, and
+// estimates from their figures. The functions are pure; sweep.h runs the points.
 //
 //   one at a time  each range from its middle to both ends, all others in their middle
 //   morris         elementary effects along r paths on a grid of 4 levels, a step of 2/3 of a range
@@ -25,11 +25,11 @@
 
 namespace sinew::tune {
 
-// How a figure's dependence on ranges is looked for: each range alone; Morris's paths; Sobol's
-// shares of the variance.
+// Methods of sensitivity analysis: each range alone; Morris's paths; Sobol's shares of the
+// variance.
 enum class Method { one_at_a_time, morris, sobol };
 
-// Which points are run.
+// Definition of the points.
 struct Design {
   Method method = Method::sobol;
   std::size_t ranges = 0;  // d
@@ -37,13 +37,13 @@ struct Design {
   std::uint64_t seed = 1;
 };
 
-// Returns how many points a design has: 2 d + 1, r (d + 1), n (d + 2).
+// Returns the number of points: 2 d + 1, r (d + 1), n (d + 2).
 std::size_t size(const Design& design);
 
-// Returns their shares of the ranges, d for each point, in [0, 1]. The same on every machine.
+// Returns their shares of the ranges, d per point, in [0, 1]. They are the same on every computer.
 std::vector<double> shares(const Design& design);
 
-// A number with its 95 % interval; low = high = value where nothing was drawn.
+// A number with its 95 % interval; low = high = value without a bootstrap.
 struct Estimate {
   double value = 0, low = 0, high = 0;
 };
@@ -57,51 +57,51 @@ struct Effect {
 };
 
 struct Sensitivity {
-  std::vector<Effect> effects;    // of each range
-  double mean = 0, variance = 0;  // of the figure over the design's own points (sobol: A and B)
-  std::size_t left_out = 0;       // paths or rows, of which a run has no figure
+  std::vector<Effect> effects;    // one per range
+  double mean = 0, variance = 0;  // those of the figure over the design's own points (sobol: A and
+                                  // B)
+  std::size_t left_out = 0;       // paths or rows with a run that lacks the figure
 };
 
-// Returns what the figures of a design say; as many as it has points, in its order. A figure that
-// is not finite is one that a run does not have. Nothing where too few are left: one at a time the
-// middle, else two paths or rows; nor where the figure never changes (sobol).
+// Returns the estimates from the figures of all points of a design, in its order. A figure that is
+// not finite marks a run without it. Returns nothing if too few remain: one at a time requires the
+// middle, the other methods two paths or rows; or if the figure never changes (sobol).
 std::optional<Sensitivity> sensitivity(const Design& design, std::span<const double> figures);
 
-// A sensitivity study: the sweep that it runs, and what it says, as rows
-// and as JSON.
+// Sensitivity study: its sweep and its results, as rows and as JSON.
 //
 //   const Sweep runs = sweep_of(design, base);           // base.sample has the ranges
 //   const std::vector<Row> rows = sweep(runs, {.threads = 2});
 //   for (const FigureSensitivity& f : sensitivities(design, runs, rows)) ...
 
-// Returns the sweep with the design's points in its ranges. Throws config::Error where it varies or
-// searches anything beside them, reports nothing, or has more than most_points.
+// Returns the sweep with the design's points in its ranges. Throws config::Error if the sweep
+// varies or searches other keys too, reports nothing, or has more than most_points.
 Sweep sweep_of(const Design& design, Sweep base);
 
 struct FigureSensitivity {
-  std::string figure;                // as the sweep heads it, "trolley.distance [in]"
-  std::optional<Sensitivity> found;  // none: too few runs have the figure, or it never changes
+  std::string figure;                // heading in the sweep, "trolley.distance [in]"
+  std::optional<Sensitivity> found;  // empty: too few runs have the figure, or it never changes
 };
 
-// Returns what each reported figure says of the ranges, in the figure's unit. Expects all rows.
+// Returns the sensitivity of each reported figure, in the figure's unit. Requires all rows.
 std::vector<FigureSensitivity> sensitivities(const Design& design, const Sweep& runs,
                                              const std::vector<Row>& rows);
 
-// Returns the table of all figures and ranges: the heading of each column, then a row for each. A
-// figure without an answer has rows with empty cells.
+// Return the table of all figures and ranges: the headings of its columns, and its rows. A figure
+// without a result has rows with empty cells.
 std::vector<std::string> sensitivity_headings(Method method);
 std::vector<std::vector<std::string>> sensitivity_rows(const Design& design, const Sweep& runs,
                                                        const std::vector<FigureSensitivity>& all);
 
-// Returns the same in format sinew.sensitivity/1, with mean, standard deviation and what was left
-// out.
+// Returns the same in format sinew.sensitivity/1, with mean, standard deviation and the number of
+// omitted paths or rows.
 std::string sensitivity_json(const Design& design, const Sweep& runs,
                              const std::vector<FigureSensitivity>& all);
 
-// What a sensitivity study says, for people.
+// Results of a sensitivity study as text.
 
-// Returns the figure's mean and standard deviation in a line, and under it a table with a line for
-// each range, of three digits, with intervals; one line where the figure has no answer.
+// Returns a line with the figure's mean and standard deviation, and a table with a line for each
+// range, three digits and intervals; a single line if the figure has no result.
 std::string text_of(const Design& design, const Sweep& runs, const FigureSensitivity& figure);
 
 }  // namespace sinew::tune

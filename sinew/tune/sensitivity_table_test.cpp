@@ -1,4 +1,4 @@
-// A sensitivity study of real runs: its points are single runs, its words are refused in order.
+// A sensitivity study of real runs: its points equal single runs, and invalid settings are refused.
 #include "sinew/tune/sensitivity.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ Sweep base() {
           .report = parse_figures("sequence_duration_s [ms], no.such_figure_m")};
 }
 
-// The sequence is as long as its phases: seconds of one phase are seconds of the whole, and the
-// sensors' noise has no say.
+// The sequence lasts as long as its phases: each second of a phase is a second of the whole, and
+// the sensors' noise has no influence.
 TEST(SensitivityTable, ASequenceIsAsLongAsItsPhases) {
   const Design ends{Method::one_at_a_time, 2, 0, 1};
   const Sweep runs = sweep_of(ends, base());

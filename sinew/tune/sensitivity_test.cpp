@@ -1,4 +1,4 @@
-// Designs and estimates of sensitivity against functions whose answer is known in closed form.
+// Designs and estimates of sensitivity against functions with known closed-form results.
 #include "sinew/tune/sensitivity.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Sensitivity, SobolsIndicesOfIshigami) {
   }
 }
 
-// The error falls with the number of rows, by far more than 8 for 64 times as many.
+// The error decreases with the number of rows, by far more than 8 for 64 times as many.
 TEST(Sensitivity, SobolsIndicesConverge) {
   const auto error = [](std::size_t n) {
     double square = 0;
@@ -59,7 +59,8 @@ TEST(Sensitivity, SobolsIndicesConverge) {
   EXPECT_LT(error(4096), error(64) / 8);
 }
 
-// 95 % are promised of independent rows; Sobol's lie closer, so fewer than that never hold.
+// The intervals are those of 95 % for independent rows; Sobol's rows have smaller errors, so that
+// at least this share contains the true value.
 TEST(Sensitivity, IntervalsHoldTheTruth) {
   int inside = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -76,7 +77,7 @@ TEST(Sensitivity, IntervalsHoldTheTruth) {
   EXPECT_GE(inside, 0.9 * all) << inside << " of " << all;
 }
 
-// Of what is linear all is known at once: every elementary effect is the slope.
+// For a linear figure, every elementary effect is the slope.
 TEST(Sensitivity, MorrisOfALinearFigureIsExact) {
   const Design design{Method::morris, 3, 8, 5};
   ASSERT_EQ(size(design), 32U);
@@ -119,7 +120,7 @@ TEST(Sensitivity, OneAtATimeIsTheWayToBothEnds) {
   EXPECT_DOUBLE_EQ(s.effects[2].to_low.value, -0.25);
 }
 
-// Runs without the figure leave out their path or row, and nothing else.
+// Runs without the figure exclude their path or row only.
 TEST(Sensitivity, WhatHasNoFigureIsLeftOut) {
   for (const Method method : {Method::morris, Method::sobol}) {
     const Design design{method, 3, 512, 1};

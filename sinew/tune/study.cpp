@@ -76,7 +76,7 @@ std::optional<Sample> sample_of(const Study& study) {
   return out;
 }
 
-// A key that is set twice would have the later value, and the table both.
+// Refuses a key that is set twice: the later value would apply, but the table would show both.
 void refuse_twice(const Sweep& s) {
   std::vector<std::string> seen;
   const auto take = [&](const Axis& axis) {
@@ -125,7 +125,7 @@ Sweep sweep_of(const Study& study) {
   return out;
 }
 
-// What an axis asks of the experiment: everything that can be refused before the first run.
+// Checks of an axis against the experiment, before the first run.
 
 namespace {
 
@@ -138,8 +138,8 @@ const std::string& first_text(const Axis& axis) { return axis.values.front().tex
                config::closest_in_quotes(axis.key, known));
 }
 
-// Whole numbers: the least and the greatest are read, each alone. What else is wrong with the
-// experiment then may be mended by another axis.
+// Checks the least and the greatest whole number, each alone. Other faults of the experiment are
+// ignored, since another axis may correct them.
 void check_whole_numbers(const Sweep& s, const Axis& axis) {
   const auto [least, greatest] = std::ranges::minmax_element(
       axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
@@ -167,8 +167,7 @@ void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin
   }
 }
 
-// An element of a list has no origin of its own: the reader says what is wrong with its first and
-// last value.
+// Checks the first and the last value of an element of a list, which has no origin of its own.
 void check_element(const Sweep& s, const Axis& axis) {
   for (const Value* value : {&axis.values.front(), &axis.values.back()}) {
     std::vector<std::string> sets = s.sets;
@@ -188,7 +187,7 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   if (const config::Origin* origin = config::find_origin(origins, axis.key))
     return check_values(s, axis, *origin, atmosphere);
 
-  // It may be a key that is there only once it is set. If not, the reader says what it is.
+  // The key may exist only after it has been set. If it does not, the reader reports the fault.
   std::vector<std::string> sets = s.sets;
   sets.push_back(axis.key + "=" + first_text(axis));
   if (axis.key.find('.') == axis.key.npos) unknown_key(axis, origins);
@@ -198,7 +197,7 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   check_values(s, axis, *origin, atmosphere);
 }
 
-// A key that takes whole numbers is found out by a value between the ends.
+// Checks also a value between the ends, which fails if the key takes whole numbers.
 void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
                  double atmosphere) {
   if (range.axis.key == "robot" || range.axis.key == "experiment")
@@ -209,14 +208,14 @@ void check_range(const Sweep& s, const Range& range, const config::Origins& orig
   check_axis(s, between, origins, atmosphere);
 }
 
-// Throws what the case's experiment is refused with.
+// Throws the error of the case's experiment.
 void check_case(const Sweep& s, const Case& one) {
   std::vector<std::string> sets = s.sets;
   sets.insert(sets.end(), one.sets.begin(), one.sets.end());
   (void)run::buildable(one.experiment.empty() ? s.experiment : one.experiment, sets);
 }
 
-// Before they are in memory, and before their number is too large for one.
+// Refuses too many points, before they are allocated and before their number overflows.
 void refuse_too_many(const Sweep& s) {
   double all = 1;
   std::string product;

@@ -1,4 +1,4 @@
-// tune/study.fields.h - the keys of studies/*.toml.
+// tune/study.fields.h - keys of studies/*.toml.
 #pragma once
 
 #include "sinew/config/shown_units.h"

@@ -1,4 +1,4 @@
-// tune/study.h - a sweep as a file, so that a published table can be made again.
+// tune/study.h - a sweep as a file, so that a published table can be reproduced.
 //
 //   format     = "sinew.plan/1"
 //   title      = "Largest angle gain against stiffness gain"
@@ -22,34 +22,34 @@ struct Study {
   std::string reproduces;
   std::string experiment;  // relative to the file
   std::vector<std::string> set, vary, where;
-  std::vector<std::string> report;  // empty: what is reported of the experiment
-  std::vector<std::string> range;   // sampled
+  std::vector<std::string> report;  // empty: the experiment's reported figures
+  std::vector<std::string> range;   // sampled ranges
   Sample::Kind sample = Sample::Kind::sobol;
-  int points = 0, sample_seed = 1;  // of the sample
+  int points = 0, sample_seed = 1;  // those of the sample
   std::string largest;              // empty: every point is one run
   int halvings = 6;
   int seeds = 0;  // 0: the experiment's own seed
   bool allow_unreachable = false;
-  std::string units;  // of figures that name none (units/shown.h); empty: SI, or as reported
+  std::string units;  // for figures without a unit (units/shown.h); empty: SI, or as reported
 };
 
-// What is said besides a plan: lists are added to the plan's, the others stand in place of its own
-// where they are said.
+// Settings given in addition to a plan: lists are appended to the plan's, the others override it if
+// they are given.
 struct Said {
-  Study study;         // numbers above 0 and words that are not empty are said
-  std::string sample;  // "sobol", "latin" or "random"; empty: not said
+  Study study;         // numbers above 0 and non-empty texts are given
+  std::string sample;  // "sobol", "latin" or "random"; empty: not given
   std::optional<int> sample_seed, halvings;
 };
 
-// Throws config::Error with everything that is wrong with the file.
+// Throws config::Error with all faults of the file.
 Study load_study(const std::string& path);
 
-// Returns a plan, or the study of one run of an experiment, with what is said besides. Throws
+// Returns a plan, or the study of a single experiment, with the additional settings. Throws
 // config::Error.
 Study load_study(const std::string& path, const Said& said);
 
-// Its words understood; the experiment is read where it says what is reported. Throws config::Error
-// for words that cannot be, and for such an experiment that is wrong.
+// Returns the sweep of a study; reads the experiment if its reported figures are needed. Throws
+// config::Error for invalid settings, and for a faulty experiment if it is read.
 Sweep sweep_of(const Study&);
 
 }  // namespace sinew::tune

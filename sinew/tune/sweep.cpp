@@ -50,8 +50,8 @@ namespace {
 
 // --- one point ---
 
-// A key that the first run's summary lacks may not apply to it; one that is nearly another is a
-// mistake.
+// Throws if a key that the first run's summary lacks is similar to one that it has, and therefore
+// probably misspelt. Others may not apply to this run.
 void check_keys(const Sweep& s, const analysis::Summary& summary) {
   for (const std::string& key : keys(s)) {
     const std::string near = nearest_key(key, summary);
@@ -100,7 +100,7 @@ Point Points::at(std::size_t index) const {
   Point out{.experiment = s.experiment, .sets = s.sets, .cells = {}};
   const Grid grid(s.axes);
   const std::size_t cases = std::max<std::size_t>(1, s.cases.size());
-  const std::size_t ahead = index / grid.size();  // of the grid: sample and cases
+  const std::size_t ahead = index / grid.size();  // index of sample and case
   if (!s.cases.empty()) add_case(s.cases[ahead % cases], out);
   if (s.sample) add_sampled(ahead / cases, out);
   if (!s.cases.empty()) out.cells.push_back(s.cases[ahead % cases].name);
@@ -115,7 +115,7 @@ Point Points::at(std::size_t index) const {
   return out;
 }
 
-// Nothing can hold of a key that is not there.
+// Returns whether a condition's key is missing, so that it can never hold.
 bool lacks_condition(const Search& search, const std::vector<std::string>& lacks) {
   return std::ranges::any_of(search.where, [&](const Condition& c) {
     return std::ranges::find(lacks, c.key) != lacks.end();
@@ -143,7 +143,7 @@ std::string searched_status(const Search& search, const Largest& found, const Ra
   return last.ok() ? "does not hold at the first value" : last.status;
 }
 
-// Keeps the run of the largest value that held.
+// Runs a search; its row has the figures of the largest value that held.
 Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
   const Search& search = *s.largest;
   Ran best, last;
@@ -181,8 +181,8 @@ Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) 
   return single(s, index, std::move(point), ran, first);
 }
 
-// Runs the points that next() answers, as long as it does, many side by side, and hands their rows
-// to done(). A search goes by itself: its next run depends on the last.
+// Runs the points that next() returns, until it returns none, many in parallel, and passes their
+// rows to done(). A search runs by itself, since each run depends on the one before.
 template <class Next, class Done>
 void run_points(const Sweep& s, const Points& points, int lanes, const Next& next,
                 const Done& done) {
@@ -202,7 +202,7 @@ void run_points(const Sweep& s, const Points& points, int lanes, const Next& nex
   run_many({.next = wanted, .done = ran, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
 }
 
-// --- all of them ---
+// --- all points ---
 
 // Hands out points to the threads, and rows in their order.
 class Work {
@@ -221,7 +221,7 @@ class Work {
   std::size_t to_do() const { return to_do_.size(); }
   bool elsewhere() const { return static_cast<bool>(options_.elsewhere); }
 
-  // Also the first one's refusal is thrown by the caller's thread.
+  // Runs the first point in the caller's thread, which throws its refusal.
   void first() {
     if (!to_do_.empty()) done(row_of(sweep_, points_, to_do_[next_++], true));
   }
@@ -242,7 +242,7 @@ class Work {
       options_.elsewhere(points, [this](Row row) { done(std::move(row)); });
   }
 
-  // Those behind a gap too, where it was stopped.
+  // Returns all completed rows, including those after a gap if it was stopped.
   std::vector<Row> finish() {
     std::vector<Row> out;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -269,9 +269,9 @@ class Work {
   const Points points_;
   const Options& options_;
   std::vector<std::optional<Row>> rows_;
-  std::vector<std::size_t> to_do_;  // of the share, what is not known
-  std::atomic<std::size_t> next_;   // of these
-  std::size_t told_ = 0;            // points whose rows were handed out
+  std::vector<std::size_t> to_do_;  // points of the share that are not known
+  std::atomic<std::size_t> next_;   // index in to_do_
+  std::size_t told_ = 0;            // points whose rows were passed to Options::row
   std::mutex mutex_;
 };
 

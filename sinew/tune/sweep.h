@@ -5,11 +5,11 @@
 //           .report = parse_figures("joints.hip.tracking_rms_rad [deg]")};
 //   sweep(s, {.threads = 2, .row = [](const Row& r) {...}});
 //
-// The axis `experiment` takes files beside the experiment's own, `robot` takes robots.
-// Each point of the grid is a run of its own; of a sample, each of its points with each case and
-// each of the grid. Rows come in the grid's order, the grid counting faster than the sample, and
-// are the same for any number of threads, shares and interruptions. A run that cannot be, or that
-// ends early, is a row that says so.
+// The axis `experiment` takes files in the experiment's own folder, `robot` takes robots. Each
+// point of the grid is a run; with a sample, each of its points is combined with each case and each
+// point of the grid. Rows are in the order of the points; the grid varies faster than the sample.
+// They do not depend on the number of threads, on shares or interruptions. A run that is refused or
+// ends early has a row with the reason.
 #pragma once
 
 #include <atomic>
@@ -29,51 +29,52 @@
 
 namespace sinew::tune {
 
-// Why a row's figures are what they are. The same words stand in a table's status,
-// and in a study's file.
+// Remarks about a row's figures. A table's status and a study's file use the same words.
 
 struct Ran;
 
 struct Notes {
-  std::vector<std::string> lacks;    // keys that the summary of its run does not have
+  std::vector<std::string> lacks;    // keys that the summary of the run lacks
   std::vector<std::string> differs;  // keys whose value differs from what a source reports
-  bool stop_reached = false;         // by the trolley: distance and mean speed are up to there
-  bool no_air = false;               // no muscle took any, whatever the plan commanded
-  bool out_of_reach = false;         // the foot was: the nearest point was aimed at
+  bool stop_reached = false;         // the trolley reached its stop, where distance and mean speed
+                                     // end
+  bool no_air = false;               // no muscle took air, whatever the plan commanded
+  bool out_of_reach = false;         // the foot path was out of reach; the nearest point was used
 
   bool operator==(const Notes&) const = default;
 };
 
-// The keys that are missing, or differ, are some of `keys`. A run without figures has no notes.
+// Returns the remarks about the given keys. A run without figures has none.
 Notes notes_of(const Ran& ran, const std::vector<std::string>& keys);
 
-// "without foot.extension_time_s; reaches the end of the track; uses no air; aims out of reach;
-// differs in trolley.distance_m": what applies of it, empty where nothing does.
+// Returns those that apply of "without foot.extension_time_s; reaches the end of the track; uses no
+// air; aims out of reach; differs in trolley.distance_m"; empty if none does.
 std::string to_text(const Notes& notes);
 
-// Returns `status`, or the notes in place of an "ok", or both.
+// Returns `status`, or the notes if it is "ok", or both.
 std::string status_with(const Notes& notes, std::string_view status);
 
-// Instead of a run per point: the largest value of one more key for which all conditions hold.
+// Search that replaces the run of a point: the largest value of another key for which all
+// conditions hold.
 struct Search {
-  Axis axis;  // its values are tried from the first on
+  Axis axis;  // its values are tried in order
   std::vector<Condition> where;
-  int halvings = 6;  // of the interval that is found
+  int halvings = 6;  // number of halvings of the interval that was found
 };
 
 // A circumstance in which each point is run: another experiment, other values, a fault.
 struct Case {
   std::string name;
   std::string experiment;         // its file; empty: the sweep's own
-  std::vector<std::string> sets;  // key=value, behind the sweep's own and before a point's
-  double weight = 1;              // how much it counts where runs are averaged
+  std::vector<std::string> sets;  // key=value, after the sweep's own and before a point's
+  double weight = 1;              // weight in averages over runs
 };
 
 struct Sweep {
   std::string experiment;         // its file
   std::vector<std::string> sets;  // key=value, for every run
   std::optional<Sample> sample;
-  std::vector<Case> cases;  // each point with each of them; empty: the experiment as it is
+  std::vector<Case> cases;  // combined with each point; empty: the experiment as it is
   std::vector<Axis> axes;
   std::vector<Figure> report;
   std::optional<Search> largest;
@@ -82,68 +83,70 @@ struct Sweep {
 
 // A row of a sweep's table.
 struct Row {
-  std::size_t point = 0;           // of the sweep
-  std::vector<std::string> cells;  // as many as headings(); empty: does not apply
-  bool ok = false;                 // has figures; else the last cell, the status, says why not
+  std::size_t point = 0;           // number in the sweep
+  std::vector<std::string> cells;  // as many as headings(); empty: not applicable
+  bool ok = false;                 // has figures; otherwise the last cell, the status, gives the
+                                   // reason
   Notes notes = {};
 };
 
-// A share of a sweep's points, those with numbers m = i - 1, i - 1 + n, i - 1 + 2 n, …: the same on
-// every machine.
+// A share of a sweep's points: those with numbers m = i - 1, i - 1 + n, i - 1 + 2 n, … It is the
+// same on every computer.
 struct Share {
   std::size_t i = 1, n = 1;
 
-  // Does the point belong to the share?
+  // Returns whether the point belongs to the share.
   bool has(std::size_t point) const { return point % n == i - 1; }
   std::size_t size(std::size_t points) const { return points / n + (points % n >= i ? 1 : 0); }
 };
 
-// "2/3". Throws config::Error that begins with "shard".
+// Parses "2/3". Throws config::Error that begins with "shard".
 Share parse_share(std::string_view text);
 
-// Both functions are called for one row at a time and must not throw.
+// `row` and `done` are called for one row at a time and must not throw.
 struct Options {
   int threads = 1;
-  int lanes = 8;  // runs side by side in each thread, at most; the rows are the same
-  const std::atomic<bool>* stop = nullptr;        // true: runs that began are the last
-  std::atomic<std::int64_t>* progress = nullptr;  // points that are done
-  std::function<void(const Row&)> row = {};       // each of the table, in the points' order
-  std::function<void(const Row&)> done = {};      // each that was run, as soon as it is there
-  // In place of threads here: runs these points, hands back their rows in any order, and returns
-  // when all are there or it was stopped.
+  int lanes = 8;  // runs in parallel per thread, at most; the rows are the same
+  const std::atomic<bool>* stop = nullptr;        // true: no further runs are begun
+  std::atomic<std::int64_t>* progress = nullptr;  // completed points
+  std::function<void(const Row&)> row = {};       // called for each row of the table, in order
+  std::function<void(const Row&)> done = {};      // called for each completed run, at once
+  // Replaces the threads here: runs these points, passes their rows to `done` in any order, and
+  // returns when all are complete or it was stopped.
   std::function<void(std::span<const std::size_t> points, const std::function<void(Row)>& done)>
       elsewhere = {};
-  Share share = {};             // of the points: the table has no others
-  bool checked = false;         // by an earlier sweep that differs in the sample's points alone
-  std::vector<Row> known = {};  // of an earlier time: they are not run again
+  Share share = {};             // the table has only these points
+  bool checked = false;         // checked by an earlier sweep that differs in the sample's points
+                                // alone
+  std::vector<Row> known = {};  // rows of an earlier sweep, which are not run again
 };
 
-// Returns the file that a value of the axis `experiment` names, which stands beside the sweep's
-// own.
+// Returns the path of the file that a value of the axis `experiment` names, in the folder of the
+// sweep's own experiment.
 std::string beside(const Sweep&, const std::string& file);
 
-// "joint.hip.angle_gain [%/count]", the reported figures, "status". A search has its largest value
-// and the number of its runs besides.
+// Returns "joint.hip.angle_gain [%/count]", the reported figures, "status". A search also has its
+// largest value and the number of its runs.
 std::vector<std::string> headings(const Sweep&);
 
-inline constexpr std::size_t most_points = 1'000'000;  // each keeps a row of the table in memory
+inline constexpr std::size_t most_points = 1'000'000;  // a row of each is kept in memory
 
-// Returns how many points a sweep has.
+// Returns the number of points of a sweep.
 std::size_t points(const Sweep&);
 
 // Returns the keys of a summary that the sweep reports or has conditions on, each once.
 std::vector<std::string> keys(const Sweep&);
 
-// Throws config::Error for an experiment that is wrong as it stands, and for keys and units of the
-// axes that it does not know, and for more than most_points. Runs nothing.
+// Throws config::Error if the experiment is faulty by itself, if an axis has an unknown key or
+// unit, or if there are more than most_points. Runs nothing.
 void check(const Sweep&);
 
-// Checks, then runs. Throws after its first run for a key that the summary lacks and that looks
-// like a typing error. Returns the rows that are there, the known ones too, in the points' order.
+// Checks and runs the sweep. Throws after its first run if the summary lacks a key that is probably
+// misspelt. Returns the completed rows and the known ones, in the points' order.
 std::vector<Row> sweep(const Sweep&, const Options&);
 
-// Runs points of a sweep by their number, for whoever hands them out: a row is the same wherever it
-// was made.
+// Runs points of a sweep by their number, for a dispatcher. A row does not depend on the
+// process that makes it.
 class Runner {
  public:
   // Draws the values of all points.
@@ -159,36 +162,36 @@ class Runner {
   std::unique_ptr<Drawn> drawn_;
 };
 
-// One run: what `sinew run` would say of it.
+// A run and its result, as `sinew run` would report it.
 struct Ran {
   std::string status = "ok";
-  analysis::Summary summary;  // empty where the status is another
+  analysis::Summary summary;  // empty unless the status is "ok"
   double atmosphere = units::atmosphere;
-  bool no_air = false;               // no muscle took any, whatever was commanded
-  std::vector<std::string> differs;  // keys of what is reported, where the verdict is "differs"
+  bool no_air = false;               // no muscle took air, whatever was commanded
+  std::vector<std::string> differs;  // reported keys with the verdict "differs"
 
-  // Are there figures?
+  // Returns whether there are figures.
   bool ok() const { return status == "ok"; }
 };
-// Runs an experiment's file with settings in place of its own. The status tells why there are no
+// Runs an experiment's file with overriding settings. The status gives the reason if there are no
 // figures.
 Ran run_once(const std::string& file, const std::vector<std::string>& sets,
              bool allow_unreachable = false);
 
-// The largest value for which something holds, from below.
+// The largest value for which a condition holds, searched from below.
 //
-// Goes up along the given values to the first that does not hold, then halves the interval between
-// it and the one before. What holds again further up is not looked for, so of something that is not
-// monotone this is the end of the lowest part, as finely as the values see it.
+// The given values are tried up to the first for which it does not hold; then the interval between
+// this value and the one before is halved. Higher values are not tried. If the condition is not
+// monotone, the result is the end of its lowest part, to the resolution of the values.
 struct Largest {
-  enum class Is { never, between, to_the_end };  // not even the first; found; even the last holds
+  enum class Is { never, between, to_the_end };  // not even for the first; found; even for the last
 
   Is is = Is::never;
-  double value = 0;  // the largest that held; of no meaning for `never`
-  double fails = 0;  // the smallest above it that did not; of no meaning for `to_the_end`
+  double value = 0;  // the largest value tried that holds; undefined for `never`
+  double fails = 0;  // the smallest tried above it that does not; undefined for `to_the_end`
 };
 
-// `values` in the order in which they are tried. `holds(double) -> bool` is asked at most
+// `values` in the order in which they are tried. `holds(double) -> bool` is called at most
 // values.size() + halvings times.
 template <class Holds>
 Largest largest(const std::vector<double>& values, int halvings, Holds holds) {

@@ -1,4 +1,4 @@
-// Tables of runs: the same by any number of threads, and as single runs say.
+// Tables of runs do not depend on the number of threads, and equal single runs.
 #include "sinew/tune/sweep.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::string message(Act act) {
   return "";
 }
 
-// By the resolved file, as `sinew run` and `sinew analyze` do it.
+// Uses the resolved file, like `sinew run` and `sinew analyze`.
 analysis::Summary single_run(const std::vector<std::string>& sets) {
   const experiment::Experiment e = experiment::load(leg, sets);
   const auto resolved = config::parse_text(experiment::resolved(e, "test"), "resolved.toml");
@@ -78,7 +78,7 @@ TEST(Sweep, ARowIsWhatTheSingleRunSays) {
   EXPECT_EQ(std::stod(row.cells[2]), *run.find("joints.hip.tracking_rms_rad")) << "bit for bit";
 }
 
-// Each point of the sample with each of the grid, which counts faster.
+// Each point of the sample is combined with each point of the grid, which varies faster.
 TEST(Sweep, ASampleIsTheSameForAnyNumberOfThreadsAndAsSingleRuns) {
   Sweep s = gains();
   s.axes = {seeds(2)};
@@ -120,7 +120,7 @@ TEST(Sweep, RefusesARangeThatTheExperimentDoesNotKnow) {
   EXPECT_NE(of("seed=1:3000000000 whole").find("0 to 2147483647"), std::string::npos);
 }
 
-// What differs in many keys differs by its file.
+// Experiments that differ in many keys are given as files.
 TEST(Sweep, AnAxisOfExperiments) {
   const Sweep s{.experiment = leg,
                 .axes = {parse_axis("experiment=leg-in-air.toml,one-joint.toml"), seeds(2)},
@@ -137,7 +137,7 @@ TEST(Sweep, AnAxisOfExperiments) {
   EXPECT_NE(message([&] { check(missing); }).find("no-such-leg.toml"), std::string::npos);
 }
 
-// A run that cannot be is a row, and so is one that blows up.
+// A run that is refused and one that diverges are both rows.
 TEST(Sweep, FailuresAreRows) {
   Sweep s{.experiment = root + "/experiments/walk-test-1.toml",
           .axes = {parse_axis("link.femur.length=8,8.875 in"),
@@ -192,7 +192,7 @@ TEST(Sweep, RefusesWhatTheExperimentDoesNotKnow) {
   EXPECT_NE(of("seed=1,1e30").find("0 to 2147483647"), std::string::npos);
 }
 
-// A figure that a run does not have is no figure that is fine.
+// A missing figure is reported in the status.
 TEST(Sweep, WhatARunLacksItsStatusNames) {
   Sweep s{.experiment = lever,
           .axes = {seeds(1)},
@@ -213,7 +213,7 @@ TEST(Sweep, WhatARunLacksItsStatusNames) {
   EXPECT_EQ(rows[0].cells.back(), "without of.another.machine_m");
 }
 
-// The search's answer holds, the next finer one does not.
+// The condition holds for the result, and fails for the next finer value.
 TEST(Sweep, FindsTheLargestValueThatHolds) {
   const Axis gain = parse_axis("joint.hip.angle_gain=0.02:0.3:8 %/count");
   const auto where = parse_condition("joints.hip.swing_oscillation_rms_rad < 3 deg");
@@ -269,7 +269,7 @@ TEST_F(Plan, NamesItsExperimentFromWhereItStands) {
   EXPECT_EQ(load_study(name).experiment, expected.string());
 }
 
-// Without words of its own a plan reports what sources do, each key once and in their unit.
+// Without `report`, a plan reports what the sources report, each key once and in their unit.
 TEST_F(Plan, ReportsWhatIsReported) {
   const std::string start = "format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"" + root +
                             "/experiments/walk-test-1.toml\"\n";

@@ -13,7 +13,7 @@ namespace sinew::tune {
 
 namespace {
 
-// A number or a flag as such.
+// Returns a number or a flag as JSON, and other texts as a string.
 Json json_cell(const std::string& cell) {
   if (cell.empty()) return nullptr;
   Json out;

@@ -1,4 +1,4 @@
-// tune/table.h - a sweep's rows as CSV and JSON, and the file that they become.
+// tune/table.h - a sweep's rows as CSV and JSON, and their file.
 #pragma once
 
 #include <exception>
@@ -14,35 +14,35 @@
 
 namespace sinew::tune {
 
-// Returns a line of CSV with its end; quotes stand where a cell needs them.
+// Returns a line of CSV with its line end; cells are quoted where necessary.
 std::string csv_line(const std::vector<std::string>& cells);
 
-// Returns the table in format sinew.sweep/1, an object a row; numbers and flags as such.
+// Returns the table in format sinew.sweep/1, an object per row; numbers and flags are not quoted.
 std::string json_of(const std::vector<std::string>& headings, const std::vector<Row>& rows);
 
-// TableFile holds the rows as they come, so that a sweep that is killed leaves them, beside the
-// file that they become. The file beside is made with the first row: a sweep that is refused leaves
-// nothing.
+// The file of a table. Rows are written at once into a temporary file next to the final one,
+// so that they survive if the sweep is killed. It is created with the first row: a refused sweep
+// leaves no file.
 class TableFile {
  public:
-  // Throws config::Error where `file` exists, unless `force`, or is one of `inputs`.
+  // Throws config::Error if `file` exists and `force` is false, or if it is one of `inputs`.
   TableFile(const std::filesystem::path& file, std::vector<std::string> headings, bool force,
             const std::vector<std::filesystem::path>& inputs = {});
 
-  // Without a file, each line is handed to `print`.
+  // Passes each line to `print` instead of a file.
   TableFile(std::vector<std::string> headings, std::function<void(std::string_view)> print);
 
-  // Adds a row, between runs that go on; a failure is kept for throw_failure(). Returns false where
-  // there was one.
+  // Adds a row, also while other runs continue. Returns false after a failure, which is stored for
+  // throw_failure().
   bool add(const std::vector<std::string>& cells) noexcept;
 
-  // Throws std::runtime_error where a row could not be written.
+  // Throws std::runtime_error if a row could not be written.
   void throw_failure() const;
 
-  // Returns the file that holds the rows of a table that is not whole; empty without a file.
+  // Returns the path of the file with the rows of an incomplete table; empty without a file.
   std::string part() const { return file_ ? file_->part().string() : name_.string(); }
 
-  // The table is whole: it takes the place of an older one. Throws log::Error.
+  // Completes the table, which then replaces an older one. Throws log::Error.
   void take_place();
 
  private:
@@ -54,11 +54,11 @@ class TableFile {
   std::exception_ptr failure_;
 };
 
-// Returns what is to be said of rows without figures, or whose trolley reached its track's end.
+// Returns warnings about rows without figures, and about trolleys that reached their track's end.
 std::vector<std::string> warnings(const std::vector<Row>& rows);
 
-// Throws config::Error for figures that no row has: they were asked for under a name that is none,
-// or of a machine that does not have them. Throws std::runtime_error where no row has figures.
+// Throws config::Error for figures that no row has: their name is wrong, or they are those of
+// another machine. Throws std::runtime_error if no row has figures.
 void refuse_empty_columns(const std::vector<Row>& rows, const Sweep& sweep);
 
 }  // namespace sinew::tune

@@ -1,4 +1,5 @@
-// A table takes the place of an older one only when it is whole; until then its rows stand beside.
+// A table replaces an older one only when it is complete; until then its rows are in a separate
+// file.
 #include "sinew/tune/table.h"
 
 #include <gtest/gtest.h>

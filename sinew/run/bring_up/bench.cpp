@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Each joint where the sensors' rest counts are taken, without stiffness.
+// Returns a table of the joints: their rest angles, at which the sensors' rest counts are taken, or
+// a stiffness of 0 for each driven joint.
 config::Node joints_of(const robot::Robot& robot, std::string_view key, bool angles) {
   config::Node out = config::make_table(key);
   for (const robot::Joint& j : robot.joints)

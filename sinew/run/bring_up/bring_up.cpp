@@ -107,13 +107,13 @@ std::string learned_robot(const Progress& p, const std::filesystem::path& base,
 
 namespace {
 
-// --- each valve of a board alone: five clicks, that a person hears ---
+// --- clicks: each valve of the board alone, five times, heard by the operator ---
 
-// A valve that is to be heard clicking.
+// A valve that the operator listens to.
 struct BenchValve {
   std::string what;  // "the inlet of hip_flexor (output 0: bit 0, pins 31 and 32)"
   std::size_t board_joint = 0;
-  std::int32_t control::Duties::*duty = nullptr;  // that opens it
+  std::int32_t control::Duties::*duty = nullptr;  // the duty that opens it
 };
 
 using control::Duties;
@@ -125,8 +125,8 @@ std::string in_words(const Wire& wire) {
                      wire.in_words());
 }
 
-// All valves that the board's outputs drive: those of the muscles, then a cylinder's four; `pins`
-// as of wires.h.
+// Returns all valves that the board's outputs drive: those of the muscles, then the four of a
+// cylinder. `pins` as in wires.h.
 std::vector<BenchValve> bench_valves(const experiment::Experiment& e, const control::Board& board,
                                      const std::vector<BenchMuscle>& muscles, const Pins* pins) {
   const std::vector<Wire> wires = valve_wires(e, board, pins);
@@ -153,7 +153,7 @@ std::vector<BenchValve> bench_valves(const experiment::Experiment& e, const cont
   return out;
 }
 
-// The stages that click it.
+// Returns the stages that click the valve.
 std::vector<Stage> clicks_of(const BenchValve& valve, std::size_t joints) {
   std::vector<Duties> open(joints);
   open[valve.board_joint].*valve.duty = 100;
@@ -165,8 +165,8 @@ std::vector<Stage> clicks_of(const BenchValve& valve, std::size_t joints) {
   return out;
 }
 
-// Returns what moves the machine and what no step of a bring-up tries with air: cylinders and
-// regulators, by name.
+// Returns the names of the parts that move the machine but are not tried with air by any step:
+// cylinders and regulators.
 std::vector<std::string> not_tried(const experiment::Experiment& e, const control::Board& board) {
   std::vector<std::string> out;
   for (std::size_t j = 0; j < board.spine.joints; ++j) {
@@ -179,13 +179,13 @@ std::vector<std::string> not_tried(const experiment::Experiment& e, const contro
   return out;
 }
 
-// --- a sensor of a machine that hangs empty and still: what it reads, and ---
+// --- sensors at rest: readings of a machine that hangs empty and still, and their faults ---
 
 struct Rest {
   double mean = 0, deviation = 0;  // [count]
-  int readings = 0, bad = 0;       // bad: did not come in time, or are none
+  int readings = 0, bad = 0;       // bad: late or invalid
 };
-// Returns what a channel read while nothing moved.
+// Returns the statistics of a channel's readings while nothing moves.
 Rest rest_of(const Recording& recording, std::size_t channel);
 
 Rest rest_of(const Recording& r, std::size_t channel) {
@@ -201,15 +201,15 @@ Rest rest_of(const Recording& r, std::size_t channel) {
   return out;
 }
 
-// Returns what is wrong with it and what to look at, in a sentence; empty: nothing. `top` is the
-// converter's highest count, `wire` says where the sensor is wired.
+// Returns a sentence with the fault of a sensor and its remedy; empty if there is no fault. `top`
+// is the converter's highest count, `wire` describes the sensor's wiring.
 std::string wrong_with(const robot::Sensor& s, const Rest& rest,
                        const control::SensorLimits& limits, double top, const std::string& wire) {
   const double share = 0.05 * top;
   if (rest.bad > 0)
     return fmt::format("{}: {} of {} readings did not come in time or are none ({})", s.name,
                        rest.bad, rest.readings, wire);
-  // A transducer may rest at the scale's end; whether it is alive a muscle will show.
+  // A transducer may rest at the end of its scale; its muscle's step shows later whether it works.
   const bool rests_there = s.assumed_at_rest < 4 || s.assumed_at_rest > top - 4;
   if ((rest.mean < 4 || rest.mean > top - 4) && !rests_there)
     return fmt::format(
@@ -252,7 +252,7 @@ struct Step {
   bool with_air = false;
 };
 
-// A number for all values of the robot and its settings.
+// Returns a hash of all values of the robot and its settings.
 std::string machine_of(const experiment::Experiment& bench) {
   return fmt::format("{:016x}",
                      units::hash(config::to_toml(experiment::values_in_si({"experiment", bench}))));
@@ -284,7 +284,7 @@ struct BringUp::Impl {
     write_file(folder.path() / "wiring.svg", wiring_drawing(e, board, pins));
   }
 
-  // --- what a step does ---
+  // --- the work of each step ---
 
   Result identify() {
     const link::Identity who = remote->identify();
@@ -315,7 +315,7 @@ struct BringUp::Impl {
     return "";
   }
 
-  // A robot that hangs empty and still.
+  // Requires a robot that hangs empty and still.
   Result sensors() {
     ask_for("Are the muscles empty, the supply's air off, and does the machine hang still?");
     remote->configure(configuration);
@@ -351,7 +351,7 @@ struct BringUp::Impl {
     return out;
   }
 
-  // Coils without current let no air in.
+  // Checks that coils without current let no air in.
   Result rest_with_air() {
     const Trial t = tried({{1.5, {}}});
     Result out;
@@ -396,7 +396,7 @@ struct BringUp::Impl {
     return out;
   }
 
-  // The board's own stop, and a person's.
+  // Checks the stop by the board and the operator's emergency stop.
   Result stop() {
     std::vector<control::Duties> all(configuration.spine.joints);
     for (const BenchMuscle& m : muscles)
@@ -412,7 +412,7 @@ struct BringUp::Impl {
       double pulled = 0;
       for (const Sample& s : t.stages[0].samples)
         pulled = std::max(pulled, std::abs(s.counts[*m.tension] - rest));
-      if (left > std::max(300.0, 0.5 * pulled))  // a cord may stay tight without air
+      if (left > std::max(300.0, 0.5 * pulled))  // a tendon may stay tight without air
         out.wrong.push_back(
             fmt::format("{} still pulls ({:.0f} count) a second after the stop", m.name, left));
     }
@@ -423,7 +423,7 @@ struct BringUp::Impl {
     return out;
   }
 
-  // While valves move a person can stop them.
+  // Runs stages, which the operator can stop while valves move.
   Trial tried(const std::vector<Stage>& stages, End end = End::by_plan) {
     struct Moves {
       explicit Moves(const Person& p) : person(p) { tell(true); }
@@ -438,7 +438,7 @@ struct BringUp::Impl {
     return out;
   }
 
-  // --- the person ---
+  // --- the operator ---
 
   bool answer(const std::string& question) {
     const std::optional<bool> said = person.ask(question);
@@ -449,7 +449,8 @@ struct BringUp::Impl {
     if (!answer(question)) throw NobodyAnswers{};
   }
 
-  // Once in each session: who goes on from the day before may stand in the machine.
+  // Called once in each session: if the bring-up is continued on another day, an operator may stand
+  // within reach of the machine again.
   void ask_for_air() {
     if (!air_is_open)
       ask_for(
@@ -458,7 +459,7 @@ struct BringUp::Impl {
     air_is_open = true;
   }
 
-  // What was learned of another machine says nothing of this one.
+  // Discards the results of another machine, which do not apply to this one.
   void begin_again_if(bool other, const std::string& why) {
     if (!other || progress.done.empty()) return;
     const fs::path before = folder.path() / "bring-up-before.json";
@@ -470,7 +471,7 @@ struct BringUp::Impl {
     progress.strokes.clear();
   }
 
-  // --- all of it ---
+  // --- the list of steps ---
 
   std::vector<Step> steps() {
     std::vector<Step> out{
@@ -506,7 +507,7 @@ struct BringUp::Impl {
   experiment::Experiment e;
   std::string robot;
   control::Board board;
-  const Pins* pins = nullptr;  // of the board that has answered
+  const Pins* pins = nullptr;  // those of the identified board
   link::Configuration configuration;
   std::vector<BenchMuscle> muscles;
   plant::RemoteBoard* remote;

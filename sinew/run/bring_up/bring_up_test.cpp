@@ -1,4 +1,4 @@
-// The first day at a bench that is simulated, whole and broken.
+// The bring-up of a machine at a simulated bench, with and without faults.
 #include "sinew/run/bring_up/bring_up.h"
 
 #include <gtest/gtest.h>
@@ -33,10 +33,10 @@ struct Folder {
   fs::path path;
 };
 
-// What is between the board and the machine, by the leg's board's own numbers.
+// The connection of board and machine, by the channel and valve numbers of the leg's board.
 struct Cables {
   std::vector<std::uint8_t> channel, valve;  // the machine's end of each wire
-  std::vector<bool> reversed;                // a potentiometer's outer wires
+  std::vector<bool> reversed;                // whether a potentiometer's outer wires are swapped
 
   explicit Cables(const control::Board& board) {
     for (std::uint8_t i = 0; i < 32; ++i) valve.push_back(i);
@@ -81,7 +81,7 @@ struct Day {
     return done;
   }
   bool has_said(const std::string& words) const { return said.find(words) != said.npos; }
-  // The board's number of a sensor's channel.
+  // Returns the board's number of a sensor's channel.
   std::size_t channel(const std::string& sensor) const {
     const int number = robot::find_sensor(bench.robot, sensor);
     const control::Board board = only_board(bench);
@@ -98,7 +98,7 @@ struct Day {
   std::function<std::optional<bool>(const std::string&)> answers;
   std::function<bool()> stops;
   std::function<void(bool)> moves;
-  control::BoardState left = control::BoardState::fault;  // the board, at the end
+  control::BoardState left = control::BoardState::fault;  // state of the board at the end
   std::string said;
 };
 
@@ -236,7 +236,7 @@ TEST(BringUp, ABoardThatForgetsItsConfigurationIsNoBoardToReadFrom) {
   EXPECT_THROW(listen(remote, configuration_of(e), 0.1), plant::BoardError);
 }
 
-// --- broken benches -----------------------------------------------------------------------------
+// --- faulty benches ------------------------------------------------------------------------------
 
 TEST(BrokenBench, CablesOfTwoAnglesHaveChangedPlaces) {
   Day day;
@@ -257,7 +257,7 @@ TEST(BrokenBench, CablesOfTwoTensionsHaveChangedPlaces) {
 
 TEST(BrokenBench, APotentiometerIsReversed) {
   Day day;
-  day.cables.reversed[day.channel("hip_angle")] = true;  // about its rest
+  day.cables.reversed[day.channel("hip_angle")] = true;  // mirrored about its rest
   EXPECT_FALSE(day.go());
   EXPECT_TRUE(day.has_said("hip_angle goes the wrong way: change the two outer wires")) << day.said;
 }

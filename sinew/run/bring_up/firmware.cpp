@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t line_rate = 921'600;  // of every board's application [bits/s]
+constexpr std::uint32_t line_rate = 921'600;  // [bits/s], for every board
 
 constexpr FirmwareBoard boards[] = {
     {"mps2-an386", "Arm's MPS2 with image AN386, in an emulator", 32, 32, "", ""},
@@ -46,7 +46,7 @@ bool is_plain(const std::string& word) {
              "-_./:=@%+,") == word.npos;
 }
 
-// A folder that is gone with this.
+// A temporary folder, removed by the destructor.
 struct Workshop {
   Workshop() : path(host::make_temporary_folder("sinew-firmware")) {}
   ~Workshop() {
@@ -74,7 +74,7 @@ void work(const std::string& command, const fs::path& said) {
     throw std::runtime_error("the firmware was not built; " + command + last_lines(said));
 }
 
-// The program in another form: bare memory, or as a text of addresses and bytes.
+// Returns the program in another form: bare memory, or a text of addresses and bytes.
 fs::path converted(const fs::path& image, const std::string& extension, const fs::path& said) {
   const bool bare = extension == ".bin";
   if (!bare && extension != ".hex") return image;
@@ -184,10 +184,11 @@ std::string flash_command(const FirmwareBoard& board, const fs::path& file) {
   std::string out = board.flash;
   const std::size_t at = out.find("{file}");
   if (at == out.npos) return out;
-  const std::string where = file.extension() == ".bin" ? " 0x08000000" : "";  // an ELF file says it
+  const std::string where =
+      file.extension() == ".bin" ? " 0x08000000" : "";  // an ELF file contains it
   const std::size_t quote = out.find('"');
   if (quote == out.npos) return out.replace(at, 6, shell_word(file.string()));
-  // A command of openocd, whose braces hold a name together, as one word of the shell.
+  // This is one shell word with a command of openocd, in which braces hold a name together.
   const std::string name =
       is_plain(file.string()) ? file.string() : fmt::format("{{{}}}", file.string());
   out.replace(at, 6, fmt::format("{}{}", name, where));

@@ -1,5 +1,5 @@
-// run/bring_up/firmware.h - the program of a robot's board: does the robot fit on it, how it is
-// built, and by what command it gets there.
+// run/bring_up/firmware.h - the firmware of a robot's board: check that the robot fits on it,
+// build, and the command that flashes it.
 #pragma once
 
 #include <filesystem>
@@ -12,39 +12,39 @@ namespace sinew::run {
 struct FirmwareBoard {
   const char* name;
   const char* what;
-  std::size_t inputs, outputs;  // that its pins have
-  const char* flash;            // command line, with {file}; empty: it only runs in an emulator
-  const char* form;             // ".hex", if the command takes no other; empty: any
+  std::size_t inputs, outputs;  // number of its pins
+  const char* flash;            // command line, with {file}; empty: it runs in an emulator only
+  const char* form;             // ".hex" if the command requires such a file; empty: any
 };
 std::span<const FirmwareBoard> firmware_boards();
 
-// Throws config::Error for a board that is not there, with those that are.
+// Returns the board of this name. Throws config::Error, with the known names, if it does not exist.
 const FirmwareBoard& firmware_board(const std::string& name);
 
-// Throws config::Error where the robot's low level does not fit on the board: too many sensors or
-// valves, several boards, telemetry that its line does not carry.
+// Throws config::Error if the robot's joint controller does not fit on the board: too many sensors
+// or valves, several boards, pressure regulators, or more telemetry than its line carries.
 void require_fits(const std::string& robot, const FirmwareBoard& board);
 
-// Returns which wire goes where on such a board, as a picture (wires.h). Throws as
-// require_fits() does.
+// Returns a drawing of the wiring on such a board (wires.h). Throws like require_fits().
 std::string wiring_on(const std::string& robot, const FirmwareBoard& board);
 
-// Returns whether 0 at an output gives a coil current: what the robot's wiring says; false, where
-// it has none. Throws config::Error for a robot that cannot be read.
+// Returns whether 0 at an output gives a coil current, as the robot's [wiring] states; false if it
+// has no [wiring]. Throws config::Error if the robot cannot be read.
 bool low_gives_current(const std::string& robot);
 
-// Builds the board's program from Sinew's sources, into `out`, for that level of its outputs;
-// ".bin" is the bare memory, ".hex" an Intel HEX file, anything else an ELF file. Throws
-// config::Error where the sources or the compiler are missing, where `out` is there already or the
-// board is not loaded with such a file, and std::runtime_error with the compiler's last words.
+// Builds the board's program from Sinew's sources into `out`, with that level of its outputs. The
+// extension ".bin" gives the bare memory, ".hex" an Intel HEX file, any other an ELF file. Throws
+// config::Error if the sources or the compiler are missing, if `out` exists and `force` is false,
+// or if the board cannot be loaded with such a file, and std::runtime_error with the last lines of
+// the compiler's output.
 void build_firmware(const std::filesystem::path& sources, const FirmwareBoard& board,
                     const std::filesystem::path& out, bool low_gives_current, bool force);
 
-// Returns the word as a shell takes it: in quotes where it has to be.
+// Returns the word as a shell reads it, in quotes where necessary.
 std::string shell_word(const std::string& word);
 
-// Returns the command line that brings the file onto the board, as a shell takes it. Throws
-// config::Error for a form of file that the command does not take.
+// Returns the shell command that loads the file onto the board. Throws config::Error if the command
+// does not accept this form of file.
 std::string flash_command(const FirmwareBoard& board, const std::filesystem::path& file);
 
 }  // namespace sinew::run

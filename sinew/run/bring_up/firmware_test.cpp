@@ -1,4 +1,4 @@
-// A robot's board and its program.
+// The firmware of a robot's board: fit, build and flash command.
 #include "sinew/run/bring_up/firmware.h"
 
 #include <gtest/gtest.h>

@@ -11,16 +11,16 @@ namespace sinew::run {
 
 namespace {
 
-// A change of a mean over 50 ms that is more than noise  [count].
+// Smallest change of a mean over 50 ms that is not noise [count].
 constexpr double seen = 20;
-// A muscle that is full enough to be tried  [count].
+// Tension at which a muscle is full enough to be tried [count].
 constexpr double full = 600;
-// What a joint with dry friction and a soft cord may lose while its muscle is shut, and more than
-// which is a leak  [1/s].
+// Largest share of its pull that a shut muscle may lose in a second [1/s]. Dry friction at the
+// joint and a soft tendon cause up to this much; more is a leak.
 constexpr double leak_limit = 0.10;
-// What keeps some air in a muscle that a 3-way valve cannot shut  [%].
+// Inlet duty that keeps some air in a muscle that its 3-way valve cannot shut [%].
 constexpr std::int32_t three_way_hold = 30;
-// What may be left after a vent.
+// Largest share of the rise that may be left after a vent.
 constexpr double left_limit = 0.3;
 
 enum : std::size_t { vent, shut, filling, held, emptying };
@@ -32,7 +32,7 @@ std::optional<std::size_t> channel_of(const control::Board& board, int sensor) {
   return static_cast<std::size_t>(at - board.channel.begin());
 }
 
-// Counts over what they were before the air came, at a stage's end.
+// Returns the change of counts at the end of a stage since before the air came.
 double over_rest(std::size_t channel, int sign, const Trial& t, std::size_t stage) {
   return sign * (t.stages[stage].after(channel) - t.stages[shut].after(channel));
 }
@@ -45,8 +45,8 @@ double turned(const BenchMuscle& m, const Trial& t, std::size_t stage) {
   return m.angle ? over_rest(*m.angle, m.direction, t, stage) : 0;
 }
 
-// The highest rise of its tension while the air came and was held: a joint that gives way takes
-// most of it back.
+// Returns the highest rise of its tension while the air came and was held. Its end value is no
+// measure, since a joint that yields takes most of the rise back.
 double pull(const BenchMuscle& m, const Trial& t) {
   double most = 0;
   if (!m.tension) return most;
@@ -57,7 +57,7 @@ double pull(const BenchMuscle& m, const Trial& t) {
   return most;
 }
 
-// The muscle whose tension rose most, where that is another one by far.
+// Returns the muscle with the highest rise of tension if it is clearly another one, else nullptr.
 const BenchMuscle* other_that_pulls(const std::vector<BenchMuscle>& all, std::size_t which,
                                     const Trial& t) {
   if (!all[which].tension) return nullptr;
@@ -73,7 +73,7 @@ std::string no_air(const BenchMuscle& m) {
       m.name, m.inlet);
 }
 
-// What is wrong with where the air went; empty: nothing.
+// Returns a fault of the path of the air; empty if there is no fault.
 std::string wrong_with_filling(const std::vector<BenchMuscle>& all, std::size_t which,
                                const Trial& t) {
   const BenchMuscle& m = all[which];
@@ -117,8 +117,8 @@ std::string wrong_with_emptying(const BenchMuscle& m, const Trial& t) {
       is, was, m.exhaust);
 }
 
-// Share of its pull that a muscle loses in a second while it is shut; the first moments, in which
-// the joint settles, are left out.
+// Returns the share of its pull that a muscle loses in a second while it is shut. The first
+// moments, in which the joint settles, are left out.
 double loss(const BenchMuscle& m, const Trial& t) {
   constexpr double settle = 0.5;
   if (!m.tension) return 0;

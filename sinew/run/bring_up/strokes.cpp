@@ -8,9 +8,10 @@ namespace sinew::run {
 
 namespace {
 
-// What a run needs to the sensor's limits: noise, and some swing over the end  [count].
+// Distance to the sensor's limits that a run needs for noise and for some swing beyond the end
+// [count].
 constexpr double margin = 20;
-// Less than this between its ends is no stroke  [count].
+// Smallest distance between a joint's ends that is a stroke [count].
 constexpr double least_stroke = 60;
 
 // Index of the stage of a stroke that fills its muscle.

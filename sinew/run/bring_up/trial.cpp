@@ -14,7 +14,7 @@ using signals::Tick;
 
 namespace {
 
-constexpr double edge = 0.05;  // [s] at both ends of a stage, over which means are taken
+constexpr double edge = 0.05;  // [s] part at both ends of a stage over which means are taken
 
 double mean(const std::vector<Sample>& samples, std::size_t channel, double from, double to) {
   double sum = 0;
@@ -27,7 +27,7 @@ double mean(const std::vector<Sample>& samples, std::size_t channel, double from
   return n > 0 ? sum / n : std::nan("");
 }
 
-// A board that was reset knows no sensors, or those of another robot.
+// Throws if the board has no sensors or those of another robot, as it does after a reset.
 Sample sample_of(const link::Telemetry& told, std::size_t channels, double time) {
   if (told.channels != channels)
     throw plant::BoardError(
@@ -43,7 +43,7 @@ Sample sample_of(const link::Telemetry& told, std::size_t channels, double time)
 }
 
 link::CommandFor command_of(const Stage& stage, std::size_t joints, Tick from) {
-  constexpr std::uint8_t good_for = 3;  // periods: a frame may be lost, and the next one as well
+  constexpr std::uint8_t good_for = 3;  // [periods] a frame may be lost, and the next one as well
   link::CommandFor out{
       .from = from, .periods = good_for, .joints = static_cast<std::uint8_t>(joints)};
   for (std::size_t j = 0; j < joints; ++j) {
@@ -54,7 +54,7 @@ link::CommandFor command_of(const Stage& stage, std::size_t joints, Tick from) {
   return out;
 }
 
-// A run under way, from command to command.
+// A run in progress, from command to command.
 class Run {
  public:
   Run(plant::RemoteBoard& board, const link::Configuration& configuration, int lead)
@@ -64,7 +64,7 @@ class Run {
         period_(configuration.spine.period),
         lead_(lead) {}
 
-  // False: it is over.
+  // Executes a stage. Returns false if the run has ended.
   bool work_off(const Stage& stage, Recording& out, const std::function<bool()>& stops) {
     const Tick begun = now_;
     for (;;) {
@@ -80,12 +80,12 @@ class Run {
       if (stage.ends && stage.ends(out.samples.back())) return true;
     }
   }
-  // True: the board is at rest by its own word.
+  // Ends the run. Returns whether the board has reported that it is at rest.
   bool end() {
     link::CommandFor last = command_of({}, joints_, now_ + lead_ * period_);
     last.ends = true;
     if (!send(last)) return false;
-    // A vent may take as long as the safety's limit, and telemetry comes all the time.
+    // A vent may take as long as the safety's limit, and telemetry continues meanwhile.
     constexpr double longest = 30;  // [s]
     for (const double until = board_->now() + longest; hear();)
       if (board_->now() >= until) return false;
@@ -148,8 +148,8 @@ Recording listen(plant::RemoteBoard& board, const link::Configuration& configura
     if (told == nullptr) throw plant::BoardError("the board does not report what its sensors read");
     return told;
   };
-  // The scan was begun anew somewhere within a period: that period lacks the conversions before,
-  // and one more may have been on the line already.
+  // The scan restarts somewhere within a period: that period lacks the earlier conversions, and one
+  // more period may have been on the line already.
   for (int i = 0; i < 2; ++i) (void)look();
   Recording out;
   while (out.seconds() < seconds) {

@@ -1,5 +1,5 @@
-// run/bring_up/trial.h - a short run on a board that tries one thing: duties from outside, stage
-// after stage, and what the sensors said to them.
+// run/bring_up/trial.h - a short run on a board that tries one thing: duties are commanded stage
+// after stage, and the sensors' readings are recorded.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace sinew::run {
 
-// What all sensors say in a period, by the board's channels.
+// The readings of all sensors in a period, by the board's channels.
 struct Sample {
   double time = 0;  // since the stage began [s]
   std::vector<double> counts;
@@ -20,16 +20,16 @@ struct Sample {
 };
 
 struct Stage {
-  double seconds = 0;                   // for so long
-  std::vector<control::Duties> duties;  // of each of the board's joints; fewer: the others rest
-  std::function<bool(const Sample&)> ends = {};  // or until this says so
+  double seconds = 0;                   // longest duration
+  std::vector<control::Duties> duties;  // one per joint of the board; if fewer: the others rest
+  std::function<bool(const Sample&)> ends = {};  // ends the stage earlier if it returns true
 };
 
-// One stage's samples. `before` and `after` are means over its first and last 50 ms.
+// The samples of one stage. `before` and `after` are means over its first and last 50 ms.
 struct Recording {
   std::vector<Sample> samples;
 
-  // Returns how long it lasted  [s]; and what the channel read at its two ends  [count].
+  // Returns its duration [s], and a channel's mean at its two ends [count].
   double seconds() const { return samples.empty() ? 0 : samples.back().time; }
   double before(std::size_t channel) const;
   double after(std::size_t channel) const;
@@ -37,25 +37,25 @@ struct Recording {
 
 struct Trial {
   std::vector<Recording> stages;
-  std::string problem;  // why it ended before its end; empty: it did not
-  std::string found;    // the fault that the board was in before it; empty: none that matters
+  std::string problem;  // why it ended early; empty: it did not
+  std::string found;    // the board's fault before the trial; empty: no fault that matters
 };
 
-// Somebody has asked for a stop in the middle of a trial; the board has vented.
+// Thrown after the operator stopped a trial; the board has vented.
 struct Stopped {};
 
-// How a trial may end.
-enum class End { by_plan, at_once };  // at once: as a person asks for it in an emergency
+// The ways in which a trial may end.
+enum class End { by_plan, at_once };  // at_once: an emergency stop
 
-// Arms the board, works off the stages and ends the run: the board vents. `lead` is that of
-// commands (remote_boards.h). Throws plant::BoardError where the board does not come to an armed
-// state or tells of other sensors, and Stopped as soon as `stops` says so in a period.
+// Arms the board, executes the stages and ends the run, after which the board vents. `lead` is the
+// lead of commands (remote_boards.h). Throws plant::BoardError if the board cannot be armed or
+// sends another number of sensors, and Stopped in the period in which `stops` returns true.
 Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
               const std::vector<Stage>& stages, End end = End::by_plan,
               const std::function<bool()>& stops = {});
 
-// Hears the board for so long while nothing runs. Throws plant::BoardError where it says nothing,
-// or has left what it was told, as after a reset.
+// Records the board's telemetry for some seconds while nothing runs. Throws plant::BoardError if
+// the board sends nothing or has lost its configuration, for example after a reset.
 Recording listen(plant::RemoteBoard& board, const link::Configuration& configuration,
                  double seconds);
 

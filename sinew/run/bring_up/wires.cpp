@@ -97,16 +97,16 @@ std::string pins_of(const experiment::Experiment& e, const std::string& of, bool
   return "";
 }
 
-// A machine's valves are numbered by muscles, 2 m its inlet and 2 m + 1 its exhaust, with the
-// cylinder's four behind them.
+// Returns the owner of a valve. Muscle m has the valves 2 m (inlet) and 2 m + 1 (exhaust); the four
+// of a cylinder follow those of all muscles.
 std::string owner_of(const robot::Robot& robot, std::size_t valve) {
   const std::size_t of_muscles = 2 * robot.muscles.size();
   if (valve < of_muscles) return robot.muscles[valve / 2].name;
   return valve - of_muscles < 2 ? "cylinder_up" : "cylinder_down";
 }
 
-// A bit for each output that drives a valve: a 3-way valve empties its muscle by itself, and what
-// sets a regulator is none.
+// Returns a bit for each output that drives a valve. The exhaust of a 3-way valve and the
+// outputs of a regulator drive none.
 std::uint32_t driven_outputs(const control::JointControllerConfig& spine) {
   using control::JointKind;
   std::uint32_t out = 0;

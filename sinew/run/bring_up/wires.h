@@ -1,4 +1,4 @@
-// run/bring_up/wires.h - where a board's sensors and valves are to be wired.
+// run/bring_up/wires.h - wiring of a board's sensors and valves, as a list and as a drawing.
 #pragma once
 
 #include <string>
@@ -13,25 +13,25 @@ namespace sinew::run {
 struct Wire {
   std::string name;       // "hip_angle", "hip_flexor inlet"
   std::string at;         // on the board: "input 1 (PA1)", "output 0"
-  std::string elsewhere;  // the robot's own numbers: "bit 0, pins 31 and 32"
-  bool driven = true;     // false: a number for a valve that is not there, as a 3-way's exhaust
+  std::string elsewhere;  // in the robot's own numbers: "bit 0, pins 31 and 32"
+  bool driven = true;     // false: an output without a valve, as the exhaust of a 3-way valve
 
-  // Returns both in a line: on the board, and by the robot's numbers.
+  // Returns both in a line: on the board, and in the robot's numbers.
   std::string in_words() const { return at + ": " + elsewhere; }
 };
 
-// By the board's channels and by its valves: input i is its channel i, output i its valve i. `pins`
-// of the board that is there; nullptr: its pins are not known.
+// Return the wires in the order of the board's channels and of its valves: input i is its channel
+// i, output i its valve i. `pins` are those of the connected board; nullptr: unknown.
 std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board,
                                const Pins* pins);
 std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board,
                               const Pins* pins);
 
-// Which wire goes where, as a picture.
+// Drawing of the wiring.
 
 // Returns an SVG of a board with its sensors on the left, its valves on the right, the supply and
-// its dump valve below: channels and bits, the terminals' pins where the robot's [wiring] has them,
-// and the board's own where `pins` is not nullptr.
+// its dump valve below. It shows channels and bits, the terminals' pins if the robot has [wiring],
+// and the board's own pins if `pins` is not nullptr.
 std::string wiring_drawing(const experiment::Experiment& experiment, const control::Board& board,
                            const Pins* pins);
 

@@ -54,7 +54,7 @@ control::Trip Board::trip() const noexcept {
   return trip;
 }
 
-// --- what all boards know ---
+// --- view of all boards ---
 
 MachineSeen::MachineSeen(const Boards& boards) noexcept
     : phase(boards.boards_.front().seen().phase), boards_(&boards) {
@@ -127,7 +127,7 @@ void Boards::command(const MachineCommand& command) noexcept {
   }
 }
 
-// A body that is driven by half of its boards is none: the others follow the first one.
+// A body must not be driven by a part of its boards, so the others follow the first one that ends.
 void Boards::end_together(Tick t) noexcept {
   if (state_.ended_by >= 0) return;
   for (std::size_t b = 0; b < boards_.size(); ++b)

@@ -1,9 +1,9 @@
 // run/controllers/boards.h - the low level of a machine: one controller per board, each with its
-// own numbers and its own scan, driven together under the machine's numbers.
+// own numbering and scan, driven together in the machine's numbering.
 //
-// Within a tick the boards come in the order of their numbers: first all of their edges, then all
-// of their conversions. What ends one board's run ends the machine's: the others are shut down in
-// the same tick. A machine of one board is that board, bit for bit.
+// Within a tick the boards are served in the order of their numbers: first all their edges, then
+// all their conversions. If one board ends its run, the others are shut down in the same tick. A
+// machine with one board behaves like that board, bit for bit.
 #pragma once
 
 #include <array>
@@ -21,25 +21,26 @@
 
 namespace sinew::run {
 
-// One board before the machine's port: what goes in and out has the machine's numbers.
+// One board behind the machine's port: its inputs and outputs have the machine's numbers.
 class Board {
  public:
-  // Makes the controller of that board.
+  // Creates the controller of the board.
   explicit Board(const control::Board& board);
 
-  // As of control::Supervisor.
+  // Like those of control::Supervisor.
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;
   const signals::Conversion* due(signals::Tick t) noexcept;
-  // The conversion is one that due() gave.
+  // Passes a reading to the controller. The conversion must be one that due() has returned.
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
 
-  // Returns its scan, and the machine's numbers of its joints, channels and valves, by its own.
+  // Return its scan, and the machine's numbers of its joints, channels and valves, indexed by its
+  // own.
   std::span<const signals::Conversion> conversions() const noexcept { return conversion_; }
   std::span<const std::uint8_t> joints() const noexcept { return joint_; }
   std::span<const std::uint8_t> channels() const noexcept { return channel_; }
   std::span<const std::uint8_t> valves() const noexcept { return valve_; }
 
-  // What it knows: its controller's, or what a board far away has said last.
+  // Return the state of its controller, or the last state that a remote board has reported.
   const control::Seen& seen() const noexcept { return far_ ? far_->seen : supervisor.seen(); }
   const control::Supervised& supervised() const noexcept {
     return far_ ? far_->supervised : supervisor.supervised();
@@ -49,38 +50,40 @@ class Board {
     control::Supervised supervised;
   };
   void show(const Far& far) noexcept { far_ = far; }
-  // Why it ended the run, with the machine's channel and joint.
+  // Returns why it ended the run, with the machine's channel and joint.
   control::Trip trip() const noexcept;
 
   control::Supervisor supervisor;
 
  private:
-  std::vector<std::uint8_t> joint_, channel_, valve_;  // the machine's numbers, by the board's own
+  std::vector<std::uint8_t> joint_, channel_, valve_;  // the machine's numbers, indexed by the
+                                                       // board's own
   std::vector<signals::Conversion> conversion_;        // its scan
   std::array<signals::Edge, 4 * control::max_joints> out_;
   std::optional<Far> far_;
 };
 
-// A command says what is desired of every joint of the machine, in the robot's order, and of the
-// cylinder's behind them; for a test stand, of its element.
+// The commands of all joints of the machine, in the robot's order, followed by that of the
+// cylinder; for a test stand, that of its element.
 using MachineCommand = std::array<control::JointCommand, robot::max_joints + 1>;
 
 class Boards;
 
-// Answers what all boards know, by the machine's numbers. It looks at the boards, which outlive it.
+// View of the state of all boards in the machine's numbering. The boards must outlive it.
 class MachineSeen {
  public:
-  // Looks at these boards.
   explicit MachineSeen(const Boards& boards) noexcept;
 
-  control::Phase phase;  // of the board that is least far
+  control::Phase phase;  // the least advanced phase of all boards
 
-  // A joint in the robot's order, or the cylinder's behind them; a sensor in the robot's order.
+  // Return the state of a joint in the robot's order, followed by the cylinder's, or of a sensor in
+  // the robot's order.
   const control::JointSeen& joint(std::size_t joint) const noexcept;
   const signals::Reading& reading(std::size_t sensor) const noexcept;
   const control::SensorSeen& supervised(std::size_t sensor) const noexcept;
 
-  // Returns the counters of all boards together, and whether one has ended the run.
+  // Return the counters of all boards, and whether one has ended the run: sums; for gaps, which all
+  // boards count alike, the largest.
   std::uint32_t overruns() const noexcept;
   std::uint32_t rejected_commands() const noexcept;
   std::uint32_t gaps() const noexcept;
@@ -90,66 +93,66 @@ class MachineSeen {
   const Boards* boards_;
 };
 
-// The last word of all boards: their counters together. Of what all of them notice alike, ticks
-// that came too late, the highest count of one.
+// The last counters of all boards: sums; for missed ticks, which all boards count alike, the
+// largest.
 struct SeenTotals {
   control::Phase phase = control::Phase::startup;
   std::uint32_t late = 0, invalid = 0, missed = 0, overruns = 0;
-  signals::Status fault = signals::Status::ok;  // of the board that ended the run
-  signals::Channel fault_channel;               // the machine's
+  signals::Status fault = signals::Status::ok;  // status of the board that ended the run
+  signals::Channel fault_channel;               // in the machine's numbering
 };
 
-// Holds what was not believed on any board, and why the run ended.
+// The readings and commands that were rejected on any board, and why the run ended.
 struct SupervisedTotals {
   std::vector<control::SensorSeen> sensor;  // in the robot's order
   std::uint32_t rejected = 0, rejected_commands = 0;
   std::uint32_t gaps = 0, worst_gap = 0;
-  control::Trip trip;  // of the board that ended the run, with the machine's numbers
+  control::Trip trip;  // reported by the board that ended the run, with the machine's numbers
   int board = 1;       // its number
 };
 
 class Boards {
  public:
-  // Makes the controllers of these boards of one machine (run/setup/installation.h).
+  // Creates the controllers of the boards of one machine (run/setup/installation.h).
   explicit Boards(std::span<const control::Board> boards);
 
-  // --- for the loop ---
+  // --- used by the loop ---
 
-  // Returns the scan of all boards, ascending in `read`; at one tick in the boards' order. The span
-  // points into this object.
+  // Returns the scan of all boards, ascending in `read`, and in the boards' order within a tick.
+  // The span points into this object.
   signals::Scan scan() const noexcept { return {period_, conversion_}; }
   std::span<Board> each() noexcept { return boards_; }
   MachineSeen seen() const noexcept { return MachineSeen(*this); }
   void command(const MachineCommand& command) noexcept;
-  // The first tick after t at which anything happens on any board. Ends the run of all boards where
+  // Returns the first tick after t at which any board has an event. Ends the run of all boards if
   // one has ended.
   signals::Tick next_event(signals::Tick t) noexcept;
   void missed(signals::Tick t) noexcept;
   void shut_down(signals::Tick t) noexcept;
 
-  // --- for a machine whose one board is far away (remote_boards.h) ---
+  // --- used for a machine with one remote board (remote_boards.h) ---
 
   // Ticks from `first` on, before `last`.
   struct Ticks {
     signals::Tick first = 0, last = 0;
   };
-  // Shows what it knew in these ticks, in place of its controller here.
+  // Sets the state of the board in these ticks, which replaces that of its local controller.
   void show(const control::Seen& seen, const control::Supervised& supervised, Ticks known) noexcept;
-  // Its run is over; `why` is ok where it has said so itself.
+  // Records that its run is over; `why` is ok if the board has reported the end itself.
   void show_end(signals::Status why) noexcept;
-  // Is what is seen that of tick t? Always, of boards that are here.
+  // Returns whether the shown state is that of tick t; always true for local boards.
   bool knows(signals::Tick t) const noexcept { return t >= known_.first && t < known_.last; }
 
-  // --- for whoever looks ---
+  // --- used by observers ---
 
-  // Returns the boards, in the order of their numbers; and what they have counted, together.
+  // Return the boards, in the order of their numbers, and their counters taken together.
   std::span<const Board> each() const noexcept { return boards_; }
   SeenTotals seen_totals() const;
   SupervisedTotals supervised_totals() const;
 
-  // --- for whoever saves: everything that the boards' future depends on, copied like bytes ---
+  // --- saving: the complete state of the boards, copied as bytes ---
 
-  // Returns how many bytes it takes; writes so many; goes on from them.
+  // Return the size of the state in bytes; write it; restore it.
   std::size_t state_size() const noexcept;
   void save(std::span<std::byte> out) const noexcept;
   void restore(std::span<const std::byte> saved) noexcept;
@@ -157,11 +160,11 @@ class Boards {
  private:
   friend class MachineSeen;
 
-  // A joint or a sensor: its board, and its number there.
+  // The board of a joint or a sensor, and its number there.
   struct Place {
     std::uint8_t board = 0, number = 0;
   };
-  // Its own state, beside the boards'.
+  // State that is not part of a board's.
   struct State {
     int ended_by = -1;  // the first board that ended the run
   };

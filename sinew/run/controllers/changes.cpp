@@ -92,7 +92,7 @@ void Changes::apply(Tick t, std::span<gait::Desired> legs) noexcept {
 std::vector<gait::Change> Changes::all() const {
   std::vector<gait::Change> out = planned_;
   for (const Due& d : steered_) {
-    // Divided, so that 5.81 s reads as that.
+    // A division, so that 5.81 s is printed as 5.81.
     gait::Change c{.time = static_cast<double>(d.at * signals::tick_nanoseconds) / 1e9,
                    .key = settings()[d.wish.setting].key,
                    .release = d.wish.release};

@@ -1,5 +1,6 @@
-// run/controllers/changes.h - what stands in place of the plan's now: by the plan's own list, then
-// by whoever steers. Both take effect at period starts; what was steered is kept.
+// run/controllers/changes.h - overrides of the plan's setpoints: first by the plan's own list of
+// changes, then by steering. Both take effect at the start of a period; steered changes are
+// recorded.
 #pragma once
 
 #include <array>
@@ -18,37 +19,39 @@ namespace sinew::run {
 
 class Changes {
  public:
-  static constexpr std::size_t most = 1 << 16;  // that can be kept of one run
+  static constexpr std::size_t most = 1 << 16;  // steered changes that can be recorded in a run
 
-  // `legs`: those of the robot. `steering` may be null and outlives this.
+  // `legs` are those of the robot. `steering` may be null and must outlive this object.
   Changes(const gait::Plan& plan, std::span<const robot::LegParts> legs, Steering* steering);
 
-  // At a period start, before the high level's word is passed on: what every leg desires.
+  // Applies the changes to the setpoints of all legs at the start of a period, before the high
+  // level passes them on.
   void apply(signals::Tick t, std::span<gait::Desired> legs) noexcept;
 
-  // A wish of whoever holds the run: followed at the next period start, behind the plan's own
-  // changes; a later one of the same setting and leg stands in its place. False, and nothing done,
-  // for a setting or a leg that there is not.
+  // Requests a change that takes effect at the start of the next period, after the plan's own
+  // changes. A later request for the same setting and leg replaces it. Returns false, without
+  // effect, if the setting or the leg does not exist.
   bool wish(const Steering::Wish& wish) noexcept;
 
-  // The plan's list, and behind it what was steered, at the times at which it took effect.
+  // Returns the plan's list, followed by the steered changes with the times at which they took
+  // effect.
   std::vector<gait::Change> all() const;
 
-  // Returns what can be changed, by number.
+  // Returns the settings that can be changed, by number.
   const std::vector<gait::Setting>& settings() const noexcept {
     return overrides_.front().settings();
   }
 
-  // Everything that later words depend on. Copied like bytes. What was steered so far is no part of
-  // it: that is a log.
+  // The complete state, copied as bytes. The record of steered changes is a log and not part of the
+  // state.
   struct Waiting {
     bool given = false;
     Steering::Wish wish;
   };
   using WaitingOfLegs = std::array<std::array<Waiting, gait::Overrides::most>, robot::max_legs>;
   struct State {
-    std::array<gait::Overrides::State, robot::max_legs> overrides{};  // by leg
-    std::size_t next = 0;                                             // of the plan's list
+    std::array<gait::Overrides::State, robot::max_legs> overrides{};  // one per leg
+    std::size_t next = 0;                                             // index in the plan's list
     WaitingOfLegs waiting{};
     bool waits = false;
   };
@@ -61,7 +64,7 @@ class Changes {
     Steering::Wish wish;
   };
   bool is_there(const Steering::Wish& wish) const noexcept;
-  // Answers whether a wish is for the leg.
+  // Returns whether a request applies to the leg.
   static bool is_of(const Steering::Wish& wish, std::size_t leg) noexcept {
     return wish.leg < 0 || static_cast<std::size_t>(wish.leg) == leg;
   }
@@ -71,12 +74,12 @@ class Changes {
 
   std::vector<gait::Change> planned_;
   std::vector<std::string> legs_;           // their names
-  std::vector<gait::Overrides> overrides_;  // by leg
+  std::vector<gait::Overrides> overrides_;  // one per leg
   Steering* steering_;
-  std::vector<Due> due_;  // of the plan's list, by time
+  std::vector<Due> due_;  // the plan's list, sorted by time
   std::size_t next_ = 0;
   WaitingOfLegs waiting_{};
-  bool waits_ = false;  // one of them is given
+  bool waits_ = false;  // whether any of them is given
   std::vector<Due> steered_;
 };
 

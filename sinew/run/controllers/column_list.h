@@ -1,4 +1,4 @@
-// run/controllers/column_list.h - how columns.cpp and true_columns.cpp make their columns.
+// run/controllers/column_list.h - list of columns, as columns.cpp and true_columns.cpp build it.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace sinew::run {
 
-// Columns, one behind the other.
+// A list to which columns are appended.
 class Columns {
  public:
   // Adds a column of one field.
@@ -30,7 +30,7 @@ class Columns {
   std::vector<Column> list;
 };
 
-// A leg as its columns need it.
+// A leg and its number, as needed by its columns.
 struct LegAt {
   std::size_t leg = 0;
   robot::LegParts parts;
@@ -47,12 +47,12 @@ inline std::vector<LegAt> legs_at(const robot::Robot& robot) {
   return out;
 }
 
-// Does the cylinder move the body up and down?
+// Returns whether the cylinder moves the body up and down.
 inline bool moves(const robot::Cylinder& c) {
   return c.present && c.mode != robot::Cylinder::Mode::locked;
 }
 
-// Adds what only a simulation has: the topics under /true.
+// Add the columns of a simulation only: the topics under /true.
 void true_columns(const experiment::Experiment& e, Columns& out);
 void true_fault_columns(const experiment::Experiment& e, Columns& out);
 

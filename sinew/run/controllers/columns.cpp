@@ -12,12 +12,13 @@ namespace {
 
 using signals::Topic;
 
-// The leg that a joint of the robot belongs to, and its number there.
+// A joint's leg, and its number in that leg.
 struct JointAt {
   std::size_t leg = 0, joint = 0;
 };
 
-// A joint that is no leg's gets the first leg's first place: it has no sensor and desires nothing.
+// Returns the place of a joint. A joint that belongs to no leg gets the first place of the first
+// leg: it has no sensor and no setpoint.
 JointAt place_of(const robot::Robot& robot, std::size_t joint) {
   for (const LegAt& leg : legs_at(robot))
     for (std::size_t i = 0; i < leg.parts.joints.size(); ++i)
@@ -25,7 +26,7 @@ JointAt place_of(const robot::Robot& robot, std::size_t joint) {
   return {};
 }
 
-// These columns are those that hardware would log as well, joint by joint.
+// Adds the columns that hardware logs as well, joint by joint.
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
@@ -48,7 +49,7 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
   }
 }
 
-// A gauge's counts by its own scale.
+// Adds a muscle's tension: counts of its gauge, converted by the gauge's own scale.
 void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out) {
   const int s = robot::tension_sensor_of(robot, static_cast<int>(muscle));
   if (s < 0) return;
@@ -59,12 +60,14 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
              [=](const Snapshot& m) { return line.value(m.seen->reading(channel).counts); });
 }
 
-// A valve's duty counts only while its joint is enabled and laws run.
+// Returns whether a joint's duties act: its valves switch only while it is enabled and the laws
+// run.
 bool active(const Snapshot& m, std::size_t joint) {
   return m.seen->joint(joint).enabled && m.seen->phase == control::Phase::running;
 }
 
-// A regulator has no duty; its set points are in the log of its edges.
+// Returns whether a muscle has duties. A regulator has none; its set points are in the log of its
+// edges.
 bool has_duty(const experiment::Experiment& e, const robot::Muscle& muscle) {
   for (const gas::Valve& v : e.valves)
     if (v.name == muscle.inlet) return v.kind != gas::Valve::Kind::regulator;
@@ -98,7 +101,7 @@ void muscle_columns(const experiment::Experiment& e, Columns& out) {
   }
 }
 
-// Up is the low level's flexor of the joint behind the robot's own.
+// Up is the flexor, in the low level, of the joint that follows the robot's own.
 void cylinder_columns(const robot::Robot& robot, Columns& out) {
   if (!robot::has_cylinder_joint(robot)) return;
   const std::size_t j = robot.joints.size();
@@ -124,8 +127,8 @@ void low_level_columns(const robot::Robot& robot, Columns& out) {
              [](const Snapshot& m) { return m.seen->overruns(); });
 }
 
-// Answers whether there is a reason to record what was rejected: a fault, or a limit in the robot's
-// file.
+// Returns whether rejected readings are worth recording: the experiment has a fault, or the robot's
+// file has a limit.
 bool is_supervised_closely(const experiment::Experiment& e) {
   return !e.faults.empty() || std::isfinite(e.robot.low_level.command_rate) ||
          std::ranges::any_of(e.robot.sensors, [](const robot::Sensor& s) {
@@ -134,7 +137,7 @@ bool is_supervised_closely(const experiment::Experiment& e) {
          });
 }
 
-// Adds the counters of rejected readings where the experiment gives reason to expect some.
+// Adds the counters of rejected readings if the experiment gives reason to expect some.
 void supervision_columns(const experiment::Experiment& e, Columns& out) {
   if (!is_supervised_closely(e)) return;
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
@@ -152,7 +155,8 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
              [](const Snapshot& m) { return m.seen->tripped() ? 1.0 : 0.0; });
 }
 
-// A foot is desired only in phases that give it a path, and only of a leg.
+// Returns when a foot has a setpoint: only in phases that give it a path, and only if it belongs to
+// a leg.
 Column::Given foot_given(const experiment::Experiment& e) {
   const bool has_path =
       std::ranges::any_of(e.plan.phases, [](const gait::Phase& p) { return p.has_path(); });
@@ -176,12 +180,12 @@ void plan_columns(const experiment::Experiment& e, const LegAt& leg, Columns& ou
   out.list.back().given = foot_given(e);
 }
 
-// As phases, profiles and changes have made them.
+// Adds the gains as phases, profiles and changes have set them.
 void gain_columns(const experiment::Experiment& e, const LegAt& leg, Columns& out) {
   if (!e.log.gains) return;
   for (const gait::Setting& s : gait::settings(e.plan)) {
     constexpr std::string_view before = "control.gains.";
-    if (!s.key.starts_with(before)) continue;  // desired angles and stiffnesses are always there
+    if (!s.key.starts_with(before)) continue;  // desired angles and stiffnesses are always logged
     std::string name = leg.topic("/desired/gain/" + s.key.substr(before.size()));
     std::ranges::replace(name, '.', '/');
     out.scalar(std::move(name), std::string(s.unit), "in effect",

@@ -1,7 +1,8 @@
-// run/controllers/columns.h - what a run's log holds: every topic with where its numbers come from.
+// run/controllers/columns.h - the columns of a run's log: every topic, with the function that gives
+// its values.
 //
-// What hardware would log as well comes first, what only a simulation knows (/true/...) last, then
-// the valves, whose edges are logged one by one. A topic is there if the machine has the part.
+// Topics that hardware logs as well come first, then those of a simulation only (/true/...), then
+// the valves, whose edges are logged one by one. A topic exists if the machine has the part.
 #pragma once
 
 #include <functional>
@@ -26,27 +27,28 @@ struct Snapshot {
 
   const MachineSeen* seen = nullptr;
   const gait::MachineMeasured* measured = nullptr;
-  std::span<const gait::Desired> desired = {};  // by leg
+  std::span<const gait::Desired> desired = {};  // one per leg
 
   const Drive* drive = nullptr;
 };
 
 struct Column {
-  signals::Topic topic;                                     // of one or two fields
+  signals::Topic topic;                                     // has one or two fields
   std::function<void(const Snapshot&, double* out)> value;  // no heap, no exceptions
 
-  // When it has a value; NaN else. `never`: not with this experiment's plan.
+  // When it has a value; NaN otherwise. `never`: never under this experiment's plan.
   enum class Given { always, at_times, never } given = Given::always;
 
-  // Does only a simulation know it?
+  // Returns whether only a simulation can provide it.
   bool of_truth() const { return topic.name.starts_with("/true/"); }
 };
 
-// In the order in which the recorder writes them.
+// Returns the columns in the order in which the recorder writes them.
 std::vector<Column> columns(const experiment::Experiment& experiment);
 
-// Of those, and after them of the valves by their index: 2 x muscle + (0 inlet | 1 exhaust), then
-// the four of a cylinder. Of a sweep of duties what each stand settled at.
+// Returns the topics of the columns, followed by those of the valves by their index: 2 x muscle +
+// (0 inlet | 1 exhaust), then the four of a cylinder. For a sweep of duties, returns the settled
+// values of each stand instead.
 std::vector<signals::Topic> topics(const experiment::Experiment& experiment);
 
 }  // namespace sinew::run

@@ -53,7 +53,7 @@ Drive::Drive(const experiment::Experiment& e)
     planned_.push_back({.at = at, .valve = {valve}, .open = true});
     planned_.push_back({.at = at + open, .valve = {valve}, .open = false});
   }
-  // A valve that shuts and opens at one tick opens last.
+  // A valve that shuts and opens at one tick opens last, so that it stays open.
   std::ranges::stable_sort(planned_, {},
                            [](const signals::Edge& edge) { return std::pair(edge.at, edge.open); });
   if (bundle_.actuator.braid.turns > 0 && e.stand->start_length > 0)
@@ -62,7 +62,7 @@ Drive::Drive(const experiment::Experiment& e)
   command_[0].openings = {};
 }
 
-// Of a 3-way valve, so that the muscle stays there.
+// Returns the commanded duty of a 3-way valve that holds the muscle at a length.
 double Drive::hold(double length) const noexcept {
   const double load = drive_.believed_load;
   const double p = holding_pressure(bundle_, length, load, air_.atmosphere, supply_);
@@ -71,7 +71,8 @@ double Drive::hold(double length) const noexcept {
   return commanded_duty(d, delays.opening, delays.closing, drive_.period);
 }
 
-// 3-way: the duty that holds. Two 2-way valves: the air that is missing, as one dose per period.
+// Returns, for a 3-way valve, the duty that holds; for two 2-way valves, the missing air as one
+// dose per period.
 DriveShares Drive::feed_forward(double length) noexcept {
   if (three_way_) return {hold(length), 0};
   const double p =
@@ -115,15 +116,15 @@ DriveShares Drive::decide(const MachineSeen& seen) noexcept {
   return {};
 }
 
-// Returns the opening that begins with the period.
+// Returns the opening of that share, which begins with the period.
 control::Opening Drive::opening(double share) const noexcept {
   const Tick open = std::llround(share * static_cast<double>(period_));
   return {0, static_cast<std::uint16_t>(std::clamp<Tick>(open, 0, period_))};
 }
 
-// A valve opens at most once in a period and shuts at most once (experiment/check.cpp);
-// where it shuts and opens at one tick it stays open. Edges before t are of periods whose telemetry
-// was lost.
+// Converts the planned edges of the period into openings. A valve opens at most once in a period
+// and shuts at most once (experiment/check.cpp); if it shuts and opens at one tick, it stays open.
+// Edges before t belong to periods whose telemetry was lost.
 void Drive::plan_openings(Tick t) noexcept {
   const auto period = static_cast<std::uint16_t>(period_);
   std::array<control::Opening, 2> out{};
@@ -145,7 +146,7 @@ void Drive::plan_openings(Tick t) noexcept {
   command_[0].openings = {out[0], out[1]};
 }
 
-// Under pwm the exhaust opens where the inlet shuts, else at the start of the period.
+// Under pwm the exhaust opens when the inlet shuts, else at the start of the period.
 const MachineCommand& Drive::update(const MachineSeen& seen, Tick t) noexcept {
   const double at = static_cast<double>(t) * signals::tick_seconds;
   state_.setpoint = {length_.at(at), duty_.at(at)};

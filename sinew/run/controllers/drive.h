@@ -1,8 +1,8 @@
 // run/controllers/drive.h - the high level of a test stand: the law of its drive.
 //
-// At the start of each period it decides how long the valves are open in it (drive_laws.h), by the
-// setpoints of its schedules and the newest readings. The stand's board opens and shuts them
-// (control/setup/boards.h). It sees counts and ticks and never the stand.
+// At the start of each period it decides how long the valves are open in it (drive_laws.h), from
+// the setpoints of its schedules and the newest readings. The stand's board opens and shuts them
+// (control/setup/boards.h). It has access to counts and ticks only, never to the stand.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace sinew::run {
 // Setpoint of one period.
 struct DriveSetpoint {
   double length = 0;  // desired [m]
-  double duty = 0;    // of pwm [-]
+  double duty = 0;    // used by pwm [-]
 };
 
 // Decides when the stand's valves open and shut.
@@ -32,25 +32,25 @@ class Drive {
 
   // Returns the openings of the period that starts at t.
   const MachineCommand& update(const MachineSeen& seen, signals::Tick t) noexcept;
-  // Returns false: a run of the stand ends by its time.
+  // Returns false, since a run of a stand ends by its duration.
   bool finished() const noexcept { return false; }
 
   // Return the setpoint of the period, and the shares of the period that were decided.
   const DriveSetpoint& setpoint() const noexcept { return state_.setpoint; }
   const DriveShares& shares() const noexcept { return state_.shares; }
-  // Returns how many edges of a valve it can decide before the tick `end`.
+  // Returns the largest number of edges that it can decide for a valve before the tick `end`.
   std::size_t most_edges(signals::Tick end) const noexcept {
     return 4 * static_cast<std::size_t>(end / period_ + 2) + planned_.size();
   }
 
-  // Everything that its future depends on, besides what it will see. Copied like bytes.
+  // The complete state, copied as bytes.
   struct State {
     DriveSetpoint setpoint;
     DriveShares shares;
-    bool first = true;                       // nothing is measured yet
-    double assumed_air = 0;                  // feed-forward by doses [kg]
-    std::size_t next = 0;                    // the first planned edge of periods to come
-    std::array<bool, 2> open{false, false};  // by the planned edges before it
+    bool first = true;                       // nothing has been measured yet
+    double assumed_air = 0;                  // integrated by feed-forward with doses [kg]
+    std::size_t next = 0;                    // index of the first planned edge of later periods
+    std::array<bool, 2> open{false, false};  // state of the valves after the earlier planned edges
   };
   const State& state() const noexcept { return state_; }
   void restore(const State& state) noexcept { state_ = state; }

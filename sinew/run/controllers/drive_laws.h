@@ -1,4 +1,4 @@
-// run/controllers/drive_laws.h - how long a valve of the stand is opened in one period.
+// run/controllers/drive_laws.h - opening time of a valve of the stand in one period.
 //
 //   steady duty   d = m'_out/(m'_in + m'_out) at the pressure P          no mean flow, 3-way valve
 //   commanded     d + (opening delay - closing delay)/T                  figure 3-13, backwards
@@ -7,9 +7,9 @@
 //   on-off        e > dead band: all of the period; within: none
 //   proportional  d = d_hold + K e, in 0 ... 1; two 2-way valves: |K e|, none within the dead band
 //
-//   e = L - desired [m]: a muscle that is too long wants air
+//   e = L - desired [m]: a muscle that is too long needs air
 //
-// Pure. What the delivered pulse is stands in signals/pulse.h.
+// All functions are pure. The delivered pulse is calculated in signals/pulse.h.
 #pragma once
 
 #include <cmath>
@@ -19,15 +19,15 @@
 
 namespace sinew::run {
 
-// Share of the period for each valve; a 3-way one has an inlet only.
+// Share of the period for each valve; a 3-way valve uses `inlet` only.
 struct DriveShares {
   double inlet = 0, exhaust = 0;
 };
 
-// Cuts a share to what it can be.
+// Limits a share to its range.
 constexpr double within_0_and_1(double x) { return x < 0 ? 0.0 : x > 1 ? 1.0 : x; }
 
-// Of a valve between supply and room that keeps the pressure on the mean  [-].
+// Returns the duty of a valve between supply and room that keeps the mean pressure [-].
 inline double steady_duty(const gas::Flow& in, const gas::Flow& out, const gas::Air& air,
                           double supply, double pressure) {
   const double filling = gas::mass_flow(in, air, supply, pressure);
@@ -36,14 +36,15 @@ inline double steady_duty(const gas::Flow& in, const gas::Flow& out, const gas::
   return within_0_and_1(venting / (filling + venting));
 }
 
-// What must be commanded for it; 0 and 1 stay.
+// Returns the commanded duty that delivers it; 0 and 1 stay unchanged.
 constexpr double commanded_duty(double delivered, double opening_delay, double closing_delay,
                                 double period) {
   if (delivered <= 0 || delivered >= 1) return within_0_and_1(delivered);
   return within_0_and_1(delivered + (opening_delay - closing_delay) / period);
 }
 
-// At which the bundle holds a load at a length, no more than `most`  [Pa], absolute.
+// Returns the pressure at which the bundle holds a load at a length, `most` at the highest [Pa],
+// absolute.
 inline double holding_pressure(const actuator::Bundle& bundle, double length, double load,
                                double atmosphere, double most) {
   double low = atmosphere, high = most;
@@ -55,13 +56,14 @@ inline double holding_pressure(const actuator::Bundle& bundle, double length, do
   return high;
 }
 
-// [kg]
+// Returns the mass of air in the bundle [kg].
 inline double air_at(const actuator::Bundle& bundle, const gas::Air& air, double length,
                      double pressure) {
   return gas::density(air, pressure) * actuator::volume(bundle, length);
 }
 
-// Of an error of the length; `hold` is what a 3-way valve needs to stay where it is.
+// Return the shares for an error of the length [m]; `before` is the last share of a 3-way valve,
+// `hold` the share with which it keeps the length.
 constexpr DriveShares on_off(double error, double dead_band, bool three_way, double before) {
   const bool in = error > dead_band, out = error < -dead_band;
   if (three_way) return {in ? 1.0 : out ? 0.0 : before, 0.0};

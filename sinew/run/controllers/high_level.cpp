@@ -11,7 +11,7 @@ namespace {
 // One lbf in/rad, the controller's unit of stiffness  [N m/rad].
 constexpr double stiffness_unit = units::pound_force * units::inch;
 
-// What is no whole percent by rounding alone is one: 0.29 x 100 = 28.999...
+// Rounds, since a whole percentage may be inexact: 0.29 x 100 = 28.999...
 int percent(double share) { return static_cast<int>(std::lround(share * 100.0)); }
 
 }  // namespace
@@ -58,7 +58,7 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
 }
 
-// What has no sensor is believed to rest.
+// A joint without a sensor is assumed to be at rest.
 gait::MachineMeasured HighLevel::believe(const MachineSeen& seen) const noexcept {
   gait::MachineMeasured measured;
   const auto counts = [&](int channel) -> double {
@@ -126,8 +126,8 @@ void HighLevel::translate(const gait::Desired& desired, const robot::LegParts& l
   }
 }
 
-// At its extended stop until the plan asks for another place, as the thesis's runs have it. Of
-// several legs the first one's plan moves it.
+// Holds the cylinder at its extended stop, as in the thesis's runs, unless the plan sets another
+// position. With several legs the first leg's plan moves it.
 void HighLevel::move_cylinder(const gait::Desired& desired) noexcept {
   control::JointCommand& joint = command_[static_cast<std::size_t>(joints_)];
   const double travel = desired.cylinder.given ? desired.cylinder.position : 0.0;

@@ -1,5 +1,6 @@
-// run/controllers/high_level.h - joins brains and spinal cord: SI on one side, counts on the other;
-// each leg's joints and muscles on one side, the machine's on the other.
+// run/controllers/high_level.h - joins gait controllers and joint controllers: SI units on one
+// side, counts on the other; joints and muscles of each leg on one side, of the machine on the
+// other.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 
 namespace sinew::run {
 
-// What one count, or one of the controller's stiffness units, stands for. A channel is -1 where
-// there is no sensor.
+// Value of one count, and of one of the joint controller's stiffness units, as the controller
+// assumes them. A channel is -1 if there is no sensor.
 struct Believed {
   std::array<double, robot::max_joints> rest{}, counts_per_rad{}, counts_at_rest{};
   std::array<double, robot::max_muscles> newtons_per_count{}, counts_at_zero{};
@@ -31,14 +32,16 @@ class HighLevel {
   // `steering` may be null.
   HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering = nullptr);
 
-  // At every low-level period; the brain itself thinks once per brain period.
+  // Returns the commands of a low-level period. The gait controller itself is updated once per
+  // `brain_period`.
   const MachineCommand& update(const MachineSeen& seen, signals::Tick t) noexcept;
-  // Is the body to be vented now? A plan that ends without goes on to the run's end as it is.
+  // Returns whether the body is to be vented now. A plan that ends without a vent holds its last
+  // setpoints until the run's end.
   bool finished() const noexcept { return vents_ && legs_.finished(); }
 
-  // Returns the brains of all legs.
+  // Returns the gait controllers of all legs.
   const gait::Legs& legs() const noexcept { return legs_; }
-  // The word of each leg's brain with what stands in place of it, as it was passed on.
+  // Returns the setpoints of each leg, with all changes applied, as they were passed on.
   std::span<const gait::Desired> desired() const noexcept {
     return {desired_.data(), legs_.count()};
   }
@@ -48,16 +51,16 @@ class HighLevel {
     return scale_.newtons_per_count[muscle];
   }
 
-  // Readings as the brain gets them.
+  // Returns the measured values for the gait controller, by the assumed scales.
   gait::MachineMeasured believe(const MachineSeen& seen) const noexcept;
 
-  // A wish of whoever holds the run, as Changes has it.
+  // Requests a change; see Changes::wish().
   bool wish(const Steering::Wish& wish) noexcept { return changes_.wish(wish); }
 
-  // Returns what can be changed of it, by number.
+  // Returns the settings that can be changed, by number.
   const std::vector<gait::Setting>& settings() const noexcept { return changes_.settings(); }
 
-  // Everything that its next word depends on, beside what it will be told. Copied like bytes.
+  // The complete state apart from later inputs, copied as bytes.
   struct State {
     gait::Legs::State legs;
     Changes::State changes;
@@ -82,7 +85,7 @@ class HighLevel {
   Believed scale_;
   gait::Legs legs_;
   Changes changes_;
-  std::array<gait::Desired, robot::max_legs> desired_;  // by leg
+  std::array<gait::Desired, robot::max_legs> desired_;  // one per leg
   gait::MachineMeasured measured_;
   MachineCommand command_;
 };

@@ -1,5 +1,5 @@
-// run/controllers/stand_columns.cpp - what a log of the test stand holds: what hardware would log
-// as well, then what only a simulation has.
+// run/controllers/stand_columns.cpp - columns of a test stand's log: those that hardware logs as
+// well, then those of a simulation only.
 #include <string>
 
 #include "sinew/run/controllers/column_list.h"

@@ -1,9 +1,10 @@
-// run/controllers/steering.h - how a run is steered while it goes: paused, set to another speed,
-// its gains and desired stiffnesses changed. One thread steers, the run's loop obeys; neither waits
-// for the other, and the loop takes no memory and no lock.
+// run/controllers/steering.h - steering of a run in progress: it is paused, its pace set, its gains
+// and desired stiffnesses changed. One thread steers, the run's loop follows. Neither waits for the
+// other, and the loop allocates no memory and takes no lock.
 //
-// Pause and speed move the wall's clock alone: the run keeps its bits. A change takes effect at the
-// next period start and is kept, so that the run can be repeated (Outcome::changes).
+// Pause and pace affect wall time only; the results stay the same, bit for bit. A change takes
+// effect at the start of the next period and is recorded, so that the run can be repeated
+// (Outcome::changes).
 #pragma once
 
 #include <array>
@@ -17,52 +18,54 @@ namespace sinew::run {
 
 class Steering {
  public:
-  static constexpr double slowest = 1e-3, fastest = 1e3;  // paces other than 0
+  static constexpr double slowest = 1e-3, fastest = 1e3;  // limits of a pace other than 0
 
-  // --- the steering thread's side ---
+  // --- called by the steering thread ---
 
-  // Lets the run stand, or go on.
+  // Pauses or resumes the run.
   void pause(bool paused) noexcept { paused_.store(paused, std::memory_order_relaxed); }
-  // Simulated seconds per second of wall time; 0: as fast as it goes.
+  // Sets the simulated seconds per second of wall time; 0: as fast as possible.
   void pace(double pace) noexcept { pace_.store(pace, std::memory_order_relaxed); }
-  // False, and nothing done: more wait than there is room for.
+  // Return false, without effect, if the queue of requests is full.
   bool change(std::size_t setting, double value) noexcept {
     return wishes_.put({setting, value, false});
   }
   bool release(std::size_t setting) noexcept { return wishes_.put({setting, 0, true}); }
 
-  // --- either's ---
+  // --- called by either thread ---
 
-  // Does it stand? At which pace does it go, or would it?
+  // Return whether the run is paused, and its pace, which a pause does not change.
   bool paused() const noexcept { return paused_.load(std::memory_order_relaxed); }
   double pace() const noexcept { return pace_.load(std::memory_order_relaxed); }
-  // As it stood at the last period start, in SI; by the number of the setting.
+  // Return the value of a setting at the start of the last period, in SI, and whether it is
+  // overridden; by the number of the setting.
   double value(std::size_t setting) const noexcept {
     return value_[setting].load(std::memory_order_relaxed);
   }
   bool overridden(std::size_t setting) const noexcept {
     return overridden_[setting].load(std::memory_order_relaxed);
   }
-  // Wishes that came when the run could keep no more changes; they were not followed.
+  // Returns the number of requests that were dropped because no more changes can be recorded, or
+  // because their setting or leg does not exist.
   std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
-  // --- the loop's side ---
+  // --- called by the loop ---
 
-  // A setting that somebody wants to be otherwise, or as the plan has it.
+  // Request to override a setting, or to release it to the plan's value.
   struct Wish {
     std::size_t setting = 0;
     double value = 0;
     bool release = false;
-    int leg = -1;  // its number; -1: every leg's
+    int leg = -1;  // number of the leg; -1: all legs
   };
-  // Calls `use` for every wish that came since.
+  // Calls `use` for every request since the last call.
   template <class Use>
   void take(Use&& use) noexcept {
     wishes_.take_all(use);
   }
-  // Counts a wish that was not followed.
+  // Counts a request that was dropped.
   void refuse() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }
-  // Tells what a setting stands at, and whether that is somebody's wish.
+  // Publishes the value of a setting, and whether it is overridden.
   void show(std::size_t setting, double value, bool overridden) noexcept {
     value_[setting].store(value, std::memory_order_relaxed);
     overridden_[setting].store(overridden, std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-// run/controllers/true_columns.cpp - what only a simulation knows.
+// run/controllers/true_columns.cpp - columns that only a simulation can provide.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ void true_joint_columns(const robot::Robot& robot, Columns& out) {
   }
 }
 
-// Answers whether a muscle leaks, by its description or by a fault.
+// Returns whether a muscle leaks, by its description or by a fault.
 bool leaks(const experiment::Experiment& e, const robot::Muscle& m) {
   using What = experiment::Fault::What;
   return m.leak.area > 0 || m.leak.conductance > 0 ||
@@ -51,8 +51,8 @@ void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
   }
 }
 
-// Adds all of the machine's air, for its balance, where something of the air may break or a hose
-// holds air, which is no muscle's.
+// Adds the mass of all the machine's air, for its balance, if a part of the air can fail or a hose
+// holds air in addition to the muscles.
 void true_air_columns(const experiment::Experiment& e, Columns& out) {
   const bool breaks = !std::ranges::all_of(
       e.faults, [](const experiment::Fault& f) { return is_of_sensor(f.what); });
@@ -79,7 +79,7 @@ void true_supply_columns(const gas::Supply& supply, Columns& out) {
              [](const Snapshot& m) { return m.true_of->robot.tank_pressure; });
 }
 
-// `disc` counts those of all feet.
+// `disc` counts the discs of all feet.
 void true_foot_columns(const robot::Robot& robot, const LegAt& leg, std::size_t& disc,
                        Columns& out) {
   const robot::Foot& foot = robot::foot_of(robot, leg.leg);

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The last `parts` of a run's path; the log's usual name says nothing.
+// Returns the last `parts` names of a run's path, without the usual name of a log.
 std::string tail_of(const fs::path& run, std::size_t parts) {
   std::vector<std::string> names;
   for (const fs::path& part : run.lexically_normal())
@@ -29,7 +29,8 @@ bool is_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
-// The shortest ends of the paths that tell the runs apart. A number alone says too little.
+// Returns the shortest ends of the paths that distinguish the runs. A number alone is not
+// descriptive enough.
 std::vector<std::string> labels_of(const std::vector<std::string>& runs) {
   const std::set<fs::path> all(runs.begin(), runs.end());
   for (std::size_t parts = 1;; ++parts) {
@@ -44,7 +45,7 @@ std::vector<std::string> labels_of(const std::vector<std::string>& runs) {
   }
 }
 
-// Returns what was run, as the folder or the log itself says.
+// Returns the description of the run, from its folder or from the log itself.
 config::Node resolved_of(const RecordedRun& run) {
   if (fs::exists(run.resolved)) return config::parse_file(run.resolved.string());
   for (const auto& [key, value] : log::read_metadata(run.log))

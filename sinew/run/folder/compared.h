@@ -1,4 +1,4 @@
-// run/folder/compared.h - runs that are kept, beside each other.
+// run/folder/compared.h - comparison of stored runs.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace sinew::run {
 
-// Compares kept runs with the first of them; `runs` are their folders or logs, and are labelled by
-// the shortest ends of these paths that tell them apart. `channels`: topics alone that match one of
-// these patterns, "/joint/*/angle"; all, where there is none. A log that was cut off is a warning.
-// Throws config::Error or log::Error where a run cannot be read, and std::runtime_error for one
-// that was ended early.
+// Compares stored runs with the first of them. `runs` are their folders or logs; the labels are the
+// shortest ends of these paths that distinguish them. `channels` restricts the comparison to
+// topics that match one of these patterns, "/joint/*/angle"; empty: all. Warns of a log that was
+// cut off. Throws config::Error or log::Error if a run cannot be read, and std::runtime_error for a
+// run that ended early.
 report::Comparison compare_runs(const std::vector<std::string>& runs, const report::AlignWish& wish,
                                 const std::vector<std::string>& channels = {},
                                 const Notices& notices = {});

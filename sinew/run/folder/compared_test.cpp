@@ -1,5 +1,5 @@
-// A measurement is aligned with a simulation although its clock is another one, and what is left
-// shows which parameter differs.
+// A measurement is aligned with a simulation although their clocks differ, and the remaining
+// difference shows which parameter differs.
 #include "sinew/run/folder/compared.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 
 const std::string bench = sinew::test::source_dir() + "/experiments/one-joint.toml";
 
-// How a laboratory would have recorded it: angle and tensions alone, at its own rate, by a clock
-// that began earlier and goes 0.3 % fast, with noise.
+// The recording of a laboratory: angle and tensions only, at its own rate, by a clock that began
+// earlier and is 0.3 % fast, with noise.
 struct Laboratory {
   analysis::Clock clock{2.371, 0.003};
-  double period = 0.008;  // of its samples [s]
+  double period = 0.008;  // sampling period [s]
   double noise = 0.004;   // sigma, share of each channel's range
   unsigned seed = 5;
 };
@@ -62,13 +62,13 @@ class Compared : public ::testing::Test {
   Compared() { fs::create_directories(root_); }
   ~Compared() override { fs::remove_all(root_); }
 
-  // Keeps a simulation, or a measurement of one, and returns its folder.
+  // Stores a simulation, or a measurement of one, and returns its folder.
   std::string keep(const std::string& name, const std::vector<std::string>& sets,
                    const Laboratory* lab) {
     const experiment::Experiment e = buildable(bench, sets);
     const Outcome outcome = run::run(e);
     const signals::Table table = lab ? measured(outcome.table, *lab) : outcome.table;
-    // A laboratory does not know the parameters of its machine: it imports with the model's.
+    // A laboratory does not know its machine's parameters, so it imports with those of the model.
     const experiment::Experiment believed = lab ? buildable(bench) : e;
     return keep_table(table, believed, {.folder = (root_ / name).string(), .report = false})
         .folder.string();
@@ -99,7 +99,7 @@ TEST_F(Compared, AnotherClockIsFoundAndWhatIsLeftIsNoise) {
   EXPECT_NEAR(found.clock.shift, 2.371, 0.006);
   EXPECT_LT(found.rate_uncertainty, 4e-4);
   EXPECT_GT(found.correlation, 0.995);
-  EXPECT_LT(angle(c).share(), 0.012);  // noise 0.004 and a lever that goes up in steps of counts
+  EXPECT_LT(angle(c).share(), 0.012);  // noise 0.004, and the quantization of the lever's angle
   EXPECT_GT(angle(c).correlation, 0.995);
 
   const Json json = Json::parse(to_json(c));

@@ -25,15 +25,15 @@ namespace {
 namespace fs = std::filesystem;
 using Figures = std::vector<report::Figure>;
 
-// A run as it was read.
+// A run as read from its files.
 struct Drawn {
   RecordedRun files;
   config::Node resolved;
   signals::Table table;
-  std::string name;  // of its experiment
+  std::string name;  // name of its experiment
 };
 
-// A run whose times are final, and what follows from it.
+// A run with final times, and its analysis.
 struct Analysed {
   explicit Analysed(const Drawn& run)
       : drawn(run), analysis(run.table, analysis::read_machine(run.resolved)) {}
@@ -59,7 +59,7 @@ Drawn read(const fs::path& named, const DrawingRequest& request, const Notices& 
   return out;
 }
 
-// "/joint/*/angle,/muscle/*/tension" as two plots.
+// Converts "/joint/*/angle,/muscle/*/tension" into a figure with two plots.
 report::ChosenFigure chosen(const std::string& text) {
   report::ChosenFigure out;
   for (const std::string& pattern : config::at_commas(text))
@@ -69,7 +69,7 @@ report::ChosenFigure chosen(const std::string& text) {
   return out;
 }
 
-// Does any of the runs have a channel that each pattern asks for?
+// Throws if a pattern matches no channel of any run.
 void check_channels(const std::vector<report::ChosenFigure>& figures,
                     const std::deque<Analysed>& runs) {
   std::vector<std::string> topics;
@@ -92,7 +92,7 @@ void check_channels(const std::vector<report::ChosenFigure>& figures,
     }
 }
 
-// Those that were asked for, all where none were.
+// Keeps the figures named in `only`; all if it is empty.
 void choose(Figures& figures, const std::vector<std::string>& only, const fs::path& run) {
   if (only.empty()) return;
   std::vector<std::string> there;
@@ -115,7 +115,7 @@ void put_title(Figures& figures, const std::string& title) {
   figures[0].plots[0].title = title;
 }
 
-// Has the paper room for what stands on it?
+// Throws if the paper has no room for a figure's contents.
 void put_on_paper(Figures& figures, const report::Paper& paper) {
   for (report::Figure& f : figures) {
     f.paper = paper;
@@ -128,7 +128,7 @@ void put_on_paper(Figures& figures, const report::Paper& paper) {
   }
 }
 
-// Labels may be for other runs too, so what they say for nothing is no error.
+// Warns of labels that no figure contains. This is no error, since they may be for other runs.
 void tell_unsaid(const Figures& figures, const report::Labels& labels, const Notices& notices) {
   report::Phrases phrases;
   for (const report::Figure& f : figures) phrases.add(f);
@@ -147,7 +147,7 @@ std::vector<Figures> figures_of(const std::vector<Drawn>& runs, const DrawingReq
   return out;
 }
 
-// `what`: the run that messages name; `of`: what the folder's page calls the figures.
+// `what` is the run named in messages, `of` the name of the figures on the folder's page.
 std::string finish(Figures figures, const fs::path& what, const std::string& of,
                    const fs::path& folder, const DrawingRequest& request, const Notices& notices) {
   if (figures.empty())
@@ -162,7 +162,7 @@ std::string finish(Figures figures, const fs::path& what, const std::string& of,
   return write_figures(folder, std::move(gallery), request.files, notices);
 }
 
-// "walk-test-1/2" of a numbered folder, else the folder's own name.
+// Returns "walk-test-1/2" for a numbered folder, else the folder's own name.
 std::string name_of(const fs::path& named) {
   const fs::path folder = fs::absolute(named).lexically_normal();
   const fs::path own = folder.has_filename() ? folder : folder.parent_path();

@@ -26,10 +26,10 @@ namespace sinew::run {
 
 namespace {
 
-constexpr int intervals = 200;  // of a curve's length
+constexpr int intervals = 200;  // into which a curve's length is divided
 constexpr double most_curves = 6;
 
-// Steps of 1, 2 or 5 times a power of ten, so that there are few curves at round pressures.
+// Returns a step of 1, 2 or 5 times a power of ten, which gives few curves at round pressures.
 double round_step(double top) {
   const double least = top / most_curves;
   const double power = std::pow(10, std::floor(std::log10(least)));
@@ -63,7 +63,7 @@ report::Figure figure_of(const actuator::Actuator& a, const gas::Air& air,
       const double at = shortest + (longest - shortest) * i / intervals;
       const double gauge = pressure.back(k * step);
       curve.xs.push_back(length.of(at));
-      // A muscle cannot push.
+      // A muscle cannot push, so a negative tension is drawn as 0.
       curve.ys.push_back(
           force.of(std::max(0.0, actuator::operating_point(a, at, gauge, around).tension)));
     }
@@ -98,9 +98,9 @@ std::vector<report::Figure> muscle_figures(const std::filesystem::path& file,
 
 namespace {
 
-using Keys = std::vector<std::pair<std::string, std::string_view>>;  // with their units
+using Keys = std::vector<std::pair<std::string, std::string_view>>;  // keys with their units
 
-// Adds those of a joint, under its leg where the robot has several.
+// Adds the keys of a joint, under its leg if the robot has several.
 void add_joint(const robot::Robot& robot, std::size_t joint, Keys& keys) {
   const int leg = robot::leg_of_joint(robot, static_cast<int>(joint));
   const bool named = !robot.legs.empty() && leg >= 0;
@@ -112,7 +112,7 @@ void add_joint(const robot::Robot& robot, std::size_t joint, Keys& keys) {
   keys.push_back({at + ".passiveness", "%"});
 }
 
-// Returns all figures of a stand: they are few.
+// Returns all figures of a stand, which are few.
 std::string figures_of_stand(const analysis::Summary& summary, double atmosphere,
                              const units::ShownUnits* shown) {
   report::TextTable table({"", "Sinew"});
@@ -164,7 +164,8 @@ constexpr const char* index_name = "index.json";
 constexpr const char* page_name = "index.html";
 constexpr const char* format = "sinew.figures/1";
 
-// Names that an index lists, if they are such as it lists: of files that stand in its folder.
+// Returns the names that an index lists, restricted to the expected kinds of files in its own
+// folder.
 std::set<std::string> files_of(const Json& index) {
   std::set<std::string> files;
   const auto add = [&](const Json& of, const char* key, const char* ending) {
@@ -211,7 +212,7 @@ std::vector<std::string> figures_in(const fs::path& folder) {
 
 namespace {
 
-// Into the folder where they are drawn; those that gnuplot is to draw come back.
+// Writes all files but the pictures into the work folder; returns the scripts for gnuplot.
 std::vector<std::string> write_all(const fs::path& folder, const report::Gallery& gallery,
                                    const std::string& index, const FigureFiles& options) {
   constexpr auto later = log::Replacement::Sync::later;
@@ -231,7 +232,8 @@ std::vector<std::string> write_all(const fs::path& folder, const report::Gallery
   return scripts;
 }
 
-// Returns the figures of an earlier call, which may be replaced where `force` says so.
+// Returns the figures of an earlier call, to be replaced. Throws if they exist and `force` is
+// false.
 std::vector<std::string> replaceable(const fs::path& folder, const std::string& index, bool force) {
   std::vector<std::string> old = figures_in(folder);
   refuse_to_overwrite(folder / index_name, force);
@@ -240,7 +242,8 @@ std::vector<std::string> replaceable(const fs::path& folder, const std::string& 
   return old;
 }
 
-// The stage is nobody's but ours, and figures that did not become whole are quickly drawn again.
+// The folder of unfinished figures. It is removed on failure, since it holds nothing else and
+// figures are quickly drawn again.
 struct Stage {
   explicit Stage(OutputFolder& folder) : folder_(folder) {
     fs::remove_all(folder.path() / name);

@@ -1,5 +1,5 @@
 // run/folder/figure_files.h - a folder of figures: CSV, scripts and pictures, and two indices that
-// tell what each of them shows, index.json and the page index.html.
+// describe them, index.json and the page index.html.
 #pragma once
 
 #include <filesystem>
@@ -19,39 +19,39 @@ namespace sinew::run {
 
 struct FigureFiles {
   std::vector<report::Picture> pictures{report::Picture::svg, report::Picture::png};
-  report::Labels labels = {};  // of the pictures
-  bool must_draw = false;      // the pictures were asked for by name
+  report::Labels labels = {};  // used in the pictures
+  bool must_draw = false;      // the pictures were explicitly requested
   bool force = false;
 };
 
 // Writes <sheet>.csv, <figure>.gp, index.json and index.html, and draws the pictures with gnuplot.
-// Refuses to replace anything, unless `force`; then what an earlier index.json lists goes when the
-// new figures are whole, and nothing else. Where there is no gnuplot all but the pictures is
-// written, with a warning, or, if they must be drawn, a std::runtime_error. Fills the gallery's
-// pictures and scripts; returns index.json.
+// Refuses to replace files unless `force` is set; then the files of an earlier index.json, and no
+// others, are removed after the new figures are complete. Without gnuplot, writes everything but
+// the pictures, with a warning, or throws std::runtime_error if `must_draw` is set. Fills the
+// gallery's pictures and scripts; returns index.json.
 std::string write_figures(const std::filesystem::path& folder, report::Gallery gallery,
                           const FigureFiles& options, const Notices& notices);
 
-// Returns the files that the folder's index.json lists, and the index, which comes last; none where
+// Returns the files that the folder's index.json lists, followed by index.json itself; empty if
 // there is no index of figures.
 std::vector<std::string> figures_in(const std::filesystem::path& folder);
 
-// What is told of a run of which nothing is reported.
+// Main figures of a run whose experiment has no reported values.
 
-// Returns lines of text: times, the way, each joint's excursion, error and passiveness, air. No
-// paper gives the units here, so lengths are in millimetres.
-// Or in those that `shown` has, where there are some.
+// Returns lines of text: duration, distance and speed, each joint's excursion, error and
+// passiveness, and air used; for a stand, all figures. Units are those of `shown`; without it SI
+// with lengths in millimetres and angles in degrees.
 std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine,
                          const units::ShownUnits* shown = nullptr);
 
-// The characteristic of a muscle as figures: tension over length at several pressures, by the law
-// of its file.
+// Figures of the characteristic of a muscle: tension over length at several pressures, by the
+// law of its file.
 
-// Returns whether the path names a TOML file, which may hold muscles, and not a run.
+// Returns whether the path names a TOML file, which may hold muscles and is not a run.
 bool is_muscle_file(const std::filesystem::path& named);
 
-// Returns a figure for each actuator of the file, of a robot's or of one actuator, from its
-// shortest to its greatest length. Throws config::Error for a file without actuators.
+// Returns a figure for each actuator in the file of a robot or of one actuator, from its shortest
+// to its greatest length. Throws config::Error for a file without actuators.
 std::vector<report::Figure> muscle_figures(const std::filesystem::path& file,
                                            const units::ShownUnits& units);
 

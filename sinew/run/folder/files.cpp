@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A log, or a file of a run or of parameters: what no page, table or summary may take the place of.
+// Returns whether the file is a log, a parameter file or a file of a run, which no page, table or
+// summary may replace.
 bool is_of_another_kind(const fs::path& file, std::string_view own) {
   if (file.filename() == own || file.extension() == own) return false;
   return file.extension() == ".toml" || file.extension() == ".mcap" ||

@@ -1,5 +1,5 @@
-// run/folder/files.h - files that are written whole or not at all, and never in the place of what
-// is not theirs; and how a path is refused.
+// run/folder/files.h - atomic writing of files, protection of other programs' files, and refusal of
+// paths.
 #pragma once
 
 #include <filesystem>
@@ -12,26 +12,26 @@
 
 namespace sinew::run {
 
-// Throws config::Error where the file exists, unless `force`; with it too where the file is one of
-// `inputs`, or a log, parameters or a run's summary. `own` names or ends what the caller writes
-// itself: "summary.json", ".toml". A pipe or a device is no such file.
+// Throws config::Error if the file exists and `force` is false. Throws even with `force` if the
+// file is one of `inputs`, a log, a parameter file or a run's summary. `own` is the name or
+// extension of the files that the caller itself writes: "summary.json", ".toml". Pipes and devices
+// are always accepted.
 void refuse_to_overwrite(const std::filesystem::path& file, bool force,
                          const std::vector<std::filesystem::path>& inputs = {},
                          std::string_view own = "");
 
-// Throws config::Error where the folder that the file is to stand in is missing.
+// Throws config::Error if the folder that is to contain the file is missing.
 void require_folder_of(const std::filesystem::path& file);
 
-// Takes the place of an older file when it is whole. Throws config::Error or log::Error; then the
-// older one stands.
+// Writes the file completely and then replaces an older one. Throws config::Error or log::Error;
+// the older file is then unchanged.
 void write_file(const std::filesystem::path& file, std::string_view text,
                 log::Replacement::Sync sync = log::Replacement::Sync::now);
 
-// What the sources of this folder refuse a path with.
-//
-// A setting of the caller's is named as a key with its value: force=true.
+// Refusal of a path by the sources of this folder. A setting of the caller is named as a key with
+// its value: force=true.
 
-// Throws config::Error that begins with the path.
+// Throws a config::Error that begins with the path.
 [[noreturn]] inline void refuse(const std::filesystem::path& where, std::string found,
                                 std::string expected, std::string try_this = "") {
   config::fail({where.string(), 0, 0}, "", std::move(found), std::move(expected),

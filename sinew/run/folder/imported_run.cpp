@@ -26,7 +26,7 @@ namespace {
 
 using Kind = robot::Sensor::Kind;
 
-// A sensor's quantity: its topic, and the line between its values and counts.
+// A sensor's quantity: its topic, and the linear relation of its values and counts.
 struct ChannelLine : robot::SensorLine {
   std::string topic, unit;
 };
@@ -91,7 +91,7 @@ class Filler {
     measured_.push_back(line.topic);
   }
 
-  // A joint that does not move has the counts of its rest, at the times of the first sensor.
+  // Adds the counts of a joint that does not move: those at rest, at the times of the first sensor.
   void constant(const robot::Sensor& sensor) {
     const signals::Series* first = nullptr;
     for (const robot::Sensor& other : robot_.sensors)
@@ -168,7 +168,7 @@ int whole(std::size_t count) {
       std::min(count, static_cast<std::size_t>(std::numeric_limits<int>::max())));
 }
 
-// Refuses now what would be refused when all is done.
+// Refuses early what would otherwise be refused after the work.
 void refuse_early(const ImportRequest& request) {
   if (request.files.empty()) config::fail({"files", 0, 0}, "", "none", "a recording");
   if (request.save_mapping.empty()) return;
@@ -182,7 +182,7 @@ void save_mapping(const ImportRequest& request, const recording::Assembled& of) 
   if (!request.save_mapping.empty()) write_file(request.save_mapping, recording::text_of(of.used));
 }
 
-// A recording as its files have it, by the experiment's channels.
+// Returns the recording in its files, mapped to the experiment's channels.
 recording::Assembled read(const ImportRequest& request, const std::vector<signals::Topic>& topics,
                           double atmosphere) {
   recording::Mapping mapping = request.mapping;
@@ -200,7 +200,7 @@ recording::Assembled read(const ImportRequest& request, const std::vector<signal
   recording::Assembled out = recording::assemble(
       files, mapping, topics,
       {.at_end = request.join_at_end, .shifts = request.shifts, .atmosphere = atmosphere});
-  // A mapping is of columns, which such a value has not.
+  // A mapping describes columns, so stated values are removed from it.
   for (const std::string& text : request.values)
     std::erase_if(out.used.columns, [name = recording::stated_in(text).name](const auto& c) {
       return c.name == name;
@@ -221,19 +221,19 @@ std::vector<experiment::ImportedFile> facts_of(const recording::Assembled& of) {
   return out;
 }
 
-// The experiment as it was read, with the recordings behind it.
+// Returns the text of the experiment as read, followed by the recordings.
 std::string with_files(std::string resolved, std::vector<experiment::ImportedFile> files) {
   config::Writer writer;
   experiment::fields(writer, files);
   return resolved + writer.text();
 }
 
-// Holds what both kinds of experiments have.
+// Data that both kinds of experiments need.
 struct Keeping {
   const std::string& name;
   int seed;
   const std::string& resolved;
-  const config::Node& values;  // what it says
+  const config::Node& values;  // contents of `resolved`
   const std::string& mapping;
   const RunRequest& where;
   const Notices& notices;
@@ -258,7 +258,7 @@ void keep_files(const analysis::Analysis& a, const Keeping& what, Kept& kept) {
   }
 }
 
-// Measured beside what a run logs, where it does not log it already.
+// Topics of a run, extended by measured topics that the run does not log already.
 class Topics {
  public:
   explicit Topics(std::vector<signals::Topic> logged) : list_(std::move(logged)) {}

@@ -1,13 +1,13 @@
-// run/folder/imported_run.h - a recording of a laboratory as the folder of a run: log.mcap,
-// resolved.toml, summary.json, report.html as any run leaves them, and mapping.toml, which says
-// what its columns were taken for.
+// run/folder/imported_run.h - import of a laboratory's recording as the folder of a run: log.mcap,
+// resolved.toml, summary.json and report.html like those of any run, and mapping.toml, which states
+// the channel of each column.
 //
 //   run::ImportRequest request{.files = {"rig.csv"}, .experiment = "experiments/one-joint.toml"};
 //   request.mapping.columns = {{.name = "Winkel", .channel = "/joint/elbow/angle", .unit = "deg"}};
 //   const auto kept = run::import_run(request);
 //
-// resolved.toml is the experiment's, with [[imported]] for each file. What a recording lacks and
-// has otherwise is filled in.
+// resolved.toml is that of the experiment, with [[imported]] for each file. Missing channels are
+// calculated from the recorded ones where possible.
 #pragma once
 
 #include <atomic>
@@ -24,56 +24,58 @@
 
 namespace sinew::run {
 
-// A request: recordings, what they are of, and where the run is kept.
+// The recordings, their machine, and the folder of the run.
 struct ImportRequest {
   std::vector<std::string> files;             // recordings: CSV, MCAP, MATLAB
-  std::string experiment;                     // what was run: its robot, or its test stand
-  std::vector<std::string> sets;              // "key=value" in place of the file's
+  std::string experiment;                     // experiment that was run: its robot, or its test
+                                              // stand
+  std::vector<std::string> sets;              // "key=value", overrides the file's
   std::string mapping_file;                   // sinew.mapping/1; empty: none
-  recording::Mapping mapping;                 // besides, and in place of the file's
-  bool join_at_end = false;                   // files follow each other; else they are side by side
-  std::map<std::string, std::string> shifts;  // file -> "0.12 s", by which it is later
-  std::vector<std::string> values;            // "[PART:]CHANNEL=VALUE" of a whole file
-  std::string save_mapping;  // a file for what the columns were taken for; empty: none
-  std::string folder;        // as RunRequest's
+  recording::Mapping mapping;                 // in addition to mapping_file's, and overriding it
+  bool join_at_end = false;                   // files follow each other in time; else they are
+                                              // parallel
+  std::map<std::string, std::string> shifts;  // file -> "0.12 s", its delay
+  std::vector<std::string> values;            // "[PART:]CHANNEL=VALUE", constant over a file
+  std::string save_mapping;  // output file for the mapping that was used; empty: not written
+  std::string folder;        // as in RunRequest
   bool force = false;
-  std::atomic<std::int64_t>* read = nullptr;  // counts the bytes of a table while it is read
+  std::atomic<std::int64_t>* read = nullptr;  // counts the bytes of a table that have been read
 };
 
-// Keeps recordings of a machine as a run. Throws
-// config::Error and log::Error; then there is no folder.
+// Stores recordings of a machine as a run. Throws config::Error and log::Error; no folder is left
+// then.
 Kept import_run(const ImportRequest& request, const Notices& notices = {});
 
-// Returns what a recording can hold of that machine: what a run logs, and what instruments measure
-// besides.
+// Returns the topics that a recording of the machine can contain: those that a run logs and
+// those of additional instruments.
 std::vector<signals::Topic> importable_topics(const experiment::Experiment& experiment);
 
-// Returns what [[imported]] says of a file, without what was taken of it. Throws log::Error.
+// Returns the [[imported]] entry of a file, without its columns. Throws log::Error.
 experiment::ImportedFile imported_file(const std::string& path, const std::string& kind);
 
-// Keeps a table that came from these files as a run of `e`. `mapping`: the text of mapping.toml;
-// empty: there is none.
+// Stores a table that came from these files as a run of `e`. `mapping` is the text of mapping.toml;
+// empty: no such file.
 Kept keep_imported(const signals::Table& table, const experiment::Experiment& e,
                    std::vector<experiment::ImportedFile> files, const std::string& mapping,
                    const RunRequest& where, const Notices& notices = {});
 
-// What a recording of a machine lacks and what it has says.
+// Completion of a recording's missing channels.
 //
 // A laboratory records angles in degrees; a replay feeds the controller with the counts of its
-// converter. Either follows from the other by the scales that the controller believes, of a
-// transducer for forces by its own:
+// converter. Each is calculated from the other by the scales that the controller assumes, or for a
+// force by the transducer's own scale:
 //
 //   angle   = rest_angle + (count - assumed.at_rest) / assumed.scale
 //   tension = (count - assumed.at_rest) / (scale counts_per_volt)
 //   gauge   = (count - assumed.at_rest) / (assumed.scale counts_per_volt)
 //   travel  = (count - assumed.at_rest) / assumed.scale
 //
-// Counts are whole, and end with the converter.
+// Counts are rounded and limited to the converter's range.
 
-// Adds /sensor/<name>/count where its quantity is there, and the quantity where the counts are, if
-// it is among the `logged`, those that a run logs; what was added says so in its description.
-// `atmosphere` [Pa]. Returns a sentence for each kind of
-// thing that was done, and for counts beyond the converter's ends.
+// Adds /sensor/<name>/count if its quantity is recorded, and the quantity if the counts are
+// recorded and it is among `logged`, the topics that a run logs. The description of an added
+// channel states its origin. `atmosphere` [Pa]. Returns a sentence for each kind of change, and for
+// counts beyond the converter's range.
 std::vector<std::string> fill_channels(signals::Table& table, const robot::Robot& robot,
                                        double atmosphere,
                                        const std::vector<signals::Topic>& logged);

@@ -55,13 +55,14 @@ void KeptRun::apply(RunOptions& options) {
   if (log_) log_->tap(options);
 }
 
-// The figures are made of what `analyze` will read, so that both come to the same bits.
+// The figures are calculated from the text that `analyze` will read, so that both agree bit for
+// bit.
 void KeptRun::resolve() {
   resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
   values_ = config::parse_text(resolved_, std::string(resolved_name));
 }
 
-// A change that was steered is a part of what was run, with where it comes from.
+// Adds steered changes to resolved.toml as part of the run, with their source.
 void KeptRun::finish_log(const run::Outcome& outcome) {
   const std::size_t written = experiment_.plan.changes.size();
   const std::string ended = outcome.ended_early() ? cause_of(experiment_, outcome) : "";
@@ -80,13 +81,14 @@ void KeptRun::finish_log(const run::Outcome& outcome) {
   log_->finish(resolved_, ended);
 }
 
-// Keeps what a run that its supervisor ended has: no other figures of a run that was not finished.
+// Writes the summary of a run that its supervisor ended. An unfinished run has no other results.
 void KeptRun::keep_trip(const analysis::Analysis& a, const run::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
   write_into(*folder_, summary_name, summary_json(a.summary, experiment_, *place_, outcome));
 }
 
-// What the board knows of its fault, and the line may not have brought. Returns where it is.
+// Writes the board's own record of its fault, since the line may have lost telemetry. Returns the
+// place of the file.
 std::string KeptRun::keep_fault_log() try {
   plant::RemoteBoard* board = place_->board();
   const bool there = board != nullptr && board->why() != plant::RemoteBoard::Why::gone;
@@ -112,7 +114,7 @@ void KeptRun::break_off(const run::Outcome& outcome) {
                          : "it keeps no log"));
 }
 
-// Writes the page of the logged channels. An experiment may log a part of what is recorded.
+// Writes the page from the logged channels, which may be a part of the recorded ones.
 bool KeptRun::write_page(const analysis::Analysis& of_all, run::Outcome& outcome) {
   if (!log_ || !request_.report) return false;
   const auto write = [&](const analysis::Analysis& logged) {

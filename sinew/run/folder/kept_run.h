@@ -1,5 +1,5 @@
-// run/folder/kept_run.h - a run and the folder that keeps it: what comes before the loop, and
-// after.
+// run/folder/kept_run.h - a run and the folder that stores it: the work before the loop and after
+// it.
 #pragma once
 
 #include <filesystem>
@@ -19,53 +19,55 @@
 
 namespace sinew::run {
 
-// A request: the experiment, and where its run is kept.
+// The experiment and the folder of its run.
 struct RunRequest {
   std::string experiment;          // its file
   std::string folder;              // empty: runs/<experiment>/<n>, counting up
-  std::vector<std::string> sets;   // "key=value" in place of the file's
-  bool force = false;              // replace the run that is in the folder
-  bool allow_unreachable = false;  // aim at the nearest point where the foot path is out of reach
-  bool report = true;              // leave report.html
-  std::string units;               // in which it begins (config/shown_units.h); empty: as set
-  std::string port;                // where it runs (place.h); empty: simulated
-  bool clear_fault = false;        // a board's fault that has to be looked into has been
-  const std::atomic<bool>* stop = nullptr;  // true: a board is waited for no longer
+  std::vector<std::string> sets;   // "key=value", overrides the file's
+  bool force = false;              // replaces the run in the folder
+  bool allow_unreachable = false;  // uses the nearest point where the foot path is out of reach
+  bool report = true;              // writes report.html
+  std::string units;               // initial units of the page (config/shown_units.h); empty: as
+                                   // set
+  std::string port;                // destination of the run (place.h); empty: simulation
+  bool clear_fault = false;        // confirms that a board's fault has been examined
+  const std::atomic<bool>* stop = nullptr;  // true: stops waiting for a board
 };
 
-// The files and figures that a run left.
+// The files and figures of a completed run.
 struct Kept {
   std::filesystem::path folder;
   analysis::Summary summary;
   analysis::Machine machine;      // as `sinew analyze` will read it
   std::string json;               // summary.json
-  double duration = 0, wall = 0;  // simulated, and of the clock on the wall [s]
-  bool page = false;              // there is a report.html
+  double duration = 0, wall = 0;  // simulated time and wall time [s]
+  bool page = false;              // whether report.html exists
 };
 
-// KeptRun holds the folder of a run locked, and its log, from before the loop until it is kept.
+// Holds the locked folder and the log of a run from before the loop until the run is stored.
 class KeptRun {
  public:
-  // Loads the experiment, has its board ready where it is to run on one, and opens its folder and
-  // its log. Throws config::Error for what cannot be run, or kept, and plant::BoardError.
+  // Loads the experiment, prepares its board if it runs on one, and opens its folder and its log.
+  // Throws config::Error if it cannot be run or stored, and plant::BoardError.
   explicit KeptRun(RunRequest request, Notices notices = {});
 
-  // Returns what is run, as it is written and as it was read.
+  // Return the experiment, its text as written, and its values as read back.
   const experiment::Experiment& experiment() const { return experiment_; }
   const std::string& resolved() const { return resolved_; }  // the text of resolved.toml
-  const config::Node& values() const { return values_; }     // what it says
-  // Returns where it is kept.
+  const config::Node& values() const { return values_; }     // contents of `resolved()`
+  // Returns the folder of the run.
   const std::filesystem::path& folder() const { return folder_->path(); }
-  RunLog* log() { return log_ ? &*log_ : nullptr; }  // nullptr where the experiment wants none
-  // Returns where it runs.
+  RunLog* log() { return log_ ? &*log_ : nullptr; }  // nullptr if the experiment disables the log
+  // Returns the destination of the run.
   const Place& place() const { return *place_; }
 
-  // The run goes to its place and into its log, where it has one.
+  // Connects the run to its destination and to its log, if any.
   void apply(RunOptions& options);
 
-  // After the loop: the log's end, summary and page into the folder. What was changed on the way
-  // stands in resolved.toml. Only then it takes the place of an older run. Throws where the run
-  // ended early, with its last records, and where it was stopped: then its log reads as cut off.
+  // Completes the log and writes summary and page into the folder after the loop. Changes made
+  // during the run are added to resolved.toml. Then the run replaces an older one. If the run ended
+  // early, throws with its last records; if it was stopped, throws and leaves the log as if cut
+  // off.
   Kept keep(run::Outcome outcome);
 
  private:
@@ -82,18 +84,18 @@ class KeptRun {
   Notices notices_;
   experiment::Experiment experiment_;
   std::string resolved_;
-  config::Node values_;  // what resolved_ says, as `sinew analyze` will read it
+  config::Node values_;  // contents of resolved_, as `sinew analyze` will read them
   LoggedTopics logged_;
   std::unique_ptr<Place> place_;
   std::optional<OutputFolder> folder_;
   std::optional<RunLog> log_;
 };
 
-// Runs an experiment as fast as it goes and keeps it. Throws as KeptRun does.
+// Runs an experiment as fast as possible and stores it. Throws like KeptRun.
 Kept run_and_keep(RunRequest request, Notices notices = {});
 
-// Keeps a table that is there already, as of a recording from elsewhere, as the run of `e`;
-// `where.folder` and `where.force` say where. Throws config::Error or log::Error.
+// Stores an existing table, for example an external recording, as the run of `e`; `where.folder`
+// and `where.force` select the folder. Throws config::Error or log::Error.
 Kept keep_table(const signals::Table& table, const experiment::Experiment& e,
                 const RunRequest& where, const Notices& notices = {});
 

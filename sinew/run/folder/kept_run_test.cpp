@@ -1,4 +1,4 @@
-// A run that is kept can be read back as what it was, and nothing but it is ever replaced.
+// A stored run can be read back unchanged, and only a run's own files are ever replaced.
 #include "sinew/run/folder/kept_run.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST_F(KeptRunTest, ReadsBackAsWhatItWas) {
   EXPECT_EQ(kept.folder, root_ / "a");
   EXPECT_EQ(kept.json, text_of(root_ / "a" / summary_name));
 
-  // The summary is what the log and resolved.toml say by themselves.
+  // The summary is calculated from the log and resolved.toml alone.
   const RecordedRun recorded = recorded_run(root_ / "a");
   const signals::Table table = log::read(recorded.log);
   EXPECT_TRUE(table.complete);

@@ -1,5 +1,5 @@
-// For a run of many pages per column, most of which stand in a file, everything that is made is as
-// if the run were in memory: the summary, the page, the table as CSV, and what its log says.
+// A run of many pages per column, most of which are in a file, gives the same results as a run in
+// memory: summary, page, CSV table and log.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// run/folder/notices.h - where the warnings and notes of a longer piece of work go as they come.
+// run/folder/notices.h - receiver of the warnings and notes of a longer task, as they occur.
 #pragma once
 
 #include <functional>
@@ -6,15 +6,15 @@
 
 namespace sinew::run {
 
-// An empty function hears nothing. Errors are no notices: they are thrown.
+// Messages are dropped if the function is empty. Errors are thrown instead.
 struct Notices {
   std::function<void(std::string_view)> on_warning = {}, on_note = {};
 
-  // Tells what somebody should look at.
+  // Reports a condition that the user should examine.
   void warning(std::string_view text) const {
     if (on_warning) on_warning(text);
   }
-  // Tells what goes on.
+  // Reports progress.
   void note(std::string_view text) const {
     if (on_note) on_note(text);
   }

@@ -15,7 +15,7 @@ bool finite(const signals::Series& s, std::size_t i) {
   return std::ranges::all_of(s.columns, [i](const auto& c) { return std::isfinite(c[i]); });
 }
 
-// Until when the simulated state was made of numbers.
+// Returns the last time at which all simulated values were finite [ns].
 std::int64_t last_good_time(const signals::Table& table) {
   std::int64_t end = INT64_MAX;
   for (const signals::Series& s : table.series) {
@@ -36,7 +36,7 @@ std::string record_text(const signals::Series& s, std::size_t i) {
   return text;
 }
 
-// Until when the run was one: what is vented after a trip is not what led to it.
+// Returns the end of the part of a run that led to its end [ns]; the vent after a trip is excluded.
 std::int64_t end_of_run(const run::Outcome& outcome) {
   const control::Trip& trip = outcome.supervised.trip;
   const std::int64_t end = last_good_time(outcome.table);
@@ -44,7 +44,7 @@ std::int64_t end_of_run(const run::Outcome& outcome) {
   return std::min(end, trip.at * signals::tick_nanoseconds);
 }
 
-// "; the last records before:" and one line per topic, until `end` [ns].
+// Returns "; the last records before:" and one line per topic, until `end` [ns].
 std::string last_records(const signals::Table& table, std::int64_t end) {
   std::string text = "; the last records before:";
   for (const signals::Series& s : table.series) {
@@ -54,12 +54,12 @@ std::string last_records(const signals::Table& table, std::int64_t end) {
   return text;
 }
 
-// "1 reading was", "2 readings were".
+// Returns "1 reading was", "2 readings were".
 std::string counted(std::int64_t count, std::string_view one, std::string_view more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-// Faults that changed nothing: the run was one without them.
+// Adds the faults that had no effect.
 void add_idle_faults(const experiment::Experiment& e, const run::Outcome& outcome,
                      std::vector<std::string>& out) {
   const auto end =
@@ -69,8 +69,8 @@ void add_idle_faults(const experiment::Experiment& e, const run::Outcome& outcom
       out.push_back(fmt::format("fault[{}] never acted: {}", i, why));
 }
 
-// Sensors whose readings were rejected or repeated themselves, and whose counters the run did not
-// record. Those that repeat themselves share a line: a machine that does not move has many.
+// Adds sensors with rejected or repeated readings whose counters the run did not record. Repeated
+// readings share a line, since they are common in a machine that does not move.
 void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
                  std::vector<std::string>& out) {
   std::string first;

@@ -1,4 +1,4 @@
-// run/folder/outcome.h - what a run has to say that neither its figures nor its log show.
+// run/folder/outcome.h - messages about a run that neither its figures nor its log contain.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace sinew::run {
 
-// Returns a sentence each for what came late on this computer, for readings without a channel of
-// their own, and for faults that never acted.
+// Returns a sentence for each kind of lateness on this computer, for rejected readings without a
+// channel of their own, and for faults that never acted.
 std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& experiment,
                                                  const run::Outcome& outcome);
 

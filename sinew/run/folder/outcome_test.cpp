@@ -1,5 +1,5 @@
-// A tick that a board's clock has missed is known to whoever looks at the run: as a count, in the
-// log, in the summary and in words.
+// A tick that a board's clock has missed is reported by the run: as a count, in the log, in the
+// summary and in a warning.
 #include "sinew/run/folder/outcome.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace sinew::run::outcome_test {
 namespace {
 
-constexpr int period_of_it = 80;  // of the run; 10 ms each
+constexpr int period_of_it = 80;  // number of 10 ms periods of the run
 
 struct Missed {
   Missed(std::uint32_t ticks, const std::vector<std::string>& sets)
@@ -56,7 +56,7 @@ TEST(MissedTicks, AreNotToldWhereThereAreNone) {
     EXPECT_EQ(warning.find("came later than announced"), std::string::npos) << warning;
 }
 
-// Where an experiment has its readings supervised its log has the count.
+// If an experiment's readings are supervised, its log has the count.
 TEST(MissedTicks, AreInTheLogAndTheSummaryFromThatPeriodOn) {
   const Missed run(7, {"low_level.command_rate=100 rad/s"});
   const signals::Series* gaps = run.out.table.find("/low_level/gaps");

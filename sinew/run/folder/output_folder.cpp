@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* finished_name = ".finished";
-constexpr const char* replaced_name = ".replaced";  // in it: names that the new files do not have
+constexpr const char* replaced_name = ".replaced";  // a file that lists names to be removed
 
 void require(const fs::path& where, const std::error_code& problem) {
   if (problem) refuse(where, problem.message(), "a file that can be replaced", "another folder");
@@ -37,7 +37,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-// A file within the folder, or in a folder within that is gone with its last file.
+// Removes a file within the folder, and its subfolder if it becomes empty.
 void remove_within(const fs::path& folder, const fs::path& name) {
   for (const fs::path& part : name)
     if (part == ".." || part.has_root_path()) return;
@@ -49,7 +49,7 @@ void remove_within(const fs::path& folder, const fs::path& name) {
   if (name.has_parent_path()) fs::remove(folder / name.parent_path(), ignored);  // if it is empty
 }
 
-// Also a second time: what has its place stays there.
+// Moves the finished files to their places. A repeated call continues an interrupted one.
 void take_places(const fs::path& folder) {
   const fs::path finished = folder / finished_name;
   std::error_code problem;
@@ -103,7 +103,7 @@ OutputFolder::OutputFolder(fs::path folder) : path_(std::move(folder)) {
          "another one, or to wait for it");
 }
 
-// A stage that nothing was written to is no loss.
+// An empty stage is removed.
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   if (staged()) fs::remove(stage_, ignored);
@@ -138,7 +138,7 @@ void OutputFolder::commit(const std::vector<std::string>& replaced) {
   list.write(gone);
   list.commit();
 
-  // Here the new ones begin to be what the folder holds.
+  // After this rename, the new files are the contents of the folder.
   std::error_code problem;
   fs::rename(stage_, path_ / finished_name, problem);
   require(stage_, problem);

@@ -1,9 +1,10 @@
-// run/folder/output_folder.h - a folder whose files are replaced together: an older result stands
-// until the new one is whole, and only one process writes there at a time.
+// run/folder/output_folder.h - a folder whose files are replaced together: an older result remains
+// until the new one is complete, and only one process writes at a time.
 //
-// The new files are written into a folder within, the stage. When they are whole, the stage is
-// renamed to `.finished`, and its files take their places one by one. A process that is killed in
-// between leaves `.finished`; whoever comes next to the folder, to read or to write, does the rest.
+// The new files are written into a folder within it, the stage. When they are complete, the stage
+// is renamed to `.finished`, and its files are moved to their places one by one. A process that is
+// killed meanwhile leaves `.finished`; the next process that opens the folder, to read or to write,
+// completes the move.
 #pragma once
 
 #include <filesystem>
@@ -12,31 +13,32 @@
 
 namespace sinew::run {
 
-// Makes a folder with those above it; one that is there already is fine. Throws config::Error where
-// it cannot be made.
+// Creates a folder with its parents, if it does not exist. Throws config::Error if it cannot be
+// created.
 void make_folders(const std::filesystem::path& folder);
 
 class OutputFolder {
  public:
-  // Makes it where it is missing, and locks it as long as this lives. Throws config::Error where it
-  // cannot be made, or where another process holds it, with the process's number.
+  // Creates the folder if it is missing, and locks it for the lifetime of this object. Throws
+  // config::Error if it cannot be created, or if another process has locked it, with the process's
+  // number.
   explicit OutputFolder(std::filesystem::path folder);
   ~OutputFolder();
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&&) = delete;
 
-  // Return the folder itself, and where to write: the stage where there is one, else the folder.
+  // Return the folder itself, and the folder to write to: the stage if there is one.
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& work() const { return stage_.empty() ? path_ : stage_; }
   bool staged() const { return !stage_.empty(); }
 
-  // Makes a folder within, which must not be there or be empty, the place where to write. Throws
-  // config::Error.
+  // Creates a folder within it, which must be missing or empty, as the stage. Throws config::Error.
   void stage(const std::string& name);
 
-  // Syncs what was written. From a stage it takes the place of what has its names and of
-  // `replaced`, files within the folder; then the stage is gone. Throws config::Error; then either
-  // the old files stand, or the next process that comes to the folder does the rest.
+  // Syncs the written files. Moves those of a stage into the folder, where they replace
+  // files of the same names, removes `replaced`, names within the folder, and removes the stage. If
+  // it throws config::Error, either the old files are unchanged or the next process that opens the
+  // folder completes the move.
   void commit(const std::vector<std::string>& replaced);
 
  private:
@@ -44,8 +46,8 @@ class OutputFolder {
   int fd_ = -1;
 };
 
-// Does the rest where a process was killed while its files took their places. For those who read
-// from a folder; nothing else is touched. Throws config::Error.
+// Completes a move of files that was interrupted by the end of its process; changes nothing else.
+// To be called before reading from a folder. Throws config::Error.
 void finish_replacing(const std::filesystem::path& folder);
 
 }  // namespace sinew::run

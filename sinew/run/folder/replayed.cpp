@@ -22,7 +22,7 @@ namespace sinew::run {
 
 namespace {
 
-// Every sensor's counts: what a controller reads.
+// Throws unless the table has the counts of every sensor, which the controller reads.
 void require_counts(const experiment::Experiment& e, const signals::Table& recorded,
                     const std::string& name) {
   std::string missing;
@@ -152,7 +152,7 @@ Json json_of(const analysis::Parting& p) {
 
 // --- text ---
 
-// "▁▂▅█": rms of each tenth beside the greatest one.
+// Returns "▁▂▅█": the rms of each tenth, relative to the greatest one.
 std::string bars_of(const std::array<double, 10>& growth) {
   static constexpr const char* bars[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
   double most = 0;
@@ -165,7 +165,7 @@ std::string bars_of(const std::array<double, 10>& growth) {
   return out;
 }
 
-// A difference in the unit that is shown.
+// Returns a difference in the unit that is shown.
 std::string difference_text(double value, const std::string& unit, const units::ShownUnits& units,
                             bool sign = false) {
   if (!std::isfinite(value)) return "";

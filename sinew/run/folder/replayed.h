@@ -1,5 +1,5 @@
-// run/folder/replayed.h - a run that is kept, replayed: its readings through today's controller, or
-// its valves' commands through today's plant; where what comes out parts from what was recorded.
+// run/folder/replayed.h - replay of a stored run: its readings are fed to today's controller, or
+// its valve commands to today's plant, and the result is compared with the recording.
 #pragma once
 
 #include <cstddef>
@@ -15,42 +15,43 @@
 
 namespace sinew::run {
 
-// The part that is tried: recorded readings are fed to the controller, or commands to the plant.
+// The part that is tested: the controller is fed with recorded readings, the plant with commands.
 enum class ReplayOf { controller, plant };
 
-// Which run is replayed, and how.
+// The run and the options of its replay.
 struct ReplayRequest {
   std::string run;      // its folder, or its log
-  std::string machine;  // what was run, in place of the folder's
+  std::string machine;  // description of the run, replaces the folder's
   ReplayOf of = ReplayOf::controller;
-  std::vector<std::string> sets;      // "key=value" in place of the machine's
-  std::optional<std::string> folder;  // keeps the replay as a run; empty: runs/<experiment>/<n>
-  bool force = false;                 // replace the run that is in the folder
-  double band = 0.05;                 // share of a channel's range beyond which it has parted
+  std::vector<std::string> sets;      // "key=value", overrides the machine's
+  std::optional<std::string> folder;  // stores the replay as a run; empty: runs/<experiment>/<n>
+  bool force = false;                 // replaces the run in the folder
+  double band = 0.05;                 // deviation, as a share of a channel's range, at which it has
+                                      // parted
 };
 
-// Holds what came of a replay.
+// The result of a replay.
 struct Replayed {
   ReplayOf of = ReplayOf::controller;
   double duration = 0;                          // [s]
-  analysis::EdgeComparison edges;               // of a controller
-  std::vector<analysis::Parting> partings;      // of a plant
-  std::vector<std::string> rebuilt;             // duties that edges were made from
-  double band = 0;                              // as of the request
-  std::string cause;                            // why it ended early; empty where it did not
-  std::optional<std::filesystem::path> folder;  // where it is kept
+  analysis::EdgeComparison edges;               // result of a controller
+  std::vector<analysis::Parting> partings;      // result of a plant
+  std::vector<std::string> rebuilt;             // duties that edges were calculated from
+  double band = 0;                              // as requested
+  std::string cause;                            // why it ended early; empty: it did not
+  std::optional<std::filesystem::path> folder;  // folder of the stored replay
 
-  // Does the controller decide every edge again, or the plant stay within the band throughout?
+  // Returns whether the controller decided every edge again, or the plant stayed within the band.
   bool agrees() const;
 };
 
-// Throws config::Error where the run cannot be read, or lacks what is to be fed, naming its topics.
+// Throws config::Error if the run cannot be read, or lacks the required inputs; names their topics.
 Replayed replay_run(const ReplayRequest& request, const Notices& notices = {});
 
-// "format": "sinew.replay/1", in SI.
+// Returns JSON with "format": "sinew.replay/1", in SI.
 std::string to_json(const Replayed& replayed);
 
-// As tables for people; `width` in letters, 0: any.
+// Returns tables of text of at most `width` letters; 0: any.
 std::string text_of(const Replayed& replayed, const units::ShownUnits& units, std::size_t width);
 
 }  // namespace sinew::run

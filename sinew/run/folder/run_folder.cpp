@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The only files that force=true may replace; and what a process that was killed leaves beside
-// them.
+// The only files that force=true may replace, with those that a killed process leaves.
 constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
                                             summary_name, measured_name,  mapping_name,
                                             "report.html"};
@@ -67,7 +66,7 @@ bool holds_a_run(const std::vector<std::string>& names) {
   });
 }
 
-// An earlier run that did not become whole is removed before the next one; nothing else is.
+// Removes the files of an earlier incomplete run, and no others, before the next one.
 void clear_unfinished(const fs::path& folder) {
   if (!fs::is_directory(folder)) return;
   std::vector<std::string> known = known_names();

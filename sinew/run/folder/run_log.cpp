@@ -11,7 +11,7 @@ namespace sinew::run {
 
 namespace {
 
-// Called from the loop. A file that fails is told of by finish().
+// Called from the loop. finish() reports errors of the file.
 void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
           std::span<const double> values) noexcept {
   (void)static_cast<log::Writer*>(writer)->push(topic, time_ns, values);

@@ -1,5 +1,5 @@
-// run/folder/run_log.h - joins a run to its log: what the recorder sees goes into the file as it
-// comes.
+// run/folder/run_log.h - joins a run to its log: recorded values are written to the file as they
+// come.
 #pragma once
 
 #include <filesystem>
@@ -11,31 +11,31 @@
 
 namespace sinew::run {
 
-// Returns the experiment that a log says that it is of; empty where it does not. Throws log::Error
-// where it cannot be read, as do the next two.
+// Returns the name of the experiment in a log; empty if it has none. Throws log::Error if the log
+// cannot be read, as do the next two.
 std::string experiment_in(const std::filesystem::path& log);
 
-// Returns why its run was ended before it was finished, in the words of cause_of(); empty where it
-// was not.
+// Returns why the log's run ended early, as formulated by cause_of(); empty if it was finished.
 std::string ended_in(const std::filesystem::path& log);
 
-// Throws std::runtime_error where the log's run was ended: for what speaks of whole runs only.
+// Throws std::runtime_error if the log's run ended early, for uses that require a finished run.
 void require_finished(const std::filesystem::path& log);
 
 class RunLog {
  public:
-  // Throws log::Error where the file cannot be made. `name` and `seed` are the experiment's.
+  // Throws log::Error if the file cannot be created. `name` and `seed` are the experiment's.
   RunLog(const std::filesystem::path& file, const std::string& name, int seed,
          const std::string& resolved, LoggedTopics logged);
 
-  // Writes a table that is there already, in the order of its times.
+  // Writes an existing table in the order of its times.
   void write(const signals::Table& table);
 
-  // Makes a run of these options write to the log, which must outlive the run.
+  // Makes a run with these options write to the log, which must outlive the run.
   void tap(RunOptions& options);
 
-  // Indexes the file. Without it, the file is one that was cut off. `resolved`: what was run after
-  // all, which may be the constructor's. `ended`: why the run was not finished; empty where it was.
+  // Writes the index of the file, without which it reads as cut off. `resolved` is the final
+  // description of the run, which may be the constructor's. `ended` states why the run was not
+  // finished; empty: it was.
   void finish(const std::string& resolved, const std::string& ended);
 
  private:

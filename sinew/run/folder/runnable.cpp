@@ -12,7 +12,7 @@ experiment::Experiment runnable(const std::string& path, const std::vector<std::
   const config::Node root = config::compose(path, sets);
   experiment::Experiment e = buildable(root, path);
   if (!allow_unreachable) refuse_unreachable(e);
-  (void)analysis::read_machine(root);  // what cannot be summed up is not run
+  (void)analysis::read_machine(root);  // an experiment that cannot be summarised is not run
   (void)logged_topics(e);
   return e;
 }

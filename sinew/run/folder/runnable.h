@@ -1,5 +1,5 @@
-// run/folder/runnable.h - everything that can be refused before a run, refused: `sinew run` begins
-// with it, and `sinew check` is it, so that the two cannot disagree.
+// run/folder/runnable.h - all checks of an experiment before a run. `sinew run` and `sinew check`
+// both use them, so that the two agree.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace sinew::run {
 
-// Returns an experiment whose machine, plan, controller, channels and what is reported of it were
-// all looked at. `sets` are "key=value" in place of the file's. Throws config::Error by the files'
-// own lines; with `allow_unreachable` a foot path may leave the reach.
+// Returns an experiment whose machine, plan, controller, channels and reported values were checked.
+// `sets` are "key=value" and override the file's. Throws config::Error with the lines of the files;
+// with `allow_unreachable` a foot path may leave the reach.
 experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
                                 bool allow_unreachable);
 

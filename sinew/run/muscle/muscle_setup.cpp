@@ -20,11 +20,11 @@ namespace {
 
 using State = air::DrivenMuscle::State;
 
-// The header stands before the state in a save.
+// Header of a saved state.
 struct Header {
   char format[16] = "sinew.muscle/1";
-  std::uint64_t model = 0;     // of the description and the library's version
-  std::uint64_t checksum = 0;  // of the state
+  std::uint64_t model = 0;     // hash of the description and the library's version
+  std::uint64_t checksum = 0;  // hash of the state
 };
 
 std::uint64_t model_of(const MuscleSetup& setup) {
@@ -66,12 +66,12 @@ void restore(air::DrivenMuscle& muscle, const MuscleSetup& setup,
 
 namespace {
 
-// Length of the element at the start; 0 where only the stand itself has it  [m].
+// Returns the length of the element at the start; 0 if it follows from the stand itself [m].
 double start_length(const plant::StandSetup& s) {
   return s.load.mode == robot::Stand::Load::Mode::driven ? s.load.length.at(0) : s.start.length;
 }
 
-// The values alone: what a file says of them is no part of the muscle.
+// Hashes the values alone, since comments and sources of a file do not affect the muscle.
 std::uint64_t model_of(const config::Node& values, const std::string& name) {
   return units::hash(name, units::hash(config::to_toml(values)));
 }
@@ -124,7 +124,7 @@ MuscleSetup muscle_setup(const std::string& path, const std::string& name,
   return of_tree(config::compose(path, sets), path, name);
 }
 
-// The name alone: a text stands in no folder whose files need more than others.
+// Uses the last name of the path only, since the text does not depend on a folder.
 MuscleSetup muscle_setup_of(const std::string& text, const std::string& path,
                             const std::string& name) {
   const std::string file = std::filesystem::path(path).filename().string();

@@ -1,4 +1,4 @@
-// One muscle of a file is the file's, and goes on from its save.
+// One muscle of a file equals that of the whole file, and continues from its saved state.
 #include "sinew/run/muscle/muscle_setup.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ air::DrivenMuscle made(const MuscleSetup& s) {
   return {s.muscle, s.air, s.supply, s.length, s.pressure};
 }
 
-// Pulses at a length that swings; returns the pull at the end.
+// Drives the muscle with pulses at a varying length; returns the final tension.
 double driven(air::DrivenMuscle& m, double length, int from, int to) {
   for (int k = from; k < to; ++k) {
     m.inlet(k % 50 < 20);
@@ -66,7 +66,7 @@ TEST(MuscleSetup, IsTheRobotsMuscle) {
   }
 }
 
-// The text needs no other file, and keeps every bit.
+// The text needs no other file, and preserves every bit.
 TEST(MuscleSetup, IsMadeAgainFromItsText) {
   for (const auto& [path, name] :
        {std::pair{rig_file, ""}, {robot_file, "knee_flexor"}, {walk, "hip_extensor"}}) {

@@ -16,8 +16,7 @@ using Point = actuator::OperatingPoint;
 
 namespace {
 
-// A quantity that is reported of a point: key of the JSON, words, SI unit and that of inches and
-// pounds.
+// A reported quantity of a point: key in JSON, words, SI unit, and unit in inches and pounds.
 struct Row {
   const char* key;
   const char* words;
@@ -47,18 +46,18 @@ constexpr Row rows[] = {
     {"braid_angle_rad", "braid angle", &Point::braid_angle, "rad", "deg"},
 };
 
-// A dash where the law gives no number.
+// Returns a dash if the value is not finite.
 std::string shown(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
-// The columns of a table of points: title, and what stands under it.
+// A column of a table of points: its title and the text of a point.
 struct Cell {
   std::string title;
   std::function<std::string(const Point&)> text;
 };
 
-// The units of a table's columns, where nobody asked for others.
+// The default units of a table's columns.
 struct ColumnUnits {
   std::string length, pressure, force = "N", stiffness = "N/m", volume = "mL", diameter = "mm",
                                 angle = "deg";
@@ -99,7 +98,7 @@ std::vector<Cell> cells_for(bool moves, bool predicts, const ColumnUnits& u) {
   return out;
 }
 
-// Adds the lines of a point that stand there only where they were asked for.
+// Returns whether the quantity is shown only on request.
 bool is_on_request(const Row& row) {
   return row.value == &Point::velocity || row.value == &Point::sliding_tension ||
          row.value == &Point::viscous_loss || row.value == &Point::half_68 ||

@@ -1,4 +1,4 @@
-// run/setup/air_faults.h - the faults of an experiment as they act in the simulated air.
+// run/setup/air_faults.h - an experiment's faults as faults of the simulated air.
 #pragma once
 
 #include <functional>
@@ -11,23 +11,22 @@
 
 namespace sinew::run {
 
-// The air that faults break: its parts and its room, and the hole where a muscle is ruptured.
+// The parts of the air that faults act on, its atmosphere, and the hole of a ruptured muscle.
 struct FaultyAir {
   std::vector<experiment::FaultPart> parts;
   double atmosphere = 0;                 // absolute [Pa]
-  std::function<double(int)> tear = {};  // of a muscle, by its index [m^2]
+  std::function<double(int)> tear = {};  // area for a muscle, by its index [m^2]
 };
 
-// Returns a tenth of the cross-section of one actuator at that length: a tear that the braid holds
-// together, a guess  [m^2].
+// Returns the assumed area of a tear that the braid holds together: a tenth of the cross-section of
+// one actuator at that length [m^2].
 double tear_of(const actuator::Actuator& actuator, double length);
 
-// Adds that there are more faults of the air than an air network schedules.
+// Adds a contradiction if there are more faults of the air than an air network can schedule.
 void check_air_faults(std::span<const experiment::Fault> faults,
                       std::vector<robot::Contradiction>& out);
 
-// Returns the faults of the air, in their order, for a plant. Expects a list without
-// contradictions.
+// Return the faults of the air, in their order, for a plant. The list must have no contradictions.
 std::vector<air::AirFault> air_faults(std::span<const experiment::Fault> faults,
                                       const FaultyAir& air);
 std::vector<air::AirFault> air_faults(const experiment::Experiment& experiment);

@@ -1,7 +1,7 @@
 // run/setup/buildable.h - experiments whose controllers and simulated machine can be built.
 //
-// experiment::load refuses a description that contradicts itself; here is refused what the low
-// level's numbers cannot hold, and what the simulated air and bodies cannot be.
+// experiment::load refuses a description that contradicts itself. This refuses values that the low
+// level cannot represent, and machines that cannot be simulated.
 #pragma once
 
 #include <string>
@@ -12,15 +12,16 @@
 
 namespace sinew::run {
 
-// Throws config::Error with all that cannot be built of a description without contradictions.
+// Throws config::Error with everything that cannot be built in a description without
+// contradictions.
 void refuse_unbuildable(const experiment::Experiment& experiment);
 
 // Throws config::Error for an experiment as above, and for a robot with numbers that its low level
-// cannot hold. Files of parts are never refused.
+// cannot represent. Files of parts are never refused.
 void refuse_unbuildable(const experiment::MachineFile& file);
 
-// Reads the file as experiment::load does, or a tree that is composed already. Throws config::Error
-// with all that is wrong.
+// Read the file as experiment::load does, or take a composed tree. Throw config::Error with all
+// faults.
 experiment::Experiment buildable(const std::string& path,
                                  const std::vector<std::string>& sets = {});
 experiment::Experiment buildable(const config::Node& root, const std::string& path);

@@ -21,8 +21,7 @@ namespace {
 
 using List = std::vector<robot::Contradiction>;
 
-// The range that a joint is taken through: where it starts, and where the plan wants it in one step
-// [rad].
+// The range of a joint's motion: its start, and its setpoints in one step of the plan [rad].
 struct Reach {
   double low = 0, high = 0;
 
@@ -32,7 +31,7 @@ struct Reach {
   }
 };
 
-// The angles at which a leg's plan wants its joints now.
+// Adds the present setpoints of a leg's joints.
 void add_desired(const Experiment& e, const gait::Legs& legs, std::size_t leg,
                  std::vector<Reach>& out) {
   const gait::Desired& desired = legs.desired(leg);
@@ -67,7 +66,7 @@ std::vector<Reach> reaches(const Experiment& e) {
   return out;
 }
 
-// A chamber that vanishes within its joint's reach: no pressure is left to speak of.
+// Adds muscles whose chamber has no volume within the joints' range: their pressure is undefined.
 void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   const std::vector<Reach> reach = reaches(e);
   const plant::MuscleRouting cords(e.robot);
@@ -107,8 +106,8 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   }
 }
 
-// Warns of an end of a joint's reach that none of the muscles which turn it there can pull to: each
-// is at its shortest length before, where it pulls no more.
+// Warns of an end of a joint's range that no muscle can pull to: each muscle that turns the joint
+// in that direction reaches its shortest length, where its pull ends, before.
 void warn_of_reach(const Experiment& e, const plant::Setup& setup,
                    const plant::MuscleRouting& cords, std::size_t joint, const Reach& reach,
                    bool high, List& out) {
@@ -118,7 +117,7 @@ void warn_of_reach(const Experiment& e, const plant::Setup& setup,
   air::Lanes<plant::most_muscles> length{}, rate{};
   plant::MuscleRouting::MomentArms<plant::most_muscles> arms{};
   cords.at(angle.data(), still.data(), length, rate, arms);
-  int nearest = -1;  // the one that gets furthest
+  int nearest = -1;  // the muscle that comes closest
   double left = 0;   // its length above the shortest [m]
   for (int i = 0; i < cords.count(); ++i)
     for (std::size_t s = 0; s < plant::MuscleRouting::most; ++s) {
@@ -146,13 +145,13 @@ void warn_of_reach(const Experiment& e, const plant::Setup& setup,
                  "an angle nearer to the rest angle, a longer muscle, or a smaller moment_arm"});
 }
 
-// Air or joints that move so quickly that a run would take for ever.
+// Adds air or joints that are so quick that a run would take too long.
 void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
   const double air =
       air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).longest_step();
   const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
-  if (s.air.wall_time > 0 && air < shortest) {  // without walls air goes ahead of a step
+  if (s.air.wall_time > 0 && air < shortest) {  // else quick air is integrated ahead
     out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),
                    "at least 2 us", "a larger volume, a hose without one, or no air.wall_time"});
     return;

@@ -1,5 +1,5 @@
-// run/setup/check_motion.h - a part of refuse_unbuildable: what the simulated machine and its
-// plan cannot be together.
+// run/setup/check_motion.h - a part of refuse_unbuildable: contradictions between the simulated
+// machine and its plan.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace sinew::run {
 
-// Adds muscles whose chambers would vanish within the reach of the motion, and machines that would
-// need steps of less than 2 us.
+// Adds muscles whose chambers would have no volume within the range of motion, and machines that
+// would need steps of less than 2 us.
 void check_motion(const experiment::Experiment& experiment, std::vector<robot::Contradiction>& out);
 
-// Returns the ends of the plan's reach that no muscle can pull a joint to: not wrong, as a load or
-// a swing may take it there, but worth a warning.
+// Returns the ends of the plan's range that no muscle can pull a joint to. They are warnings, since
+// a load or a swing may move the joint there.
 std::vector<robot::Contradiction> beyond_reach(const experiment::Experiment& experiment);
 
 }  // namespace sinew::run

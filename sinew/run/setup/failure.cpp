@@ -9,7 +9,7 @@ namespace {
 
 std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
-// Where a braid's chamber has no volume, if that is why.
+// Returns the length at which the braid's chamber has no volume, if that is the cause.
 std::string length_in_words(const air::Failure& failure, const actuator::Actuator& actuator) {
   const double thread = actuator.braid.thread_length, caps = actuator.caps.length;
   if (failure.length <= caps)

@@ -1,4 +1,4 @@
-// run/setup/failure.h - a failure of a simulated machine in words.
+// run/setup/failure.h - text of a failure of a simulated machine.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace sinew::run {
 
-// "the air of muscle knee_flexor was no number any more at 0.012 s: …; try …". `who` is the muscle
-// as its file calls it, `step` the key of the step's length.
+// Returns "the air of muscle knee_flexor was no number any more at 0.012 s: …; try …". `who` is the
+// muscle's name in its file, `step` the key of the step's length.
 std::string in_words(const air::Failure& failure, const std::string& who,
                      const actuator::Actuator& actuator, const std::string& step);
 

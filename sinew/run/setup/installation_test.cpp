@@ -1,4 +1,4 @@
-// An experiment's words about the low level reach the controllers' constants.
+// An experiment's keys for the low level reach the controllers' constants.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -28,7 +28,7 @@ std::string refusal(const std::vector<std::string>& sets) {
   return "nothing";
 }
 
-// The hip's, from "<estimator>", ...
+// Returns the key of the hip's velocity estimator from "<estimator>", ...
 std::string velocity(const std::string& keys) {
   return "joint.hip.velocity={ estimator = " + keys + " }";
 }

@@ -11,7 +11,7 @@ using experiment::find_valve;
 
 namespace {
 
-// The robot's cylinder with its valves, if it moves.
+// Returns the robot's cylinder with its valves, if it is driven by air.
 std::optional<air::Cylinder> cylinder_of(const Experiment& e) {
   using Mode = robot::Cylinder::Mode;
   const robot::Cylinder& c = e.robot.cylinder;

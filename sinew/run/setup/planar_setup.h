@@ -1,4 +1,4 @@
-// run/setup/planar_setup.h - an experiment as the world that it takes place in.
+// run/setup/planar_setup.h - setup of the simulated world of an experiment.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace sinew::run {
 
-// The robot's muscles with their actuators and valves, in its order.
+// Returns the robot's muscles with their actuators and valves, in its order.
 std::vector<air::Muscle> muscles_of(const experiment::Experiment& experiment);
 
-// A planar world for the experiment's robot.
+// Returns a planar world for the experiment's robot.
 plant::Setup planar_setup(const experiment::Experiment& experiment);
 
-// That, or the experiment's test stand (stand_setup.h).
+// Returns the planar world, or the experiment's test stand (stand_setup.h).
 plant::AnySetup machine_setup(const experiment::Experiment& experiment);
 
 }  // namespace sinew::run

@@ -70,7 +70,7 @@ std::string json_of(const robot::Robot& robot, const Stance& s) {
 
 namespace {
 
-// Returns the angle, less whole turns, next to the joint's rest: from there it turns  [rad].
+// Returns the equivalent angle, less whole turns, nearest to the joint's rest angle [rad].
 double next_to_rest(const robot::Joint& joint, double angle) {
   return joint.rest_angle + std::remainder(angle - joint.rest_angle, 2 * std::numbers::pi);
 }

@@ -1,5 +1,5 @@
-// run/setup/stance.h - a machine that stands at given joint angles: its foot, and its muscles
-// beside the lengths between which they work.
+// run/setup/stance.h - pose of a machine at given joint angles: position of its foot, and
+// lengths of its muscles with the limits of their range.
 #pragma once
 
 #include <algorithm>
@@ -17,30 +17,31 @@ struct MuscleAt {
   std::string name;
   double length = 0, shortest = 0, longest = 0;  // [m]
 
-  // Can the muscle be so long?
+  // Returns whether the muscle can have this length.
   bool within() const { return length >= shortest && length <= longest; }
 };
 
 struct Stance {
-  std::vector<double> angles;  // of the joints [rad]
-  robot::Point foot;           // from the first joint [m]
+  std::vector<double> angles;  // joint angles [rad]
+  robot::Point foot;           // relative to the first joint [m]
   std::vector<MuscleAt> muscles;
-  std::optional<robot::Jacobian> jacobian;  // of the foot by the angles: of two links [m/rad]
-  std::vector<double> torques;              // of the joints [N m]; empty where no force is asked of
+  std::optional<robot::Jacobian> jacobian;  // derivative of the foot by the angles; two links only
+                                            // [m/rad]
+  std::vector<double> torques;              // joint torques [N m]; empty unless a force was given
 
-  // Can every muscle be as long as it would have to be?
+  // Returns whether every muscle can have its length.
   bool within() const {
     return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });
   }
 };
 
-// Returns the machine at these angles, one per joint in the robot's order  [rad]. Of angles that
-// are whole turns apart the muscles' lengths are those of the one next to the joint's rest.
+// Returns the machine at these angles, one per joint in the robot's order [rad]. Lengths of muscles
+// are calculated at the equivalent angle nearest to the joint's rest angle.
 Stance stance(const experiment::Experiment& experiment, const std::vector<double>& angles);
 
-// A stance for people and for programs.
+// A stance as text and as JSON.
 
-// The units in which people read it.
+// The units of the text.
 struct StanceUnits {
   std::string length = "m", angle = "deg", torque = "N m", jacobian = "m/rad";
 };
@@ -48,7 +49,7 @@ struct StanceUnits {
 // Returns lines of text: foot, joints, muscles, Jacobian, torques.
 std::string text_of(const robot::Robot& robot, const Stance& stance, const StanceUnits& units);
 
-// Returns an object of JSON, in SI.
+// Returns a JSON object, in SI.
 std::string json_of(const robot::Robot& robot, const Stance& stance);
 
 }  // namespace sinew::run

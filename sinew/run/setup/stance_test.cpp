@@ -34,7 +34,7 @@ TEST(Stance, AWholeTurnMakesNoMuscleLonger) {
     EXPECT_NEAR(a.muscles[i].length, b.muscles[i].length, 1e-12);
 }
 
-// Lengths and foot by central differences of 1e-6 rad: their error is of that square.
+// Jacobian of foot and lengths by central differences of 1e-6 rad, whose error is of second order.
 TEST(Stance, TheJacobianIsTheFootsSlope) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> turn(-0.3, 0.3);

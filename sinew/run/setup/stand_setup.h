@@ -1,4 +1,4 @@
-// run/setup/stand_setup.h - from an experiment on the test stand to the world that it needs.
+// run/setup/stand_setup.h - setup of the simulated test stand of an experiment.
 #pragma once
 
 #include "sinew/experiment/experiment.h"
@@ -6,11 +6,11 @@
 
 namespace sinew::run {
 
-// Returns the stand of an experiment that has one, with what breaks while it runs. Expects a list
-// [[fault]] without contradictions.
+// Returns the stand of an experiment that has one, with its faults. The list [[fault]] must have no
+// contradictions.
 plant::StandSetup stand_setup(const experiment::Experiment& experiment);
 
-// Adds what the world itself refuses, as a load that hangs at no length.
+// Adds what the world itself refuses, for example a load that has no equilibrium at any length.
 void check_stand_setup(const experiment::Experiment& experiment,
                        std::vector<robot::Contradiction>& wrong);
 

@@ -1,5 +1,5 @@
-// What a file says of its air reaches the plant: each option by a law of the whole run, and what
-// does not go together by its message.
+// The options of a file's air reach the plant: each is checked by a law over a whole run, and
+// contradictions by their messages.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,7 +71,7 @@ TEST(AirOfAFile, ReachesThePlant) {
   EXPECT_EQ(slow.muscles[0].exhaust.opening_delay_slope, 1e-9);
 }
 
-// What the muscles took is what the tank lost: m R T/V.
+// The mass that the muscles took equals that lost by the tank: m R T/V.
 TEST(AirOfAFile, ATankLosesWhatTheMusclesTake) {
   const experiment::Experiment e = walk(tank);
   const Outcome out = run(e);
@@ -79,13 +79,13 @@ TEST(AirOfAFile, ATankLosesWhatTheMusclesTake) {
   for (const robot::Muscle& m : e.robot.muscles)
     taken += last(out.table, "/true/muscle/" + m.name + "/air_in");
   const double drop = taken * e.air.gas_constant * e.air.temperature / 1e-3;
-  EXPECT_GT(drop, 2e4);  // a step takes a few percent of it
+  EXPECT_GT(drop, 2e4);  // a step takes a few percent of the pressure
   EXPECT_NEAR(last(out.table, "/true/supply/tank_pressure"), e.supply.initial_pressure - drop, 1.0);
   EXPECT_EQ(last(out.table, "/true/supply/pressure"),
             last(out.table, "/true/supply/tank_pressure"));
 }
 
-// In = out + leaked + what has come to be in the muscle.
+// Inflow = outflow + leakage + increase in the muscle.
 TEST(AirOfAFile, ALeakIsInTheBalance) {
   const Outcome out = run(walk({"muscle.knee_extensor.leak.area=0.05 mm2"}));
   const std::string at = "/true/muscle/knee_extensor/";
@@ -98,7 +98,7 @@ TEST(AirOfAFile, ALeakIsInTheBalance) {
               1e-3 * in);
 }
 
-// 4.3: with its spring the reversed exhaust does not open against more than 35 psi.
+// 4.3: with its spring, the reversed exhaust does not open against more than 35 psi.
 TEST(AirOfAFile, AnExhaustThatFailsHoldsItsAir) {
   const auto vented = [](const Sets& sets) {
     const Outcome out = run(walk(sets));
@@ -109,7 +109,7 @@ TEST(AirOfAFile, AnExhaustThatFailsHoldsItsAir) {
             vented({"valve.exhaust.fails_above=200 psi diff"}));
 }
 
-// Pressure regulators in the place of all valves: the low level sends levels, the joints follow.
+// Pressure regulators replace all valves: the low level sends levels, and the joints follow.
 TEST(AirOfAFile, RegulatorsTakeTheLowLevelsSetPoints) {
   experiment::Experiment e = walk();
   for (gas::Valve& v : e.valves)
@@ -128,7 +128,7 @@ TEST(AirOfAFile, RegulatorsTakeTheLowLevelsSetPoints) {
         most = std::max(most, p);
         least = std::min(least, p);
       }
-  EXPECT_GT(most, e.air.atmosphere + 0.3 * 6.2e5);  // levels arrive, and move
+  EXPECT_GT(most, e.air.atmosphere + 0.3 * 6.2e5);  // levels arrive and have an effect
   EXPECT_LE(most, e.air.atmosphere + 6.2e5);
   EXPECT_LT(least, e.air.atmosphere + 0.2 * 6.2e5);
 }
@@ -171,7 +171,7 @@ TEST(AirOfAFile, WhatDoesNotGoTogetherIsSaid) {
        "muscle.hip_flexor.moment_arm: found a round cam and a table");
   Sets thin = pipe;
   thin.push_back("muscle.hip_flexor.hose.volume=0.0001 mL");
-  EXPECT_EQ(refusal(thin), "nothing");  // it goes ahead of a step, however quick it is
+  EXPECT_EQ(refusal(thin), "nothing");  // quick air is integrated ahead
   thin.push_back("air.wall_time=0.3 s");
   says(thin, "a hose or a cylinder's chamber that fills within");
 }

@@ -1,4 +1,4 @@
-// A machine on several boards: what each of them does is what one board did.
+// A machine on several boards behaves like one on a single board.
 #include "sinew/run/controllers/boards.h"
 #include "sinew/run/setup/installation.h"
 
@@ -30,8 +30,8 @@ experiment::Experiment load(const std::string& name, Sets sets = once, const Set
   return experiment::load(sinew::test::source_dir() + "/experiments/" + name + ".toml", sets);
 }
 
-// Readings, laws and edges of a joint depend on nothing but its own ticks: on a board of its own
-// the knee does the same, to the bit.
+// Readings, laws and edges of a joint depend only on its own ticks: on a board of its own, the knee
+// behaves the same, bit for bit.
 TEST(Boards, TheLegOnTwoIsTheLegOnOne) {
   for (const char* name : {"walk-test-1", "derivative-control", "walk-with-pressures"}) {
     const Outcome one = run(load(name)), two = run(load(name, split));
@@ -48,8 +48,8 @@ TEST(Boards, TheCylinderOnItsOwnIsTheSame) {
   expect_same(one.table, two.table);
 }
 
-// Two legs, each on a board: one bit of one port each, and the scans of both begin at tick 1. The
-// right leg's readings stand at other ticks than on one board, so only the law is the same.
+// Two legs, each on a board: each uses bits of its own port, and both scans begin at tick 1. The
+// right leg's readings are taken at other ticks than on one board, so only the law is the same.
 TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
   Sets sets = once;
   for (const std::string part : {"hip", "knee"}) {
@@ -87,7 +87,7 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
     EXPECT_EQ(left.joint[j].angle.index, right.joint[j].angle.index);
   }
 
-  // Every tick visited, and looked at: the same bits. It walks as the legs on one board do.
+  // Visiting and reading every tick gives the same bits. It walks like the legs on one board.
   const Outcome out = run(e), visited = run(e, {.every_tick = true, .extra_readers = 2});
   ASSERT_EQ(out.status, signals::Status::ok);
   expect_same(out.table, visited.table);
@@ -98,7 +98,7 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
   EXPECT_NEAR(end(out) / end(one), 1, 0.1);
 }
 
-// The scan of all boards together: each conversion once, ascending, with the machine's channels.
+// The scan of all boards: each conversion once, ascending, with the machine's channels.
 TEST(Boards, OneScanOfAll) {
   const experiment::Experiment e = load("walk-test-1", split);
   const Boards boards(boards_of(e));
@@ -132,7 +132,7 @@ TEST(Boards, OneThatTripsEndsAll) {
     const std::string text = cause_of(e, out), on = " on board " + std::to_string(board) + " at ";
     EXPECT_TRUE(text.starts_with("sensor " + std::string(sensor) + on)) << text;
 
-    // Every inlet shuts within two ticks of the trip, every exhaust stands open then.
+    // Every inlet shuts within two ticks of the trip, and every exhaust is open then.
     const std::int64_t end = (out.supervised.trip.at + 2) * signals::tick_nanoseconds;
     for (const signals::Series& series : out.table.series) {
       if (!signals::is_of_valve(series.topic.name)) continue;
@@ -145,7 +145,7 @@ TEST(Boards, OneThatTripsEndsAll) {
   }
 }
 
-// A command that is bad for one board's joint holds and then vents that board, and with it all.
+// A command that is invalid for one board's joint holds and then vents that board, and all others.
 TEST(Boards, BadCommandsNameTheirJoint) {
   const experiment::Experiment e = load("walk-test-1", split);
   Boards boards(boards_of(e));

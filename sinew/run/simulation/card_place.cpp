@@ -15,7 +15,7 @@ namespace {
 
 using Output = plant::CardMachine::Output;
 
-// Of a valve as bits_of names it, the machine's number.
+// Returns the machine's number of a valve that bits_of() names.
 std::size_t number_of(const robot::Robot& robot, const robot::ValveBit& b) {
   const std::size_t which = b.which == "inlet" ? 0 : 1;
   const int muscle = robot::find_muscle(robot, b.of);

@@ -1,5 +1,5 @@
-// run/simulation/card_place.h - an experiment's machine at a card in this computer: which sensor is
-// on which channel and which valve on which bit is said by robot and wiring.
+// run/simulation/card_place.h - an experiment's machine at a card in this computer. Robot and
+// wiring assign sensors to channels and valves to bits.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace sinew::run {
 
-// Throws config::Error for an experiment whose machine no card can drive.
+// Returns the machine as a card drives it. Throws config::Error if no card can drive it.
 plant::CardMachine card_machine(const experiment::Experiment& experiment, const std::string& place);
 
-// A card that is open, with the clock of the loop that will drive it.
+// An open card, with the clock of the loop that will drive it.
 struct CardPlace {
-  // Measures first how late this computer is, for a second.
+  // Measures the latency of this computer for a second, then opens the card.
   CardPlace(const std::string& device, const experiment::Experiment& experiment,
             const std::string& place);
 
-  // How late this computer was, and what it does not permit.
+  // Returns lines with the latency of this computer and the real-time features that it lacks.
   std::vector<std::string> told() const;
 
   host::Beat beat;

@@ -1,4 +1,4 @@
-// run/simulation/clock.h - who owns time: the simulation, or the wall.
+// run/simulation/clock.h - clocks of the loop: simulated time, paced time and steered time.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,18 @@
 
 namespace sinew::run {
 
-// As fast as it goes.
+// A clock that never waits: the loop runs as fast as possible.
 struct SimulatedClock {
-  // Does not wait.
   bool wait_until(signals::Tick) noexcept { return true; }
 };
 
-// `speed` simulated seconds per second of wall time. False where a tick came too late by more than
-// a tick of wall time.
+// Wall time at `speed` simulated seconds per second.
 class PacedClock {
  public:
-  // Its time starts now.
+  // The clock starts now.
   explicit PacedClock(double speed) : speed_(speed), start_(std::chrono::steady_clock::now()) {}
 
-  // Waits until the tick is due. False: it came too late.
+  // Waits until the tick is due. Returns false if it is late by more than a tick of wall time.
   bool wait_until(signals::Tick t) noexcept {
     using seconds = std::chrono::duration<double>;
     const auto due = start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -38,12 +36,12 @@ class PacedClock {
   std::chrono::steady_clock::time_point start_;
 };
 
-// A person's clock: stands while the run is paused, goes at the speed that was asked for last. What
-// falls behind by more than a moment, as on a computer that slept, goes on from there. The first
-// `at_once` seconds pass at once, so that a run that starts paused has something to show.
+// Wall time under steering: the clock stands while the run is paused, and follows the requested
+// pace. A delay of more than a moment, as on a computer that was suspended, is not made up for. The
+// first `at_once` seconds pass without waiting, so that a run that starts paused has data to show.
 class SteeredClock {
  public:
-  // `steering` outlives the clock and says when it stands and how fast it goes.
+  // `steering` must outlive the clock; it provides pause and pace.
   explicit SteeredClock(const Steering& steering, double at_once = 0)
       : steering_(steering),
         pace_(steering.pace()),
@@ -51,8 +49,7 @@ class SteeredClock {
         at_once_(at_once),
         at_(at_once) {}
 
-  // Waits until the tick is due, however often the pace changes meanwhile. False: it came far too
-  // late.
+  // Waits until the tick is due, even if the pace changes meanwhile. Returns true.
   bool wait_until(signals::Tick t) noexcept {
     const double target = static_cast<double>(t) * signals::tick_seconds;
     for (;;) {
@@ -69,10 +66,10 @@ class SteeredClock {
   }
 
  private:
-  static constexpr double doze = 5e-3;    // between two looks at what is wanted [s]
-  static constexpr double moment = 0.25;  // [s]
+  static constexpr double doze = 5e-3;    // interval at which steering is polled [s]
+  static constexpr double moment = 0.25;  // longest delay that is made up for [s]
 
-  // Up to now at the pace of the last look.
+  // Advances to the present time at the pace that was polled last, and polls again.
   void move_on() noexcept {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> passed = now - last_;
@@ -84,9 +81,9 @@ class SteeredClock {
 
   const Steering& steering_;
   double pace_;
-  bool stood_;      // paused at the last look
-  double at_once_;  // [s]
-  double at_;       // simulated time by the wall [s]
+  bool stood_;      // whether it was paused when polled last
+  double at_once_;  // initial time without waiting [s]
+  double at_;       // simulated time according to wall time [s]
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

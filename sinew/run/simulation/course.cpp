@@ -17,7 +17,7 @@ using signals::Tick;
 
 double seconds(Tick ticks) { return static_cast<double>(ticks) * signals::tick_seconds; }
 
-// Throws std::invalid_argument for what is no time.
+// Returns a time in ticks. Throws std::invalid_argument if it is out of range.
 Tick ticks(double time) {
   if (!std::isfinite(time) || time < 0 || time > 1e9)
     throw std::invalid_argument(
@@ -84,7 +84,7 @@ void Course::measure(const Simulation& s, const std::string& name) {
   measured_.push_back({true, static_cast<std::size_t>(way - ways_.begin())});
 }
 
-// A period's settings are there once its first tick has passed.
+// Records the settings of each period of the plan, which are set when its first tick has passed.
 void Course::learn_plan(Simulation& s) {
   for (Tick t = begin_; t < s.last(); t += control_) {
     s.advance_to(t + 1);

@@ -1,5 +1,5 @@
-// run/simulation/course.h - a run as somebody sees it who learns: an action every so often, and
-// after it an observation.
+// run/simulation/course.h - a run as an episode for learning: an action in each step, followed by
+// an observation.
 //
 //   const Course course({.actions = {{.setting = "control.angle.hip", .offset = 0.2}},
 //                        .sights = {{.channel = "/joint/hip/angle", .middle = 4.9, .scale = 0.5}},
@@ -12,13 +12,13 @@
 //     course.look(leg, seen, measured);
 //   }
 //
-// An action has a number a from -1 to 1 for each setting that it moves, which is then at
+// An action has a number a from -1 to 1 for each setting that it changes, which is then set to
 //
-//   (the plan's + offset a) factor^a          so that 0 is the plan itself, to the last bit
+//   (value in the plan + offset a) factor^a          so that 0 is the plan itself, to the last bit
 //
-// in each of the gait controller's periods anew. An observation has a number for each sight,
-// (reading - middle)/scale; a measure is a reading as it is. The plan's own settings are learnt
-// once, from a run of the plan.
+// in each period of the gait controller. An observation has the number (reading - middle)/scale for
+// each sight; a measure is an unscaled reading. The settings of the plan are recorded once, from a
+// run of the plan.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@
 
 namespace sinew::run {
 
-// Holds what an action changes, what is seen of it, and what a reward needs.
+// Definition of actions, observations and measures for a reward.
 struct Task {
   struct Action {
     std::string setting;  // "control.stiffness.hip"
@@ -44,34 +44,33 @@ struct Task {
 
   std::vector<Action> actions;
   std::vector<Sight> sights;
-  // Channels that a reward needs; "plan:KEY" is what the plan has of the setting of an action.
+  // Channels that a reward needs; "plan:KEY" is the planned value of an action's setting.
   std::vector<std::string> measures;
-  double begin = 0.6;    // before it the plan goes alone [s]
-  double period = 0.05;  // of a step [s]
+  double begin = 0.6;    // start of the first step; the plan runs alone before it [s]
+  double period = 0.05;  // duration of a step [s]
 };
 
 class Course {
  public:
-  // `example` is a simulation at its start of the experiment that is meant; it is run to its plan's
-  // end. Throws std::invalid_argument for settings and channels that there are not, and for times
-  // that are no multiples of the gait controller's period; std::runtime_error where the plan itself
-  // fails.
+  // `example` is a simulation of the experiment, at its start; it is run to the end of its plan.
+  // Throws std::invalid_argument for unknown settings and channels, and for times that are not
+  // multiples of the gait controller's period; std::runtime_error if the plan itself fails.
   Course(const Task& task, Simulation& example);
 
-  // How many numbers an action, what is seen, and the measures have.
+  // Return the number of values in an action, in an observation, and of the measures.
   std::size_t actions() const { return ways_.size(); }
   std::size_t sights() const { return seen_.size(); }
   std::size_t measures() const { return measured_.size(); }
   double period() const { return static_cast<double>(step_) * signals::tick_seconds; }  // [s]
 
-  // Runs a simulation that stands at its start up to where the course begins.
+  // Runs a simulation from its start to the start of the first step.
   void begin(Simulation& s) const noexcept { s.advance_to(begin_); }
 
-  // Runs on by a step, or to the plan's end. `action` has a finite number for each action; what is
-  // beyond -1 and 1 is cut.
+  // Runs a step, or to the end of the plan. `action` has a finite number for each action, which is
+  // limited to -1 ... 1.
   void step(Simulation& s, std::span<const double> action) const;
 
-  // Tells what is seen now: a number for each sight, and one for each measure.
+  // Writes the present observation, a number for each sight, and a number for each measure.
   void look(Simulation& s, std::span<double> seen, std::span<double> measured) const noexcept;
 
  private:
@@ -84,7 +83,7 @@ class Course {
   };
   struct Measured {
     bool of_plan = false;
-    std::size_t place = 0;  // among the readings, or the ways
+    std::size_t place = 0;  // index in the readings, or in ways_
   };
   static constexpr std::size_t most_channels = 1024;
 
@@ -96,7 +95,7 @@ class Course {
   signals::Tick begin_, step_, control_;  // control_: the gait controller's period
   std::vector<Way> ways_;
   std::vector<Seen> seen_;
-  std::vector<std::size_t> channels_;  // of the sights, then of the measures
+  std::vector<std::size_t> channels_;  // channels of the sights, then those of the measures
   std::vector<Measured> measured_;
   std::vector<double> plan_;  // [period][way], from begin_ on
 };

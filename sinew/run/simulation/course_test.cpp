@@ -1,5 +1,5 @@
-// A run in steps of actions and observations: the plan where nothing is done, and the setting that
-// an action says.
+// A run in steps of actions and observations: it equals the plan without actions, and has the
+// settings that actions set.
 #include "sinew/run/simulation/course.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST_F(CourseTest, ALookIsScaledAndAMeasureIsNot) {
   course.look(leg_, seen, measured);
   EXPECT_EQ(measured[0], leg_.read("/true/joint/hip/angle"));
   EXPECT_EQ(seen[0], (measured[0] - 4.9) / 0.5);
-  // An action has doubled the stiffness; what the plan has of it stays.
+  // An action has doubled the stiffness; the planned value stays.
   EXPECT_DOUBLE_EQ(2 * measured[1], leg_.value_of(leg_.find_setting("control.stiffness.knee")));
 }
 

@@ -16,13 +16,13 @@ using signals::Tick;
 // Means over the last five periods.
 struct Settled {
   double duty = 0;                // commanded
-  double length = 0, ripple = 0;  // mean, greatest less smallest [m]
+  double length = 0, ripple = 0;  // mean, range [m]
   double pressure = 0;            // mean, absolute [Pa]
   double force = 0;               // mean [N]
   air::Failure failure;
 };
 
-// Adds up length, pressure and force, tick by tick.
+// Sums length, pressure and force, tick by tick.
 struct Periods {
   plant::Machine& machine;
   Tick from;

@@ -1,5 +1,5 @@
-// What cannot run is refused by its key; what runs away all the same ends its run, in every world,
-// with the muscle, the time and the cause.
+// Experiments that cannot run are refused with their key; one that diverges nevertheless ends its
+// run, in every world, with the muscle, the time and the cause.
 #include "sinew/run/setup/failure.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ void expect_says(const std::string& text, const std::string& words) {
   EXPECT_NE(text.find(words), std::string::npos) << text << "\nlacks " << words;
 }
 
-// 524 of 524 rows of its pressure were no number, and the exit 0.
+// Formerly, this gave 524 of 524 rows with a pressure of NaN, and exit status 0.
 TEST(Refusal, NamesTheMuscleThatHasNoVolumeAtTheStart) {
   const std::string text = refusal("cricket", {"joint.knee.moment_arm=0.0335756 m"});
   expect_says(text, "muscle.knee_");
@@ -44,7 +44,7 @@ TEST(Refusal, NamesTheMuscleWhoseThreadIsStraightWithoutAVolumeBesides) {
   const std::string text = refusal("walk-test-1", sets);
   expect_says(text, "muscle.knee_");
   expect_says(text, "found a chamber without volume: with joint knee at ");
-  // Each alone leaves air everywhere that the plan goes.
+  // Each of these alone leaves air in every muscle within the plan's range.
   EXPECT_EQ(refusal("walk-test-1", {sets[1]}), "none");
 }
 
@@ -54,8 +54,8 @@ TEST(Refusal, NamesTheRestAngleThatNoMuscleReaches) {
   expect_says(text, "or another rest_angle");
 }
 
-// What the controller's numbers cannot hold; each was "ok" for check and refused by run without a
-// key, or went through with what 32 bits had left of it.
+// Values that the controller's numbers cannot represent. `check` accepted each, and run refused it
+// without a key or used what remained in 32 bits.
 TEST(Refusal, NamesWhatTheControllerCannotHold) {
   const auto says = [](const std::string& set, const std::string& words) {
     expect_says(refusal("walk-test-1", {set}), words);
@@ -70,9 +70,9 @@ TEST(Refusal, NamesWhatTheControllerCannotHold) {
   says("low_level.output_delay=101", "low_level.output_delay: found 101");
 }
 
-// --- what is noticed in the loop ---
+// --- failures detected in the loop ---
 
-// Past what buildable() would refuse.
+// Beyond the limits of buildable().
 experiment::Experiment without_volume(const std::string& name) {
   experiment::Experiment e = experiment::load(folder + name + ".toml", {"sequence.repeat=1"});
   for (robot::Muscle& m : e.robot.muscles) m.external_volume = 0;
@@ -90,13 +90,13 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
     const std::string cause = cause_of(e, out);
     expect_says(cause, "the air of muscle knee_");
     expect_says(cause, " was not finite at 0.0000 s: it was ");
-    // Nothing goes on from there.
+    // The run does not continue after it.
     for (const signals::Series& s : out.table.series) EXPECT_EQ(s.time_ns.size(), 0u) << name;
   }
 }
 
-// Muscles whose dampers are too strong for the step: the steps are cut for springs, dampers and the
-// ground, not for muscles.
+// Muscles whose dampers are too strong for the step, which is limited by springs, dampers and the
+// ground, but not by muscles.
 const std::vector<std::string> runs_away{"actuator.bpa.loss.viscous=5000 N s/m"};
 
 TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
@@ -109,7 +109,7 @@ TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
   expect_says(cause, "plant_steps.body");
 }
 
-// The log goes up to the failure, and has nothing but numbers.
+// The log ends at the failure, and all its values are finite.
 TEST(Failure, LeavesNoNumberThatIsNone) {
   const Outcome out = run(experiment::load(folder + "walk-test-1.toml", runs_away));
   ASSERT_TRUE(out.failure);

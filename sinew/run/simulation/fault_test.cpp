@@ -1,4 +1,4 @@
-// Sensors that lie, from the list in the file to the end of the run, and what a robot's limits are.
+// Faulty sensors, from the list in the file to the end of the run, and the limits of a robot.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ experiment::Experiment bench(std::vector<std::string> sets = {}) {
   return experiment::load(source + "/experiments/one-joint.toml", sets);
 }
 
-// What a body that always reads the same is read as, every 10 ms.
+// Returns the readings of a body with constant readings, every 10 ms.
 class Still final : public signals::Port {
  public:
   Status start(const signals::Scan&) noexcept override { return Status::ok; }
@@ -84,7 +84,8 @@ TEST(Fault, ActsFromItsBeginningToItsEnd) {
     EXPECT_EQ(r[static_cast<std::size_t>(i)].counts == 0, i >= 10 && i < 15) << i;
 }
 
-// Half of the readings, by the seed alone; noise with its standard deviation and no mean.
+// Half of the readings are lost, as the seed determines; noise has its standard deviation and no
+// mean.
 TEST(Fault, NoiseAndDropoutsAreAsLargeAsTheySay) {
   constexpr int n = 4000;
   const auto lost = [&](int seed) {
@@ -120,18 +121,18 @@ TEST(Fault, EndsTheRunAndIsNamed) {
                        "outside its plausible "))
       << text;
 
-  // The log has what was converted, and when.
+  // The log has the converted values with their times.
   const auto column = [&](const char* topic) { return out.table.find(topic)->columns[0]; };
   EXPECT_EQ(column("/sensor/lever_angle/count").back(), 4095);
   EXPECT_EQ(column("/sensor/lever_angle/count")[99] == 4095, false);
   EXPECT_EQ(column("/true/sensor/lever_angle/fault")[99], 0);
   EXPECT_EQ(column("/true/sensor/lever_angle/fault").back(), 1);
   EXPECT_EQ(column("/low_level/tripped").back(), 1);
-  // The last sample stands before the last scan.
+  // The last sample is before the last scan.
   EXPECT_NEAR(column("/sensor/lever_angle/rejected").back(), out.supervised.rejected, 1);
 }
 
-// A lie moves nothing but what is read; without one the log is that of an experiment without list.
+// A sensor fault affects readings only; an inactive one leaves the log as without the list.
 TEST(Fault, ThatComesTooLateChangesNoBit) {
   experiment::Experiment e = bench();
   const Outcome without = run(e);
@@ -158,7 +159,8 @@ TEST(Fault, IsTheSameHoweverItIsLookedAt) {
   expect_same(once.table, run(e, {.every_tick = true}).table);
 }
 
-// The log holds the lies: a replay decides the same edges, without the list acting twice.
+// The log holds the faulty readings: a replay decides the same edges, and the list does not act
+// twice.
 TEST(Fault, ARunWithOneReplaysItsOwnEdges) {
   experiment::Experiment e = bench();
   e.faults = {{.at = 0.5, .of = "lever_angle", .what = What::offset, .amount = 30},
@@ -255,7 +257,7 @@ TEST(AirFault, ComesToPartsOfThePlant) {
   EXPECT_EQ(air[2].pressure, e.air.atmosphere);
 }
 
-// The log has when it acted, however short, and all of the air; its sensors do not lie.
+// The log has the times at which it acted, however short, and all the air; its sensors are correct.
 TEST(AirFault, IsInTheLogWithTheAirsBalance) {
   experiment::Experiment e = bench();
   e.faults = {of_air("flexor.inlet", What::stuck_open, 1.0042, 1e-3),
@@ -281,8 +283,8 @@ TEST(AirFault, IsInTheLogWithTheAirsBalance) {
   EXPECT_NEAR((gained("/true/air/mass") - in + out + leaked) / in, 0, 1e-12);
 }
 
-// The air of hoses is in the balance too, in a run in which nothing breaks; without it 0.1 % of the
-// air and more are missing.
+// The air of hoses is in the balance, even in a run without faults; without it, 0.1 % of the air or
+// more would be missing.
 TEST(AirFault, NeedNotBeForTheAirOfHosesToBeInTheBalance) {
   experiment::Experiment e = bench();
   for (robot::Muscle& m : e.robot.muscles)
@@ -327,7 +329,7 @@ TEST(AirFault, ThatComesTooLateChangesNoBit) {
   }
 }
 
-// Both kinds at once: the port lies, the body leaks.
+// Both kinds of faults at once: of the port's readings and of the body's air.
 TEST(AirFault, GoesWithALieOfASensor) {
   experiment::Experiment e = bench();
   e.faults = {of_air("flexor", What::leaking, 0.5, 1), of_lever(What::noise, 30)};
@@ -335,7 +337,8 @@ TEST(AirFault, GoesWithALieOfASensor) {
   const Outcome once = run(e);
   EXPECT_EQ(once.status, Status::ok);
   expect_same(once.table, run(e, {.every_tick = true, .extra_readers = 2}).table);
-  // Noise is numbered by the whole list: another fault before it changes it, one behind does not.
+  // Noise depends on the index in the whole list: a fault inserted before changes it, one after
+  // does not.
   std::swap(e.faults[0], e.faults[1]);
   EXPECT_NE(run(e).table.find("/sensor/lever_angle/count")->columns[0],
             once.table.find("/sensor/lever_angle/count")->columns[0]);
@@ -343,8 +346,8 @@ TEST(AirFault, GoesWithALieOfASensor) {
 
 // --- limits -------------------------------------------------------------------------------------
 
-// robots/leg: the way from the mount's length to the thread's, over cams of 1 in; 767 counts per
-// radian, more than the potentiometer's 714.
+// robots/leg: travel from the length of the mount to that of the thread, over cams of 1 in; 767
+// counts per radian, more than the potentiometer's 714.
 TEST(Supervision, AnAngleIsPlausibleWithinItsMusclesReach) {
   const experiment::Experiment e = experiment::load(source + "/experiments/walk-test-1.toml");
   const control::SuperviseConfig c = control::supervise_config(installation(e));
@@ -357,7 +360,7 @@ TEST(Supervision, AnAngleIsPlausibleWithinItsMusclesReach) {
     const double thread = robot::actuator_of(m, e.actuators).braid.thread_length;
     return 1.1 * (thread - m.mount_length) / 0.0254 * 767 + 3;  // and six times the noise
   };
-  EXPECT_NEAR(limit.low, 1895 - way("hip_flexor"), 1.5);  // which raises the angle
+  EXPECT_NEAR(limit.low, 1895 - way("hip_flexor"), 1.5);  // the hip flexor raises the angle
   EXPECT_NEAR(limit.high, 1895 + way("hip_extensor"), 1.5);
   EXPECT_GT(way("hip_flexor"), 700);
   EXPECT_NEAR(limit.max_step, 60 * 767 * 0.01 + 6, 2);
@@ -368,7 +371,7 @@ TEST(Supervision, AnAngleIsPlausibleWithinItsMusclesReach) {
   EXPECT_TRUE(gauge.rests_at_ends);
 }
 
-// A potentiometer may be mounted so that it rests at the converter's end; then it is no fault.
+// A potentiometer may be mounted so that it rests at the converter's end; this is no fault.
 TEST(Supervision, WhereItRestsIsPlausible) {
   for (const double rest : {0.0, 2.0, 4095.0}) {
     experiment::Experiment e = bench();

@@ -19,7 +19,7 @@ FaultyPort::FaultyPort(const experiment::Experiment& e, signals::Port& body)
           {fault, i, static_cast<std::uint8_t>(robot::find_sensor(e.robot, fault.of))});
 }
 
-// Behind the sensors' own noise, which counts from 0.
+// Returns a random number of a fault. Its index follows those of the sensors' own noise, from 0 on.
 double FaultyPort::drawn(std::size_t fault, Tick now) const noexcept {
   constexpr int first = 1000;
   return robot::noise(seed_, first + static_cast<int>(fault), now);
@@ -44,13 +44,13 @@ Reading FaultyPort::spoil(const Acting& acting, Reading r, Tick now) const noexc
     case noise:
       return {counts(r.counts + fault.amount * drawn(i, now)), r.status};
     case dropout: {
-      // The part behind the point of a sum of uniform numbers is uniform.
+      // The fractional part of a sum of uniform numbers is uniform.
       const double n = drawn(i, now);
       const bool lost = !(n - std::floor(n) >= fault.amount);
       return lost ? Reading{before_[channel], Status::late} : r;
     }
     default:
-      break;  // of the air
+      break;  // a fault of the air
   }
   return r;
 }

@@ -1,6 +1,5 @@
-// run/simulation/faulty_port.h - a body whose sensors lie as the experiment's [[fault]] says. What
-// moves, moves as it does without; only what read() answers differs. Faults of the air are the
-// body's own.
+// run/simulation/faulty_port.h - a body with sensor faults, as in the experiment's [[fault]]. Its
+// motion is unaffected; only the readings of read() differ. Faults of the air act in the body.
 #pragma once
 
 #include <array>
@@ -12,11 +11,11 @@
 
 namespace sinew::run {
 
-// Noise and dropouts are hashes of (seed, fault, tick): the same in every run, however it is
-// looked at.
+// Noise and dropouts are hashes of (seed, fault, tick), so that they are the same in every run,
+// independent of the times of other readings.
 class FaultyPort final : public signals::Port {
  public:
-  // `body` outlives it. Every fault's sensor is there; faults of the air are passed over.
+  // `body` must outlive this object. Every fault must have a sensor; faults of the air are ignored.
   FaultyPort(const experiment::Experiment& experiment, signals::Port& body);
 
   signals::Status start(const signals::Scan& scan) noexcept override { return body_.start(scan); }
@@ -24,7 +23,7 @@ class FaultyPort final : public signals::Port {
   signals::Reading read(signals::Channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override { return body_.stop(now); }
 
-  // The last counts of each channel that were handed out. Copied like bytes.
+  // The last counts of each channel that were returned. Copied as bytes.
   struct State {
     std::array<std::uint16_t, robot::max_sensors> before{};
     std::array<bool, robot::max_sensors> answered{};
@@ -48,8 +47,8 @@ class FaultyPort final : public signals::Port {
   signals::Port& body_;
   std::vector<Acting> faults_;
   std::uint64_t seed_;
-  double top_;                                              // of the converter [count]
-  std::array<std::uint16_t, robot::max_sensors> before_{};  // last counts handed out
+  double top_;                                              // highest count of the converter
+  std::array<std::uint16_t, robot::max_sensors> before_{};  // last counts returned
   std::array<bool, robot::max_sensors> answered_{};
 };
 

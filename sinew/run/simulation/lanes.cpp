@@ -20,9 +20,9 @@ using signals::Tick;
 
 namespace {
 
-// The instant up to which a machine's nodes can be committed before a tick is visited, because the
-// first that the tick asks of the machine commits them. A later bound would have readings look from
-// another node than run()'s.
+// Computes the time up to which a machine's nodes may be committed before a tick is visited. It is
+// the time to which the tick's first access to the machine would commit them. A later bound would
+// extrapolate readings from another node than run() does.
 class Bounds {
  public:
   explicit Bounds(const signals::Scan& scan) : period_(scan.period), lag_(scan.period, none) {
@@ -34,25 +34,25 @@ class Bounds {
   double before(Tick t, bool samples) const noexcept {
     const Tick of_period = t % period_, lag = lag_[static_cast<std::size_t>(of_period)];
     if (lag != none) return seconds(t - lag);
-    if (of_period == 0 && !samples) return nothing;  // the high level's word alone, as a rule
-    return before(seconds(t));                       // an edge at t: all before it
+    if (of_period == 0 && !samples) return nothing;  // usually the high level's commands only
+    return before(seconds(t));                       // an edge at t: all nodes before it
   }
 
   static constexpr double nothing = -std::numeric_limits<double>::max();
 
  private:
   static constexpr Tick none = -1;
-  // The greatest number below one that is not negative.
+  // Returns the next smaller number; of 0 or a negative number, `nothing`.
   static double before(double x) {
     return x > 0 ? std::bit_cast<double>(std::bit_cast<std::int64_t>(x) - 1) : nothing;
   }
   static double seconds(Tick t) { return static_cast<double>(t) * signals::tick_seconds; }
 
   Tick period_;
-  std::vector<Tick> lag_;  // of what is read at a tick of the period
+  std::vector<Tick> lag_;  // for the conversions read at a tick of the period
 };
 
-// One experiment in its lane.
+// An experiment in its lane.
 class Lane {
  public:
   Lane(const Experiment& e, const plant::LegLane& machine, bool recorded)
@@ -61,8 +61,8 @@ class Lane {
         run_(simulation_, {.recorded = recorded}),
         bounds_(simulation_.controllers().scan()) {}
 
-  // The tick at which it stands, once its nodes are there; answers how far they must be for the
-  // next.
+  // Visits the present tick, whose nodes are committed; returns the time to which they must be
+  // committed for the next one.
   double turn() noexcept {
     SimulatedClock clock;
     if (reached_) run_.advance(simulation_.next() + 1, clock);
@@ -100,7 +100,7 @@ void run_alone(const Lanes& lanes, const Experiment& e) {
   lanes.done(e, std::move(out), thrown);
 }
 
-// A batch, and the runs in it.
+// A batch and its runs.
 class Group {
  public:
   Group(const Lanes& lanes, const plant::Setup& like)
@@ -111,7 +111,7 @@ class Group {
 
   bool takes(const plant::Setup& setup) const { return plant::Batch::alike(setup, like_); }
 
-  // Into lane k, in place of what has ended there.
+  // Puts an experiment into lane k, replacing one that has ended.
   void put(int k, const Experiment& e, const plant::Setup& setup) {
     std::exception_ptr thrown;
     try {
@@ -125,7 +125,7 @@ class Group {
     lanes_.done(e, {}, thrown);
   }
 
-  // Runs on until one has ended, tells of it, and answers its lane; -1 where none is left.
+  // Continues until a run has ended, reports it, and returns its lane; -1 if no run is left.
   int go() {
     auto turn = [this](int k) noexcept { return running_[static_cast<std::size_t>(k)]->turn(); };
     const int k = batch_.go(turn);
@@ -145,8 +145,8 @@ class Group {
   std::vector<std::unique_ptr<Lane>> running_;
 };
 
-// The next experiment that the group can take goes into lane k; those that it cannot are run by
-// themselves. False where there is none.
+// Puts the next experiment that the group can take into lane k; runs the others by themselves.
+// Returns false if there are no more experiments.
 bool fill(const Lanes& lanes, std::optional<Group>& group, int k) {
   while (const Experiment* e = lanes.next()) {
     const plant::Setup setup = e->stand ? plant::Setup{} : planar_setup(*e);
@@ -163,7 +163,7 @@ bool fill(const Lanes& lanes, std::optional<Group>& group, int k) {
 
 }  // namespace
 
-// Two lanes alone are no faster than one world.
+// Two lanes are no faster than one run after the other.
 int widest_lanes() { return plant::Batch::widest() > 2 ? plant::Batch::widest() : 1; }
 
 void run_in_lanes(const Lanes& lanes) {

@@ -1,12 +1,12 @@
-// run/simulation/lanes.h - many experiments, as many of them at a time as the processor has lanes.
+// run/simulation/lanes.h - many experiments, run in parallel in the lanes of the processor.
 //
 //   run_in_lanes({.next = […] { return experiment or nullptr; },
 //                 .done = […](const Experiment& e, Outcome outcome) { … }});
 //
-// Each has its own controllers, recorder, ticks and end, and goes by the one loop (loop.h); only
-// the nodes of the machines are integrated side by side (world/batch.h). Where a run ends, the next
-// experiment takes its lane. An outcome has the bits that run() answers, whoever goes beside it
-// and in whatever order. What cannot go in lanes is run by itself.
+// Each has its own controllers, recorder, ticks and end, and uses the one loop (loop.h); only the
+// nodes of the machines are integrated side by side (world/batch.h). When a run ends, the next
+// experiment takes its lane. An outcome equals that of run(), bit for bit, independent of the other
+// lanes and of the order. An experiment that is not suited to lanes runs by itself.
 #pragma once
 
 #include <exception>
@@ -18,21 +18,21 @@
 namespace sinew::run {
 
 struct Lanes {
-  // Answers the next experiment, which lives on until it is done; nullptr: there is none, now or
-  // later. Must not throw.
+  // Returns the next experiment, which must exist until it is done; nullptr: no more experiments.
+  // Must not throw.
   std::function<const experiment::Experiment*()> next;
-  // Takes an outcome, or what run() would have thrown. Its wall time is from the run's start to its
-  // end, among the others. Must not throw.
+  // Takes an outcome, or the exception that run() would have thrown. Its wall time is that from the
+  // run's start to its end, shared with the other lanes. Must not throw.
   std::function<void(const experiment::Experiment&, Outcome, std::exception_ptr)> done;
-  // Lanes at most; 1: one run after the other, as where there are but the two lanes that every
-  // processor has, which are taken only where just two are asked for.
+  // Largest number of lanes; 1: one run after the other. A processor with only two lanes uses them
+  // only if `most` is 2, since they are no faster.
   int most = 8;
-  bool recorded = true;  // false: an outcome has no table, nor what is taken from it
+  bool recorded = true;  // false: an outcome has an empty table, and nothing derived from it
 };
-// Runs all that `next` answers, side by side, and returns when the last is done.
+// Runs all experiments that `next` returns, side by side; returns when the last is done.
 void run_in_lanes(const Lanes& lanes);
 
-// Lanes that are worth it on this computer: 8 with AVX-512, 4 with AVX2, else 1.
+// Returns the useful number of lanes on this computer: 8 with AVX-512, 4 with AVX2, else 1.
 int widest_lanes();
 
 }  // namespace sinew::run

@@ -1,4 +1,4 @@
-// Many runs in lanes: each has the bits that it has alone, whoever goes beside it.
+// Many runs in lanes: each equals the run by itself, bit for bit, independent of the others.
 #include "sinew/run/simulation/lanes.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ using experiment::Experiment;
 
 const std::string source = sinew::test::source_dir();
 
-// Legs that go in lanes: walks, legs in the air, on a fixed base, with sensors that lie or measure
-// pressures, at other periods, in other steps; and some that cannot.
+// Experiments that can run in lanes: walks, legs in the air, on a fixed base, with faulty sensors
+// or pressure sensors, with other periods or steps; and some that cannot.
 Experiment random_experiment(std::mt19937& random) {
   const char* files[] = {"walk-test-1",
                          "walk-test-2",
@@ -70,7 +70,7 @@ void expect_same_outcome(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(a.supervised.trip.at, b.supervised.trip.at);
 }
 
-// Runs them in lanes; answers in their order.
+// Runs them in lanes; returns the outcomes in their order.
 std::vector<Outcome> in_lanes(const std::vector<Experiment>& each, int most) {
   std::vector<Outcome> out(each.size());
   std::size_t next = 0;
@@ -113,7 +113,7 @@ TEST(Lanes, RunsSideBySideHaveTheBitsThatTheyHaveAlone) {
     ASSERT_NO_FATAL_FAILURE(expect_same_outcome(lanes[i], alone[order[i]])) << shuffled[i].path;
 }
 
-// A machine that runs away ends its own run, as it does alone.
+// A machine that diverges ends its own run, as it does by itself.
 TEST(Lanes, AFailureIsOneRunsOwn) {
   const std::string file = source + "/experiments/walk-test-1.toml";
   std::vector<Experiment> each;

@@ -11,7 +11,7 @@ namespace sinew::run {
 
 namespace {
 
-// Throws where the table is not of the topics that were chosen from.
+// Throws if the table does not have the topics that the selection was made from.
 void refuse_other_topics(const signals::Table& table, const LoggedTopics& logged) {
   bool same = table.series.size() == logged.of_series.size();
   for (std::size_t s = 0; same && s < table.series.size(); ++s) {
@@ -71,7 +71,7 @@ void write(log::Writer& log, const signals::Table& table, const LoggedTopics& lo
   std::vector<std::size_t> next(table.series.size(), 0);  // sample of each series
   std::vector<double> values;
   for (;;) {
-    // The earliest; of those at one time the first series' samples.
+    // Find the earliest sample; at equal times, that of the first series.
     std::int64_t now = 0;
     std::size_t of = next.size();
     for (std::size_t s = 0; s < next.size(); ++s) {

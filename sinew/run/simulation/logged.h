@@ -1,4 +1,4 @@
-// run/simulation/logged.h - which of a run's channels its log holds, by log.channels.
+// run/simulation/logged.h - selection of the channels of a run's log, by log.channels.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,33 @@
 
 namespace sinew::run {
 
-// A topic has two numbers: its place in what the run records, and its place in the log.
+// The numbers of topics: in the recorded table, and in the log.
 struct LoggedTopics {
-  std::vector<signals::Topic> topics;    // by their place in the log
-  std::vector<std::uint16_t> of_series;  // by the place in what is recorded; not_tapped: not logged
+  std::vector<signals::Topic> topics;    // in the order of the log
+  std::vector<std::uint16_t> of_series;  // number in the log, by recorded series; not_tapped: not
+                                         // logged
 };
 
-// All of a table's.
+// Selects all topics of a table.
 LoggedTopics logged_topics(const signals::Table& table);
 
-// Those that the patterns mean, in the order in which they are recorded, whatever the patterns'
-// own. `origins` and `path` are the experiment's, and say where the patterns stand. Throws
-// config::Error for a pattern that means no topic.
+// Select the topics that match the patterns, in the order in which they are recorded. `origins` and
+// `path` are the experiment's, and give the lines of the patterns. Throw config::Error for a
+// pattern that matches no topic.
 LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
                            const std::vector<std::string>& patterns, const config::Origins& origins,
                            const std::string& path);
 LoggedTopics logged_topics(const experiment::Experiment& experiment);
 
-// Returns whether the log holds all that is recorded.
+// Returns whether the log contains everything that is recorded.
 bool is_whole(const LoggedTopics& logged);
 
-// The part of a run's table that its log holds, as log::read() gives it back. Takes it out of
-// there.
+// Returns the logged part of a run's table, as log::read() would return it. Moves the samples
+// out of the table.
 signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged);
 
-// Pushes that part in the order of its times, into a log that was made for `logged.topics`. Throws
-// std::logic_error for a table of other topics than `logged` is of.
+// Writes the logged part in the order of its times, into a log that was created for
+// `logged.topics`. Throws std::logic_error if the table has other topics than those of `logged`.
 void write(log::Writer& log, const signals::Table& table, const LoggedTopics& logged);
 
 }  // namespace sinew::run

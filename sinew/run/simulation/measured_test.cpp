@@ -1,4 +1,4 @@
-// The static tests of the stand as somebody writes them down: loops, creep, air shut in.
+// Static tests on the stand as an operator records them: loops, creep, trapped air.
 #include "sinew/experiment/measured.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Done {
       if (experiment.stand->sensors[s].of == what) return notes.values[s];
     throw std::logic_error("no such sensor");
   }
-  // What was true at the same instants.
+  // The true values at the same instants.
   double truth(const std::string& topic, double t) const {
     const signals::Series& s = *table.find(topic);
     const auto at = std::ranges::lower_bound(s.time_ns, std::llround(t * 1e9));
@@ -45,8 +45,8 @@ Done done(const std::string& name, const std::vector<std::string>& sets = {}) {
   return t;
 }
 
-// Up to 15 lb and back: 31 readings, a loop whose way back is longer than its way up, by what the
-// dry friction holds; without friction it closes to the potentiometer's noise.
+// Up to 15 lb and back: 30 readings form a loop, in which dry friction makes the muscle longer on
+// the way back; without friction it closes to the potentiometer's noise.
 TEST(Measured, WeightsMakeALoop) {
   const std::vector<std::string> quiet{"sensor.length.noise=0 in"};
   for (const bool friction : {true, false}) {
@@ -72,7 +72,7 @@ TEST(Measured, WeightsMakeALoop) {
   }
 }
 
-// What is read is what is there, to the transducer's noise, counts and divisions.
+// Readings equal the true values, to the transducer's noise, counts and divisions.
 TEST(Measured, ReadsTheTruth) {
   const Done t = done("sealed-bpa");
   const std::vector<double>&length = t.of(Of::length), &pressure = t.of(Of::pressure);
@@ -89,7 +89,7 @@ TEST(Measured, ReadsTheTruth) {
   EXPECT_NEAR(std::sqrt(square), 0.002 * inch, 0.0006 * inch);
 }
 
-// Air shut in at one temperature: P V is constant, in the muscle and in the cylinder (6.3).
+// Trapped air at constant temperature: P V is constant, in the muscle and in the cylinder (6.3).
 TEST(Measured, AirShutInObeysBoyle) {
   for (const char* name : {"sealed-bpa", "sealed-cylinder"}) {
     const Done t = done(name);
@@ -110,8 +110,8 @@ TEST(Measured, AirShutInObeysBoyle) {
   }
 }
 
-// At one length the muscle pulls less while it is filled than while it is vented; with the friction
-// taken away the branches are one.
+// At one length the muscle pulls less while it is filled than while it is vented; without friction
+// the branches coincide.
 TEST(Measured, FillAndVentPartAtOneLength) {
   for (const bool memory : {true, false}) {
     std::vector<std::string> sets{"actuator.with-memory.creep.share=[\"0 %\", \"0 %\"]",
@@ -120,7 +120,7 @@ TEST(Measured, FillAndVentPartAtOneLength) {
       for (const char* key : {"half_width", "width_per_contraction"})
         sets.push_back(std::string("actuator.with-memory.hysteresis.") + key + "=0 psi diff");
     const Done t = done("isometric", sets);
-    // Force over pressure, filling; then venting beside it.
+    // Force over pressure, filling and venting.
     std::vector<std::pair<double, double>> fill;
     double widest = 0, narrowest = 1e9;
     for (double at = 0.4; at < 24.9; at += 0.5) {
@@ -147,7 +147,7 @@ TEST(Measured, FillAndVentPartAtOneLength) {
   }
 }
 
-// After a step of pressure the tension grows by the shares that are late.
+// After a step of pressure the tension grows by the delayed shares.
 TEST(Measured, CreepGrows) {
   const Done t = done("creep");
   const double early = t.truth("/true/stand/force", 1.21),

@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view serial = "serial:", emulated = "emulated:", lock_step = "lock-step:",
                            comedi = "comedi:", simulated = "simulated";
 
-// A device and its rate, 0 where none is given.
+// A device and its rate; 0: not given.
 struct Device {
   std::string path;
   std::uint32_t baud = 0;
@@ -56,7 +56,7 @@ void refuse_faults(const experiment::Experiment& e, const std::string& place) {
            "none: only a simulated machine is broken by a word");
 }
 
-// In ticks, as a pulse may begin at the instant at which another one ends.
+// Returns whether two pulses overlap. Compares ticks, since a pulse may begin when another ends.
 bool overlap(const Pulse& a, const Pulse& b) {
   const auto ticks = [](double seconds) { return std::llround(seconds / signals::tick_seconds); };
   const auto begins_within = [&](const Pulse& one, const Pulse& other) {
@@ -108,7 +108,8 @@ void refuse_what_no_board_can(const experiment::Experiment& e, const std::string
              "valves: no output of a board sets a pressure");
 }
 
-// The firmware's, unless another one is asked for: a port of somebody else may have it.
+// Returns the rate of the line: the given one, since another port of the firmware may differ,
+// or that of the firmware. Throws plant::BoardError if it does not carry the telemetry.
 std::uint32_t rate_for(const Device& device, const link::Configuration& configuration) {
   const control::JointControllerConfig& spine = configuration.spine;
   const std::uint32_t rate = device.baud > 0 ? device.baud : link::firmware_baud;

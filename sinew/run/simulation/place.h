@@ -1,13 +1,13 @@
-// run/simulation/place.h - where an experiment's joint controllers are: here, in the simulation; on
-// a board at a serial line; on a board in an emulator; here, before a machine at a card.
+// run/simulation/place.h - the place of an experiment's joint controllers: in the simulation, on a
+// board at a serial line, on a board in an emulator, or in this computer with a machine at a card.
 //
 //   simulated                   no board: nothing is opened
-//   serial:DEVICE[@RATE]        a board; without a rate that of the firmware
-//   lock-step:FILE              firmware/'s lock-step.elf in QEMU, around it the simulated machine:
-//                               the simulation's bits
+//   serial:DEVICE[@RATE]        a board; the default rate is that of the firmware
+//   lock-step:FILE              firmware/'s lock-step.elf in QEMU with the simulated machine: the
+//                               results of the simulation, bit for bit
 //   emulated:FILE               the application of firmware/ for mps2-an386 in QEMU, at its serial
-//                               line, the same machine at its wires: as on a bench
-//   comedi:DEVICE               here, in real time, before a card at whose ends the machine is
+//                               line, with the simulated machine at its wires, as on a bench
+//   comedi:DEVICE               this computer, in real time, with the machine at a card
 #pragma once
 
 #include <memory>
@@ -21,38 +21,38 @@
 
 namespace sinew::run {
 
-// Returns "" for a place in words as above, or none, else what is wrong with it.
+// Returns a message about an invalid place; "" if it is valid or empty.
 std::string problem_of_place(const std::string& place);
 
-// Is it a place other than the simulation?
+// Returns whether the place is not the simulation.
 bool is_elsewhere(const std::string& place);
 
-// Is there a machine, or an emulator, whose clock goes on whatever pace is asked for?
+// Returns whether the place has a machine or an emulator whose clock cannot be paced.
 bool keeps_its_own_time(const std::string& place);
 
 class Place {
  public:
-  // Opens what is there. Throws plant::BoardError, plant::CardError, or config::Error for an
+  // Opens the place. Throws plant::BoardError, plant::CardError, or config::Error for an
   // experiment that cannot run there.
   Place(const std::string& place, const experiment::Experiment& experiment);
   ~Place();
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
-  // Has the board ready for a run: configured and armed. What its fault was is told. Throws
-  // plant::BoardError, also for a fault that has to be looked into, unless it may be cleared, and
-  // plant::BoardStopped where `stop`, which outlives this, is set meanwhile.
+  // Prepares the board for a run: configures and arms it, and reports its earlier fault. Throws
+  // plant::BoardError, also for a fault that requires attention unless `clear_fault` is set, and
+  // plant::BoardStopped if `stop`, which must outlive this object, is set meanwhile.
   void prepare(bool clear_fault = false, const std::atomic<bool>* stop = nullptr);
-  // The run goes there.
+  // Makes a run with these options use the place.
   void apply(RunOptions& options) const;
-  // Who answered, and where: its board and firmware; empty where nothing was opened.
+  // Returns the identity of the board and its firmware, and its place; empty if nothing was opened.
   const std::string& who() const noexcept { return who_; }
-  // What there is to be said of it before the run, in lines.
+  // Returns the messages about the place before the run, as lines.
   const std::vector<std::string>& told() const noexcept { return told_; }
-  // The board; nullptr in the simulation.
+  // Returns the board; nullptr in the simulation.
   plant::RemoteBoard* board() const noexcept { return board_; }
   int lead() const noexcept { return lead_; }
-  // Does it keep its own time, whatever pace is asked for?
+  // Returns whether the place keeps its own time, independent of the requested pace.
   bool board_keeps_time() const noexcept { return keeps_time_; }
 
  private:

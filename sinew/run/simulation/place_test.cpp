@@ -1,4 +1,4 @@
-// Where an experiment may run, in words.
+// The places at which an experiment may run, and their errors.
 #include "sinew/run/simulation/place.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(Place, WhatNoCardCanDriveIsRefusedBeforeItIsOpened) {
             std::string::npos);
 }
 
-// What stands in wiring.toml is what a card is told: B.1's bits of the leg, table C-1's on request.
+// A card is configured by wiring.toml: with B.1's bits of the leg, or table C-1's.
 TEST(Place, ACardHasTheRobotsChannelsAndBits) {
   const auto machine = [](std::vector<std::string> sets) {
     return card_machine(

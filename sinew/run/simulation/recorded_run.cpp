@@ -6,7 +6,7 @@ using signals::Tick;
 
 void Watch::sample(Tick t) noexcept {
   if (extra_readers == 0 && !(recorder && t >= recorder->next(t))) return;
-  // Nothing is recorded of a machine that has failed.
+  // A machine that has failed is not recorded.
   if (machine && t >= sample_at()) machine->advance(static_cast<double>(t) * signals::tick_seconds);
   if (failed()) return;
   plant::Truths truths;

@@ -1,5 +1,5 @@
-// run/simulation/recorded_run.h - a run on its way: the simulation with its recorder, advanced by
-// as much as one likes, and its outcome.
+// run/simulation/recorded_run.h - a run in progress: the simulation with its recorder, advanced in
+// steps of any size, and its outcome.
 #pragma once
 
 #include <atomic>
@@ -13,21 +13,21 @@
 
 namespace sinew::run {
 
-// The recorder, and on demand more looks and more visits than a run needs, which change nothing.
+// The recorder; for tests also additional readings and visited ticks, which change nothing.
 struct Watch {
-  Recorder* recorder;       // none: nobody records
-  plant::Machine* machine;  // none where a log is replayed
+  Recorder* recorder;       // nullptr: nothing is recorded
+  plant::Machine* machine;  // nullptr if a log is replayed
   bool every_tick = false;
   int extra_readers = 0;
   const std::atomic<bool>* stop = nullptr;
   bool was_stopped = false;
 
-  // Has somebody asked for a stop? It is remembered.
+  // Returns whether a stop was requested; the request is latched.
   bool stopped() noexcept {
     was_stopped = was_stopped || (stop && stop->load(std::memory_order_relaxed));
     return was_stopped;
   }
-  // The loop's side: a command, an edge, the instant of a sample, and the next tick to be visited.
+  // Called by the loop: a command, an edge, a sample's instant, and the next tick to be visited.
   void command(signals::Tick t) noexcept {
     if (recorder) recorder->command(t);
   }
@@ -39,7 +39,7 @@ struct Watch {
     if (every_tick && !failed()) return t + 1;
     return sample_at();
   }
-  // The next tick at which something is recorded.
+  // Returns the next tick at which a sample is recorded.
   signals::Tick sample_at() const noexcept {
     return recorder && !failed() ? recorder->next(0) : std::numeric_limits<signals::Tick>::max();
   }
@@ -48,7 +48,7 @@ struct Watch {
 
 class RecordedRun {
  public:
-  // From where the simulation stands, which outlives this.
+  // Starts at the present state of the simulation, which must outlive this object.
   explicit RecordedRun(Simulation& simulation, const RunOptions& options = {});
   RecordedRun(const RecordedRun&) = delete;
   RecordedRun& operator=(const RecordedRun&) = delete;
@@ -58,10 +58,10 @@ class RecordedRun {
     simulation_.advance(until, clock, watch_);
   }
   bool ended() noexcept { return simulation_.ended() || watch_.stopped(); }
-  // Is a sample due at the next tick?
+  // Returns whether a sample is due at the next tick.
   bool samples(signals::Tick t) const noexcept { return t >= watch_.sample_at(); }
 
-  // Leaves the body safe. Once.
+  // Leaves the body safe and returns the outcome. To be called once.
   Outcome finish();
 
  private:

@@ -9,7 +9,7 @@ using signals::Tick;
 
 namespace {
 
-// 1 or 0 of an on/off valve, a share of its range of a regulator.
+// Returns 1 or 0 for an on/off valve, a share of its range for a regulator.
 double logged(const signals::Edge& edge) noexcept {
   if (edge.level > 0) return static_cast<double>(edge.level) / signals::max_level;
   return edge.open ? 1.0 : 0.0;
@@ -30,7 +30,7 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
   next_ = controllers.first_sample(period_);
 
-  // What a row holds; without a truth the topics under /true have no samples.
+  // Without true values, the topics under /true have no samples.
   columns_ = columns(e);
   topics_ = topics(e);
   first_edge_ = columns_.size();
@@ -38,12 +38,12 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   for (const Column& c : columns_)
     if (machine_ || !c.of_truth()) width += c.topic.fields.size();
 
-  // Room for everything that can come.
+  // Reserve storage for the largest number of samples and edges.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
   const std::size_t edges = controllers.most_edges(end);
   if (samples > signals::Column::page_size || edges > signals::Column::page_size) {
     pages_ = signals::PageFile::make();
-    if (!pages_.open(0)) pages_ = {};  // then memory has to hold all of it
+    if (!pages_.open(0)) pages_ = {};  // then all samples are kept in memory
   }
   row_time_ns_ = room<signals::Times>(pages_, samples);
   for (std::size_t i = 0; i < width; ++i) values_.push_back(room<signals::Column>(pages_, samples));
@@ -55,7 +55,7 @@ void Recorder::command(Tick t) noexcept {
   if (progress_) progress_->store(t, std::memory_order_relaxed);
 }
 
-// The numbers of the topic at the cursor.
+// Stores the numbers of the topic at the cursor.
 void Recorder::put(std::span<const double> values) noexcept {
   for (const double value : values) keep(values_[number_++], value);
   if (tap_.push && tapped_[cursor_] != not_tapped)
@@ -73,7 +73,7 @@ void Recorder::edge(const signals::Edge& edge) noexcept {
     tap_.push(tap_.object, tapped_[topic], edge.at * signals::tick_nanoseconds, {&value, 1});
 }
 
-// Where the room ended within a row, or an edge, what came of it goes.
+// Removes the part of a row, or of an edge, that was stored before storage was exhausted.
 void Recorder::leave_out_parts() {
   std::size_t rows = row_time_ns_.size();
   for (const signals::Column& values : values_) rows = std::min(rows, values.size());
@@ -89,7 +89,7 @@ signals::Table Recorder::take() {
   if (!complete_) leave_out_parts();
   signals::Table table;
   table.complete = complete_;
-  std::size_t column = 0;  // of a row
+  std::size_t column = 0;  // index in a row
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     signals::Series s{std::move(topics_[i]), {}, {}};
     s.columns.resize(s.topic.fields.size());
@@ -117,7 +117,7 @@ void Recorder::sample(Tick t) noexcept {
   if (machine_) machine_->truth(time, truths_);
   controllers_.look(time, &truths_, [&](const Snapshot& now) {
     for (const Column& c : columns_) {
-      if (!machine_ && c.of_truth()) break;  // they come last
+      if (!machine_ && c.of_truth()) break;  // they are last in the list
       std::array<double, 2> values{};
       c.value(now, values.data());
       put({values.data(), c.topic.fields.size()});

@@ -1,11 +1,11 @@
-// run/simulation/recorder.h - watches a run and fills the channel table.
+// run/simulation/recorder.h - recorder of a run, which fills the table of channels.
 //
-// One sample of everything per period, right after the last law has run (or every log period, where
-// that is shorter or longer), and each valve edge by itself. Memory is reserved before the run and
-// does not depend on its duration: what is more than a page per column goes to a temporary file
-// (signals/paged_vector.h). While it goes, recording is noexcept and allocates nothing. What is
-// recorded can be passed on to a log as it comes (Tap). Looking never changes the run: the world is
-// peeked.
+// It records one sample of all channels per period, right after the last law has run (or per log
+// period, if that differs), and each valve edge separately. Memory is reserved before the run and
+// does not depend on its duration: samples beyond a page per column are moved to a temporary file
+// (signals/paged_vector.h). During the run, recording is noexcept and allocates nothing. Records
+// can also be passed to a log as they come (Tap). Recording never changes the run, since the
+// state of the world is extrapolated in a copy.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,7 @@
 
 namespace sinew::run {
 
-// Where else a record goes, for instance log::Writer::push. noexcept, no heap.
+// Additional receiver of the records, for instance log::Writer::push. noexcept, without allocation.
 struct Tap {
   void* object = nullptr;
   void (*push)(void* object, std::uint16_t topic, std::int64_t time_ns,
@@ -32,27 +32,27 @@ struct Tap {
 
 class Recorder {
  public:
-  // Reads controllers and machine, which outlive it, up to the tick `end`; the machine is nullptr
-  // for a body that is not simulated.
+  // Records the controllers and the machine, which must outlive it, up to the tick `end`. `machine`
+  // is nullptr for a body that is not simulated.
   Recorder(const experiment::Experiment& experiment, const Controllers& controllers,
            plant::Machine* machine, signals::Tick end);
 
-  // Hands each sample to somebody else too, with the topic that each series has there.
+  // Also passes each sample to a receiver, with the receiver's topic for each series.
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
     tap_ = t;
     tapped_ = std::move(topic_of_series);
   }
-  // Tells how far the run is.
+  // Publishes the tick that the run has reached.
   void progress(std::atomic<std::int64_t>* tick) { progress_ = tick; }
 
-  // The loop's side.
+  // Called by the loop.
   void command(signals::Tick t) noexcept;
   void edge(const signals::Edge& edge) noexcept;
   void sample(signals::Tick t) noexcept;
   signals::Tick next(signals::Tick) const noexcept { return next_; }
 
-  // Returns what was recorded, as series. Once, after the run. The table is not complete where
-  // there was no more room for it: problem() then says what to do.
+  // Returns the recorded series. To be called once, after the run. The table is incomplete if
+  // storage was exhausted; problem() then describes the remedy.
   signals::Table take();
   std::string problem() const { return complete_ ? "" : pages_.problem(); }
 
@@ -61,34 +61,34 @@ class Recorder {
 
   const Controllers& controllers_;
   plant::Machine* machine_;
-  plant::Truths truths_;  // of the last sample
+  plant::Truths truths_;  // at the last sample
 
-  // Once there is no more room, nothing is kept any more; the tap still gets it.
+  // Stores a value. After storage is exhausted, nothing more is stored; the tap still receives it.
   template <class Samples>
   void keep(Samples& samples, typename Samples::value_type value) noexcept {
     complete_ = complete_ && samples.try_push_back(value);
   }
   void leave_out_parts();
 
-  struct Edges {  // of one valve
+  struct Edges {  // edges of one valve
     signals::Times time_ns;
     signals::Column values;
   };
 
   std::vector<Column> columns_;
-  std::vector<signals::Topic> topics_;   // of the columns, then of the valves
+  std::vector<signals::Topic> topics_;   // those of the columns, then those of the valves
   std::size_t first_edge_ = 0;           // topic of the first valve
-  signals::PageFile pages_;              // where a long run's samples go
-  signals::Times row_time_ns_;           // of all numbers below
-  std::vector<signals::Column> values_;  // each number of a row
-  std::vector<Edges> edges_;             // by valve
+  signals::PageFile pages_;              // storage for the samples of a long run
+  signals::Times row_time_ns_;           // times of all numbers below
+  std::vector<signals::Column> values_;  // one column per number of a row
+  std::vector<Edges> edges_;             // one per valve
   bool complete_ = true;
 
-  std::size_t cursor_ = 0, number_ = 0;  // topic, and number of the row, that the next put() is of
+  std::size_t cursor_ = 0, number_ = 0;  // topic and number in the row of the next put()
   std::int64_t now_ns_ = 0;
   signals::Tick period_ = 100, next_ = 0;
   Tap tap_;
-  std::vector<std::uint16_t> tapped_;  // topic in the log of each of ours, or none
+  std::vector<std::uint16_t> tapped_;  // topic in the log for each recorded topic, or not_tapped
   std::atomic<std::int64_t>* progress_ = nullptr;
 };
 

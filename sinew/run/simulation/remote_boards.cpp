@@ -18,13 +18,13 @@ using signals::Tick;
 
 namespace {
 
-// For how long a board may say nothing until the host gives it up; it has vented itself by then
-// (docs/reference/supervision.md).
+// Time without a message after which the host gives a board up [s]; the board has vented itself by
+// then (docs/reference/supervision.md).
 constexpr double silence = 1.5;
-// A frame may be lost, and the next one as well.
+// Number of periods for which a command is valid: a frame may be lost, and the next one as well.
 constexpr std::uint8_t good_for = 3;
-// A board that has said something is ahead of what it said last by less. What names a later tick
-// was not said by one: a run goes on for as long.
+// Largest plausible distance of a reported edge ahead of the present tick: ten minutes. Later edges
+// are transmission errors.
 constexpr Tick farthest = 10 * 60 * 10'000;
 
 }  // namespace
@@ -51,12 +51,12 @@ namespace {
 
 using Kind = robot::Sensor::Kind;
 
-// Air that a muscle may have when it counts as empty: less moves no joint.
+// Pressure at which a muscle counts as empty, since less moves no joint.
 constexpr double empty_pressure = 2 * units::psi;  // gauge
 constexpr double noise_bound = 6;                  // standard deviations, robot/sensing.h
 
-// The count up to which a gauge says so, by the real scale or by the one that is assumed; 0 where
-// it cannot, as it would stand at the converter's top.
+// Returns the count up to which a gauge shows an empty muscle, by its real or its assumed scale; 0
+// if it cannot, because the count is beyond the converter's range.
 std::uint16_t empty_count(const robot::Sensor& s, const robot::Converter& converter) {
   const double pascal = converter.counts_per_volt() * empty_pressure;
   const double most =
@@ -74,7 +74,8 @@ std::uint16_t empty_count(const robot::Transducer& t) {
   return count < signals::max_counts ? count : 0;
 }
 
-// Muscles that valves open and shut: what a regulator holds is no air that is left.
+// Returns whether valves fill a muscle and empty it. The pressure that a regulator holds is no
+// residue.
 bool has_valves(const experiment::Experiment& e, const control::Board& board,
                 const std::string& muscle) {
   const int m = robot::find_muscle(e.robot, muscle);
@@ -125,8 +126,8 @@ RemoteBoards::RemoteBoards(Boards& shown, plant::RemoteBoard& board, int lead)
 void RemoteBoards::command(const MachineCommand& command) noexcept { command_ = command; }
 
 // A law continues with its last command, so that period 0 has the plan's first one. Openings are
-// for one period: where commands are sent ahead, period 0 has none, and all others come as much
-// later.
+// valid for one period: if commands are sent ahead, period 0 has no openings, and all others are
+// delayed by the lead.
 bool RemoteBoards::send(Tick t) noexcept {
   if (end_sent_) return true;
   link::CommandFor out{.from = t == 0 ? 0 : t + lead_ * period_,
@@ -161,7 +162,7 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
   take_edges(t);
   handed_on_ = false;
   if (told == nullptr) {
-    over_ = true;  // but for the edges that came with it
+    over_ = true;  // except for the edges that came with it
     return t + 1;
   }
   lost_ += static_cast<std::uint32_t>((told->tick - t) / period_) - 1;
@@ -171,7 +172,8 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
   return next_;
 }
 
-// Numbers off a line: no valve, and no time, that the board does not have.
+// Stores reported edges in the machine's numbering; discards those with a valve or a time that the
+// board cannot have.
 void RemoteBoards::take_edges(Tick t) noexcept {
   for (Edge edge : board_->edges()) {
     if (edge.valve.index >= valve_.size() || edge.at < 0 || edge.at > t + farthest) {
@@ -183,7 +185,7 @@ void RemoteBoards::take_edges(Tick t) noexcept {
   }
 }
 
-// An edge is recorded once, at the next tick that the loop visits.
+// Returns each edge once, at the next tick that the loop visits.
 std::span<const Edge> RemoteBoards::edges() noexcept {
   if (handed_on_) return {};
   handed_on_ = true;

@@ -44,7 +44,7 @@ struct Bench {
     };
     return wires;
   }
-  // `what` happens in a period of the run, before the host hears what the board said in it.
+  // `what` is called in a period of the run, before the host receives the board's message.
   void in_period(int which, std::function<void(std::vector<std::uint8_t>&)> what) {
     board.spoil = [this, which, what](std::vector<std::uint8_t>& bytes) {
       if (first >= 0 && board.periods - first >= which) what(bytes);
@@ -55,14 +55,14 @@ struct Bench {
 
   experiment::Experiment experiment;
   WiredBody body;
-  Opened opened;  // valves before the run's end, bit by bit, from which tick on
+  Opened opened;  // valve bits before the run's end, with the ticks from which they apply
   BoardInThread board;
   plant::RemoteBoard remote;
   int first = -1;  // period of the run, by the board's count
 };
 
 // The stands have every kind of drive: feedback, the model, pulses of a 3-way valve and of two
-// 2-way valves, single pulses, and none. A board reports once in a period, so the log has its
+// 2-way valves, single pulses, and none. A board reports once in a period, so the log has the same
 // period.
 TEST(RemoteBoards, ABoardsProgramHasTheSimulationsLogBitForBit) {
   const std::string length = "sensor={length={of=\"length\",low=\"2 in\",high=\"4.5 in\"}}";
@@ -97,7 +97,7 @@ experiment::Experiment pulsed(const std::string& pulses) {
                                   "drive.pulses=[" + pulses + "]"});
 }
 
-// Openings are for one period each: none gets lost on the way, from the first period on.
+// Openings are valid for one period each; none is lost, from the first period on.
 TEST(RemoteBoards, CommandsThatAreSentAheadOpenAStandsValvesOnePeriodLater) {
   Bench bench(pulsed(R"({at="10 ms",open="100 ms"},{at="0.2 s",open="8 ms",exhaust=true})"));
   const Outcome far = bench.run(1);
@@ -122,8 +122,8 @@ TEST(RemoteBoards, AStandsValvesGoOnAsPlannedAfterTelemetryThatIsLost) {
   EXPECT_EQ(bench.opened, expected);
 }
 
-// A line that loses one frame of a start-up: the n-th that the host sends, or the n-th identity or
-// reply of the board, which streams telemetry all the while.
+// A line that loses one frame of a start-up: the n-th from the host, or the n-th identity or
+// reply of the board, which streams telemetry meanwhile.
 struct LosesOne {
   enum class From { host, board } from = From::host;
   int left = 0;
@@ -190,7 +190,7 @@ TEST(RemoteBoards, ARunWhoseFirstCommandIsLostRunsToItsEnd) {
 
 TEST(RemoteBoards, LostTelemetryIsAGapInTheLogAndACount) {
   Bench bench(loaded("kick"));
-  const int lost_from = 50, lost_for = 2;  // the command of before is good for three periods
+  const int lost_from = 50, lost_for = 2;  // the command before is valid for three periods
   bench.in_period(lost_from, [&](auto& bytes) {
     if (bench.board.periods - bench.first < lost_from + lost_for) bytes.clear();
   });
@@ -210,8 +210,8 @@ TEST(RemoteBoards, LostTelemetryIsAGapInTheLogAndACount) {
   EXPECT_EQ(widest, (1 + lost_for) * 10'000'000) << "nothing is put between two samples";
 }
 
-// What is no board's comes with both checksums right: from another robot's board, or another
-// version of this one.
+// Messages with valid checksums but contents that this board cannot have: from another robot's
+// board, or from another version.
 TEST(RemoteBoards, AValveOrATimeThatTheBoardDoesNotHaveIsLeftOutAndCounted) {
   Bench bench(loaded("kick"));
   const Outcome simulated = run(bench.experiment);
@@ -291,7 +291,7 @@ TEST(RemoteBoards, AtAMachineMeasuredPressuresSayWhenMusclesAreEmpty) {
       EXPECT_EQ(at, 0) << unmeasured;
 }
 
-// The whole chain, from the robot's file to the dump: an exhaust that does not open.
+// The whole chain, from the robot's file to the dump, for an exhaust that does not open.
 TEST(RemoteBoards, AtAMachineAMuscleThatDoesNotEmptyEndsInADump) {
   const std::vector<std::string> stuck = {
       "fault=[{at=\"1 s\", of=\"knee_flexor.exhaust\", what=\"stuck shut\"}]"};

@@ -16,13 +16,13 @@ namespace {
 
 using signals::Tick;
 
-// A sample is of a machine that knows every edge up to it.
+// Brings the machine up to date with every edge before a sample is taken.
 struct DrivenWatch {
   Watch watch;
   plant::Driven* driven;
 
   void command(Tick t) noexcept { watch.command(t); }
-  void edge(const signals::Edge&) noexcept {}  // of a controller: it goes nowhere
+  void edge(const signals::Edge&) noexcept {}  // edges of a controller have no effect
   void sample(Tick t) noexcept {
     driven->catch_up(t);
     watch.sample(t);
@@ -36,7 +36,7 @@ signals::Series* find(signals::Table& table, const std::string& topic) {
   return at == table.series.end() ? nullptr : &*at;
 }
 
-// The commands of the recording stand where the controllers' own would mislead.
+// Replaces the controllers' own commands, which would be misleading, by those of the recording.
 void put_commands(const experiment::Experiment& e, const ValveCommands& commands,
                   const signals::Table& recorded, signals::Table& out) {
   const std::vector<std::string> edges = edge_topics(e);

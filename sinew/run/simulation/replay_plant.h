@@ -1,8 +1,8 @@
-// run/simulation/replay_plant.h - recorded valve commands through today's plant: where does it part
-// from what was measured?
+// run/simulation/replay_plant.h - replay of recorded valve commands through today's plant, to
+// find where it parts from the measurements.
 //
-// The machine stands at the experiment's start and is driven by the recording's valves alone. The
-// experiment's controllers look on, as they would: what they decide moves nothing.
+// The machine starts as in the experiment and is driven by the recorded valve commands alone. The
+// experiment's controllers run too, but their decisions have no effect.
 #pragma once
 
 #include <string>
@@ -13,16 +13,16 @@
 
 namespace sinew::run {
 
-// Holds what came of it.
+// The result of a replay.
 struct PlantReplay {
-  // The table holds the simulated readings, what only a simulation knows, and the recorded commands
-  // in place of the controllers' own.
+  // The table contains the simulated readings, the channels of a simulation only, and the recorded
+  // commands instead of the controllers' own.
   Outcome outcome;
-  std::vector<std::string> rebuilt;  // as of ValveCommands
+  std::vector<std::string> rebuilt;  // as in ValveCommands
 };
 
-// Throws config::Error for a recording without valves' commands, and std::invalid_argument for a
-// robot that no plant can hold; `name` is the recording's.
+// Throws config::Error for a recording without valve commands, and std::invalid_argument for a
+// robot that exceeds the limits of the plant; `name` is the recording's.
 PlantReplay replay_plant(const experiment::Experiment& experiment, const signals::Table& recorded,
                          const std::string& name = "recording");
 

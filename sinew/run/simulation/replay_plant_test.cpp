@@ -1,4 +1,5 @@
-// Recorded valves through the plant: the same model moves as it did, another one parts from it.
+// Recorded valve commands in the plant: the same model repeats its motion, another one parts from
+// it.
 #include "sinew/run/simulation/replay_plant.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ bool is_of_plant(const std::string& topic) {
   return topic.starts_with("/true/") || topic.ends_with("/count");
 }
 
-// Every channel of the machine, up to where the shorter one ends, bit for bit.
+// Compares every channel of the machine, up to the end of the shorter one, bit for bit.
 void expect_same_motion(const signals::Table& a, const signals::Table& b) {
   std::size_t compared = 0;
   for (const signals::Series& s : a.series) {
@@ -64,7 +65,7 @@ TEST(ReplayPlant, EdgesMadeFromDutiesAreThoseOfTheLowLevel) {
   EXPECT_EQ(made.rebuilt.size(), 8u);
   ASSERT_GT(made.edges.size(), 8000u);
 
-  // The vent at the end is in no duty.
+  // The duties do not contain the vent at the end.
   std::size_t equal = 0;
   for (std::size_t i = 0; i < std::min(made.edges.size(), were.edges.size()); ++i)
     equal += made.edges[i].at == were.edges[i].at &&

@@ -11,7 +11,7 @@ namespace sinew::run {
 
 namespace {
 
-// From where the simulation stands to its end, recorded.
+// Runs a simulation from its present state to its end, with recording.
 template <class Clock>
 Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clock) {
   RecordedRun run(simulation, options);
@@ -39,7 +39,8 @@ Outcome by_its_clock(Simulation& simulation, const experiment::Experiment& e,
   return to_the_end(simulation, options, clock);
 }
 
-// The recorder has its memory before memory is locked; the machine is safe before it is not.
+// The recorder allocates its memory before memory is locked, and the machine is made safe before it
+// is unlocked.
 Outcome in_real_time(const experiment::Experiment& e, const RunOptions& options) {
   signals::Port& body = *options.body.port;
   Simulation simulation(e, body, options.steering);

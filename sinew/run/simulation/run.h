@@ -1,4 +1,4 @@
-// run/simulation/run.h - an experiment from start to finish.
+// run/simulation/run.h - run of an experiment from start to finish.
 #pragma once
 
 #include <atomic>
@@ -18,64 +18,65 @@
 
 namespace sinew::run {
 
-// A machine that is there, at a card in this computer, and the clock by which it is driven.
+// A real machine, at a card in this computer, and the clock that drives it.
 struct RealBody {
   plant::ComediPort* port = nullptr;
   host::Beat* beat = nullptr;
 };
 
-// How a run goes, who watches it, and where its machine is.
+// Pace, observers and place of a run.
 struct RunOptions {
-  double pace = 0;               // simulated per wall second; 0: as fast as it goes
-  Steering* steering = nullptr;  // in place of pace; outlives the run
+  double pace = 0;               // simulated per wall second; 0: as fast as possible
+  Steering* steering = nullptr;  // overrides pace; must outlive the run
   Tap tap;
-  std::vector<std::uint16_t> tapped;  // topic in the log of each of topics(), or not_tapped
+  std::vector<std::uint16_t> tapped;  // topic in the log for each of topics(), or not_tapped
   std::atomic<std::int64_t>* progress = nullptr;  // the tick that the run has reached
-  const std::atomic<bool>* stop = nullptr;        // true: the run ends there, as it stands
-  bool every_tick = false;                        // visit each tick: slower, the same bits
+  const std::atomic<bool>* stop = nullptr;        // true: the run ends at its present state
+  bool every_tick = false;                        // visits each tick: slower, same bits
   bool recorded = true;                           // false: the outcome's table is empty
-  int extra_readers = 0;                          // looks at the world per event: the same bits
-  int threads = 0;  // of a sweep of duties; 0: as many as the computer has. The same bits
-  RealBody body;    // in place of the simulated machine, in real time
-  plant::RemoteBoard* board = nullptr;  // drives the machine in place of the simulation; armed
-  int lead = 1;                         // of its commands [periods] (remote_boards.h)
-  bool board_keeps_time = true;         // false: it waits for the host, who may set a pace
+  int extra_readers = 0;                          // additional readings per event: same bits
+  int threads = 0;                      // for a sweep of duties; 0: all processors. Same bits
+  RealBody body;                        // replaces the simulated machine, in real time
+  plant::RemoteBoard* board = nullptr;  // replaces the simulation; must be armed
+  int lead = 1;                         // lead of its commands [periods] (remote_boards.h)
+  bool board_keeps_time = true;         // false: it waits for the host, which may set a pace
 };
 
-// Holds what came of a run.
+// The result of a run.
 struct Outcome {
   signals::Status status = signals::Status::ok;
-  bool stopped = false;  // by RunOptions::stop
+  bool stopped = false;  // stopped by RunOptions::stop
   signals::Table table;
-  std::string line;                   // what was wrong with a card or the line to a board
-  std::uint32_t lost = 0;             // periods of which a board's telemetry did not come
-  std::uint32_t foreign = 0;          // edges and periods of valves or times that no board has
-  std::string no_room;                // why the table is not complete, and what to do; empty: it is
-  SeenTotals seen;                    // the low level's last word
-  SupervisedTotals supervised;        // what was not believed, and what ended the run
-  air::Failure failure;               // what of the machine was no number any more
-  std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
+  std::string line;                   // fault of a card or of the line to a board
+  std::uint32_t lost = 0;             // periods without a board's telemetry
+  std::uint32_t foreign = 0;          // edges and periods with invalid valves or times
+  std::string no_room;                // why the table is incomplete, and the remedy; or empty
+  SeenTotals seen;                    // last state of the low level
+  SupervisedTotals supervised;        // rejected readings and commands, and what ended the run
+  air::Failure failure;               // part of the machine that was not finite
+  std::vector<gait::Change> changes;  // the plan's, followed by steered ones
   std::int64_t unreachable_periods = 0;
   std::int64_t nodes = 0;  // steps of the integrator
   double duration = 0;     // simulated [s]
   double wall = 0;         // [s]
 
-  // It did not come to its end: there is nothing to sum up.
+  // Returns whether the run ended before its plan, so that it cannot be summarised.
   bool ended_early() const {
     return failure || !line.empty() || status != signals::Status::ok ||
            seen.fault != signals::Status::ok || supervised.trip.cause != control::Trip::Cause::none;
   }
 };
 
-// Why a run ended early, when, and what to do: "the air of muscle knee_flexor was no number any
-// more at 0 s: …".
+// Returns why and when a run ended early, and the remedy: "the air of muscle knee_flexor was no
+// number any more at 0 s: …".
 std::string cause_of(const experiment::Experiment& experiment, const Outcome& outcome);
 
-// Throws std::invalid_argument for a robot that no plant can hold; nothing once the loop runs.
+// Runs the experiment. Throws std::invalid_argument for a robot that exceeds the limits of the
+// plant; never throws once the loop runs.
 Outcome run(const experiment::Experiment& experiment, const RunOptions& options = {});
 
-// The recorded readings of a run through today's controller. Returns the edges it decides, to be
-// compared with the recorded ones.
+// Feeds the recorded readings of a run to today's controller. Returns the edges that it decides,
+// for comparison with the recorded ones.
 Outcome replay(const experiment::Experiment& experiment, const signals::Table& recorded);
 
 }  // namespace sinew::run

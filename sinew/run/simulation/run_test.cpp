@@ -1,4 +1,4 @@
-// The whole loop: the same bits however it is looked at, no heap, converged, and what it refuses.
+// The whole loop: same bits for any observation, no allocation, convergence, and refusals.
 #include "sinew/run/simulation/run.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Run, VisitingEveryTickChangesNothing) {
   expect_same(run(e).table, run(e, {.every_tick = true}).table);
 }
 
-// Somebody who holds a run, reads and changes it.
+// Reads and changes a run while it is advanced.
 TEST(Run, HeldTakesNoMemory) {
   for (const char* name : {"walk-test-1", "walk-with-hoses", "walk-with-regulators",
                            "cylinder-following", "faults/sensor-open"}) {
@@ -93,7 +93,7 @@ TEST(Run, AFasterLogSeesTheSameRun) {
             19 * slow.table.find("/true/trolley/position")->time_ns.size());
 }
 
-// A log that went through the controller again gives the edges that are in it.
+// A log replayed through the controller gives the edges that it contains.
 TEST(Run, ARecordedRunReplaysItsOwnEdges) {
   const experiment::Experiment e = walk();
   const Outcome recorded = run(e), again = replay(e, recorded.table);
@@ -119,7 +119,7 @@ TEST(Run, ALogWithoutASensorCannotBeReplayed) {
   }
 }
 
-// However a plan ends, one row stands after its sequence: where it has led to.
+// However a plan ends, one row follows its sequence, with the final state.
 TEST(Run, TheLastRowStandsAfterTheSequence) {
   const Outcome vents = run(walk());
   const std::vector<double> end = vents.table.find("/plan/phase")->columns[0].in_memory();
@@ -137,14 +137,14 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
     EXPECT_NEAR(x.back(), vents.table.find("/true/trolley/position")->columns[0][after], 1e-5)
         << set;
   }
-  // Who holds goes on with the laws, who has nothing to vent leaves its valves shut.
+  // With hold, the laws continue; without a vent, the valves stay shut.
   const auto last = [](const Outcome& o, const char* topic) {
     return o.table.find(topic)->columns[0].back();
   };
   EXPECT_EQ(last(run(walk({"low_level.vent_time=0 s"})), "/muscle/knee_flexor/inlet_duty"), 0);
 }
 
-// Returns what was recorded of a run that takes no memory in its loop.
+// Runs an experiment, checks that its loop allocates no memory, and returns the record.
 signals::Table expect_no_heap(const experiment::Experiment& e, signals::Tick end,
                               Steering* steering = nullptr) {
   Simulation simulation(e, steering);
@@ -160,7 +160,7 @@ signals::Table expect_no_heap(const experiment::Experiment& e, signals::Tick end
   return recorder.take();
 }
 
-// Nothing while it goes, and before it per hour no more than the places of pages on the disk.
+// No allocation while it runs, and before it only page locations per hour of recording.
 TEST(Run, TakesNoMemoryForItsDuration) {
   const auto walk_for = [](int steps) {
     return experiment::load(source + "/experiments/walk-test-1.toml",
@@ -245,7 +245,7 @@ TEST(Run, EveryShippedRobotWalksTheSamePlan) {
   }
 }
 
-// What was run can be run again from resolved.toml alone, to the same bits.
+// An experiment can be repeated from resolved.toml alone, with the same bits.
 TEST(Resolved, RunsAgainToTheSameBits) {
   const experiment::Experiment e = walk();
   const auto path =
@@ -279,7 +279,7 @@ TEST(Load, SaysWhatContradictsItself) {
             std::string::npos);
 }
 
-// What no machine can be, and what no machine should be asked.
+// Machines that are impossible, and machines that are refused.
 TEST(Load, RefusesWhatCannotBe) {
   const auto expect = [](const char* set, const char* text) {
     EXPECT_NE(refusal({set}).find(text), std::string::npos) << set << ": " << refusal({set});

@@ -24,7 +24,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<FaultyPort::State>);
 static_assert(std::is_trivially_copyable_v<LoopState>);
 
-// Nobody looks.
+// A watch that records nothing.
 struct Nobody {
   void command(Tick) noexcept {}
   void edge(const signals::Edge&) noexcept {}
@@ -32,11 +32,11 @@ struct Nobody {
   Tick next(Tick) const noexcept { return std::numeric_limits<Tick>::max(); }
 };
 
-// The header stands before the state in a save.
+// Header of a saved state.
 struct Header {
   char format[16] = "sinew.save/1";
-  std::uint64_t model = 0;     // of the experiment's values and the library's version
-  std::uint64_t checksum = 0;  // of this header with 0 here, and of all that follows it
+  std::uint64_t model = 0;     // hash of the experiment's values and the library's version
+  std::uint64_t checksum = 0;  // hash of this header, with 0 here, and the state
   std::int64_t tick = 0;
 };
 static_assert(std::has_unique_object_representations_v<Header>);
@@ -113,7 +113,7 @@ void Simulation::advance_by(double seconds) noexcept {
   advance_to(tick_ + std::llround(seconds / signals::tick_seconds));
 }
 
-// --- looking ---
+// --- reading ---
 
 void Simulation::list_channels() {
   columns_ = columns(experiment_);
@@ -218,7 +218,7 @@ void Simulation::release(std::string_view key, std::string_view leg) {
 
 // --- saving ---
 
-// The values alone: what a file says of them is no part of the machine.
+// Hashes the values alone, since comments and sources of a file do not affect the machine.
 std::uint64_t Simulation::model() {
   if (model_) return *model_;
   const std::string values = config::to_toml(
@@ -274,7 +274,7 @@ void Simulation::restore(std::span<const std::byte> saved) {
   if (faulty_) faulty_->restore(faulty);
   take(saved, loop_);
   tick_ = header.tick;
-  // Another machine learns when conversions begin.
+  // A new machine has to be given the scan.
   if (loop_.started) (void)port_->start(controllers_.scan());
 }
 

@@ -1,5 +1,5 @@
-// run/simulation/simulation.h - a run that a caller holds: an experiment's machine, a robot or a
-// test stand, and its controllers, advanced by any amount, read, changed, saved and restored.
+// run/simulation/simulation.h - a run that the caller controls: an experiment's machine, a robot or
+// a test stand, and its controllers, advanced in any steps, read, changed, saved and restored.
 //
 //   Simulation s(buildable("experiments/walk-test-1.toml"));
 //   s.advance_by(2.0);
@@ -9,12 +9,14 @@
 //   s.advance_by(1.0);
 //   s.restore(saved);                             // back where it was, bit for bit
 //
-// However it is cut into advances, read and restored: the same bits as run(), which is written on
-// it. Memory is taken when it is made, not while it advances.
+// The results equal those of run(), bit for bit, however the run is advanced, read and restored;
+// run() is implemented with this class. Memory is allocated by the constructor, not while it
+// advances.
 //
-// A save is the state of the machine, the controllers, the commands on their way and the tick; no
-// log. It can be restored any number of times, also in another process, by the same version of the
-// library on the same kind of computer, into a simulation of an experiment with the same values.
+// A save contains the state of the machine, the controllers, the commands in transit and the tick,
+// but no log. It can be restored any number of times, also in another process, by the same
+// version of the library on the same kind of computer, into a simulation of an experiment with the
+// same values.
 #pragma once
 
 #include <cstddef>
@@ -37,20 +39,20 @@ namespace sinew::run {
 
 class Simulation {
  public:
-  // The experiment, a buildable one, at its start. `steering` may be null and outlives this. Throws
-  // std::invalid_argument for a machine that no plant can hold.
+  // Starts a buildable experiment. `steering` may be null and must outlive this object. Throws
+  // std::invalid_argument for a machine that exceeds the limits of the plant.
   explicit Simulation(const experiment::Experiment& experiment, Steering* steering = nullptr);
 
-  // The experiment in a machine that goes side by side with others, at its start.
+  // Starts the experiment with a machine in a lane of a batch.
   Simulation(const experiment::Experiment& experiment, const plant::LegLane& lane);
 
-  // The experiment's controllers before another body, which outlives this: a recorded one, for
-  // instance. Nothing is simulated then: no truth, and nothing to save.
+  // Starts the experiment's controllers with another body, for instance a recording, which must
+  // outlive this object. Nothing is simulated then: there are no true values, and nothing to save.
   Simulation(const experiment::Experiment& experiment, signals::Port& body,
              Steering* steering = nullptr);
 
-  // The experiment's plan before a board at the end of a line, which is armed and outlives this
-  // (remote_boards.h has `lead`). Nothing is simulated then either.
+  // Starts the experiment's plan with an armed board at the end of a line, which must outlive this
+  // object (remote_boards.h describes `lead`). Nothing is simulated then either.
   Simulation(const experiment::Experiment& experiment, plant::RemoteBoard& board, int lead,
              Steering* steering = nullptr);
 
@@ -59,21 +61,21 @@ class Simulation {
 
   // --- time ---
 
-  // The tick that it has been advanced to: what happens at it has not happened yet.
+  // Returns the tick that it was advanced to; the events at that tick are still to come.
   signals::Tick tick() const noexcept { return tick_; }
   double time() const noexcept { return static_cast<double>(tick_) * signals::tick_seconds; }
-  // The next tick at which anything happens.
+  // Returns the next tick with an event.
   signals::Tick next() const noexcept { return loop_.at; }
-  // The tick at which it ends, if nothing ends it before.
+  // Returns the tick of its regular end.
   signals::Tick last() const noexcept { return last_; }
-  // Is there nothing left to advance? The plan has come to its end, or something has failed.
+  // Returns whether it has ended: the plan has ended, or something has failed.
   bool ended() const noexcept;
 
-  // Runs all that happens before the tick; an earlier one changes nothing.
+  // Runs all events before the tick; does nothing if it has passed.
   void advance_to(signals::Tick tick) noexcept;
-  // Advances by seconds from where it stands, rounded to ticks.
+  // Advances by seconds from the present tick, rounded to ticks.
   void advance_by(double seconds) noexcept;
-  // Advances under a clock, and with somebody who records (loop.h).
+  // Advances with a clock and a recorder (loop.h).
   template <class Clock, class Watch>
   void advance(signals::Tick until, Clock& clock, Watch& watch) noexcept {
     if (tick_ < last_ && until > tick_) {
@@ -89,67 +91,66 @@ class Simulation {
         for (const signals::Edge& edge : remote_->last_edges(last_)) watch.edge(edge);
     }
   }
-  // Leaves the body safe; answers the first status of the whole run that was not ok. Once, when no
-  // more is to come.
+  // Leaves the body safe; returns the first status of the whole run that was not ok. To be called
+  // once, at the end.
   signals::Status finish() noexcept { return run::finish(loop_, port()); }
 
-  // --- looking: changes nothing ---
+  // --- reading: changes nothing ---
 
-  // Names of all that can be read, with their units: the channels of the log but the valves' edges;
-  // "/foot/position.x" of one with two numbers.
+  // Names and units of everything that can be read: the channels of the log except the valves'
+  // edges; "/foot/position.x" of a channel with two numbers.
   struct Channel {
     std::string name, unit;
-    Column::Given given = Column::Given::always;  // when it has a value; NaN else
+    Column::Given given = Column::Given::always;  // when it has a value; NaN otherwise
   };
   const std::vector<Channel>& channels() const noexcept { return channels_; }
-  // Value of a channel now, in its unit; by its number in channels(), or by its name. Throws
-  // std::invalid_argument for a channel that there is not.
+  // Return the present value of a channel, in its unit; by its number in channels(), or by its
+  // name. Throw std::invalid_argument for an unknown channel.
   double read(std::size_t channel) noexcept;
   double read(std::string_view channel);
-  // Values of many channels, by their numbers, at once: cheaper than one by one. `values` is as
-  // long as `channels`.
+  // Writes the values of many channels, by their numbers, which is cheaper than one by one.
+  // `values` and `channels` must have the same size.
   void read(std::span<const std::size_t> channels, std::span<double> values) noexcept;
   std::size_t find(std::string_view channel) const;
 
-  // Return the true values now. The body has to be a simulated one.
+  // Return the true values now. Requires a simulated body.
   const plant::Truths& truths() noexcept;
   const plant::Truth& truth() noexcept { return truths().robot; }
-  // Returns what of the machine was no number any more.
+  // Returns the part of the machine that was not finite, if any.
   air::Failure failure() const noexcept;
-  // Returns why it has ended before its plan did, in words; empty where it has not.
+  // Returns why it ended before its plan; empty if it did not.
   std::string cause() const;
 
   // --- changing ---
 
-  // Sets gain, stiffness or angle in place of the plan's ("control.stiffness.hip", in SI) from the
-  // next period start on, which may be this tick; and gives it back to the plan. `leg`: whose;
-  // empty: every leg's. Throws std::invalid_argument for a key or a leg that there is not, or a
-  // value that it cannot have.
+  // Override a gain, stiffness or angle of the plan ("control.stiffness.hip", in SI) from the
+  // start of the next period on, which may be this tick, or release it to the plan. An empty `leg`
+  // means all legs. Throw std::invalid_argument for an unknown key or leg, or an invalid value.
   void change(std::string_view key, double value, std::string_view leg = {});
-  void change(std::size_t setting, double value);  // by its number in settings(), of every leg
+  void change(std::size_t setting, double value);  // for all legs, by the number in settings()
   void release(std::string_view key, std::string_view leg = {});
   const std::vector<gait::Setting>& settings() const noexcept { return controllers_.settings(); }
-  // Returns what a setting, by its number, is at now, the plan's or what was set in its place; of
-  // the first leg  [its SI unit].
+  // Returns the present value of a setting, by its number, whether planned or overridden, for the
+  // first leg [its SI unit].
   double value_of(std::size_t setting) const noexcept {
     return gait::value_of(settings()[setting], controllers_.gait()->desired().front());
   }
-  // Returns the number of a setting by its key; throws as change() does.
+  // Returns the number of a setting by its key; throws like change().
   std::size_t find_setting(std::string_view key) const;
 
   // --- saving ---
 
-  // Everything that the future depends on, as bytes.
+  // Returns the complete state as bytes.
   std::vector<std::byte> save();
   std::size_t save_size() const noexcept;
-  // Throws std::invalid_argument, and changes nothing, for what is no save, is cut off or spoilt,
-  // or is of another experiment or another version.
+  // Throws std::invalid_argument, without changes, if the bytes are no save, incomplete or
+  // corrupted, or belong to another experiment or version.
   void restore(std::span<const std::byte> saved);
 
-  // --- the parts, for whoever records ---
+  // --- the parts, for recorders ---
 
-  // Returns what is run; what controls it; a board far away and the simulated machine, nullptr
-  // where there is none.
+  // Return the experiment, its controllers, and a remote board and the simulated machine, nullptr
+  // if they do not exist.
   const experiment::Experiment& experiment() const noexcept { return experiment_; }
   const Controllers& controllers() const noexcept { return controllers_; }
   const RemoteBoards* remote() const noexcept { return remote_ ? &*remote_ : nullptr; }
@@ -163,7 +164,7 @@ class Simulation {
   signals::Port& port() noexcept { return *port_; }
   void list_channels();
   void wish(std::size_t setting, double value, int leg);
-  int leg_number(std::string_view leg) const;  // -1: every leg's
+  int leg_number(std::string_view leg) const;  // -1: all legs
   std::uint64_t model();
 
   experiment::Experiment experiment_;
@@ -171,15 +172,15 @@ class Simulation {
   std::optional<FaultyPort> faulty_;
   signals::Port* port_ = nullptr;
   Controllers controllers_;
-  std::optional<RemoteBoards> remote_;  // shown by the controllers' boards
+  std::optional<RemoteBoards> remote_;  // its state is shown by the controllers' boards
   signals::Tick last_ = 0, tick_ = 0;
   LoopState loop_;
 
   std::vector<Column> columns_;
   std::vector<Channel> channels_;
-  std::vector<std::pair<std::size_t, std::size_t>> column_of_;  // and which of its numbers
-  std::optional<std::uint64_t> model_;                          // once it was needed
-  plant::Truths truths_;                                        // the last ones
+  std::vector<std::pair<std::size_t, std::size_t>> column_of_;  // column, and number within it
+  std::optional<std::uint64_t> model_;                          // calculated when first needed
+  plant::Truths truths_;                                        // those read last
 };
 
 }  // namespace sinew::run

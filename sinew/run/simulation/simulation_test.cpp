@@ -1,4 +1,5 @@
-// A run that somebody holds: the same bits as run(), however it is cut, looked at and restored.
+// A run that the caller controls equals run(), bit for bit, however it is advanced, read and
+// restored.
 #include "sinew/run/simulation/simulation.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +22,8 @@ using signals::Tick;
 
 const std::string source = sinew::test::source_dir();
 
-// Every law of this file is tried on these: every mechanism, every air, a controller with a memory,
-// and sensors that lie.
+// The experiments for all tests of this file: every mechanism, every kind of air, a controller with
+// a state, and faulty sensors.
 struct Kind {
   std::string file;
   std::vector<std::string> sets;
@@ -79,8 +80,8 @@ TEST(Simulation, InPortionsAndLookedAtHasTheSameBits) {
   }
 }
 
-// A sample of run() stands at the tick at which it was taken; a simulation that has been advanced
-// past that tick has heard and said the same.
+// A sample of run() is taken at its own tick; a simulation that was advanced beyond that tick
+// has the same state.
 TEST(Simulation, HearsAndSaysWhatARunDoes) {
   const experiment::Experiment e = load(kinds[0]);
   const Outcome whole = run(e);
@@ -107,7 +108,7 @@ TEST(Simulation, GoesOnFromASaveWithTheSameBits) {
     for (int i = 0; i < 25 && !held->ended(); ++i) {
       held->advance_to(held->tick() + 1 + random() % (straight.last() / 20));
       const std::vector<std::byte> saved = held->save();
-      held->advance_by(0.05);  // and the future that is given up leaves no trace
+      held->advance_by(0.05);  // the discarded part leaves no trace
       if (i % 2 == 0) {
         held->restore(saved);
       } else {
@@ -123,7 +124,7 @@ TEST(Simulation, GoesOnFromASaveWithTheSameBits) {
   }
 }
 
-// A save does not know where the experiment's files were.
+// A save does not depend on the place of the experiment's files.
 TEST(Simulation, ASaveIsThatOfTheResolvedExperimentToo) {
   for (const Kind& kind : kinds) {
     const experiment::Experiment e = load(kind);
@@ -137,7 +138,7 @@ TEST(Simulation, ASaveIsThatOfTheResolvedExperimentToo) {
   }
 }
 
-// A wish that has not been followed yet is a part of the save.
+// A request that has not taken effect is part of the save.
 TEST(Simulation, WishesOnTheirWayAreSaved) {
   const experiment::Experiment e = load(kinds[0]);
   Simulation a(e), b(e);
@@ -149,7 +150,7 @@ TEST(Simulation, WishesOnTheirWayAreSaved) {
   expect_same(a, b);
 }
 
-// The experiment's own list [[change]] is the other way to the same.
+// The experiment's own list [[change]] has the same effect.
 TEST(Simulation, AChangeIsThatOfTheExperimentsList) {
   experiment::Experiment e = load({"leg-in-air", {}});
   Simulation held(e);
@@ -169,7 +170,7 @@ TEST(Simulation, AChangeIsThatOfTheExperimentsList) {
   EXPECT_NE(all(held), all(plain));
 }
 
-// By their numbers settings and channels are what they are by name.
+// Settings and channels selected by number equal those selected by name.
 TEST(Simulation, NumbersStandForNames) {
   const experiment::Experiment e = load({"walk-test-1", {}});
   Simulation by_name(e), by_number(e);
@@ -198,7 +199,7 @@ TEST(Simulation, SaysWhyItEndedEarly) {
   EXPECT_TRUE(whole.ended());
   EXPECT_EQ(whole.cause(), "");
 
-  for (actuator::Actuator& a : e.actuators) a.loss.viscous = 5000;  // beyond what is refused
+  for (actuator::Actuator& a : e.actuators) a.loss.viscous = 5000;  // beyond buildable()
   Simulation runs_away(e);
   runs_away.advance_to(runs_away.last());
   EXPECT_TRUE(runs_away.ended());

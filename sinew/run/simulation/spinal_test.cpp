@@ -1,4 +1,4 @@
-// What the low level is told of robots other than the leg.
+// Setup of the low level for robots other than the leg.
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/run/setup/installation.h"
 
@@ -48,7 +48,7 @@ void use_three_way(experiment::Experiment& e, const std::string& joint) {
     if (m.joint == joint) m.inlet = three_way(e).name, m.exhaust = "";
 }
 
-// --- valves make the law ------------------------------------------------------------------------
+// --- the law follows the valves ------------------------------------------------------------------
 
 TEST(Spinal, ThreeWayValvesMakeAThreeWayJoint) {
   experiment::Experiment e = one_step();
@@ -61,7 +61,7 @@ TEST(Spinal, ThreeWayValvesMakeAThreeWayJoint) {
   EXPECT_EQ(refusal(e), "nothing");
 }
 
-// Robot III's way, 5.1: it moves, its valves are never shut, and it takes more air.
+// Robot III's control, 5.1: it moves, its valves are never shut, and it uses more air.
 TEST(Spinal, AThreeWayLegMovesAndSpendsMoreAir) {
   const experiment::Experiment sealed = one_step();
   experiment::Experiment e = one_step();
@@ -95,7 +95,7 @@ TEST(Spinal, RefusesValvesThatDoNotGoTogether) {
   EXPECT_NE(refusal(e).find("a valve of the same kind as muscle hip_flexor's"), std::string::npos);
 }
 
-// Both muscles of the hip behind regulators: the angle follows, the set points are logged.
+// Both muscles of the hip have regulators: the angle follows, and the set points are logged.
 experiment::Experiment regulated_hip(double angle_integral) {
   experiment::Experiment e = one_step();
   gas::Valve v = e.valves.front();
@@ -143,8 +143,8 @@ TEST(Spinal, RegulatorsFollowTheirSetPoints) {
   EXPECT_EQ(out.table.find("/muscle/hip_flexor/inlet_duty"), nullptr);
 }
 
-// The leg's cylinder in its loop: last joint, valves behind the muscles', duties of B.1. With B.1's
-// gain it swings; damped, and with a ninth of the gain, it goes where the plan wants it.
+// The leg's cylinder in its loop: last joint, valves after the muscles', duties of B.1. With B.1's
+// gain it oscillates; damped, and with a ninth of the gain, it reaches the planned position.
 TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
   const std::string air = sinew::test::source_dir() + "/experiments/leg-in-air.toml";
   const experiment::Experiment e = experiment::load(
@@ -168,14 +168,14 @@ TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
     lowest = std::min(lowest, is[i]);
   }
   EXPECT_NEAR(want.back(), 0.7 * 0.0254, 1e-12);
-  EXPECT_NEAR(last_error, 0, 0.003);  // a proportional law keeps an error
+  EXPECT_NEAR(last_error, 0, 0.003);  // a proportional law has a steady error
   EXPECT_GT(lowest, -0.002);          // the stop
   EXPECT_GT(out.table.find("/valve/cylinder_up/inlet/open")->time_ns.size(), 200u);
 }
 
 // --- muscles ------------------------------------------------------------------------------------
 
-// Another scale, another arm: the torque of a count, over that of the flexor's.
+// Torque of a count with another scale and another arm, relative to that of the flexor.
 TEST(Spinal, TensionRatioIsOfTorquePerCount) {
   experiment::Experiment e = one_step();
   EXPECT_EQ(control::joint_controller_config(installation(e)).joint[0].extensor.tension_ratio,
@@ -201,14 +201,14 @@ TEST(Spinal, AJointWithOneMuscle) {
     EXPECT_EQ(hip.extensor.present, gone == 0);
     EXPECT_FALSE(robot::is_plain(e.robot));
     EXPECT_TRUE(robot::contradictions(e.robot).empty());
-    const Outcome out = run(e);  // its weight is the other muscle, as far as it goes
+    const Outcome out = run(e);  // gravity replaces the missing muscle
     EXPECT_EQ(out.status, signals::Status::ok);
     for (const double angle : *out.table.column("/true/joint/hip/angle"))
       ASSERT_TRUE(std::isfinite(angle));
   }
 }
 
-// The knee's flexor is the hip's as well, on a cam half as large.
+// One muscle is the flexor of knee and hip, on a cam half as large.
 TEST(Spinal, AMuscleOverTwoJoints) {
   experiment::Experiment e = one_step();
   e.robot.muscles[0].second = {.joint = "knee", .role = robot::Muscle::Role::flexor};
@@ -221,14 +221,14 @@ TEST(Spinal, AMuscleOverTwoJoints) {
   EXPECT_EQ(hip.tension.index, knee.tension.index);
   EXPECT_NEAR(hip.share, 2.0 / 3, 1e-6);
   EXPECT_NEAR(knee.share, 1.0 / 3, 1e-6);
-  // Flexion lowers the knee's angle: a knee angle that rises lengthens the muscle, by half as much.
+  // Flexion lowers the knee's angle: a rising angle lengthens the muscle, by half as much.
   EXPECT_NEAR(hip.other_travel, 0.5, 1e-6);
   EXPECT_NEAR(knee.other_travel, -2, 1e-6);
 
   EXPECT_TRUE(robot::contradictions(e.robot).empty());
   const Outcome out = run(e);
   EXPECT_EQ(out.status, signals::Status::ok);
-  // One pulse train: every edge changes its valve.
+  // With one pulse train, every edge changes the valve's state.
   const signals::Series *inlet = out.table.find("/valve/hip_flexor/inlet/open"),
                         *exhaust = out.table.find("/valve/hip_flexor/exhaust/open");
   EXPECT_GT(inlet->time_ns.size(), 50u);
@@ -239,8 +239,8 @@ TEST(Spinal, AMuscleOverTwoJoints) {
 
 // --- period and interrupts ----------------------------------------------------------------------
 
-// 5.2: the interrupt comes a hundred times in a period. In ticks of 100 us 90 and 151 Hz are 111
-// and 66 of them.
+// 5.2: the interrupt comes a hundred times in a period. In ticks of 100 us, 90 and 151 Hz are 111
+// and 66 ticks.
 TEST(Spinal, InterruptsOverrunAbove100Hz) {
   for (const int ticks : {50, 66, 100, 111, 125, 200}) {
     experiment::Experiment e = one_step({"low_level.interrupt_time=100 us"});

@@ -1,5 +1,4 @@
-// Experiments on the stand: files, their contradictions, runs that repeat, sweeps, the drive's
-// laws.
+// Experiments on the stand: files, their contradictions, repeatable runs, sweeps, the drive's laws.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +51,7 @@ TEST(RigFiles, ResolvedOnesRunAgainWithTheSameBits) {
   }
 }
 
-// At each length that is prescribed there must be air.
+// The muscle must contain air at each prescribed length.
 TEST(RigFiles, ALengthWithoutVolumeIsRefusedByItsKey) {
   const auto refusal = [](const std::vector<std::string>& sets) -> std::string {
     try {
@@ -72,8 +71,8 @@ TEST(RigFiles, ALengthWithoutVolumeIsRefusedByItsKey) {
       std::string::npos);
 }
 
-// A load that tears the muscle beyond its thread's length, where it has no volume: the run ends
-// with the element, the time and what happened.
+// A load stretches the muscle beyond its thread's length, where it has no volume: the run ends with
+// the element, the time and the cause.
 TEST(RigRun, AirThatVanishesEndsTheRun) {
   Experiment e = experiment::load(folder + "pwm-25hz-5lb.toml");
   e.stand->element.external_volume = 0;
@@ -86,7 +85,8 @@ TEST(RigRun, AirThatVanishesEndsTheRun) {
   EXPECT_NE(cause.find("the air of element bpa was not finite at "), cause.npos) << cause;
 }
 
-// A third of the gravity and three times the mass weigh the same: the load hangs where it hung.
+// A third of the gravity and three times the mass give the same weight: the load hangs at the same
+// length.
 TEST(RigRun, AWeightIsMassTimesTheGravityOfTheFile) {
   const auto hangs = [](const std::vector<std::string>& sets) {
     return plant::hanging_length(stand_setup(experiment::load(folder + "trapped-60-6.toml", sets)));
@@ -115,7 +115,7 @@ TEST(RigRun, ThreadsOfASweepChangeNothing) {
   ASSERT_EQ(one.table.column("/sweep/duty")->size(), 5u);
 }
 
-// A row of a sweep is the run with that duty alone.
+// A row of a sweep equals the run with that duty alone.
 TEST(RigRun, ASweepIsItsRuns) {
   Experiment e = experiment::load(folder + "duty-sweep.toml");
   e.stand->sweep = {.from = 0.3, .to = 0.4, .step = 0.1};
@@ -131,7 +131,7 @@ TEST(RigRun, ASweepIsItsRuns) {
   EXPECT_NEAR(swept, sum / 2000, 1e-12);
 }
 
-// The valve's delays and 50 % make the ideal valve's 42.5 %, shifted by the opening delay.
+// With the valve's delays, 50 % equals 42.5 % of an ideal valve, shifted by the opening delay.
 TEST(RigRun, CommandedDutyThroughDelaysIsTheDeliveredOne) {
   Experiment delayed = experiment::load(folder + "pwm-25hz-5lb.toml");
   delayed.stand->element.inlet = "758";
@@ -153,7 +153,7 @@ TEST(RigRun, CommandedDutyThroughDelaysIsTheDeliveredOne) {
   EXPECT_NEAR(first(a, "/true/sweep/pressure") / first(b, "/true/sweep/pressure"), 1, 1e-3);
 }
 
-// Feedback sees counts: noise and a load that it does not know move the muscle back all the same.
+// Feedback uses counts: despite noise and an unknown load it moves the muscle back.
 TEST(RigRun, PulsesThatFollowEachOtherAreOneLongPulse) {
   const auto table = [](const std::string& pulses) {
     return run(experiment::load(
@@ -179,12 +179,11 @@ TEST(RigRun, FeedbackGoesBackAfterATug) {
   const signals::Column& counts = *table.column("/sensor/length/count");
   EXPECT_NEAR(length.back(), desired.back(), 0.05 * 0.0254);
   EXPECT_NEAR(robot::quantity(e.stand->sensors[0], counts.back()), length.back(), 0.005 * 0.0254);
-  // Two pounds more stretch it where the valves rest.
+  // Two more pounds stretch it while the valves rest
   EXPECT_GT(length[6100], length[5990]);
 }
 
-// --- a stand that a caller holds
-// ------------------------------------------------------------------
+// --- a stand that the caller controls ------------------------------------------------------------
 
 constexpr const char* driven_stands[] = {"feedback",       "feed-forward",    "pwm-25hz-5lb",
                                          "pressure-steps", "feedback-on-off", "creep"};
@@ -197,7 +196,7 @@ std::vector<double> values(Simulation& s) {
   return out;
 }
 
-// Cut anywhere, read, saved and restored, here or into another one: the same bits.
+// Advanced in any steps, read, saved and restored, in the same object or another: the same bits.
 TEST(StandSimulation, CutsReadsAndSavesLeaveNoTrace) {
   std::mt19937 random(7);
   for (const char* name : driven_stands) {

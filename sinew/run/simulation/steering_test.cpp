@@ -1,5 +1,5 @@
-// A run that is steered: what is changed takes effect at period starts and can be repeated; pausing
-// and another speed change no bit.
+// Steering of a run: changes take effect at the start of a period and can be repeated; pause and
+// pace change no bit.
 #include "sinew/run/controllers/steering.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ experiment::Experiment with(experiment::Experiment e, std::vector<gait::Change> 
   return e;
 }
 
-// As from the file that the run leaves.
+// Repeats the run from the file that it leaves.
 experiment::Experiment again(experiment::Experiment e, std::vector<gait::Change> changes) {
   e = with(std::move(e), std::move(changes));
   return experiment::load(config::parse_text(experiment::resolved(e, "test"), "resolved.toml"),
@@ -52,7 +52,7 @@ const signals::Series& series(const signals::Table& table, const std::string& na
   return *found;
 }
 
-// First time at which the value is that, or -1  [ns].
+// Returns the first time at which the value occurs, or -1 [ns].
 std::int64_t first_at(const signals::Series& s, double value) {
   for (std::size_t i = 0; i < s.time_ns.size(); ++i)
     if (s.columns[0][i] == value) return s.time_ns[i];
@@ -62,7 +62,7 @@ std::int64_t first_at(const signals::Series& s, double value) {
 TEST(Change, OfTheListTakesEffectAtTheNextPeriodStart) {
   const experiment::Experiment plain = in_air();
   const std::string key = "control.stiffness.hip";
-  // Samples stand behind the last law of a period, 1 ms after its start at the earliest.
+  // Samples follow the last law of a period, 1 ms after its start at the earliest.
   for (const auto& [time, start] : {std::pair{1.0, 1000}, std::pair{1.0001, 1010}}) {
     const Outcome o = run(with(plain, {{.time = time, .key = key, .value = 1.5}}));
     const std::int64_t at = first_at(series(o.table, "/desired/joint/hip/stiffness"), 1.5);
@@ -167,7 +167,7 @@ const signals::Column& knee(const Outcome& out, const std::string& leg) {
   return series(out.table, "/desired/leg/" + leg + "/joint/knee/stiffness").columns[0];
 }
 
-// A change of one leg leaves the other to the plan; without a leg it is both's.
+// A change of one leg leaves the other to the plan; without a leg it applies to both.
 TEST(Change, OfOneLegLeavesTheOther) {
   const std::string key = "control.stiffness.knee";
   const Outcome plain = run(on_two_legs({}));
@@ -194,7 +194,7 @@ TEST(Change, OfOneLegLeavesTheOther) {
   }
   EXPECT_GT(changed, 50);
 
-  // The file that the run leaves says whose it was.
+  // The file that the run leaves names the leg of each change.
   const experiment::Experiment back =
       again(on_two_legs({}), {{.time = 1, .key = key, .value = 4, .leg = "left"}});
   expect_same(run(back).table, left.table);
@@ -211,7 +211,7 @@ TEST(Change, NamesALegThatIsThere) {
   EXPECT_EQ(refusal(change + "leg = \"left\"", "walk-two-legs"), "nothing");
 }
 
-// Held, or by the list: the same run.
+// A change in a controlled simulation and one by the list give the same run.
 TEST(Change, OfOneLegByWhoHoldsTheRunIsThatOfTheList) {
   const std::string key = "control.stiffness.knee";
   Simulation held(on_two_legs({}));
@@ -234,7 +234,7 @@ TEST(Steering, ThatDoesNothingLeavesTheBits) {
   expect_same(run(e).table, run(e, {.steering = &steering}).table);
 }
 
-// Somebody presses everything there is, except what changes a value.
+// Uses all controls except those that change a value.
 TEST(Steering, PauseAndSpeedLeaveTheBits) {
   const experiment::Experiment e = in_air();
   Steering steering;
@@ -275,8 +275,7 @@ TEST(Steering, APausedRunStandsStillAndGoesOn) {
   expect_same(run(e).table, o.table);
 }
 
-// While it goes, from another thread; then again from the list that it leaves.
-// One sample, so that there is something to see.
+// A run that starts paused has one sample, so that there is data to show.
 TEST(Steering, ARunThatStartsPausedHasOneSample) {
   const experiment::Experiment e = in_air();
   for (const double pace : {0.0, 1.0}) {
@@ -309,7 +308,7 @@ TEST(Steering, ARunThatWasChangedCanBeRepeated) {
   std::thread runner([&] { o = run(e, {.steering = &steering, .progress = &tick}); });
   const std::size_t hip = setting(e, "control.gains.hip.angle");
   const std::size_t knee = setting(e, "control.stiffness.knee");
-  // While somebody thinks the run waits, however busy this machine is.
+  // The run waits while it is paused, however busy this computer is.
   const auto at = [&](std::int64_t t, auto act) {
     while (tick < t) std::this_thread::sleep_for(milliseconds(1));
     steering.pause(true);

@@ -1,5 +1,5 @@
 // run/simulation/test_board.h - a board's program in a thread of this process, in lock step with
-// its host as in an emulator: one of both runs, the other waits.
+// its host as in an emulator: while one of them runs, the other waits.
 #pragma once
 
 #include <semaphore>
@@ -34,12 +34,14 @@ class BoardInThread {
             [this] { return 0.01 * periods; }};
   }
 
-  std::function<void(std::vector<std::uint8_t>&)> spoil;  // what it says in a period
-  bool deaf = false;                                      // what a host says gets lost
-  bool gone = false;                                      // the line
-  bool resets = false;                                    // the board, in the next period
-  std::uint32_t misses = 0;                               // ticks of its clock, after this one
-  int periods = 0;                                        // so far, of any kind
+  std::function<void(std::vector<std::uint8_t>&)> spoil;  // changes the board's output of a period
+  bool deaf = false;                                      // true: the host's output is lost
+  bool gone = false;                                      // true: the line is closed
+  bool resets = false;                                    // true: the board resets in the next
+                                                          // period
+  std::uint32_t misses = 0;                               // ticks that its clock misses after this
+                                                          // one
+  int periods = 0;                                        // number of periods so far, of any kind
 
  private:
   struct NoTicks {
@@ -54,7 +56,7 @@ class BoardInThread {
       if (gone) return -1;
       if (seconds <= 0) return 0;
       seconds -= 0.01;
-      host_waits_.release();  // the board goes on to its next period
+      host_waits_.release();  // the board continues with its next period
       board_waits_.acquire();
       ++periods;
       if (spoil) spoil(from_board_);
@@ -65,7 +67,7 @@ class BoardInThread {
     return static_cast<std::ptrdiff_t>(n);
   }
 
-  // --- the board's ---
+  // --- the board's side ---
 
   void say_all() {
     std::array<std::uint8_t, 256> bytes;

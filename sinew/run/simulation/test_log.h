@@ -1,4 +1,5 @@
-// run/simulation/test_log.h - the log of a run on a board beside that of the simulation.
+// run/simulation/test_log.h - comparison of the log of a run on a board with that of the
+// simulation.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 
 namespace sinew::run {
 
-// All that a board can know is there with the same bits, and nothing else.
+// Checks that everything that a board can provide is there with the same bits, and nothing else.
 inline void expect_same_log(const signals::Table& simulated, const signals::Table& far) {
   ASSERT_EQ(simulated.series.size(), far.series.size());
   for (std::size_t s = 0; s < far.series.size(); ++s) {

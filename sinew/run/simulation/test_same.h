@@ -1,4 +1,4 @@
-// run/simulation/test_same.h - are two tables the same?
+// run/simulation/test_same.h - bitwise comparison of two tables.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace sinew::run {
 
-// Bit for bit: same topics, times and numbers; NaN equals NaN.
+// Checks topics, times and numbers, bit for bit; NaN equals NaN.
 inline void expect_same(const signals::Table& a, const signals::Table& b) {
   ASSERT_EQ(a.series.size(), b.series.size());
   for (std::size_t s = 0; s < a.series.size(); ++s) {

@@ -23,7 +23,8 @@ Tick tick_at(std::int64_t time_ns) {
   return (time_ns + signals::tick_nanoseconds / 2) / signals::tick_nanoseconds;
 }
 
-// A set point is a share of the regulator's range; of a valve 1 opens and 0 shuts.
+// Adds the edges of a series. A set point is a share of the regulator's range; for a valve, 1 opens
+// and 0 shuts.
 void add_edges(const signals::Series& series, std::uint8_t valve, std::vector<Edge>& out) {
   const bool level = series.topic.name.ends_with("/set_point");
   for (std::size_t i = 0; i < series.time_ns.size(); ++i) {
@@ -36,15 +37,14 @@ void add_edges(const signals::Series& series, std::uint8_t valve, std::vector<Ed
   }
 }
 
-// One valve as its board switches it.
+// A valve and the law that switches it.
 struct Switched {
   const control::JointControllerConfig* board = nullptr;
   Tick law = 0;        // [ticks] within the period
-  bool vents = false;  // at the start: an exhaust
+  bool vents = false;  // whether it is an exhaust, which is open at the start
 };
 
-// Returns them by the machine's valves. The later law of two joints drives a muscle that they
-// share.
+// Returns them by the machine's valves. A muscle that two joints share is driven by the later law.
 std::vector<Switched> switched_valves(const std::vector<control::Board>& boards,
                                       std::size_t valves) {
   std::vector<Switched> out(valves);
@@ -65,7 +65,7 @@ std::vector<Switched> switched_valves(const std::vector<control::Board>& boards,
   return out;
 }
 
-// Edges up to `until` go from the train to the list.
+// Moves edges before `until` from the train to the list.
 void drive_until(control::PulseTrain& train, Tick until, std::uint8_t valve,
                  std::vector<Edge>& out) {
   while (train.next() < until) {
@@ -74,7 +74,7 @@ void drive_until(control::PulseTrain& train, Tick until, std::uint8_t valve,
   }
 }
 
-// Makes a valve's edges from its duty in each period.
+// Converts a valve's duty in each period into edges.
 void rebuild(const signals::Series& duties, const Switched& its, std::uint8_t valve,
              std::vector<Edge>& out) {
   const control::JointControllerConfig& board = *its.board;
@@ -147,7 +147,7 @@ ValveCommands valve_commands(const experiment::Experiment& e, const signals::Tab
     if (const signals::Series* series = recorded.find(edges[v])) {
       add_edges(*series, valve, out.edges);
     } else if (!valves[v].board) {
-      continue;  // nothing switches it, as the exhaust of a 3-way valve
+      continue;  // it is never switched, as the exhaust of a 3-way valve
     } else if (duty && !duty->time_ns.empty()) {
       rebuild(*duty, valves[v], valve, out.edges);
       out.rebuilt.push_back(duties[v]);

@@ -20,7 +20,7 @@ WiredBody::WiredBody(const experiment::Experiment& experiment)
   if (!experiment_.faults.empty()) port_ = &faulty_.emplace(experiment_, *port_);
 }
 
-// One scan of a machine that nobody drives: sensors stand still before a run.
+// Returns the readings of one scan of an undriven machine: sensors are constant before a run.
 std::vector<Reading> WiredBody::at_rest() const {
   plant::Machine machine(machine_setup(experiment_));
   std::vector<Reading> out(board_.channel.size());
@@ -42,7 +42,8 @@ void WiredBody::start() {
   started_ = true;
 }
 
-// The body's time at a run's tick: each run goes on where the one before has left the body.
+// Returns the body's time at a tick of a run. Each run continues at the state of the body after the
+// previous one.
 Tick WiredBody::at(Tick run) {
   start();
   if (begun_ + run < now_) begun_ = now_ - run;
@@ -54,8 +55,9 @@ void WiredBody::drive(Tick tick, std::uint32_t changed, std::uint32_t open) {
     if (changed >> i & 1u) (void)port_->drive({tick, {board_.valve[i]}, (open >> i & 1u) != 0, 0});
 }
 
-// Closing edges of a tick come first. Without current an inverted valve is open, every other one
-// shut. Between runs the body's time stands still; a board that was reset lets its coils go.
+// Applies the board's outputs. Closing edges of a tick come first. Without current an inverted
+// valve is open, every other one shut. The body's time stands still between runs, when a board that
+// was reset switches its coils off.
 void WiredBody::valves(Tick tick, std::uint32_t open, bool current) {
   if (tick < 0 && !started_) return;
   tick = tick < 0 ? now_ : at(tick);

@@ -1,5 +1,5 @@
-// run/simulation/wired_body.h - an experiment's simulated machine at the wires of a board: what
-// opens its valves is a board's word, what reads its sensors is a board's converter.
+// run/simulation/wired_body.h - an experiment's simulated machine at the wires of a board, whose
+// outputs open its valves and whose converter reads its sensors.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,16 @@ namespace sinew::run {
 
 class WiredBody {
  public:
-  // Throws std::invalid_argument for a robot that no plant can hold, or of several boards.
+  // Throws std::invalid_argument for a robot that exceeds the limits of the plant or has several
+  // boards.
   explicit WiredBody(const experiment::Experiment& experiment);
   WiredBody(const WiredBody&) = delete;
   WiredBody& operator=(const WiredBody&) = delete;
 
-  // To it; valid as long as this is there.
+  // Returns the wires to the machine, valid during the lifetime of this object.
   plant::Wires wires();
 
-  // The machine itself, and how far its time has come: for who wants to know what is so.
+  // Return the machine itself and its present time, for access to the true state.
   plant::Machine& machine() noexcept { return machine_; }
   signals::Tick now() const noexcept { return now_; }
 
@@ -39,15 +40,15 @@ class WiredBody {
 
   experiment::Experiment experiment_;
   control::Board board_;
-  Boards scan_;  // only its scan is used
+  Boards scan_;  // its scan alone is used
   std::uint32_t inverted_ = 0, open_ = 0;
   plant::Machine machine_;
   std::optional<FaultyPort> faulty_;
   signals::Port* port_;
   bool started_ = false;
   signals::Tick begun_ = 0,
-                now_ = 0;  // of the body's time: this run's start, the last one asked for
-  std::vector<signals::Reading> last_;  // by channel: before the run those of the machine at rest
+                now_ = 0;  // [ticks] of the body's time: start of this run, last access
+  std::vector<signals::Reading> last_;  // one per channel; before the run: at rest
 };
 
 }  // namespace sinew::run

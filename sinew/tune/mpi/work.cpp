@@ -22,7 +22,8 @@ int number_in(const char* variable) {
   return text ? std::atoi(text) : 0;
 }
 
-// mpirun of Open MPI says how many there are, and so does srun, which has it from PMIx.
+// Returns whether there are several processes. mpirun of Open MPI sets their number, as does
+// srun, which has it from PMIx.
 bool one_of_several() {
   if (std::getenv("OMPI_COMM_WORLD_SIZE")) return number_in("OMPI_COMM_WORLD_SIZE") > 1;
   if (std::getenv("PMIX_RANK") && number_in("SLURM_STEP_NUM_TASKS") > 1) return true;
@@ -34,7 +35,7 @@ bool one_of_several() {
 }
 
 [[noreturn]] void fail(const std::string& what) {
-  // What all of them would say the first one says: then mpirun ends the others.
+  // All processes have the same error, and the first one reports it; then mpirun ends the others.
   if (number_in("OMPI_COMM_WORLD_RANK") > 0) std::this_thread::sleep_for(std::chrono::seconds(2));
   throw std::runtime_error(what);
 }
@@ -79,16 +80,16 @@ std::optional<Ranks::Message> Ranks::receive(double seconds) const {
 
 namespace {
 
-// Binary, so that a cell keeps its bytes whatever they are.
+// Messages are binary, which preserves the bytes of every cell.
 //
-//   to a worker     {"shares": […]}                say what you have been asked for; of a sample
-//                                                  whose shares are handed out, these
-//                   {"points": [3, 4, 5]}          run these
+//   to a worker     {"shares": […]}                request for the text of the worker's study; the
+//                                                  shares of a sample that is handed out, if any
+//                   {"points": [3, 4, 5]}          points to run
 //                   {"end": true}
-//   to the master   {"asked": "…"}
+//   to the master   {"asked": "…"}                 text of the worker's study
 //                   {"row": {…}}
-//                   {"error": "…"}                 there is no such sweep here
-//                   {"end": true}                  the last word
+//                   {"error": "…"}                 the worker cannot make the sweep
+//                   {"end": true}                  the last message
 std::string packed(const Json& message) { return message.bytes(); }
 
 Json unpacked(const std::string& bytes) { return Json::of_bytes(bytes); }
@@ -115,10 +116,10 @@ Row row_of(const Json& json) {
                     .out_of_reach = json.at("out_of_reach").boolean()}};
 }
 
-constexpr double while_nothing_comes = 0.1;  // between looks at `stop` [s]
-constexpr std::size_t largest_part = 256;    // points given out at a time
+constexpr double while_nothing_comes = 0.1;  // interval at which `stop` is polled [s]
+constexpr std::size_t largest_part = 256;    // largest number of points handed out at a time
 
-// Hands out points so that every worker has some in store while its next ones are on their way.
+// Hands out points so that every worker has some in store until its next ones arrive.
 class HandOut {
  public:
   HandOut(const Ranks& ranks, std::span<const std::size_t> points, const std::atomic<bool>* stop)
@@ -149,7 +150,7 @@ class HandOut {
  private:
   bool stopped() const { return stop_ && stop_->load(); }
 
-  // Small near the end, so that nobody waits long for the last.
+  // Returns the number of points to hand out: small near the end, so that all workers end together.
   std::size_t part() const {
     const auto workers = static_cast<std::size_t>(ranks_.size() - 1);
     return std::clamp<std::size_t>((points_.size() - next_) / (4 * workers), 1, largest_part);
@@ -158,11 +159,11 @@ class HandOut {
   const Ranks& ranks_;
   std::span<const std::size_t> points_;
   const std::atomic<bool>* stop_;
-  std::vector<std::size_t> open_;  // points at each worker
+  std::vector<std::size_t> open_;  // number of points at each worker
   std::size_t next_ = 0, running_ = 0;
 };
 
-// A worker's first answer.
+// Returns a worker's first reply.
 Json begin(const std::function<Sweep()>& sweep, const std::vector<double>& shares,
            std::unique_ptr<Runner>& runner) try {
   Sweep s = sweep();
@@ -220,7 +221,7 @@ void Master::run(const std::string& asked, const std::vector<double>& shares,
   }
 }
 
-// Rows that come after an error are of runs that were under way; they are run again another time.
+// Rows that arrive after an error are dropped; their points are run again the next time.
 Master::~Master() {
   try {
     for (int worker = 1; worker < ranks_.size(); ++worker)
@@ -230,7 +231,7 @@ Master::~Master() {
       left -= message && unpacked(message->text).contains("end") ? 1 : 0;
     }
   } catch (const std::exception&) {
-    // They are gone.
+    // The workers no longer exist.
   }
 }
 

@@ -1,14 +1,15 @@
-// tune/mpi/work.h - a sweep over the processes of mpirun: the first one hands out points and takes
-// the rows, all others run them.
+// tune/mpi/work.h - a sweep over the processes of mpirun: the first process hands out points and
+// collects the rows, all others run the points.
 //
 //   Ranks ranks;
 //   if (ranks.is_worker()) return work(ranks, [] { return the same sweep; }, threads);
-//   Master master(ranks);  // before anything that can fail: it lets the workers go
+//   Master master(ranks);  // before anything that can fail: its destructor releases the workers
 //   sweep(s, {.elsewhere = master.elsewhere(s, &stop)});
 //
-// A point is its number and a row is a row, as for threads and shards, so a table does not follow
-// from who made it. A row is sent as soon as its run is done. Open MPI ends all processes when one
-// of them dies; what the first one has written by then is there, and the same command goes on.
+// A row depends on its point's number only, as for threads and shards, so a table does not depend
+// on the process that made each row. A row is sent as soon as its run is done. Open MPI ends all
+// processes if one of them dies; the rows that the first one has written remain, and the same
+// command continues.
 #pragma once
 
 #include <atomic>
@@ -21,37 +22,37 @@
 
 // This process among those that mpirun started.
 //
-// The MPI library is in a module of its own, which is opened here and nowhere else: a program that
-// mpirun did not start neither needs nor loads it.
+// The MPI library is in a separate module, which only this class opens: a program that mpirun did
+// not start neither needs nor loads it.
 
 struct SinewMessages;
 
 namespace sinew::tune {
 
-// Holds which of the processes this one is, and passes texts between them.
+// The rank of this process, and messages between processes.
 class Ranks {
  public:
-  // Joins the others where this process is one of several, else is alone. Throws std::runtime_error
-  // where the module is missing or the others cannot be reached.
+  // Joins the others if this process is one of several. Throws std::runtime_error if the module is
+  // missing or the others cannot be reached.
   Ranks();
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  int rank() const { return rank_; }  // from 0
+  int rank() const { return rank_; }  // counted from 0
   int size() const { return size_; }  // 1: alone
-  // Is this another process than the first?
+  // Returns whether this process is not the first.
   bool is_worker() const { return rank_ > 0; }
 
-  // Holds what another process has sent.
+  // A message received from another process.
   struct Message {
     int from = 0;
     std::string text;
   };
 
-  // Throws std::runtime_error.
+  // Throws std::runtime_error, as does receive().
   void send(int to, std::string_view bytes) const;
-  std::optional<Message> receive(double seconds) const;  // waits that long
+  std::optional<Message> receive(double seconds) const;  // waits at most that long
 
  private:
   const SinewMessages* messages_ = nullptr;
@@ -65,16 +66,17 @@ namespace sinew::tune {
 // Hands out a sweep's points to the other processes.
 class Master {
  public:
-  // `ranks` outlives it.
+  // `ranks` must outlive it.
   explicit Master(const Ranks& ranks) : ranks_(ranks) {}
 
-  // Lets the workers go.
+  // Releases the workers.
   ~Master();
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
 
-  // Returns what Options::elsewhere wants; nothing where this process is alone. It throws
-  // std::runtime_error where a worker has another sweep, as of other files under the same names.
+  // Returns a function for Options::elsewhere, or an empty one if this process is alone. The
+  // function throws std::runtime_error if a worker has another sweep, for example other
+  // files of the same names.
   decltype(Options::elsewhere) elsewhere(const Sweep& sweep, const std::atomic<bool>* stop);
 
  private:
@@ -85,7 +87,8 @@ class Master {
   const Ranks& ranks_;
 };
 
-// Runs what it is given until it is let go. `sweep` is called when there is something to be done.
+// Runs points until the master releases this worker. `sweep` is called when there are points to
+// run.
 void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads);
 
 }  // namespace sinew::tune

@@ -19,15 +19,15 @@ std::string from_folder_of(const fs::path& file, const fs::path& to) {
   return fs::absolute(to).lexically_normal().lexically_relative(folder).string();
 }
 
-// The name of a file, as it is seen from the new place.
+// Changes the names of files to be relative to the new place.
 void move_path(Node& name, const fs::path& file) {
   for (Node& one : name.children) move_path(one, file);
   if (name.kind != Node::Kind::text || fs::path(name.text).is_absolute()) return;
   name.text = from_folder_of(file, fs::path(name.where.file).parent_path() / name.text);
 }
 
-// What the candidate's values are put into. One level of bases is allowed, so an experiment that
-// has one is carried over itself.
+// Returns the file into which the candidate's values are put. Only one level of bases is allowed,
+// so an experiment that has a base is copied.
 Node ground(const Tuning& tuning, const fs::path& file) {
   Node own = config::parse_file(tuning.runs.experiment);
   if (!own.find("base")) {
@@ -41,7 +41,8 @@ Node ground(const Tuning& tuning, const fs::path& file) {
   return own;
 }
 
-// "phase.swing.y.polynomial" of "phase.swing.y.polynomial[1]": a list is carried over whole.
+// Returns "phase.swing.y.polynomial" for "phase.swing.y.polynomial[1]": a list is copied as a
+// whole.
 std::string without_index(const std::string& key) {
   return key.ends_with(']') ? key.substr(0, key.rfind('[')) : key;
 }
@@ -58,7 +59,7 @@ void put_at(Node& root, const std::string& path, Node value) {
   table->put(std::move(value));
 }
 
-// A quantity can say where it comes from; a whole number and a list cannot.
+// Adds the source to a quantity; a whole number and a list cannot have one.
 Node with_source(Node value, const Range& range, const std::string& source) {
   if (range.axis.unit.empty() || value.kind == Node::Kind::array) return value;
   Node out = config::make_table(value.key);
@@ -102,7 +103,7 @@ std::string experiment_of(const Tuning& tuning, const Candidate& candidate, cons
   Node out = ground(tuning, file);
   out.put(
       config::make_text("title", fmt::format("{}: candidate {}", tuning.title, candidate.number)));
-  // No source reports anything of it.
+  // No source reports values of a candidate.
   Node none;
   none.kind = Node::Kind::array;
   none.key = "reported";

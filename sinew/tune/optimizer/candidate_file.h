@@ -1,5 +1,5 @@
-// tune/optimizer/candidate_file.h - a candidate as an experiment of its own, which `sinew run` and
-// everybody else takes.
+// tune/optimizer/candidate_file.h - a candidate as an experiment of its own, for `sinew run` and
+// all other commands.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace sinew::tune {
 
-// Returns the text of an experiment that is to stand at `file`: the tuning's own, with the
-// candidate's values, their source and what it reached. Paths in it are relative to that place.
-// Throws config::Error where the tuning's experiment cannot be read.
+// Returns the text of an experiment file for the path `file`: the tuning's experiment with the
+// candidate's values, their source and the goals reached. Its paths are relative to the folder of
+// `file`. Throws config::Error if the tuning's experiment cannot be read.
 std::string experiment_of(const Tuning& tuning, const Candidate& candidate,
                           const std::filesystem::path& file);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Goals stay far below, violations are told apart above.
+// Cost of an infeasible candidate: far above all goals, and small enough to distinguish violations.
 constexpr double infeasible = 1e12;
 
 bool upper(Condition::Is is) { return is == Condition::Is::below || is == Condition::Is::at_most; }
@@ -43,7 +43,7 @@ double violation(const Goals& goals, const Figures& run) {
   return out;
 }
 
-// The worse of two, where more is better or worse; not a number is none.
+// Returns the worse of two values, by the goal's direction, ignoring NaN.
 double worse(double a, double b, bool more_is_better) {
   if (std::isnan(a)) return b;
   return more_is_better ? std::min(a, b) : std::max(a, b);
@@ -68,7 +68,8 @@ double worst_of(const Limit& limit, std::size_t i, std::span<const Figures> runs
   return out;
 }
 
-// The violations' mean over the least of them, up to that share of the weights.
+// A run's violation and weight. mean_up_to() returns the mean of the smallest violations, up
+// to that share of the weights.
 struct Weighed {
   double violation = 0, weight = 0;
 };
@@ -78,7 +79,7 @@ double mean_up_to(double share, std::vector<Weighed> runs) {
   for (const Weighed& run : runs) left += run.weight;
   left *= share;
   const double all = left;
-  // What is left over of a share such as 0.95 after nineteen of twenty is a rounding error.
+  // A rest such as that of a share of 0.95 after nineteen of twenty runs is a rounding error.
   for (const Weighed& run : runs) {
     if (left <= 1e-9 * all) break;
     sum += run.violation * std::min(left, run.weight);
@@ -142,7 +143,7 @@ std::vector<std::size_t> front(const Goals& goals, std::span<const Judgement> ju
   for (std::size_t i = 0; i < judged.size(); ++i)
     if (judged[i].feasible()) order.push_back(i);
   std::ranges::sort(order, before);
-  // Whoever stands later in this order cannot dominate an earlier one.
+  // A later candidate in this order cannot dominate an earlier one.
   std::vector<std::size_t> out;
   for (const std::size_t i : order) {
     const bool beaten = std::ranges::any_of(out, [&](std::size_t j) {

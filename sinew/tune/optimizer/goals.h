@@ -1,13 +1,13 @@
-// tune/optimizer/goals.h - what the runs of a candidate say together: its goals, and how far it is
-// from what must hold. Pure.
+// tune/optimizer/goals.h - evaluation of a candidate's runs: its goals, and its distance from the
+// limits. Pure.
 //
-// A candidate has a run in each circumstance: each case, seed and draw of what is not known. A run
-// violates a limit by (value - limit) / |limit|, or by the difference itself where the limit is 0;
-// a run without figures violates everything by `without_figures`.
+// A candidate has a run in each circumstance: each case, seed and draw of uncertain values. A run
+// violates a limit by (value - limit) / |limit|, or by the difference itself if the limit is 0; a
+// run without figures violates every limit by `without_figures`.
 //
-//   holds      the share of the runs' weights in which every limit holds
-//   violation  the mean of the runs' violations, least first, as far as `hold` reaches; 0 where
-//              every limit holds in that share of them: then the candidate is feasible
+//   holds      the share of the runs' weights for which all limits hold
+//   violation  the mean of the runs' violations, the least first, over the share `hold`; it is 0 if
+//              all limits hold for that share: the candidate is then feasible
 #pragma once
 
 #include <span>
@@ -18,64 +18,64 @@
 
 namespace sinew::tune {
 
-// A figure that is to become small, or large.
+// A figure that is minimised or maximised.
 struct Goal {
   Figure figure;
   bool maximize = false;
 };
 
-// A figure that has to keep to one side of a value.
+// A limit for a figure.
 struct Limit {
   Figure figure;
   Condition::Is is = Condition::Is::at_most;
   double limit = 0;  // in the figure's unit
   std::string text;  // as written
-  double si = 0;     // the same in SI
+  double si = 0;     // `limit` in SI
 };
 
 struct Goals {
-  // mean: of the runs' weights; worst: of the runs.
+  // mean: weighted mean of the runs; worst: the worst run.
   enum class Over { mean, worst };
 
   std::vector<Goal> goals;
   std::vector<Limit> limits;
   Over over = Over::mean;
-  double hold = 1;  // the share of the runs in which every limit must hold, above 0, at most 1
+  double hold = 1;  // share of the runs for which all limits must hold, above 0, at most 1
 };
 
 // The figures of one run, in the units of the goals and limits.
 struct Figures {
   double weight = 1;
-  bool ok = false;  // has all of them
+  bool ok = false;  // has all figures
   std::vector<double> goals, limits;
 };
 
-inline constexpr double without_figures = 1000;  // a violation that no figure reaches
+inline constexpr double without_figures = 1000;  // a violation larger than that of any figure
 
-// Holds what a candidate's runs come to.
+// The evaluation of a candidate's runs.
 struct Judgement {
-  std::vector<double> goals;   // over the runs that have figures; not a number where none has
+  std::vector<double> goals;   // over the runs with figures; NaN if there are none
   std::vector<double> limits;  // the worst of those runs
   double violation = 0;
   double holds = 1;
 
-  // Are all limits kept?
+  // Returns whether all limits hold.
   bool feasible() const { return violation == 0; }
 };
 
-// Throws nothing; `runs` has one at least.
+// Evaluates at least one run. Does not throw.
 Judgement judge(const Goals& goals, std::span<const Figures> runs);
 
-// Returns what an optimiser is to make small, a number for each goal. One that is not feasible
-// costs more than any that is, the more the farther it is from that.
+// Returns the costs that an optimiser minimises, one per goal. An infeasible candidate costs more
+// than any feasible one, increasing with its violation.
 std::vector<double> costs(const Goals& goals, const Judgement& judged);
 
-// Is `a` as good as `b` in every goal and better in one, or feasible where b is not, or closer to
-// that?
+// Returns whether `a` is as good as `b` in every goal and better in one, or feasible while `b` is
+// not, or less infeasible than `b`.
 bool dominates(const Goals& goals, const Judgement& a, const Judgement& b);
 
-// Returns the numbers of those that no other dominates, the best in the first goal first; of equal
-// ones the first. None where nothing is feasible.
+// Returns the indices of those that no other dominates, the best in the first goal first; of equal
+// ones the first. Empty if none is feasible.
 std::vector<std::size_t> front(const Goals& goals, std::span<const Judgement> judged);
 
 }  // namespace sinew::tune

@@ -1,4 +1,4 @@
-// What runs say together: weights, limits that must hold in a share of them, fronts.
+// Evaluation of runs: weights, limits that must hold for a share of them, fronts.
 #include "sinew/tune/optimizer/goals.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Judge, NineteenOfTwentyAreEnoughWhereThatShareMustHold) {
   runs.push_back(run(1, 1, 10));
   EXPECT_TRUE(judge(goals, runs).feasible());
   EXPECT_DOUBLE_EQ(judge(goals, runs).holds, 0.95);
-  runs[0] = run(1, 1, 45);  // two are one too many; the lesser of both counts, a twentieth
+  runs[0] = run(1, 1, 45);  // two are one too many; the smaller violation counts, one of nineteen
   EXPECT_NEAR(judge(goals, runs).violation, 0.5 / 19, 1e-12);
 }
 
@@ -95,7 +95,8 @@ TEST(Costs, WhatIsFeasibleCostsLess) {
   EXPECT_LT(costs(goals, judged({5, 1}))[1], costs(goals, judged({5, 2}))[1]) << "less is";
 }
 
-// By the definition: nobody of the front is dominated, everybody else is, or equals one of it.
+// Checks the definition: no member of the front is dominated, and every other candidate is, or
+// equals a member.
 TEST(Front, IsWhatNothingDominates) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> number(0, 12);

@@ -1,5 +1,4 @@
-// The methods on functions whose best points are known; their points depend on seed and costs
-// alone.
+// The methods on functions with known optima; their points depend on seed and costs alone.
 #include "sinew/tune/optimizer/tuning.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +65,8 @@ TEST(Method, CmaesEndsWhereItsPointsAreOne) {
   EXPECT_LT(c.costs.size(), 300U);
 }
 
-// ZDT1 (Zitzler, Deb, Thiele 2000): its front is f2 = 1 - sqrt(f1), where all but the first are 0.
+// ZDT1 (Zitzler, Deb, Thiele 2000): its front is f2 = 1 - sqrt(f1), at 0 in all coordinates but the
+// first.
 TEST(Method, Nsga2SpreadsAlongAKnownFront) {
   const std::size_t n = 6;
   const auto zdt1 = [&](const double* u) {
@@ -94,7 +94,7 @@ TEST(Method, StaysInsideItsRanges) {
     const std::size_t goals = kind == MethodKind::cmaes ? 1 : 2;
     const MethodAsked asked{
         .kind = kind, .dimensions = 3, .costs = goals, .population = 16, .seed = 5};
-    // Best beyond a corner.
+    // The optimum is in a corner.
     const auto f = [&](const double* u) { return std::vector(goals, u[0] - u[1] + u[2]); };
     const Course c = course(asked, f, 60);
     for (const auto& points : c.generations)

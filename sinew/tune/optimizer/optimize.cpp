@@ -14,7 +14,7 @@ namespace sinew::tune {
 
 namespace {
 
-// "generation 3 of 40: best trolley.mean_speed [in/s] = 6.21, 12 of 16 feasible"
+// Reports "generation 3 of 40: best trolley.mean_speed [in/s] = 6.21, 12 of 16 feasible".
 class Teller {
  public:
   Teller(const Tuning& tuning, const run::Notices& notices) : tuning_(tuning), notices_(notices) {}
@@ -86,7 +86,7 @@ double number_in(const std::string& cell) {
   return out;
 }
 
-// Where in a row a figure stands.
+// Returns the index of a figure's cell in a row.
 std::size_t cell_of(const Sweep& runs, const Figure& figure) {
   std::size_t at = headings(runs).size() - 1 - runs.report.size();
   for (const Figure& f : runs.report) {
@@ -96,7 +96,7 @@ std::size_t cell_of(const Sweep& runs, const Figure& figure) {
   return at;
 }
 
-// A generation's runs, and what they say of its candidates.
+// The runs of a generation, and the evaluation of its candidates.
 class Generation {
  public:
   Generation(const Tuning& tuning, std::size_t number, const std::vector<double>& shares);
@@ -105,10 +105,10 @@ class Generation {
   std::size_t first_point() const { return number_ * tuning_.runs_of_generation(); }
   std::size_t candidates() const { return candidates_; }
 
-  // Throws where a row that was known is not one of these candidates'.
+  // Throws if a known row does not belong to these candidates.
   std::vector<Candidate> judged(const std::vector<Row>& rows) const;
 
-  // Throws where there is nothing to go by: no run has figures, or none has one of the goals' and
+  // Throws if nothing can be evaluated: no run has figures, or none has one of the goals' or
   // limits'.
   void require_figures(const std::vector<Row>& rows) const;
 
@@ -119,9 +119,9 @@ class Generation {
 
   const Tuning& tuning_;
   std::size_t number_, candidates_;
-  std::vector<double> shares_;  // of the tuned ranges
+  std::vector<double> shares_;  // for the tuned ranges
   Sweep runs_;
-  std::vector<std::size_t> goals_, limits_;  // cells
+  std::vector<std::size_t> goals_, limits_;  // indices of cells
 };
 
 Generation::Generation(const Tuning& tuning, std::size_t number, const std::vector<double>& shares)
@@ -217,7 +217,7 @@ std::vector<Candidate> Generation::judged(const std::vector<Row>& rows) const {
   return out;
 }
 
-// What the experiment has, then Sobol's sequence.
+// Returns the experiment's own values, followed by Sobol's sequence.
 std::vector<double> first_generation(const Tuning& tuning) {
   std::vector<double> out = tuning.start;
   const std::vector<double> spread =
@@ -226,7 +226,7 @@ std::vector<double> first_generation(const Tuning& tuning) {
   return out;
 }
 
-// Known rows by the generation they are of, with its own points.
+// Returns the known rows of a generation, with its own numbering of points.
 std::vector<Row> known_of(const std::vector<Row>& known, std::size_t first, std::size_t count) {
   const auto begin = std::ranges::lower_bound(known, first, {}, &Row::point);
   const auto end = std::ranges::lower_bound(known, first + count, {}, &Row::point);
@@ -275,7 +275,7 @@ class Loop {
     out_.candidates.insert(out_.candidates.end(), judged.begin(), judged.end());
   }
 
-  // Runs what is not known of a generation.
+  // Returns the rows of a generation; runs the unknown ones.
   std::vector<Row> rows_of(const Generation& generation, bool first) {
     const std::size_t from = generation.first_point();
     const Sweep& runs = generation.runs();
@@ -327,7 +327,7 @@ void add_columns(const Tuning& tuning, Asked& out) {
   for (const Goal& goal : tuning.goals.goals)
     add(goal.figure, goal.maximize ? Role::maximize : Role::minimize);
   for (const Limit& limit : tuning.goals.limits) {
-    // A goal with a limit stays a goal.
+    // A goal with a limit keeps the role of a goal.
     const Role before = out.columns[cell_of(tuning.runs, limit.figure)].role;
     add(limit.figure, Role::limit);
     if (before != Role::figure) out.columns[cell_of(tuning.runs, limit.figure)].role = before;
@@ -354,7 +354,8 @@ Asked asked_of(const Tuning& tuning) {
   for (const Limit& limit : tuning.goals.limits) own += fmt::format("where = {}\n", limit.text);
   own += fmt::format("over = {}, hold = {}\n",
                      tuning.goals.over == Goals::Over::mean ? "mean" : "worst", tuning.goals.hold);
-  // Behind the version, whose line tells studies of different versions apart.
+  // Inserted after the line of the version, by which studies of different versions are
+  // distinguished.
   out.text.insert(out.text.find('\n') + 1, own);
   add_columns(tuning, out);
   return out;

@@ -1,13 +1,13 @@
-// tune/optimizer/optimize.h - a tuning's generations, one after the other.
+// tune/optimizer/optimize.h - runs a tuning's generations one after the other.
 //
 //   Tuning t = load_tuning("studies/faster-walk.toml");
 //   Tuned best = optimize(t, {.threads = 2, .done = [&](const Row& row) {...}});
 //
-// The first generation is what the experiment has and points of Sobol's sequence; then a method
-// chooses. A generation's runs are points of one sweep, run as any sweep's: by threads, in lanes or
-// elsewhere. Candidates, and everything that follows from them, are the same for any number of
-// threads and interruptions: rows that are known are not run again, and the method goes through
-// them as it did when they were new.
+// The first generation consists of the experiment's own values and points of Sobol's sequence; the
+// method chooses the others. The runs of a generation are points of one sweep, run like those of
+// any sweep: by threads, in lanes or elsewhere. Candidates and all results do not depend on the
+// number of threads or on interruptions: known rows are not run again, and the method processes
+// them as it did before.
 #pragma once
 
 #include <filesystem>
@@ -20,52 +20,52 @@
 
 namespace sinew::tune {
 
-// Values that were tried, and what their runs came to.
+// Values that were tried, and the evaluation of their runs.
 struct Candidate {
-  std::size_t number = 0, generation = 0;  // from 0
-  std::vector<Value> values;               // of the tuned ranges
+  std::size_t number = 0, generation = 0;  // counted from 0
+  std::vector<Value> values;               // one per tuned range
   Judgement judged;
 };
 
 struct TuneOptions {
-  // Threads, lanes, stop, progress, done and known as a sweep's, with the tuning's own points.
+  // Threads, lanes, stop, progress, done and known as in a sweep, with the tuning's own points.
   Options runs;
-  // Returns what runs a generation elsewhere, in place of threads here.
+  // Returns the function that runs a generation elsewhere, which replaces the threads here.
   std::function<decltype(Options::elsewhere)(const Sweep&)> elsewhere = {};
-  // A generation is judged; between runs. Must not throw.
+  // Called after each evaluated generation, between runs. Must not throw.
   std::function<void(const std::vector<Candidate>&)> generation = {};
 };
 
 struct Tuned {
-  std::vector<Candidate> candidates;  // of all generations that are whole
-  bool converged = false;             // the method asks for no more
-  bool stopped = false;               // before all generations were there
+  std::vector<Candidate> candidates;  // candidates of all complete generations
+  bool converged = false;             // the method has converged
+  bool stopped = false;               // stopped before the last generation
 
-  // Numbers of the best: of one goal one candidate, of several the front. None where nothing is
+  // Indices of the best: one candidate for a single goal, the front for several. Empty if none is
   // feasible.
   std::vector<std::size_t> best;
 };
 
-// Throws config::Error for a wrong experiment or key, std::runtime_error where the program was
-// built without pagmo, and where known rows are not those of these candidates.
+// Throws config::Error for a faulty experiment or key, std::runtime_error if the program was built
+// without pagmo, or if known rows are not those of these candidates.
 Tuned optimize(const Tuning& tuning, const TuneOptions& options);
 
-// What the study's file is asked for, and what it keeps of a candidate.
+// Return the request that a study's file stores, and the stored part of a candidate.
 Asked asked_of(const Tuning& tuning);
 CandidateRow row_of(const Candidate& candidate);
 
-// A tuning whose study is kept in a file: each row as soon as its run is done, each candidate as
-// soon as its generation is.
+// Tuning with a study's file: each row is stored as soon as its run is done, each candidate as soon
+// as its generation is.
 
-// How a tuning is run that is kept in a file.
+// Options of a tuning with a file.
 struct KeptOptions {
-  TuneOptions tune;                        // without known and done
-  std::function<void()> ask_to_stop = {};  // called where a row cannot be written
+  TuneOptions tune;                        // `known` and `done` are not used
+  std::function<void()> ask_to_stop = {};  // called if a row cannot be written
   run::Notices notices = {};
 };
 
-// Goes on with what the file has, or makes it. Says a note for each generation. Throws what
-// optimize() and Results throw; what was done by then is in the file.
+// Continues the study in the file, or creates it. Reports a note for each generation. Throws like
+// optimize() and Results; completed runs are then in the file.
 Tuned optimize_kept(const Tuning& tuning, const std::filesystem::path& file,
                     const KeptOptions& options);
 

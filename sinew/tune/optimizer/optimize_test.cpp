@@ -1,5 +1,5 @@
-// Generations of real runs: the same candidates for any number of threads and interruptions, kept
-// in a file that goes on.
+// Generations of real runs: the candidates do not depend on the number of threads or on
+// interruptions, and a study continues from its file.
 #include "sinew/tune/optimizer/optimize.h"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST_F(OptimizeTest, FindsABetterOneThatIsOneWhenItIsRunAgain) {
   };
   EXPECT_NE(reported_end(0).find("is at the lower end of its range"), std::string::npos);
   EXPECT_NE(reported_end(1).find("is at the upper end of its range"), std::string::npos);
-  // By the file that it is written as.
+  // Runs the file that is written for the candidate.
   const fs::path written = folder_ / "best.toml";
   std::ofstream(written) << experiment_of(t, best, written);
   const Ran again = run_once(written.string(), {});
@@ -117,7 +117,8 @@ TEST_F(OptimizeTest, IsTheSameForAnyThreadsAndLanes) {
   EXPECT_EQ(text_of(optimize(t, {.runs = {.threads = 3}}).candidates), alone);
 }
 
-// Stopped after any number of runs, then gone on with: the same study, and no run twice.
+// A study that is stopped after any number of runs and continued is the same, without repeated
+// runs.
 TEST_F(OptimizeTest, GoesOnFromItsFile) {
   const Tuning t = lever_tuning();
   const std::string whole = text_of(optimize(t, {}).candidates);
@@ -171,7 +172,7 @@ TEST_F(OptimizeTest, AnotherTuningIsRefused) {
   EXPECT_NE(words.find("60 %"), std::string::npos) << words;
 }
 
-// The rows of a file that something else wrote are not these candidates'.
+// Rows of a file that another program wrote are refused.
 TEST_F(OptimizeTest, RowsOfOtherCandidatesAreRefused) {
   TuningFile file = lever_file();
   file.generations = 1;
@@ -188,14 +189,14 @@ TEST_F(OptimizeTest, RowsOfOtherCandidatesAreRefused) {
 
 TEST_F(OptimizeTest, WithNothingToGoByItSaysSo) {
   TuningFile file = lever_file();
-  file.minimize = {"ground_reaction.peak_normal_N"};  // a lever does not stand
+  file.minimize = {"ground_reaction.peak_normal_N"};  // a lever has no contact with the ground
   std::string words = message([&] { optimize(lever_tuning(file), {}); });
   EXPECT_NE(words.find("minimize: found ground_reaction.peak_normal_N; expected a figure that the "
                        "runs have"),
             std::string::npos)
       << words;
   file = {.experiment = root + "/experiments/walk-test-1.toml",
-          .tune = {"link.femur.length=7.5:8 in"},  // the gait's path is out of such a leg's reach
+          .tune = {"link.femur.length=7.5:8 in"},  // the foot path is out of reach
           .maximize = {"trolley.distance_m"},
           .population = 5,
           .generations = 1};
@@ -219,7 +220,7 @@ TEST_F(OptimizeTest, ACandidateIsRunInEveryCircumstance) {
   const Tuned tuned = optimize_kept(t, file_, {});
   const HeldStudy held = read_results(file_);
   ASSERT_EQ(held.rows.size(), 60U);
-  // The second candidate, by hand.
+  // Calculates the second candidate's goal by hand.
   double sum = 0, weight = 0;
   for (std::size_t i = 12; i < 24; ++i) {
     const std::vector<std::string>& cells = held.rows[i].cells;

@@ -14,9 +14,9 @@
 namespace sinew::tune {
 namespace {
 
-constexpr std::size_t most_shown = 12;  // of a front, side by side
+constexpr std::size_t most_shown = 12;  // candidates of a front, side by side
 
-// Those of the front that are shown, from end to end of it.
+// Returns evenly spaced candidates of the front, with both ends.
 std::vector<std::size_t> shown_of(const std::vector<std::size_t>& front) {
   if (front.size() <= most_shown) return front;
   std::vector<std::size_t> out;
@@ -40,7 +40,7 @@ double number_of(const Value& value) {
   return number;
 }
 
-// From the unit of a row's numbers to the one in which they are shown.
+// Conversion from the unit of a row's numbers to the one in which they are shown.
 struct RowUnit {
   std::string name;  // empty: no unit
   units::ShownUnit from, to;
@@ -48,7 +48,7 @@ struct RowUnit {
   double of(double number) const { return to.of(from.back(number)); }
 };
 
-// `named`: by the file.
+// `named`: the file has the unit.
 RowUnit row_unit(const std::string& unit, bool named, const TableUnits* shown, double room) {
   RowUnit out{unit, {}, {}};
   if (!shown || (named && !shown->of_all)) return out;
@@ -62,7 +62,7 @@ std::string heading_of(const std::string& key, const std::string& unit) {
   return unit.empty() || unit == "1" ? key : fmt::format("{} [{}]", key, unit);
 }
 
-// "trolley.mean_speed >= 76.2 mm/s"; as written where it is shown so.
+// Returns "trolley.mean_speed >= 76.2 mm/s", or the text as written if its unit is kept.
 std::string text_of(const Limit& limit, const RowUnit& unit) {
   if (unit.to.name.empty()) return limit.text;
   const char* const signs[] = {"<", "<=", ">", ">="};
@@ -70,7 +70,7 @@ std::string text_of(const Limit& limit, const RowUnit& unit) {
                      signs[static_cast<int>(limit.is)], unit.of(limit.limit), unit.name);
 }
 
-// A line for each goal, limit and tuned key, a column for each candidate.
+// Returns a table with a line for each goal, limit and tuned key, and a column for each candidate.
 std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& candidates,
                      const TableUnits* shown) {
   using report::TextTable;
@@ -131,8 +131,8 @@ std::string count(std::size_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-// A line for each number of a candidate that is within a hundredth of its range from an end, where
-// a wider range may hold a better one.
+// Returns a line for each number of a candidate that is within a hundredth of its range from an
+// end, since a wider range may contain a better one.
 std::string ends_of(const Tuning& tuning, const Candidate& candidate) {
   constexpr double near = 0.01;
   std::string out;

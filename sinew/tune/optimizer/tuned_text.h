@@ -1,4 +1,4 @@
-// tune/optimizer/tuned_text.h - what a tuning found, for people and for programs.
+// tune/optimizer/tuned_text.h - results of a tuning, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@
 
 namespace sinew::tune {
 
-// The units in which a table is shown, and whether they stand above those that the file names.
+// The units of a table, and whether they override those in the file.
 struct TableUnits {
   units::ShownUnits units;
-  bool of_all = false;  // also of goals, limits and keys for which the file names a unit
+  bool of_all = false;  // also for goals, limits and keys whose unit is in the file
 };
 
-// Returns the best candidate of one goal beside what the experiment has, or the front of several:
-// a column for each candidate. Where nothing is feasible, the candidate that is closest to it.
-// Without `shown` the units are those of the file, and SI where it names none.
+// Returns a table with a column for each candidate: the best one for a single goal, next to the
+// experiment as it is, or the front for several. If none is feasible, it shows the candidate with
+// the smallest violation. Without `shown` the units are those of the file, or SI.
 std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* shown = nullptr);
 
 // Returns the same as JSON, format sinew.tuned/1, with every candidate of the front.
 std::string json_of(const Tuning& tuning, const Tuned& tuned);
 
-// Returns the headings and rows of all candidates: number, generation, feasible, violation, holds,
-// then the tuned keys, goals and limits.
+// Return the headings and a row of a table of candidates: number, generation, feasible, violation,
+// holds, then the tuned keys, goals and limits.
 std::vector<std::string> candidate_headings(const Tuning& tuning);
 std::vector<std::string> candidate_cells(const Candidate& candidate);
 

@@ -86,7 +86,7 @@ config::Location where(const TuningFile& file, const char* key) {
   config::fail(where(file, key), key, std::move(found), std::move(expected), std::move(try_this));
 }
 
-// "plan.toml:7:1: range", with which messages about one of its texts begin.
+// Returns "plan.toml:7:1: range", the start of messages about one of its texts.
 std::string place(const TuningFile& file, const char* key) {
   const config::Location at = where(file, key);
   return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, key);
@@ -103,7 +103,7 @@ void add_goals(const TuningFile& file, const std::vector<std::string>& texts, co
     }
 }
 
-// "key < 5 deg": the figure is shown in degrees.
+// Parses "key < 5 deg"; the figure is shown in degrees.
 Limit limit_of(const TuningFile& file, const std::string& text) {
   const Condition condition = parse_condition(text, place(file, "where"));
   const std::string si = analysis::unit_of_key(condition.key);
@@ -130,7 +130,7 @@ Goals goals_of(const TuningFile& file) {
   return out;
 }
 
-// Limits of one figure between which there is nothing.
+// Refuses limits of one figure that exclude every value.
 void refuse_contradictions(const TuningFile& file, const std::vector<Limit>& limits) {
   const auto upper = [](const Limit& l) {
     return l.is == Condition::Is::below || l.is == Condition::Is::at_most;
@@ -155,7 +155,7 @@ MethodAsked method_of(const TuningFile& file, const Tuning& tuning) {
     refuse(file, "method", "\"cmaes\" with several goals", "\"nsga2\", or one goal and limits");
   if (several && goals == 1)
     refuse(file, "method", "\"nsga2\" with one goal", "\"cmaes\", or several goals");
-  // At least as many as go side by side in two threads.
+  // At least the number of runs that two threads execute in lanes.
   const auto usual = static_cast<std::size_t>(4 + 3 * std::log(tuning.tuned));
   std::size_t population = std::max<std::size_t>(16, (usual + 3) / 4 * 4);
   if (several) population = 48;
@@ -221,7 +221,7 @@ void add_report(const TuningFile& file, Tuning& out) {
       add_figure(figure, report);
 }
 
-// The number that an element of a list has, where it is written in the range's own unit.
+// Returns the number of an element of a list, if it is written in the range's own unit.
 std::optional<double> element_of(const Range& range, const config::Node& root) {
   const config::Node* node = config::value_at(root, range.axis.key);
   if (!node) return std::nullopt;
@@ -244,8 +244,8 @@ std::optional<double> number_of(const Range& range, const config::Origins& origi
                                  : config::convert(parsed.si, unit, range.axis.unit, atmosphere);
 }
 
-// Tells the room's pressure, and the shares of the tuned ranges at which the experiment stands; the
-// middle where that is no number between the ends.
+// Sets the atmospheric pressure, and the shares of the experiment's values in the tuned ranges; the
+// middle if a value is not a number within its range.
 void add_start(Tuning& tuning) {
   const config::Node root = config::compose(tuning.runs.experiment, tuning.runs.sets);
   const experiment::Experiment e = run::buildable(root, tuning.runs.experiment);

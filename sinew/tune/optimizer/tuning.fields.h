@@ -1,4 +1,4 @@
-// tune/optimizer/tuning.fields.h - the keys of a tuning's file.
+// tune/optimizer/tuning.fields.h - keys of a tuning's file.
 #pragma once
 
 #include "sinew/tune/optimizer/tuning.h"
@@ -74,7 +74,7 @@ void fields(Visitor& v, TuningFile& f) {
   v.text({.name = "experiment", .doc = "file of the experiment, relative to this one"},
          f.experiment);
   v.texts({.name = "set", .optional = true, .doc = "key=value, for every run"}, f.set);
-  // Not `range`: beside numbers that is the range of their value.
+  // The key is not called `range`, which is the range of a number elsewhere.
   v.texts({.name = "tune", .doc = "KEY=from:to unit [log|whole]"}, f.tune);
   goal_fields(v, f);
   method_fields(v, f);

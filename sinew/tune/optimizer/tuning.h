@@ -1,4 +1,4 @@
-// tune/optimizer/tuning.h - what a tuner is asked for, as a file.
+// tune/optimizer/tuning.h - definition of a tuning, as a file.
 //
 //   format     = "sinew.tuning/1"
 //   title      = "A faster walk"
@@ -9,7 +9,7 @@
 //   generations = 40
 //
 // Each candidate is run in every circumstance: in each [[case]], with the noise of each of `seeds`,
-// and at each of `draws` points of `spread`, the same points for all candidates.
+// and at each of `draws` points of `spread`. The points are the same for all candidates.
 #pragma once
 
 #include <cstddef>
@@ -22,16 +22,14 @@
 #include "sinew/tune/optimizer/goals.h"
 #include "sinew/tune/sweep.h"
 
-// An optimiser that is asked for a generation of points and told what
-// each of them costs.
+// An optimiser that returns a generation of points and is given the cost of each.
 //
-//   cmaes  CMA-ES (Hansen 2006) for one goal: a normal distribution that follows where points are
-//          good
+//   cmaes  CMA-ES (Hansen 2006) for one goal: a normal distribution that moves to low costs
 //   nsga2  NSGA-II (Deb et al. 2002) for several: a population that spreads along their front
 //
-// Both are pagmo's, which is in a module of its own that is opened here and nowhere else. The same
-// seed and the same costs give the same points, so a study goes on from its rows: nothing else of
-// a method is kept.
+// Both are implemented by pagmo, in a separate module that only this class opens. The same seed and
+// the same costs give the same points, so a study continues from its rows: no other state of a
+// method is stored.
 
 struct SinewMethods;
 
@@ -40,30 +38,31 @@ namespace sinew::tune {
 // CMA-ES, for one goal; NSGA-II, for several.
 enum class MethodKind { cmaes, nsga2 };
 
-// Holds what a method of search is made with.
+// Parameters of a method.
 struct MethodAsked {
   MethodKind kind = MethodKind::cmaes;
-  std::size_t dimensions = 0;   // of a point, above 0
-  std::size_t costs = 1;        // of a point; cmaes: 1
+  std::size_t dimensions = 0;   // coordinates of a point, above 0
+  std::size_t costs = 1;        // costs of a point; cmaes: 1
   std::size_t population = 16;  // at least 5; nsga2: a multiple of 4
   std::uint64_t seed = 1;
-  double step = 0.3;  // cmaes: the standard deviation it begins with, a share of each range
+  double step = 0.3;  // cmaes: initial standard deviation, as a share of each range
 };
 
-// A search that is asked for points and told what they cost, generation by generation.
+// A search that returns points and is given their costs, generation by generation.
 class OptimizerMethod {
  public:
-  // Throws std::runtime_error where the program was built without pagmo.
+  // Throws std::runtime_error if the program was built without pagmo.
   explicit OptimizerMethod(const MethodAsked& asked);
 
-  // The first generation's points, one after the other, and their costs. Throws std::runtime_error,
-  // as the others do.
+  // Sets the first generation's points, one after the other, and their costs. Throws
+  // std::runtime_error, as do the others.
   void begin(const std::vector<double>& points, const std::vector<double>& costs);
 
-  // Returns the next generation's points, each in [0, 1]; none where the method has converged.
+  // Returns the next generation's points, with coordinates in [0, 1]; empty if the method has
+  // converged.
   std::vector<double> ask();
 
-  // Tells what the points cost that were asked for last.
+  // Sets the costs of the points that ask() returned last.
   void tell(const std::vector<double>& costs);
 
  private:
@@ -78,53 +77,54 @@ class OptimizerMethod {
 
 namespace sinew::tune {
 
-// The largest share of a range: the next number below one.
+// The largest share of a range: the next number below 1.
 inline constexpr double below_one = 1 - 0x1p-53;
 
-// The file's words.
+// The keys of the file.
 struct TuningFile {
   std::string title, reproduces, experiment;
   std::vector<std::string> set, tune, maximize, minimize, where, report, spread;
   std::vector<Case> cases;
-  // Which method searches; automatic: by the number of goals.
+  // Method of search; automatic: by the number of goals.
   enum class Method { automatic, cmaes, nsga2 } method = Method::automatic;
   Goals::Over over = Goals::Over::mean;
   double hold = 1, step = 0.3;
-  int population = 0;  // 0: as many as suit the ranges
+  int population = 0;  // 0: by the number of ranges
   int generations = 50, tuner_seed = 1;
   int seeds = 0, draws = 0, spread_seed = 1;
   bool allow_unreachable = false;
-  config::Origins origins = {};  // where its keys stand, for messages
+  config::Origins origins = {};  // origins of its keys, for messages
 };
 
-// The same, understood.
+// The file, parsed.
 struct Tuning {
   std::string file, title;
-  // The runs of all generations. Its sample has the ranges that are tuned, then those that are
-  // drawn; its shares come with each generation.
+  // The runs of all generations. Its sample has the tuned ranges, then the drawn ones; its shares
+  // are set for each generation.
   Sweep runs;
-  std::size_t tuned = 0;           // ranges
+  std::size_t tuned = 0;           // number of tuned ranges
   std::vector<double> drawn = {};  // shares of the drawn ranges, point by point
   std::size_t draws = 1;
   Goals goals;
   MethodAsked method;
   std::size_t generations = 0;
-  std::vector<double> start = {};         // shares of what the experiment has; the first candidate
-  double atmosphere = units::atmosphere;  // of the experiment, for gauges [Pa]
+  std::vector<double> start = {};         // shares of the experiment's values; the first candidate
+  double atmosphere = units::atmosphere;  // for gauge pressures of the experiment [Pa]
 
-  // How many runs a candidate has, and a generation.
+  // Return the number of runs of a candidate, and of a generation.
   std::size_t runs_of_candidate() const { return points(runs) / (generations * method.population); }
   std::size_t runs_of_generation() const { return points(runs) / generations; }
 };
 
-// Throws config::Error with everything that is wrong with the file.
+// Throws config::Error with all faults of the file.
 TuningFile load_tuning_file(const std::string& path);
 
-// Throws config::Error for words that cannot be, and for an experiment that is wrong. Nothing is
-// run.
+// Returns the parsed file. Throws config::Error for invalid texts, and for a faulty experiment.
+// Runs nothing.
 Tuning tuning_of(const std::string& path, const TuningFile& file);
 
-// Both, with more values for every run, and another number of generations where it is above 0.
+// Loads and parses a file, with additional values for every run, and with another number of
+// generations if it is above 0.
 Tuning load_tuning(const std::string& path, const std::vector<std::string>& sets = {},
                    int generations = 0);
 

@@ -1,4 +1,4 @@
-// A tuning's file: understood, or refused with the place and the word.
+// A tuning's file is parsed, or refused with the place of the fault.
 #include "sinew/tune/optimizer/tuning.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class TuningTest : public ::testing::Test {
   TuningTest() { fs::create_directories(folder_); }
   ~TuningTest() override { fs::remove_all(folder_); }
 
-  // A good file with one line in place of another.
+  // Returns a valid file with one line replaced.
   std::string with(const std::string& line, const std::string& other) const {
     std::string text =
         "format = \"sinew.tuning/1\"\n"

@@ -1,5 +1,4 @@
-// A study as a page shows it: each column with its role, each row to the letter, and what runs it
-// again.
+// A study's page: each column with its role, each row unchanged, and the command that repeats it.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -84,7 +83,7 @@ TEST_F(StudyPageTest, HasEachRowAsItStandsInTheFile) {
   EXPECT_FALSE(view.rows[1].ok);
 }
 
-// With what was set for every run.
+// With the settings of every run.
 TEST_F(StudyPageTest, RunsARowAgainWithAllThatItHad) {
   const StudyRun run = run_of(study_view(file_), 5);
   EXPECT_EQ(run.experiment, lever);
@@ -168,8 +167,8 @@ TEST_F(StudyPageTest, ShowsTheCandidatesOfATuning) {
   EXPECT_EQ(run_of(view, 3).sets.back(), "joint.lever.damping=0.2 N m s/rad");
 }
 
-// An experiment that is gone or another one leaves the study readable; its command is what was
-// asked.
+// If the experiment is missing or has changed, the study can still be read; its command is that of
+// the request.
 TEST_F(StudyPageTest, IsReadWithoutItsExperiment) {
   const fs::path study = folder_ / "own.db";
   Asked asked = asked_of(a_sweep());

@@ -21,14 +21,14 @@ namespace {
 
 // --- facts from the text of a study (results/) ---
 
-// "vary = KEY [unit]: values" without its name; nothing for another line.
+// Returns "KEY [unit]: values" of "vary = KEY [unit]: values"; nothing for a line of another name.
 std::optional<std::string> value_after(const std::string& line, const std::string& name) {
   const std::string begin = name + " = ";
   if (!line.starts_with(begin)) return std::nullopt;
   return line.substr(begin.size());
 }
 
-// Returns the value of a fact, "0.1.0" of `sinew`; empty where there is none.
+// Returns the value of a fact, "0.1.0" of `sinew`; empty if it does not exist.
 std::string fact(const Asked& asked, const std::string& name) {
   std::istringstream lines(asked.text);
   for (std::string line; std::getline(lines, line);)
@@ -46,7 +46,7 @@ std::size_t count(const Asked& asked, const std::string& name) {
 
 namespace fs = std::filesystem;
 
-// A study of "experiments/leg-in-air.toml": "leg in air".
+// Returns "Leg in air" for "experiments/leg-in-air.toml".
 std::string title_of(const std::string& experiment) {
   std::string out = fs::path(experiment).stem().string();
   std::ranges::replace(out, '-', ' ');
@@ -54,7 +54,7 @@ std::string title_of(const std::string& experiment) {
   return out;
 }
 
-// "joint.hip.angle_gain [%/count]" of "0.02": "joint.hip.angle_gain=0.02 %/count".
+// Returns "joint.hip.angle_gain=0.02 %/count" for "joint.hip.angle_gain [%/count]" and "0.02".
 std::string set_of(const StudyColumn& column, const std::string& cell) {
   const std::size_t unit = column.number ? column.heading.find(" [") : std::string::npos;
   if (unit == std::string::npos || !column.heading.ends_with(']'))
@@ -76,7 +76,8 @@ StudyColumn shown(const Column& column) {
   return out;
 }
 
-// A sweep's. The key that is searched is what the search found, and a run has it.
+// Returns the columns of a sweep. The key that is searched is a result of the search and a
+// setting of its run.
 std::vector<StudyColumn> columns_of_runs(const Asked& asked) {
   const std::string searched = fact(asked, "largest");
   std::vector<StudyColumn> out;
@@ -89,8 +90,8 @@ std::vector<StudyColumn> columns_of_runs(const Asked& asked) {
   return out;
 }
 
-// A tuning's. A figure that is a goal and has a limit is there twice: its limit is of the worst
-// run.
+// Returns the columns of a tuning. A figure that is both a goal and a limit has two
+// columns; that of the limit is the worst run's.
 std::vector<StudyColumn> columns_of_candidates(const Asked& asked) {
   std::vector<StudyColumn> out;
   for (const Column& column : asked.of_candidates) {
@@ -104,7 +105,7 @@ std::vector<StudyColumn> columns_of_candidates(const Asked& asked) {
   return out;
 }
 
-// Seeds, draws and cases.
+// Returns the product of the numbers of seeds, draws and cases.
 std::size_t runs_of_a_candidate(const Asked& asked) {
   const std::string draws = fact(asked, "draws"), seeds = fact(asked, "vary");
   const auto number = static_cast<std::size_t>(std::atoll(draws.c_str()));
@@ -192,7 +193,7 @@ const char* to_text(StudyColumn::Role role) {
   return role == Role::figure ? "figure" : "other";
 }
 
-// A row is a list: there may be ten thousand.
+// Rows are lists, since there may be ten thousand.
 Json json_of(const std::vector<StudyRow>& rows) {
   Json out = Json::array();
   for (const StudyRow& row : rows)

@@ -14,7 +14,7 @@
 namespace sinew::tune {
 namespace {
 
-// Every value in SI. Its title and its sources change no number.
+// Returns every value in SI, without title and sources, which have no effect on results.
 std::string values_of(const std::string& file, const std::vector<std::string>& sets) {
   experiment::Experiment e = run::buildable(file, sets);
   e.origins.clear();
@@ -23,8 +23,8 @@ std::string values_of(const std::string& file, const std::vector<std::string>& s
   return experiment::resolved(e, SINEW_VERSION);
 }
 
-// Words may name files, whose values count. Such a value may be none without another axis; then it
-// counts by its name alone.
+// Returns the values that result from a word, which may name a file; empty if the word is invalid
+// without another axis, so that only its name counts.
 std::string values_of_word(const Sweep& s, const Axis& axis, const Value& value) try {
   if (axis.key == "experiment") return values_of(beside(s, value.text), s.sets);
   std::vector<std::string> sets = s.sets;
@@ -109,7 +109,7 @@ bool has_numbers(const Axis& axis) {
   return std::ranges::all_of(axis.values, [](const Value& v) { return v.number.has_value(); });
 }
 
-// They stand in the order of headings().
+// Returns the columns in the order of headings().
 std::vector<Column> columns_of(const Sweep& s) {
   std::vector<Column> out;
   for (const std::string& heading : headings(s)) out.push_back({heading});

@@ -1,9 +1,9 @@
-// tune/results/asked.h - what a study asks for, as text: two studies are one where it is the same.
+// tune/results/asked.h - text of a study's request: two studies are the same if their texts are
+// equal.
 //
-// It holds everything that a row's cells depend on: the version of Sinew, every value of the
-// experiment and its robot in SI, and of the files that an axis names, then what is varied,
-// sampled, searched and reported. Where the files stand and what comments they have is no part of
-// it.
+// The text contains everything that a row's cells depend on: the version of Sinew; every value, in
+// SI, of the experiment, its robot and the files that an axis names; and what is varied, sampled,
+// searched and reported. Paths and comments of the files are not part of the text.
 #pragma once
 
 #include <cstddef>
@@ -17,45 +17,47 @@ namespace sinew::tune {
 
 // A column of a study's table.
 struct Column {
-  // parameter     a sweep varies it, a tuner chooses it
-  // circumstance  a parameter has to serve in it: a seed, a case, a draw of what is not known
-  // figure        a run's, that was asked for
-  // maximize, minimize, limit  a figure that a tuner goes by
+  // parameter     varied by a sweep, or chosen by a tuner
+  // circumstance  a condition for which a parameter must be suited: a seed, a case, a draw of
+  //               uncertain values
+  // figure        a reported figure of a run
+  // maximize, minimize, limit  a figure used by a tuner
   enum class Role { parameter, circumstance, figure, maximize, minimize, limit, other };
 
   std::string heading;
   bool number = true;  // its cells are numbers, or empty
   Role role = Role::other;
 };
-// Returns the word that the study's file has for it.
+// Returns the role's name in the study's file.
 const char* to_text(Column::Role role);
 
 struct Asked {
-  std::string text;  // a fact a line
+  std::string text;  // one fact per line
   std::vector<Column> columns;
-  std::size_t points = 0;  // no part of the text of a tuning, which may be asked to go on
-  std::string experiment;  // the file, as it was named
-  std::vector<std::string> sets = {};  // key=value, for every run; the text has what they lead to
+  std::size_t points = 0;  // not part of a tuning's text, since a tuning may be extended
+  std::string experiment;  // the file, as it was given
+  std::vector<std::string> sets = {};  // key=value, for every run; the text has the resulting
+                                       // values
   std::string title = {};
-  std::vector<Case> cases = {};            // of each candidate; the text has what they lead to
+  std::vector<Case> cases = {};            // cases of each candidate; the text has their values
   std::vector<Column> of_candidates = {};  // a tuning's; empty: a sweep
 };
 
-// Throws config::Error for an experiment that is wrong.
+// Throws config::Error for a faulty experiment.
 Asked asked_of(const Sweep& sweep);
 
-// Sixteen hexadecimal digits that stand for the text.
+// Returns sixteen hexadecimal digits that identify the text.
 std::string hash_of(const Asked& asked);
 
-// Returns the first fact in which two differ, with the table of the file it stands in: `"[trolley]
-// drag = 1 N"`; of a text that ends before it "nothing". Both are the same for the same texts.
+// The first fact in which two texts differ, with its table in the file: `"[trolley] drag = 1 N"`;
+// "nothing" for a text that ends before. For equal texts both are the same.
 struct Difference {
   std::string first, second;
 };
 Difference difference(const std::string& first, const std::string& second);
 
-// Throws config::Error that begins with the file where what it holds is another study than is asked
-// for, or was run by another version of Sinew.
+// Throws config::Error that begins with the file if it holds another study than requested, or
+// one of another version of Sinew.
 void require_same(const std::filesystem::path& file, const Asked& held, const Asked& asked);
 
 }  // namespace sinew::tune

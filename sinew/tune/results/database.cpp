@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int patience = 5000;  // for another program's transaction [ms]
+constexpr int patience = 5000;  // for another process's transaction [ms]
 
-// So begins every SQLite file. One of no bytes is a database without tables.
+// Start of every SQLite file. A file of no bytes is a database without tables.
 constexpr std::string_view magic("SQLite format 3\0", 16);
 
 [[noreturn]] void refuse_other_file(const fs::path& file) {
@@ -24,7 +24,7 @@ constexpr std::string_view magic("SQLite format 3\0", 16);
                    "choose another name, or remove it first");
 }
 
-// SQLite itself would take a short file for an empty database.
+// Throws if the file is not a database. SQLite itself would take a short file for an empty one.
 void require_database(const fs::path& file) {
   std::array<char, magic.size()> head{};
   std::ifstream in(file, std::ios::binary);
@@ -33,7 +33,8 @@ void require_database(const fs::path& file) {
   if (read > 0 && std::string_view(head.data(), read) != magic) refuse_other_file(file);
 }
 
-// A file that may only be read, in a folder where nothing can be made: nobody is writing it there.
+// Returns the URI of a file that cannot be written, in a folder where no file can be created,
+// so that no process writes to it.
 std::string unchanging(const fs::path& file) {
   std::string name;
   for (const char c : fs::absolute(file).string())

@@ -1,4 +1,4 @@
-// tune/results/database.h - SQLite, as far as a study needs it. No other file knows its header.
+// tune/results/database.h - SQLite as used by a study. Only database.cpp includes its header.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@ namespace sinew::tune {
 
 class Statement;
 
-// Every member function throws log::Error, which names the file, what happened and what to do.
+// Every member function throws log::Error with the name of the file, the fault and the remedy.
 class Database {
  public:
-  // To read: others may write meanwhile. Nothing is made, nothing changed.
+  // read: others may write meanwhile; nothing is created or changed.
   enum class Use { write, read };
 
-  // Opens the file; to write it is made where it is missing.
+  // Opens the file; to write, creates it if it is missing.
   Database(const std::filesystem::path& file, Use use);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  // Runs statements that answer nothing.
+  // Executes statements without a result.
   void run(const std::string& sql);
-  std::int64_t number(const std::string& sql);  // the first cell of its answer
+  std::int64_t number(const std::string& sql);  // returns the first cell of the result
 
  private:
   friend class Statement;
@@ -37,7 +37,7 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-// A statement with places ?1, ?2, … Its database must outlive it.
+// A statement with parameters ?1, ?2, … Its database must outlive it.
 class Statement {
  public:
   // Prepares the statement.
@@ -46,19 +46,19 @@ class Statement {
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
-  // Fill the places in their order, from the first after each step to the end.
+  // Bind the parameters in their order, from the first one on after each complete execution.
   Statement& bind(std::int64_t value);
   Statement& bind(double value);
   Statement& bind(const std::string& value);
 
-  // Goes to the next row of the answer. Returns false behind the last one; then it can be filled
-  // again.
+  // Steps to the next row of the result. Returns false after the last one; then the parameters can
+  // be bound again.
   bool step();
   void to_the_end() {
     while (step()) {}
   }
 
-  // Cells of this row, counted from 0.
+  // Return cells of the present row, counted from 0.
   std::int64_t number(int column) const;
   double real(int column) const;
   std::string text(int column) const;

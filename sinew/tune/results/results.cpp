@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A row and the file it came from.
+// A row and its file.
 struct Origin {
   const fs::path* file;
   Row row;
@@ -65,7 +65,7 @@ class Rows {
 
   std::size_t size() const { return rows_.size(); }
 
-  // Those that are not of this file.
+  // Returns the rows that come from other files.
   std::vector<Row> besides(const fs::path& file) const {
     std::vector<Row> out;
     for (const auto& [point, origin] : rows_)
@@ -129,11 +129,11 @@ void judge(const std::vector<Row>& rows, const Sweep& s, std::size_t points,
 
 namespace {
 
-// --- the tables of a study's file, as docs/reference/study-file.md has them ---
+// --- the tables of a study's file, described in docs/reference/study-file.md ---
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t application = 0x53696e77;  // "Sinw", by which `file` and SQLite tell it
+constexpr std::int64_t application = 0x53696e77;  // "Sinw", by which `file` and SQLite identify it
 
 const char* const tables =
     "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
@@ -144,7 +144,7 @@ const char* const tables =
     "  lacks TEXT NOT NULL, differs TEXT NOT NULL, cells TEXT NOT NULL,"
     "  checksum TEXT NOT NULL);";
 
-// Of a tuning alone.
+// Tables of a tuning only.
 const char* const tables_of_candidates =
     "CREATE TABLE candidate_heading (number INTEGER PRIMARY KEY, heading TEXT NOT NULL,"
     "  name TEXT NOT NULL, is_number INTEGER NOT NULL, role TEXT NOT NULL);"
@@ -155,10 +155,10 @@ const char* const tables_of_candidates =
 constexpr std::string_view of_runs = "point, ok, stop_reached, no_air, out_of_reach";
 constexpr std::string_view of_candidates = "candidate, generation, feasible, violation, holds";
 
-// Returns a list of texts as JSON; text need not be UTF-8.
+// Returns a list of texts as JSON; a text need not be UTF-8.
 std::string json_of(const std::vector<std::string>& texts) { return Json(texts).text(); }
 
-// Returns the texts of such a list. Throws log::Error for JSON that is no list of texts.
+// Returns the texts of such a list. Throws log::Error if the JSON is not a list of texts.
 std::vector<std::string> texts_of(const std::string& json, const fs::path& file) {
   Json list;
   (void)Json::parse(json, list);
@@ -173,7 +173,8 @@ std::string lower(std::string text) {
   return text;
 }
 
-// SQLite's names do not tell letters by their case. `own` are the view's other names.
+// Returns names that are unique without regard to case, as in SQLite. `own` are the view's other
+// names.
 std::vector<std::string> names_of(const std::vector<Column>& columns, std::string_view own) {
   std::set<std::string> taken;
   for (const std::string_view name : list_of(own)) taken.emplace(name);
@@ -193,7 +194,8 @@ std::string quoted(const std::string& name) {
   return out + "\"";
 }
 
-// A view of a table whose column `cells` is a list of texts; `own` are the table's other columns.
+// Returns the view of a table whose column `cells` is a list of texts; `own` are the table's other
+// columns.
 std::string view_of(const char* view, const char* table, std::string_view own,
                     const std::vector<Column>& columns, const std::vector<std::string>& names) {
   const std::size_t comma = own.find(',');
@@ -238,7 +240,8 @@ std::string value_of(Database& database, const std::string& key) {
   return select.bind(key).step() ? select.text(0) : "";
 }
 
-// A file that lacks them may be of a Sinew that did not keep them.
+// Returns the cases in a text, which is empty in the files of versions of Sinew that did not store
+// them.
 std::vector<Case> cases_of(const std::string& text, const fs::path& file) try {
   std::vector<Case> out;
   if (text.empty()) return out;
@@ -254,7 +257,7 @@ std::vector<Case> cases_of(const std::string& text, const fs::path& file) try {
                    "keep a copy, and choose another name");
 }
 
-// A list of texts as JSON; text need not be UTF-8. texts_of() throws log::Error for what is none.
+// Returns the cases as JSON.
 std::string json_of(const std::vector<Case>& cases) {
   Json out = Json::array();
   for (const Case& one : cases)
@@ -265,7 +268,8 @@ std::string json_of(const std::vector<Case>& cases) {
   return out.text();
 }
 
-// Returns the checksum of all but the rows: of the request, the headings and the tables themselves.
+// Returns the checksum of everything but the rows: the request, the headings and the tables
+// themselves.
 std::string checksum_of(Database& database, bool tuning) {
   std::uint64_t h = units::hash("");
   const auto add = [&](const std::string& sql, int columns) {
@@ -283,15 +287,15 @@ std::string checksum_of(Database& database, bool tuning) {
   return fmt::format("{:016x}", h);
 }
 
-// Writes the checksum of all but the rows into the table `study`, after a change.
+// Stores the checksum of everything but the rows in the table `study`, after a change.
 void write_checksum(Database& database) {
   const bool tuning = value_of(database, "kind") == "tuning";
   Statement fact(database, "INSERT OR REPLACE INTO study VALUES ('checksum', ?1)");
   fact.bind(checksum_of(database, tuning)).to_the_end();
 }
 
-// Returns false for a database without tables. Throws config::Error for one of another program, and
-// for tables of a format that this version does not know.
+// Returns false for a database without tables. Throws config::Error for a database of another
+// program, and for tables of another format.
 bool has_study(Database& database, const fs::path& file) {
   const std::int64_t owner = database.number("PRAGMA application_id");
   const std::int64_t format = database.number("PRAGMA user_version");
@@ -310,8 +314,8 @@ bool has_study(Database& database, const fs::path& file) {
   return true;
 }
 
-// Makes all of them at once, with what is asked for. The view `run` has a column of numbers or of
-// words for each cell, called as its heading; one that would be there twice has a number behind it.
+// Creates all tables at once, with the request. The view `run` has a column of numbers or texts for
+// each cell, named by its heading; a repeated name has a number appended.
 void make_tables(Database& database, const Asked& asked) {
   database.run("PRAGMA journal_mode = WAL");
   database.run("BEGIN IMMEDIATE");
@@ -345,7 +349,7 @@ void make_tables(Database& database, const Asked& asked) {
                            application, study_format));
 }
 
-// Returns what the file says was asked for. Throws log::Error for a damaged one.
+// Returns the request in the file. Throws log::Error if it is damaged.
 Asked study_of(Database& database, const fs::path& file) {
   Asked out{.text = value_of(database, "asked"),
             .columns = {},
@@ -369,7 +373,7 @@ Asked study_of(Database& database, const fs::path& file) {
 
 namespace fs = std::filesystem;
 
-// Checksums of a row, over all that it has.
+// Return the checksum of all values of a row.
 std::string checksum_of(const Row& row) {
   const std::string text =
       fmt::format("{} {:d} {:d} {:d} {:d}\n{}\n{}\n{}", row.point, row.ok, row.notes.stop_reached,
@@ -378,7 +382,7 @@ std::string checksum_of(const Row& row) {
   return fmt::format("{:016x}", units::hash(text));
 }
 
-// A zero of SQLite has no sign.
+// Adds 0.0, since a zero of SQLite has no sign.
 std::string checksum_of(const CandidateRow& row) {
   const std::string text =
       fmt::format("{} {} {:d} {} {}\n{}", row.number, row.generation, row.feasible,
@@ -394,8 +398,7 @@ void require_checksum(const AnyRow& row, const std::string& kept, const fs::path
                      "keep a copy, and choose another name");
 }
 
-// Throws log::Error where SQLite's own structure does not hold together, as rows may be missing
-// then.
+// Throws log::Error if SQLite's structure is damaged, since rows may be missing then.
 void require_whole(Database& database, const fs::path& file) {
   Statement check(database, "PRAGMA quick_check(1)");
   if (!check.step() || check.text(0) != "ok")
@@ -446,7 +449,7 @@ std::vector<CandidateRow> candidates_of(Database& database, const fs::path& file
   return out;
 }
 
-// Locks the file until the descriptor is closed, and makes it where there is none.
+// Locks the file until the descriptor is closed, and creates it if it is missing.
 int take(const fs::path& file, bool& made) {
   const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   const int error = errno;
@@ -482,7 +485,7 @@ Results::Results(const fs::path& file, const Asked& asked) : file_(file) {
     if (!has_study(*database_, file)) make_tables(*database_, asked);
     require_whole(*database_, file);
     require_same(file, study_of(*database_, file), asked);
-    // What is not on the disk when the power fails is run again; no row is half there.
+    // Rows that are not on the disk when the power fails are run again; no row is stored in part.
     database_->run("PRAGMA synchronous = NORMAL");
     insert_.emplace(*database_,
                     "INSERT INTO result (point, ok, stop_reached, no_air, out_of_reach, lacks, "
@@ -498,14 +501,14 @@ Results::Results(const fs::path& file, const Asked& asked) : file_(file) {
 Results::~Results() {
   bool empty = false;
   try {
-    require_place();  // another file of this name stays
+    require_place();  // another file of this name is not removed
     empty = made_ && database_->number("SELECT count(*) FROM result") == 0;
   } catch (...) {}
   insert_.reset();
   database_.reset();
   if (empty)
     for (const char* part : {"", "-wal", "-shm"}) ::unlink((file_.string() + part).c_str());
-  ::close(lock_);  // only now: closing it ends SQLite's own locks on the file
+  ::close(lock_);  // last, since closing it releases SQLite's own locks on the file
 }
 
 std::vector<Row> Results::rows() { return rows_of(*database_, file_, study_of(*database_, file_)); }
@@ -523,7 +526,7 @@ void Results::insert(const Row& row) {
       .to_the_end();
 }
 
-// Writes into a file without a name are no error to SQLite.
+// Checks that the file is still at its place, since SQLite reports no error for an unlinked file.
 void Results::require_place() const {
   struct stat there {
   }, held{};
@@ -600,7 +603,7 @@ HeldStudy read_results(const fs::path& file) {
     run::refuse(file, fs::exists(file) ? "no file" : "nothing", "a study's file");
   Database database(file, Database::Use::read);
   if (!has_study(database, file)) run::refuse(file, "a database without tables", "a study's file");
-  // The rows of one moment, while others are added.
+  // Reads the rows of one instant while others are added.
   database.run("BEGIN");
   require_whole(database, file);
   HeldStudy out{.asked = study_of(database, file), .rows = {}};

@@ -1,4 +1,4 @@
-// A study's file: what was added is there, whoever is killed; nothing of another study gets in.
+// A study's file: added rows survive the end of any process, and rows of other studies are refused.
 #include "sinew/tune/results/results.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Sweep study(int seeds_of = 4) {
           .report = parse_figures("sequence_duration_s [ms], air_used_kg")};
 }
 
-// Rows that no run has made: numbers, words, nothing, and what CSV has to quote.
+// Artificial rows: numbers, words, empty cells, and texts that CSV has to quote.
 std::vector<Row> some_rows() {
   return {{.point = 0, .cells = {"none", "1", "1e-05", "0.30000000000000004", "ok"}, .ok = true},
           {.point = 3,
@@ -63,7 +63,7 @@ class ResultsTest : public ::testing::Test {
   ResultsTest() { fs::create_directories(folder_); }
   ~ResultsTest() override { fs::remove_all(folder_); }
 
-  // First cells of an answer, each row one.
+  // Returns the first cell of each row of a result.
   std::vector<std::string> ask(const std::string& sql) const {
     sqlite3* db = nullptr;
     std::vector<std::string> out;
@@ -90,7 +90,7 @@ TEST_F(ResultsTest, HoldsRowsAsTheyAre) {
     for (const Row& row : rows) EXPECT_TRUE(results.add(row));
     EXPECT_EQ(ask("SELECT count(*) FROM run"), std::vector<std::string>{"3"}) << "while it is open";
   }
-  rows[1].cells.back() = "refused: a \"b\",\n\xef\xbf\xbd";  // no text: it stands for that byte
+  rows[1].cells.back() = "refused: a \"b\",\n\xef\xbf\xbd";  // invalid UTF-8 is replaced
   Results again(file_, asked_of(study()));
   const std::vector<Row> there = again.rows();
   ASSERT_EQ(there.size(), rows.size());
@@ -120,7 +120,7 @@ TEST_F(ResultsTest, ThatGotNoRowIsRemoved) {
   EXPECT_TRUE(fs::exists(file_));
 }
 
-// A row that was added is there, at whatever moment its writer is killed.
+// An added row is stored, whenever its writer is killed.
 TEST_F(ResultsTest, AKilledWriterLeavesWhatItAdded) {
   const Asked asked = asked_of(study(1000));
   std::size_t before = 0;
@@ -179,7 +179,7 @@ TEST_F(ResultsTest, RefusesAnotherStudyAndSaysWhatDiffers) {
   EXPECT_EQ(read_results(file_).rows.size(), 1u) << "nothing was changed";
 }
 
-// Its comments, its place and its title change no number; a value of the robot it names does.
+// Comments, path and title of an experiment have no effect; a value of its robot does.
 TEST_F(ResultsTest, AStudyIsWhatItsFilesSay) {
   for (const char* part : {"robots", "experiments"})
     fs::copy(root + "/" + part, folder_ / part, fs::copy_options::recursive);
@@ -239,7 +239,7 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
   sqlite3_close(db);
 }
 
-// A tuning's file whose bits flip on a disk or on a wire.
+// A tuning's file with flipped bits.
 TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
   Asked asked = asked_of(study());
   asked.of_candidates = {{"joint.hip.stiffness [count/deg]", true}, {"feasible", false}};
@@ -311,7 +311,7 @@ TEST_F(ResultsTest, HasOneWriter) {
   EXPECT_EQ(read_results(file_).rows.size(), 1u) << "readers are not refused";
 }
 
-// Another program's transaction is waited for, and then told of; nothing that stands is lost.
+// Waits for another program's transaction, then reports it; no stored row is lost.
 TEST_F(ResultsTest, TellsOfAnotherProgramsTransaction) {
   Results results(file_, asked_of(study()));
   results.add(some_rows()[0]);

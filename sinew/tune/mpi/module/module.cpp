@@ -11,7 +11,7 @@ namespace {
 
 constexpr int tag = 1;
 
-// A worker's threads send one after the other.
+// The threads of a worker send one at a time.
 bool begin(int* rank, int* size) {
   int provided = 0;
   return MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) == MPI_SUCCESS &&
@@ -23,7 +23,7 @@ bool send(int to, const char* bytes, std::size_t count) {
   return MPI_Send(bytes, static_cast<int>(count), MPI_BYTE, to, tag, MPI_COMM_WORLD) == MPI_SUCCESS;
 }
 
-// MPI's own waiting takes a whole processor, which the runs need.
+// Polls with pauses, since MPI's own waiting occupies a processor that the runs need.
 bool wait(double seconds, int* from, std::size_t* count) {
   using Clock = std::chrono::steady_clock;
   const auto until = Clock::now() + std::chrono::duration<double>(seconds);

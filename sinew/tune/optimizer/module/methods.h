@@ -1,5 +1,5 @@
-// tune/optimizer/module/methods.h - what the module with pagmo in it offers: an optimiser that is
-// asked for a generation of points in the unit cube and told what each of them costs.
+// tune/optimizer/module/methods.h - interface of the module with pagmo: an optimiser that returns a
+// generation of points in the unit cube and is given the cost of each.
 #pragma once
 
 #include <cstddef>
@@ -7,23 +7,23 @@
 
 extern "C" {
 
-// MethodAsked in the words of C, for the module.
+// MethodAsked in C, for the module.
 struct SinewMethodAsked {
   int nsga2;               // 1: NSGA-II; 0: CMA-ES
-  std::size_t dimensions;  // of a point
-  std::size_t costs;       // of a point; CMA-ES takes one
+  std::size_t dimensions;  // coordinates of a point
+  std::size_t costs;       // costs of a point; CMA-ES: 1
   std::size_t population;  // points of a generation
   std::uint64_t seed;
-  double step;  // CMA-ES: the standard deviation it begins with, as a share of each range
+  double step;  // CMA-ES: initial standard deviation, as a share of each range
 };
 
-// Functions return false where pagmo failed; then words() says why.
+// Functions return false if pagmo failed; words() then returns the error.
 struct SinewMethods {
   void* (*make)(const SinewMethodAsked* asked);
   bool (*begin)(void* method, const double* points, const double* costs);  // the first generation
-  // Writes a generation; `count` is 0 where the method has converged.
+  // Writes a generation; `count` is 0 if the method has converged.
   bool (*ask)(void* method, double* points, std::size_t* count);
-  bool (*tell)(void* method, const double* costs);  // of the points that were asked for
+  bool (*tell)(void* method, const double* costs);  // costs of the points that ask() wrote
   const char* (*words)(void* method);
   void (*end)(void* method);
 };

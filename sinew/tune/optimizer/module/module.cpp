@@ -1,9 +1,9 @@
 // The module with pagmo in it.
 //
-// A method of pagmo moves a population by a generation and evaluates its points on the way, one by
-// one. The points of a generation do not depend on their own costs, so a generation is moved twice
-// from the same state: once to note its points, with costs that mean nothing, and once to hand back
-// the costs that were found meanwhile.
+// A method of pagmo advances a population by a generation and evaluates its points one by one
+// meanwhile. The points of a generation do not depend on their own costs, so a generation is run
+// twice from the same state: once with arbitrary costs to record its points, and once with the
+// costs that were found in between.
 #include <algorithm>
 #include <exception>
 #include <memory>
@@ -23,7 +23,7 @@ namespace {
 
 using Point = pagmo::vector_double;
 
-// The points of a generation in the order in which they are evaluated.
+// The points of a generation in the order of their evaluation.
 struct Generation {
   std::vector<Point> points, costs;
   std::size_t next = 0;
@@ -60,8 +60,8 @@ class Method {
       algorithm_.emplace<pagmo::nsga2>(1U, 0.95, 10., 1. / static_cast<double>(asked.dimensions),
                                        20., seed);
     else
-      // -1: as Hansen sets it. Neither tolerance on costs, which may be equal far from the best,
-      // nor points beyond the ranges.
+      // -1: Hansen's values. The tolerance of costs is off, since costs may be equal far from the
+      // best point, and points beyond the ranges are not allowed.
       algorithm_.emplace<pagmo::cmaes>(1U, -1., -1., -1., -1., asked.step, 0., 1e-6, true, true,
                                        seed);
     population_ = pagmo::population(
@@ -104,7 +104,7 @@ class Method {
   pagmo::population population_;
 };
 
-// Exceptions end here: who calls may be of another compiler.
+// Catches all exceptions, since the caller may be built by another compiler.
 template <class Work>
 bool guarded(void* method, const Work& work) {
   auto& own = *static_cast<Method*>(method);
