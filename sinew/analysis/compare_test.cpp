@@ -96,7 +96,7 @@ TEST(Compare, GapsAreCountedAndNeverCrossed) {
   EXPECT_TRUE(d.equal());
   EXPECT_FALSE(d.same);
 
-  // Between two samples of which one is none there is no value.
+  // Values are not interpolated next to a NaN sample.
   Recorded dense = every(1 * ms, 500'000, 1000, test::constant(1));
   dense.values.set(19, gap);  // 19.5 ms, just before the sample at 20 ms
   const Difference between = of(a, dense);
@@ -121,7 +121,7 @@ TEST(Compare, OtherPeriodsMeetAtCommonTimes) {
   EXPECT_TRUE(d.equal());
   EXPECT_FALSE(d.same) << "the other has more";
 
-  // What is recorded half a tick away still is the same instant, a little more is not.
+  // Samples half a tick apart are simultaneous, those a little further apart are not.
   EXPECT_EQ(meet(slow.view(), every(10 * ms, 50'000, 100, wave).view()).how, Meeting::together);
   EXPECT_EQ(meet(slow.view(), every(10 * ms, 50'001, 100, wave).view()).how, Meeting::between);
 }
@@ -144,7 +144,7 @@ TEST(Compare, WhatDoesNotOverlapNeverMeets) {
 }
 
 TEST(Compare, EdgesDifferByTheShareOfTimeInWhichTheyDo) {
-  // Open 2 ms of every 10, the other 3 ms of every 10: for a tenth of the time they differ.
+  // One is open for 2 ms of every 10, the other for 3 ms: they differ for a tenth of the time.
   const signals::Table a = test::Log(0).pulses("/valve/m/inlet/open", 0.002, 1).table;
   const signals::Table b = test::Log(0).pulses("/valve/m/inlet/open", 0.003, 1).table;
   const auto view = [](const signals::Table& t) {

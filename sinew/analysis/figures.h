@@ -1,4 +1,5 @@
-// analysis/figures.h - the parts of a summary, in its order. Each adds what the record allows.
+// analysis/figures.h - the parts of a summary, in its order. Each adds the figures that the record
+// has the channels for.
 #pragma once
 
 #include <cmath>
@@ -15,11 +16,11 @@ namespace sinew::analysis {
 
 struct Figures {
   const Machine& machine;
-  const Record& record;  // of the log and of what derive() makes of it
+  const Record& record;  // the log and the series that derive() computes from it
   Summary& summary;
-  mutable std::map<std::string, double> delivered_duties = {};  // of valves, once asked for
+  mutable std::map<std::string, double> delivered_duties = {};  // cache, by muscle and valve [-]
 
-  // Absent where the topic is: a statistic of no samples is not a number.
+  // Adds a statistic of a column, unless the column is empty because its topic is missing.
   template <class Statistic>
   void add(std::string key, Statistic statistic, const Column& column, const Column& seconds) {
     if (!column.empty()) summary.add(std::move(key), statistic(column, seconds));
@@ -28,24 +29,25 @@ struct Figures {
 
 inline constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
 
-// What is counted or used up, for rates over the sequence.
+// Steps and distance of the sequence, by which amounts are divided to give rates.
 struct Extent {
-  double steps = 0;             // complete ones; 0 where there is none
-  double distance = no_figure;  // true, over the sequence [m]
+  double steps = 0;             // complete steps
+  double distance = no_figure;  // true distance of the trolley over the sequence [m]
 };
 Extent extent_of(const Figures&);
 
-// An amount of the sequence, per step and per metre of the trolley's true way.
+// Adds an amount of the sequence per step and per metre of the trolley's true distance.
 void add_rates(Figures&, double amount, const std::string& per_step, const std::string& per_metre);
 
-// Of one muscle over the sequence: as commanded, and as its valves really stood open.
+// Return the share of the sequence in which a muscle is passive [-], 6.3: by the commanded duties,
+// and by the times that its valves were really open.
 double passiveness(const Figures&, const robot::Muscle&);
 double delivered_passiveness(const Figures&, const robot::Muscle&);
 
-// That went into a cylinder between two rows  [kg]; 0 where there is none.
+// Returns the air that entered the cylinder between two rows  [kg]; 0 without a cylinder.
 double cylinder_air(const Figures&, std::size_t first, std::size_t last);
 
-// Each adds its part of the summary, as far as the log has what it takes.
+// Each adds its part of the summary, as far as the log has the channels for it.
 void add_run(Figures&);
 void add_trolley(Figures&);
 void add_joints(Figures&);
@@ -58,15 +60,15 @@ void add_valves(Figures&);
 void add_air_balance(Figures&);
 void add_machine(Figures&);
 void add_sole(Figures&);  // the discs of a leg's foot
-// These add theirs too: of the phases, and of what stood before the controller.
+// Add the figures of the phases, and the counts of the supervisor that guards the controller.
 void add_phases(Figures&);
 void add_supervision(Figures&);
 
-// Returns the figures of a run of a test stand, those that its log allows.
+// Returns the figures of a run of a test stand that its log has the channels for.
 Summary summarize_stand(const signals::Table& table, const Machine& machine);
 
 // Adds legs.<name>.* of each leg: joints, muscles, passiveness, foot, ground reaction, air and
-// phases as those of a machine with one leg; and what its foot carries.
+// phases as those of a machine with one leg, and the load of its foot.
 void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived);
 
 }  // namespace sinew::analysis

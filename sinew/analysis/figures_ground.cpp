@@ -1,4 +1,4 @@
-// The run itself, trolley.*, foot.*, ground_reaction.*: what the leg does on the table.
+// Figures of the run itself, trolley.*, foot.* and ground_reaction.*.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,7 +18,7 @@ struct Travel {
   double time = no_figure;      // [s]
 };
 
-// The first row at which the track has ended; the sequence's end where it does not.
+// Returns the row at which the trolley reaches the track's end, or else the sequence's end.
 std::size_t stop_row(const Figures& f, const Column& x) {
   const std::size_t end = f.record.end_row();
   for (std::size_t i = f.record.first_row(); i < end && i < x.size(); ++i)
@@ -26,7 +26,7 @@ std::size_t stop_row(const Figures& f, const Column& x) {
   return end;
 }
 
-// Over the sequence, or up to the track's end.
+// Returns the travel over the sequence, or up to the track's end.
 Travel travel(const Figures& f) {
   const Column x = f.record.column("/true/trolley/position");
   if (x.empty() || !f.record.has_sequence()) return {};
@@ -34,7 +34,8 @@ Travel travel(const Figures& f) {
   return {.distance = x[end] - x[first], .time = f.record.time(end) - f.record.time(first)};
 }
 
-// When the sequence's trolley came to the track's end  [s] from its start; not a number: never.
+// Returns the time from the sequence's start until the trolley reached the track's end  [s]; NaN if
+// it did not.
 double stop_reached(const Figures& f) {
   const Column x = f.record.column("/true/trolley/position");
   if (x.empty() || !f.record.has_sequence() || f.machine.robot.trolley.track_length <= 0)
@@ -44,7 +45,7 @@ double stop_reached(const Figures& f) {
   return f.record.time(stop) - f.record.sequence_start();
 }
 
-// Complete steps but the first, up to the track's end.
+// Returns the complete steps but the first, up to the track's end.
 std::vector<int> repeated_steps(const Figures& f) {
   std::vector<int> steps = f.record.complete_steps();
   if (!steps.empty()) steps.erase(steps.begin());
@@ -55,7 +56,7 @@ std::vector<int> repeated_steps(const Figures& f) {
   return steps;
 }
 
-// One step's path: every phase by its share of the time.
+// Paths of steps, each phase sampled at the same fractions of its duration.
 class StepPaths {
  public:
   StepPaths(const Record& record, const Column& x, const Column& y)
@@ -90,7 +91,8 @@ class StepPaths {
   bool in_order_ = false;
 };
 
-// The time that each point of a path stands for, of the first step that is compared.
+// Returns the weight of each point of a path: the duration of its phase in the first step that is
+// compared [s].
 std::vector<double> point_weights(const Record& record, const std::vector<int>& steps) {
   std::vector<double> out;
   for (const Stretch& s : record.stretches())
@@ -109,7 +111,7 @@ double step_repeat(const Figures& f, const std::string& topic) {
       point_weights(f.record, steps));
 }
 
-// Distance of the foot from where it should be, row by row.
+// Returns the distance of the foot from its desired position in each row [m].
 Column foot_error(const Record& record) {
   const Column x = record.column("/foot/position", "x"), y = record.column("/foot/position", "y");
   const Column wx = record.column("/desired/foot/position", "x");
@@ -121,9 +123,9 @@ Column foot_error(const Record& record) {
   return out;
 }
 
-// While the foot stands on the ground: does it stick (1), does it slide (0)? Else not a number.
+// Contact of the foot with the ground in each row; both are 0 while it is off the ground.
 struct Contact {
-  Column sticks, slides;  // [-], |slip velocity| [m/s]
+  Column sticks, slides;  // 1 while it sticks, else 0 [-]; |slip velocity| [m/s]
 };
 
 Contact contact(const Record& record) {
@@ -158,17 +160,16 @@ void add_stick(Figures& f) {
   if (steps > 0) f.summary.add("foot.slip_per_step_m", sum / steps);
 }
 
-// The row after the hold that follows a phase's last time, or after the phase at the sequence's
-// end.
+// Returns the end of the hold after the kick, or of the kick itself at the sequence's end.
 std::size_t end_of_hold(const Record& record, const Stretch& kick) {
   for (const Stretch& s : record.stretches())
     if (s.first == kick.last) return s.last;
   return kick.last;
 }
 
-// The kick of 6.4, from the retracted hold on: to the extended position, where the foot is wanted
-// at the end of the next hold, and to the first peak of x, which may come in that hold and lie
-// beyond.
+// Adds the figures of the kick of 6.4: the rise times of x from the retracted hold to the extended
+// position, which is the desired one at the end of the next hold, and to the first peak of x, which
+// may be later and beyond.
 void add_kick(Figures& f) {
   const int kick = find_phase(f.machine, "kick");
   const std::optional<Stretch> s = kick >= 0 ? f.record.last_of(kick) : std::nullopt;

@@ -1,4 +1,4 @@
-// joints.<j>.*, and phases.<p>.*: angles, tracking, stiffness, torque.
+// Figures joints.<j>.* and phases.<p>.*: angles, tracking, stiffness, torque.
 
 #include <algorithm>
 #include <optional>
@@ -13,16 +13,16 @@ namespace sinew::analysis {
 
 namespace {
 
-constexpr std::string_view relaxed = "relaxed";  // how such a phase's name begins
+constexpr std::string_view relaxed = "relaxed";  // prefix of such a phase's name
 
-// The row at which a relaxed joint is looked at; rows() where there is none.
+// Returns the row at which the relaxed angle of a joint is taken; rows() if no row qualifies.
 std::size_t relaxed_row(const Figures& f) {
   for (std::size_t i = f.record.stretches().size(); i-- > 0;) {
     const Stretch s = f.record.stretches()[i];
     if (phase_name(f.machine, s.phase).substr(0, relaxed.size()) == relaxed) return s.last - 1;
   }
 
-  // Settling leaves the exhausts open: in the air, where nothing else holds the joints.
+  // Settling leaves the exhausts open, and without a ground nothing else holds the joints.
   const bool settled = f.record.has_sequence() && f.record.first_row() > 0;
   if (settled && !f.machine.robot.ground.present) return f.record.first_row() - 1;
   return f.record.rows();
@@ -45,7 +45,7 @@ void add_angles(Figures& f, const std::string& joint, const std::string& key) {
   if (!real.empty()) f.summary.add(key + "relaxed_angle_true_rad", real[row]);
 }
 
-// The swings of all steps but the first, which comes from wherever the machine was put.
+// Returns the swings of all steps but the first, which depends on how the machine was placed.
 Column later_swings(const Figures& f) {
   const Column& swing = f.record.swing();
   Column out = f.record.new_column();
@@ -57,7 +57,8 @@ Column later_swings(const Figures& f) {
   return out;
 }
 
-// How the estimated speed jumps from row to row: what a velocity gain makes valves of, 6.5.
+// Adds the change of the estimated velocity from row to row: a velocity gain turns it into valve
+// pulses, 6.5.
 void add_velocity_jumps(Figures& f, const std::string& joint, const std::string& key) {
   const Column velocity = f.record.column("/joint/" + joint + "/velocity_estimate");
   if (velocity.empty()) return;
@@ -88,7 +89,7 @@ void add_control(Figures& f, const std::string& joint, const std::string& key) {
         sequence);
 }
 
-// Where one phase leaves the machine.
+// Adds angles and pressures at the end of a phase.
 void add_end(Figures& f, const std::string& key, std::size_t row) {
   const auto last = [&](const std::string& name, const std::string& topic) {
     const Column column = f.record.column(topic);
@@ -102,7 +103,7 @@ void add_end(Figures& f, const std::string& key, std::size_t row) {
     last("muscles." + m.name + ".end_pressure_Pa", "/true/muscle/" + m.name + "/pressure");
 }
 
-// Of all the times that it was gone through  [s].
+// Returns the mean duration over all occurrences of a phase  [s].
 double mean_duration(const Record& record, int phase) {
   double sum = 0, n = 0;
   for (const Stretch& s : record.stretches()) {
@@ -113,7 +114,7 @@ double mean_duration(const Record& record, int phase) {
   return sum / n;
 }
 
-// How a joint turned round on its way, of all the times that a phase was gone through.
+// Turning points of a joint's error in all occurrences of a phase.
 struct Turns {
   int times = 0, sum = 0, fewest = 0, most = 0;         // turning points
   double half_swings = 0, amplitudes = 0, largest = 0;  // their number, sum and largest [rad]
@@ -153,7 +154,7 @@ void add_turns(Figures& f, const std::string& phase_key, int phase, const std::s
   f.summary.add(key + "largest_oscillation_amplitude_rad", turns.largest);
 }
 
-// What a topic says at that row.
+// Adds the value of a topic at a row.
 void add_end_of(Figures& f, const std::string& key, std::string_view topic, std::string_view field,
                 std::size_t row) {
   const Column column = f.record.column(topic, field);
@@ -168,7 +169,7 @@ void add_joints(Figures& f) {
     add_angles(f, joint.name, key);
     add_control(f, joint.name, key);
     add_velocity_jumps(f, joint.name, key);
-    // Its passiveness is that of its muscles.
+    // The passiveness of a joint is the smallest one of its muscles.
     double commanded = no_figure, delivered = no_figure;
     for (const robot::Muscle& m : f.machine.robot.muscles) {
       if (m.joint != joint.name && m.second.joint != joint.name) continue;
@@ -197,7 +198,7 @@ void add_phases(Figures& f) {
 
 namespace {
 
-// The share of the sequence's time in which the ground carries a part of the foot, and how much.
+// Adds the share of the sequence in which the ground carries the foot, and the load.
 void add_load(Figures& f) {
   const Column load = f.record.column("/true/foot/force", "y");
   if (load.empty() || !f.machine.robot.ground.present) return;

@@ -1,5 +1,5 @@
-// rollers.*, cylinder.*, supply.*, sensors.*, muscles.*, passiveness, air, valves: the parts of a
-// machine but its joints, what they do and what they cost.
+// Figures of the parts of a machine but its joints: rollers.*, cylinder.*, supply.*, sensors.*,
+// muscles.*, passiveness, air and valves.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace sinew::analysis {
 
 namespace {
 
-// Share of the time in which a load is below zero.
+// Returns the share of the time in which a load is below zero.
 double lifted_share(const Column& load, const Column& seconds) {
   Column lifted(load.file());
   for (const double newton : load) lifted.push_back(newton < 0 ? 1.0 : 0.0);
@@ -49,7 +49,7 @@ void add_cylinder(Figures& f) {
   f.summary.add("cylinder.air_used_kg", cylinder_air(f, 0, f.record.rows() - 1));
 }
 
-// What the program of the thesis prints of its sensors, B.1.
+// Adds mean and deviation of the sensors' counts, as the program of the thesis prints them, B.1.
 void add_sensors(Figures& f) {
   for (const robot::Sensor& sensor : f.machine.robot.sensors) {
     const Column counts = f.record.column("/sensor/" + sensor.name + "/count");
@@ -59,8 +59,8 @@ void add_sensors(Figures& f) {
   }
 }
 
-// How long, how many complete steps and how far the line holds its first pressure, to a hundredth.
-// Where it holds it to the end of the sequence these are lower bounds, and their keys end in
+// Adds the time, the complete steps and the distance for which the line holds its first pressure to
+// 1 %. If it holds it to the end of the sequence these are lower bounds, and their keys contain
 // `at_least`.
 void add_endurance(Figures& f) {
   const Column line = f.record.column("/true/supply/pressure");
@@ -117,15 +117,16 @@ void add_supervision(Figures& f) {
     f.summary.add("low_level.tripped_time_s", f.record.time(static_cast<std::size_t>(first)));
 }
 
-// Adds the air that has gone into the machine and out of it, what it has grown by, and the rounding
-// between the two, for a run that logs all of its air.
+// Adds the air that entered and left the machine, the change of the air that it contains, and the
+// rounding error between them, for a run that logs all of its air.
 void add_air_balance(Figures& f) {
   const auto gained = [&](const std::string& topic) {
     const Column c = f.record.column(topic);
     return c.empty() ? 0.0 : c.back() - c.front();
   };
   if (f.record.column("/true/air/mass").empty()) return;
-  // A tank is a part of the machine: only air that passes it enters.
+  // A tank is a part of the machine: its muscles then fill from within, and only the air past the
+  // tank enters.
   const bool tank = !f.record.column("/true/supply/tank_pressure").empty();
   double entered = gained("/true/supply/air_past_tank"), left = 0, leaked = 0;
   const auto add = [&](const std::string& at) {
@@ -163,7 +164,7 @@ void add_sole(Figures& f) {
           f.record.column("/true/foot/" + p.name + "/load"), f.record.sequence());
 }
 
-// muscles.<m>.*, passiveness, air, valves: what the muscles do and what they cost.
+// --- muscles, passiveness, air, valves ---
 
 namespace {
 
@@ -175,15 +176,15 @@ double mean_duty(const Figures& f, const robot::Muscle& m, const char* what) {
   return mean(f.record.column(topic(m, what)), f.record.sequence());
 }
 
-// The valve's edges; nothing where the log or the machine has none. A valve that never opens has an
-// empty series.
+// Edges of a valve; not `logged` if the log or the machine lacks the valve. A valve that never
+// opens has an empty series.
 struct Switching {
   bool logged = false;
   Edges electrical, delivered;
   gas::Coil coil;
 };
 
-// `of` is what the valve belongs to, "hip_flexor".
+// Returns the edges of a valve of `of`, for example "hip_flexor".
 Switching switching(const Figures& f, const std::string& of, const char* which,
                     const std::string& valve) {
   const signals::Series* s = f.record.find("/valve/" + of + "/" + which + "/open");
@@ -202,7 +203,7 @@ Switching switching(const Figures& f, const robot::Muscle& m, const char* which)
   return switching(f, m.name, which, inlet ? m.inlet : m.exhaust);
 }
 
-// Of all valves, those of the cylinder last.
+// Returns the edges of all valves, those of the cylinder last.
 std::vector<Switching> all_switching(const Figures& f) {
   std::vector<Switching> out;
   for (const robot::Muscle& m : f.machine.robot.muscles)
@@ -216,7 +217,7 @@ std::vector<Switching> all_switching(const Figures& f) {
   return out;
 }
 
-// Share of the sequence's time in which the valve really stands open.
+// Computes the share of the sequence in which the valve is really open [-].
 double delivered_duty_anew(const Figures& f, const robot::Muscle& m, const char* which) {
   if (!f.record.has_sequence()) return no_figure;
   const Switching s = switching(f, m, which);
@@ -225,14 +226,14 @@ double delivered_duty_anew(const Figures& f, const robot::Muscle& m, const char*
   return open_time(s.delivered, from, to) / (to - from);
 }
 
-// Several figures ask for it.
+// Returns the same from the cache, because several figures need it.
 double delivered_duty(const Figures& f, const robot::Muscle& m, const char* which) {
   const auto [at, is_new] = f.delivered_duties.try_emplace(m.name + "/" + which);
   if (is_new) at->second = delivered_duty_anew(f, m, which);
   return at->second;
 }
 
-// Of a topic that only grows: what it gains between two rows.
+// Returns the growth of a running total between two rows.
 double gained(const Figures& f, const std::string& name, std::size_t from, std::size_t to) {
   const Column c = f.record.column(name);
   return c.empty() ? no_figure : c[to] - c[from];
@@ -242,7 +243,7 @@ double air_in(const Figures& f, const robot::Muscle& m) {
   return gained(f, "/true" + topic(m, "air_in"), 0, f.record.rows() - 1);
 }
 
-// What the converter says of a muscle's tension; nothing where it has no transducer.
+// Counts of a muscle's tension transducer; empty if it has no transducer.
 struct Reading {
   const robot::Sensor* sensor = nullptr;
   Column counts;
@@ -255,7 +256,7 @@ Reading reading(const Figures& f, std::size_t muscle) {
   return {&sensor, f.record.column("/sensor/" + sensor.name + "/count")};
 }
 
-// Share of the sequence at the converter's ceiling.
+// Returns the share of the sequence in which the reading is at the converter's upper limit [-].
 double clipped(const Figures& f, const Reading& r) {
   Column is_clipped = f.record.new_column();
   for (const double c : r.counts)
@@ -263,14 +264,14 @@ double clipped(const Figures& f, const Reading& r) {
   return mean(is_clipped, f.record.sequence());
 }
 
-// The largest tension that the controller believes: one scale for all transducers  [N].
+// Returns the largest tension by the controller's assumed scale of the transducer  [N].
 double believed_peak(const Figures& f, const Reading& r) {
   if (!r.sensor || !(r.sensor->assumed_scale > 0)) return no_figure;
   return robot::assumed_tension(*r.sensor, f.machine.robot.converter)
       .value(largest(r.counts, f.record.sequence()));
 }
 
-// All valves together, electrical, within [from, to).
+// Openings, open time and coil energy of all valves within [from, to), by the electrical edges.
 struct Use {
   double openings = 0, time = 0, energy = 0;  // [-], [s], [J]
 };
@@ -285,7 +286,7 @@ Use use_of(const std::vector<Switching>& valves, double from, double to) {
   return use;
 }
 
-// One valve whose power nobody knows, and the sum says nothing.
+// Returns whether the coil power of every valve is given: otherwise the energy is unknown.
 bool power_is_known(const std::vector<Switching>& valves) {
   return std::ranges::all_of(valves, [](const Switching& s) { return s.coil.power > 0; });
 }

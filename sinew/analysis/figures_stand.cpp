@@ -1,7 +1,7 @@
-// analysis/figures_stand.cpp - a run on the test stand in numbers, from its log alone.
+// analysis/figures_stand.cpp - figures of a run on the test stand, from its log alone.
 //
 //   stand.…    lengths, forces, pressures at their extremes, air used
-//   swing.…    of a load that swings freely: turns, period, and what [45]-[53] make of them
+//   swing.…    a load that swings freely: turning points, period, damping by [45]-[53]
 //   pulsed.…   means and ripples of the last five periods of a pulsed valve
 //   track.…    length against the desired one
 //   sweep.…    settled lengths by duty, "sweep.42_5.length_m"
@@ -25,8 +25,8 @@ using signals::Column;
 
 constexpr double seconds_per_ns = 1e-9;
 
-// Returns what a simulation knows, "/true/stand/length", or else what instruments have measured,
-// "/stand/length".
+// Returns the true channel of a simulation, "/true/stand/length", or else the measured one,
+// "/stand/length"; nullptr if both are missing or empty.
 const signals::Series* known(const signals::Table& table, const std::string& topic) {
   const signals::Series* series = table.find("/true" + topic);
   if (!series) series = table.find(topic);
@@ -42,7 +42,7 @@ struct Log {
 
   const Column* find(const std::string& topic) const { return table.column(topic); }
 
-  // Values at `time`; nothing of what was recorded at other times.
+  // Return a channel's values at `time`, or nullptr if it was recorded at other times.
   const Column* of_stand(const std::string& what) const { return at_time("/stand/" + what); }
   const Column* muscle(const std::string& what) const {
     return at_time("/muscle/" + stand.element.name + "/" + what);
@@ -80,7 +80,7 @@ void add_stand(Log& log) {
   if (edges > 0) log.summary.add("stand.switchings", static_cast<double>(edges));
 }
 
-// Where a sampled curve turns downwards: the top of the parabola through three samples.
+// A maximum of a sampled curve: the vertex of the parabola through three samples.
 struct Turn {
   double at = 0, value = 0;
 };
@@ -95,7 +95,7 @@ std::vector<Turn> tops(const Column& time, const Column& x) {
   return out;
 }
 
-// [45]-[53] with the first and the third swing; the mass is what hangs.
+// Adds the damping by [45]-[53] from the first and the third swing; the mass is the hanging load.
 void add_damping(Log& log, const std::vector<Turn>& turns, double rest, double period) {
   const double x1 = turns[0].value - rest, dx1 = turns[0].value - turns[1].value;
   const double x3 = turns[2].value - rest, dx3 = turns[2].value - turns[3].value;
@@ -109,7 +109,7 @@ void add_damping(Log& log, const std::vector<Turn>& turns, double rest, double p
     log.summary.add("swing.viscous_N_s_per_m", 2 * mass->front() / period * std::log(1 / b));
 }
 
-// A load that was let go at rest and swings down to rest.
+// Adds the figures of a load that is released from rest and swings until it rests again.
 void add_swing(Log& log) {
   const Column* length = log.of_stand("length");
   const Column* speed = log.of_stand("velocity");
@@ -139,7 +139,7 @@ struct Window {
   std::size_t begin = 0, end = 0;
 };
 
-// The samples of the last five whole periods.
+// Returns the samples of the last five whole periods of the drive.
 Window last_periods(const Log& log) {
   const double last = log.time.back(), period = log.stand.drive_period;
   const double whole = std::floor(last / period + 1e-6) * period;

@@ -1,4 +1,4 @@
-// A robot that does nothing, or that stands where it can go no further, is warned of.
+// Warnings of a robot that does nothing, or that can go no further.
 #include <gtest/gtest.h>
 
 #include "sinew/analysis/record/test_log.h"
@@ -41,7 +41,7 @@ TEST(UnopenedValves, AreThoseThatDeliverLittleOfTheirDuty) {
   EXPECT_NEAR(found[0].spans[0].to, 0.99, 1e-9);
 }
 
-// A pulse as long as the delay ends as the shutter would begin to move.
+// A pulse as long as the delay ends when the shutter would begin to move.
 TEST(UnopenedValves, APulseAsLongAsTheDelayOpensNothing) {
   Log log = walk(2);
   log.pulses("/valve/hip_flexor/exhaust/open", 2e-3, 1);

@@ -1,4 +1,4 @@
-// Legs of a machine in the log of one run: each has the figures of its own topics.
+// Figures of each leg of a machine with several legs, from its own topics.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using test::duties;
 using test::walk;
 using test::walking_leg;
 
-// A walk with everything that figures are made of; `shape` tells one from another.
+// Returns the log of a walk with all channels that figures need; `shape` makes logs differ.
 test::Log full_walk(double shape) {
   const Machine m = walking_leg();
   test::Log log = walk(3, 0.5, 0.5);
@@ -76,7 +76,7 @@ double value(const Summary& s, const std::string& key) {
   return v ? *v : std::nan("");
 }
 
-// Every figure of a leg is what it would be if its log were that of a machine with one leg.
+// Every figure of a leg equals that of a machine with one leg and the same log.
 TEST(Legs, FiguresOfEachAreThoseOfOneAlone) {
   const signals::Table left = full_walk(1).table, right = full_walk(2).table;
   const Summary two = summarize(on_two(left, right), walking_on_two());
@@ -116,7 +116,7 @@ TEST(Legs, LoadIsTheShareOfTimeOnTheGround) {
   EXPECT_NEAR(value(s, "legs.left.foot.mean_load_true_N"), 20 * 0.75 / 3, 1e-9);
 }
 
-// The trolley is pushed by the sum of the legs' forces: two equal legs push twice as much.
+// The trolley is pushed by the sum of the legs' forces: two equal legs double the push.
 TEST(Legs, ForcesOnTheTrolleyAddUp) {
   const signals::Table one = full_walk(1).table;
   Machine two = walking_on_two(), alone = walking_leg();

@@ -1,4 +1,4 @@
-// analysis/summary.h - from a log to a run in numbers.
+// analysis/summary.h - results of a run: its figures, warnings and verdicts, from its log.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ struct Analysis {
   const std::string ended;  // `why`
   const Machine machine;
   const signals::Table derived;  // channels that follow from those of the table
-  const Record record;           // of both
+  const Record record;           // `table` and `derived` as rows
   const std::vector<Warning> warnings;
   const Summary summary;
   const std::vector<Verdict> verdicts;

@@ -16,7 +16,7 @@ using test::duties;
 using test::walk;
 using test::walking_leg;
 
-// Everything that a simulated walk records, in simple curves.
+// Returns a log with every channel of a simulated walk, filled with simple curves.
 test::Log everything() {
   const Machine m = walking_leg();
   const auto curve = [](double t) { return 0.1 + 0.02 * std::sin(3 * t); };

@@ -1,4 +1,4 @@
-// summary.json: its form, and that it brings back what went in.
+// Format of summary.json, and exactness of its numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST(Json, NestsKeysInTheirOrder) {
             "}\n");
 }
 
-// Warnings of the log stand apart from those that only the computer that ran could give.
+// Warnings of the log are separate from those that depend on the computer of the run.
 TEST(Json, HasWarningsBeforeTheHost) {
   Summary s;
   s.title = "A walk";

@@ -32,8 +32,8 @@ TEST(Summary, TimesAndStepsAreThoseOfTheSequence) {
   EXPECT_NEAR(value(s, "phases.propulsion.mean_duration_s"), 0.5, 1e-12);
 }
 
-// A foot that goes on moving in the hold after the kick: x rises by 0.2 m in 0.2 s from 0.05 s on,
-// beyond the extended position at half of that way.
+// A foot that continues to move in the hold after the kick: x rises by 0.2 m in 0.2 s from 0.05 s
+// on, beyond the extended position at half of that way.
 TEST(Summary, TheKickHasATimeToTheExtendedPositionAndOneToThePeak) {
   Machine m = walking_leg();
   m.phases = m.sequence = {"retracted", "kick", "extended"};
@@ -41,7 +41,7 @@ TEST(Summary, TheKickHasATimeToTheExtendedPositionAndOneToThePeak) {
   log.scalar("/plan/phase", [](double t) { return t < 0.295 ? 0.0 : t < 0.395 ? 1.0 : 2.0; });
   log.scalar("/plan/step", constant(0));
   const double start = 0.35;
-  // Of a straight leg that swings the hip only: x = l cos(theta).
+  // The leg is straight and moves the hip only: x = l cos(theta).
   const double l = m.robot.links[0].length + m.robot.links[1].length;
   const auto x = [=](double t) {
     const double s = (t - start) / 0.2;
@@ -67,7 +67,7 @@ TEST(Summary, TheKickHasATimeToTheExtendedPositionAndOneToThePeak) {
   EXPECT_NEAR(value(to(0.2), "foot.extension_time_to_peak_s"), 0.8 * 0.2, 1e-9);
 }
 
-// A reading that is one of two counts by turns: the speed jumps by twice count / period.
+// A reading that alternates between two counts: the velocity jumps by twice count / period.
 TEST(Summary, VelocityJumpsOfAReadingThatFlickers) {
   const double count = 1.0 / 767;
   test::Log log = walk(2);
@@ -81,7 +81,7 @@ TEST(Summary, VelocityJumpsOfAReadingThatFlickers) {
   EXPECT_EQ(value(s, "joints.hip.excursion_rad"), 0);
 }
 
-// An error that turns round in one swing as often as it is told, and hardly in the others.
+// An error with four turning points in one swing, and an amplitude that is too small in the others.
 TEST(Summary, TurningPointsAreCountedPerPhaseAndTime) {
   const double deg = std::numbers::pi / 180;
   const auto error = [=](double t) {
@@ -116,7 +116,7 @@ TEST(Summary, TrackingOfASineThatLags) {
   EXPECT_NEAR(value(s, "joints.hip.min_angle_rad"), 4.8, 1e-3);
 }
 
-// A slow lag and an offset vanish, what shakes within a swing stays: here 10 Hz.
+// A slow lag and an offset vanish, an oscillation of 10 Hz within a swing remains.
 TEST(Summary, OscillationIsWhatShakesInTheSwing) {
   const double amplitude = 0.05, w = 20 * std::numbers::pi;
   test::Log log = walk(3, 0.5, 0.5);
@@ -146,7 +146,7 @@ TEST(Summary, PassivenessIsOfTheBusiestMuscleOfTheBusiestJoint) {
   EXPECT_NEAR(value(s, "muscles.knee_flexor.mean_exhaust_duty"), 0.23, 1e-14);
 }
 
-// Nothing is shut in where the valve joins its muscle to the supply or to the room.
+// A 3-way valve always joins its muscle to the supply or to the room, so it is never passive.
 TEST(Summary, A3WayValveIsNeverPassive) {
   Machine m = walking_leg();
   m.valves = {{.name = "inlet", .seals = false}};
@@ -160,7 +160,7 @@ TEST(Summary, A3WayValveIsNeverPassive) {
   EXPECT_NEAR(value(summarize(log.table, m), "muscles.hip_flexor.passiveness"), 0.7, 1e-14);
 }
 
-// Pulses of 1 ms through dead times of 0.4 and 0.9 ms: 15 % of the time, not 10.
+// Pulses of 1 ms with dead times of 0.4 and 0.9 ms deliver air for 15 % of the time, not 10.
 TEST(Summary, DeliveredDutiesCarryTheDeadTimes) {
   Machine m = walking_leg();
   m.valves = {{"inlet", 0.4e-3, 0.9e-3}, {"exhaust", 1.5e-3, 0}};
@@ -177,8 +177,8 @@ TEST(Summary, DeliveredDutiesCarryTheDeadTimes) {
   EXPECT_EQ(s.find("valves.switchings_per_m"), nullptr);  // no trolley in this log
 }
 
-// 400 pulses of 1 ms at 2 W, half of them with a boost to 10 W for 0.25 ms; nothing where the power
-// of one valve is not given.
+// 400 pulses of 1 ms at 2 W, half of them with a boost to 10 W for 0.25 ms. The figure is absent if
+// the power of one valve is not given.
 TEST(Summary, CoilsTakeTheirPowerByTheirTime) {
   Machine m = walking_leg();
   m.valves = {{"inlet", 0, 0, {.power = 2, .boost_power = 10, .boost_time = 0.25e-3}},
@@ -221,7 +221,7 @@ TEST(Summary, SpeedIsUpToTheStopOfTheTrack) {
   EXPECT_NEAR(value(summarize(log.table, m), "trolley.mean_speed_m_per_s"), 0.3, 1e-12);
 }
 
-// The estimate is the table's: zero torques, so minus the true force.
+// The torques are zero, so that the error of the estimate is minus the true force.
 TEST(Summary, GroundReactionBesideTheTrueOne) {
   test::Log log = walk(2);
   log.scalar("/joint/hip/angle", constant(5)).scalar("/joint/knee/angle", constant(5.3));
@@ -237,7 +237,8 @@ TEST(Summary, GroundReactionBesideTheTrueOne) {
   EXPECT_NEAR(value(s, "ground_reaction.estimate_mean_error_normal_N"), -4, 1e-12);
 }
 
-// A wheel turned by its axle: sticks for the first quarter of propulsion, then slides at 0.1 m/s.
+// A leg at rest under a moving trolley: sticks for the first 30 % of propulsion, else slides at
+// 0.1 m/s.
 TEST(Summary, StickShareOfTheFirstHalfOfPropulsion) {
   test::Log log = walk(2);
   log.vector("/true/foot/force", constant(0), constant(20));
@@ -255,7 +256,7 @@ TEST(Summary, StickShareOfTheFirstHalfOfPropulsion) {
   EXPECT_NEAR(value(s, "foot.slip_per_step_m"), 0.1 * 0.45 + 0.001 * 0.15, 1e-12);
 }
 
-// Steps 1 .. 3 hang 2 mm apart; step 0 is anywhere.
+// Steps 1 .. 3 are 2 mm apart; step 0 differs by much more.
 TEST(Summary, StepRepeatLeavesOutTheFirstStep) {
   test::Log log = walk(4, 0, 0.1);
   log.vector(
@@ -269,7 +270,7 @@ TEST(Summary, StepRepeatLeavesOutTheFirstStep) {
   EXPECT_NEAR(value(s, "foot.step_repeat_true_rms_m"), 0.002 * std::sqrt(2.0 / 3.0), 2e-4);
 }
 
-// A trolley that runs into the track's end in step 3: what the leg does there is no step.
+// The trolley reaches the track's end in step 3, which is therefore left out.
 TEST(Summary, StepRepeatEndsWithTheTrack) {
   test::Log log = walk(4, 0, 0.1);
   log.scalar("/true/trolley/position", [](double t) { return 0.1 * t; });
@@ -280,7 +281,7 @@ TEST(Summary, StepRepeatEndsWithTheTrack) {
   EXPECT_NEAR(value(summarize(log.table, m), "foot.step_repeat_true_rms_m"), 0, 1e-12);
   m.robot.trolley.track_length = 10;
   EXPECT_GT(value(summarize(log.table, m), "foot.step_repeat_true_rms_m"), 1);
-  m.robot.trolley.track_length = 0.25;  // one step is left: nothing to compare
+  m.robot.trolley.track_length = 0.25;  // only one step remains
   EXPECT_EQ(summarize(log.table, m).find("foot.step_repeat_true_rms_m"), nullptr);
 }
 
@@ -364,7 +365,7 @@ TEST(Summary, LogsThatHoldLittleOrNothing) {
   empty.scalar("/plan/phase", constant(0)).scalar("/joint/hip/angle", constant(0));
   EXPECT_TRUE(summarize(empty.table, walking_leg()).entries().empty());
 
-  // No row is in the sequence: only how long it took.
+  // No row is in the sequence, so that the duration is the only figure.
   test::Log idle(50);
   idle.scalar("/plan/phase", constant(-1)).scalar("/joint/hip/angle", constant(5));
   const Summary s = summarize(idle.table, walking_leg());

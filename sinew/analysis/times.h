@@ -1,4 +1,4 @@
-// analysis/times.h - when a channel shows what it should not: its samples counted, and as spans.
+// analysis/times.h - samples of a channel that fulfil a condition: their count and time spans.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace sinew::analysis {
 
-// Holds how many samples were so, of how many, and when.
+// Holds how many samples fulfilled a condition, of how many, and when.
 struct Occasions {
-  std::size_t count = 0, of = 0;  // samples
+  std::size_t count = 0, of = 0;  // samples that fulfilled it, all samples
   std::vector<Span> spans;
 
-  // Those less than 0.1 s apart are one span.
+  // Adds a sample. Samples less than 0.1 s apart form one span.
   void add(std::int64_t time_ns) {
-    constexpr double apart = 0.1;  // of two spans [s]
+    constexpr double apart = 0.1;  // least distance of two spans [s]
     const double t = static_cast<double>(time_ns) / 1e9;
     if (spans.empty() || t - spans.back().to >= apart) spans.push_back({t, t});
     spans.back().to = t;
@@ -26,7 +26,7 @@ struct Occasions {
   }
 };
 
-// The samples of a topic for which `is` holds; none where there is no such topic.
+// Returns the samples of a topic for which `is` holds; empty if the topic is missing.
 inline Occasions times_when(const signals::Table& table, const std::string& topic,
                             const std::function<bool(double)>& is) {
   Occasions out;

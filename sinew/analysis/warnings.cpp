@@ -25,7 +25,7 @@ namespace {
 
 constexpr double whole_period = 0.9999;  // a duty of 100 % as a double [-]
 
-// "<before> 3 of 100 <after>", where it ever was.
+// Adds a warning "<before> 3 of 100 <after>" if any sample counts.
 void add(std::vector<Warning>& out, Occasions times, std::string_view before,
          std::string_view after) {
   if (times.count == 0) return;
@@ -110,8 +110,8 @@ std::vector<Warning> unreachable_targets(const signals::Table& table, const robo
 
 namespace {
 
-// "<before>3 <things>" or "<before>1 <thing>", then "<after>", of a topic that counts, at the times
-// at which it grows.
+// Returns a warning "<before>3 <things><after>" or "<before>1 <thing><after>" for a topic that is
+// a running count, with the times at which it grows; empty if it never does.
 std::vector<Warning> counted(const signals::Table& table, const std::string& topic,
                              const std::string& before, std::string_view thing,
                              std::string_view things, std::string_view after) {
@@ -134,7 +134,7 @@ std::vector<Warning> overruns(const signals::Table& table) {
                  "thesis's computer locked up so (5.2)");
 }
 
-// Sensors that repeat themselves share a line: a machine that does not move has many.
+// Sensors with a frozen reading share one warning: a machine that does not move has many.
 std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robot::Robot& robot) {
   std::vector<Warning> out;
   Warning frozen;
@@ -171,7 +171,7 @@ std::vector<Warning> cut_logs(const signals::Table& table) {
 
 namespace {
 
-// A length that no muscle can have is no result.
+// Warns of a length of 0 or less, which no muscle can have.
 std::vector<Warning> beyond_the_muscle(const signals::Table& table) {
   const Column* length = table.column("/true/stand/length");
   if (!length) length = table.column("/stand/length");
@@ -212,11 +212,11 @@ std::vector<std::string> texts(const std::vector<Warning>& warnings) {
   return out;
 }
 
-// A robot that does nothing, or that stands where it can go no further: what to warn of.
+// --- A robot that does nothing, or that can go no further ---
 
 namespace {
 
-// From a topic's first sample to its last; nothing where the log does not have it.
+// Returns the change of a topic from its first sample to its last; empty if it is not logged.
 std::optional<double> gained(const signals::Table& table, const std::string& topic) {
   const signals::Series* s = table.find(topic);
   if (!s || s->columns.empty() || s->columns[0].empty()) return std::nullopt;
@@ -234,11 +234,11 @@ Span span_of(const signals::Table& table) {
   return {1e-9 * static_cast<double>(from), 1e-9 * static_cast<double>(to)};
 }
 
-// Holds the pulses of one valve of a muscle, and how much of its duty it delivers.
+// Pulses of one valve of a muscle, and the share of the commanded time that it is open for.
 struct Pulses {
   Occasions times;
   std::map<signals::Tick, std::size_t>
-      lasts;                            // how many so long, without one that the end cuts off
+      lasts;                            // number by length, without a pulse that the end cuts off
   double commanded = 0, delivered = 0;  // shares of the log's time [-]
 };
 
@@ -249,7 +249,7 @@ Pulses pulses_of(const signals::Series& series, const MachineValve& valve, doubl
     if (!list[i].open) continue;
     out.times.add(std::llround(1e9 * list[i].time));
     if (i + 1 == list.size()) continue;
-    // A pulse of a second or more is long in any period, and a long run has few lengths that way.
+    // Longer pulses count as one of this length, which keeps the number of lengths small.
     constexpr double longest = 1;  // [s]
     const double lasts = std::min(list[i + 1].time - list[i].time, longest);
     ++out.lasts[std::llround(lasts / signals::tick_seconds)];
@@ -259,7 +259,7 @@ Pulses pulses_of(const signals::Series& series, const MachineValve& valve, doubl
   return out;
 }
 
-// Returns how long half of the pulses last at most  [s].
+// Returns the median length of the pulses  [s].
 double half_lasts(const Pulses& pulses) {
   std::size_t all = 0, so_far = 0;
   for (const auto& [length, count] : pulses.lasts) all += count;
@@ -268,15 +268,15 @@ double half_lasts(const Pulses& pulses) {
   return 0;
 }
 
-// Muscles whose valves of one kind hardly open.
+// Muscles with the same valve, which hardly opens.
 struct Unopened {
   std::vector<std::string> muscles;
   Pulses worst;
   MachineValve valve;
 };
 
-constexpr double hardly = 0.1;       // delivered of what was commanded [-]
-constexpr double commanded = 0.005;  // least share of the time that counts as a duty [-]
+constexpr double hardly = 0.1;       // largest delivered share of the commanded time [-]
+constexpr double commanded = 0.005;  // smallest share of the log's time that is checked [-]
 
 void add_unopened(const signals::Table& table, const Machine& machine, const robot::Muscle& muscle,
                   bool inlet, Unopened& out) {
@@ -292,7 +292,7 @@ void add_unopened(const signals::Table& table, const Machine& machine, const rob
   Pulses pulses = pulses_of(*edges, valve, log.from, log.to);
   if (pulses.lasts.empty() || pulses.commanded < commanded) return;
   if (pulses.delivered > hardly * pulses.commanded) return;
-  // Air that went through where no pulse was long enough: then the delays are not those of the log.
+  // If air passed although no pulse was long enough, the log was made with other delays.
   const std::string moved =
       logged("/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out"));
   if (pulses.delivered == 0 && gained(table, moved).value_or(0) > 0) return;
@@ -318,7 +318,7 @@ std::string text_of(const Unopened& all, std::string_view which) {
 
 constexpr double held = units::degree;  // a desired angle that changes by less is held [rad]
 
-// Does the plan move a joint, or was an inlet told to open? A joint that is held may need no air.
+// Returns whether the plan moves a joint or opens an inlet. A joint that is held may need no air.
 bool is_commanded(const Record& record, const Machine& machine) {
   for (const robot::Joint& joint : machine.robot.joints) {
     const Column desired = record.column("/desired/joint/" + joint.name + "/angle");
@@ -385,15 +385,16 @@ std::vector<Warning> ended_tracks(const signals::Table& table, const Machine& ma
 
 namespace {
 
-constexpr double stretched = 1.1;  // of the thread: more than an end gives [-]
+constexpr double stretched = 1.1;  // limit of the length, in thread lengths [-]
 
-// A muscle across one joint alone, on a round cam: of any other it takes more than one angle.
+// Returns whether a muscle crosses this joint alone, on a round cam: the length of any other does
+// not follow from one angle and a constant arm.
 bool is_of_one_joint(const robot::Muscle& m, const robot::Joint& joint) {
   return m.joint == joint.name && m.second.joint.empty() && m.cam.angle.empty() &&
          std::isnan(m.cam.radius);
 }
 
-// Says what is wrong with the muscle's length at this angle; empty: nothing.
+// Describes why the muscle's length at this angle is impossible; empty if it is possible.
 std::string beyond(const robot::Joint& joint, const robot::Muscle& m, const actuator::Actuator& a,
                    double angle) {
   const double length = robot::muscle_length(joint, m.role, m.mount_length, angle);
@@ -418,7 +419,8 @@ std::string what_is_beyond(const Machine& machine, const robot::Joint& joint, do
   return "";
 }
 
-// The true angle; of hardware the measured one, which knows no whole turns.
+// Returns the true angle, or in a log of hardware the measured one, which does not count whole
+// turns.
 const signals::Series* angles_of(const signals::Table& table, const robot::Robot& robot,
                                  const robot::Joint& joint) {
   const std::string at = "/joint/" + joint.name + "/angle";
@@ -426,7 +428,8 @@ const signals::Series* angles_of(const signals::Table& table, const robot::Robot
   return known ? known : table.find(robot::logged_topic(robot, at));
 }
 
-// In each sample; of equal angles the log's first is the one next to the rest angle.
+// Returns the angle from rest in each sample [rad]. Whole turns are removed so that the first
+// sample is within half a turn of the rest angle.
 Column turned_from_rest(const robot::Joint& joint, const Column& angle) {
   Column out(angle.file());
   if (angle.empty()) return out;

@@ -1,4 +1,4 @@
-// analysis/warnings.h - what went on in a run that its figures do not show, from its log alone.
+// analysis/warnings.h - events of a run that its figures do not show, found in its log alone.
 #pragma once
 
 #include <string>
@@ -16,65 +16,67 @@ struct Span {
   double from = 0, to = 0;  // [s]
 };
 
-// Holds what went on in a run that no figure shows, and when.
+// An event of a run that no figure shows, and when it happened.
 struct Warning {
   std::string text;
-  std::vector<Span> spans;  // when; those less than 0.1 s apart are one
+  std::vector<Span> spans;  // events less than 0.1 s apart form one span
 };
 
-// Readings that the converter cut off. A slack muscle's 0 is none.
+// Returns a warning for each sensor whose readings the converter clipped. A tension of 0 is not
+// clipped: the muscle is slack.
 std::vector<Warning> clipped_sensors(const signals::Table&, const robot::Robot&);
 
-// The same of the test stand, by the counts alone: its transducers have 12 bits. Zeros before the
-// first other reading are none, unless there is no other: nothing was converted yet. A pressure's
-// zero is the room's.
+// Returns the same for a test stand, by the counts alone: its transducers have 12 bits. Zeros
+// before the first other reading do not count, because nothing was converted yet, unless all
+// readings are zero. A pressure of zero counts is the room's and not clipped.
 std::vector<Warning> clipped_transducers(const signals::Table&);
 
-// Rollers that the leg lifted off the track, 7.2: from there on the trolley would have tipped.
+// Warns of rollers whose load became negative, 7.2: the real trolley would have tipped there.
 std::vector<Warning> lifted_rollers(const signals::Table&);
 
-// Valves that were told to stay open for whole periods, in more than a tenth of all: their law asks
-// for more than there is. A jump of the plan does so for a few periods; that is none.
+// Warns of valves whose duty is 100 % in more than a tenth of all periods: their control law is
+// saturated. Fewer periods are left out, because a jump of the plan saturates a few.
 std::vector<Warning> saturated_duties(const signals::Table&, const robot::Robot&);
 
-// Times at which a foot was asked to where it cannot go.
+// Warns of samples in which the desired position of a foot was out of reach.
 std::vector<Warning> unreachable_targets(const signals::Table&, const robot::Robot&);
 
-// Laws that took longer than their interrupt may, 5.2.
+// Warns of control laws that took longer than their interrupt may, 5.2.
 std::vector<Warning> overruns(const signals::Table&);
 
-// Readings that the low level did not believe, or that repeated themselves while they were driven.
+// Warns of readings that the low level rejected, and of sensors whose reading did not change while
+// their muscles were driven.
 std::vector<Warning> disbelieved_sensors(const signals::Table&, const robot::Robot&);
 
-// Commands that the supervisor did not follow, and ticks that came later than it was told.
+// Warns of commands that the supervisor rejected, and of ticks that came later than announced.
 std::vector<Warning> rejected_commands(const signals::Table&);
 
-// A log that ends before its run did.
+// Warns of a log that ends before its run did.
 std::vector<Warning> cut_logs(const signals::Table&);
 
 // --- A robot that does nothing, or that can go no further ---
 
-// Valves that let through less than a tenth of what they are commanded, as their pulses are shorter
-// than they take to open: one warning for the muscles with the same valve.
+// Warns of valves that are open for at most a tenth of the commanded time, as their pulses are
+// hardly longer than they take to open. Muscles with the same valve share one warning.
 std::vector<Warning> unopened_valves(const signals::Table&, const Machine&);
 
-// Plans that moved a joint, or opened an inlet, while no muscle took any air.
+// Warns of a plan that moved a joint or opened an inlet while no muscle took any air.
 std::vector<Warning> unused_air(const signals::Table&, const Machine&);
 
-// A trolley that reached the end of its track before its sequence was over.
+// Warns of a trolley that reached the end of its track before its sequence was over.
 std::vector<Warning> ended_tracks(const signals::Table&, const Machine&);
 
-// Joints that turned by more than a whole turn, or until a muscle would be shorter than its caps or
-// longer than its thread by a tenth: no cord runs so far.
+// Warns of joints that turned by more than a whole turn, or until a muscle would be shorter than
+// its caps or longer than its thread by a tenth, which no tendon allows.
 std::vector<Warning> overturned_joints(const signals::Table&, const Machine&);
 
 // ---
 
-// All of these but cut_logs(), of which a summary has a key; of a test stand those that apply to
-// it.
+// Returns all of these but cut_logs(), for which a summary has a key; for a test stand those that
+// apply to it.
 std::vector<Warning> warnings(const signals::Table&, const Machine&);
 
-// Returns their words alone.
+// Returns the texts of warnings.
 std::vector<std::string> texts(const std::vector<Warning>&);
 
 }  // namespace sinew::analysis

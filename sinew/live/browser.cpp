@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A new file with that text, of mode 0600; "" where there cannot be one.
+// Writes a new file of mode 0600. Returns its name, or "" if it cannot be written.
 fs::path private_file(const std::string& text) {
   const char* own = std::getenv("XDG_RUNTIME_DIR");
   std::error_code none;
   const fs::path folder = own && *own ? fs::path(own) : fs::temp_directory_path(none);
-  if (folder.empty()) return {};  // TMPDIR names no folder: the address is printed all the same
+  if (folder.empty()) return {};  // TMPDIR is no folder; the address is printed anyway
   std::string name = (folder / "sinew-view-XXXXXX.html").string();
-  const int file = mkstemps(name.data(), 5);  // the letters behind the X
+  const int file = mkstemps(name.data(), 5);  // length of ".html"
   if (file < 0) return {};
   const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   ::close(file);

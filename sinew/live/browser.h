@@ -1,4 +1,4 @@
-// live/browser.h - a page in the browser of whoever sits here.
+// live/browser.h - opening of a page in the user's browser.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +6,12 @@
 
 namespace sinew::live {
 
-// Opens the address, if somebody sits here and it is not "". The words of a command can be read by
-// everybody on the machine and the address has a token, so the browser is given a file that its
-// user alone may read and that leads to the address. It is removed with this.
+// Opens an address in the browser if there is a graphical session and the address is not "". All
+// users of the computer can read the arguments of a command, and the address has a secret token.
+// The browser is therefore given a file that only its user may read and that redirects to the
+// address. The file is removed by the destructor.
 class Browser {
  public:
-  // Opens the page, where there is somebody to see it.
   explicit Browser(const std::string& url);
   ~Browser();
   Browser(const Browser&) = delete;

@@ -22,10 +22,10 @@ namespace sinew::live {
 
 namespace {
 
-// What watchers are shown: a machine's log has nothing of what only a simulation knows.
+// Topics that pages show. A machine has no true values, so topics under /true are left out.
 struct Shown {
   std::vector<signals::Topic> topics;
-  std::vector<std::uint16_t> of_topic;  // place among them of each of the run's, or not_tapped
+  std::vector<std::uint16_t> of_topic;  // index in `topics` by topic of the run, or not_tapped
 };
 
 Shown shown_of(const experiment::Experiment& e, bool simulated) {
@@ -38,10 +38,10 @@ Shown shown_of(const experiment::Experiment& e, bool simulated) {
   return out;
 }
 
-// Into the log what belongs there, everything to the watchers.
+// Passes samples to the log, if it has their topic, and to the feed.
 struct Tee {
   run::Tap log;
-  std::vector<std::uint16_t> logged;  // topic in the log of each, or not_tapped
+  std::vector<std::uint16_t> logged;  // topic of the log by topic of the run, or not_tapped
   const std::vector<std::uint16_t>& shown;
   live::Feed& feed;
 
@@ -100,7 +100,7 @@ class LiveRun::Impl {
  private:
   bool over() const { return over_.load(std::memory_order_acquire); }
 
-  // On the runner's thread, which alone touches what `over` publishes.
+  // Runs on a thread of its own. Only this thread writes the results that `over_` publishes.
   void run() {
     try {
       Tee tee{{}, {}, shown_.of_topic, feed_};
@@ -144,13 +144,14 @@ class LiveRun::Impl {
     return "{\"over\":true}";
   }
 
-  // A simulation is brought to its end, so that what it leaves is whole.
+  // Lets a simulation continue to its end at full speed, so that its files are complete, and stops
+  // a machine. A second signal aborts.
   void interrupted() {
     if (over()) return server_.stop();
     const auto now = std::chrono::steady_clock::now();
     const bool first = !ending_.exchange(true);
     if (first) asked_at_ = now;
-    // A window that closes sends several signals: a machine gets its time to come to rest.
+    // A window that closes sends several signals, so a machine is given 10 s to come to rest.
     if (!first && machine() && now - asked_at_ < std::chrono::seconds(10)) return;
     if (!first) {
       std::signal(SIGINT, SIG_DFL);
@@ -184,16 +185,16 @@ class LiveRun::Impl {
   std::chrono::steady_clock::time_point asked_at_;
   std::atomic<bool> over_{false}, ending_{false};
 
-  // The runner's, until `over`.
+  // Written by the run's thread until `over_`.
   std::exception_ptr failure_;
   std::string page_, words_;
 
-  Server server_;  // last: its end calls those above
+  Server server_;  // last, because its destructor uses the members above
 };
 
 namespace {
 
-// Refuses what can be refused before there is a folder.
+// Checks the page and the port before a folder is created.
 void require_live(Port port) {
   if (!report::has_page())
     throw std::runtime_error(

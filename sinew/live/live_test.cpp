@@ -1,4 +1,4 @@
-// A run that is watched: nothing of it changes, whoever watches; and what pages may ask.
+// Runs in progress: observation does not change a run; requests of pages.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -59,7 +59,7 @@ TEST(Feed, NobodyWhoTakesChangesNothing) {
   run::expect_same(run::run(e).table, watched.table);
 }
 
-// One that naps: it gets less, and each row that it gets is whole and true.
+// A slow reader gets fewer rows, and each of them is complete and correct.
 TEST(Feed, ASlowWatcherChangesNothingAndSeesWholeRows) {
   const Experiment e = in_air();
   Feed feed(run::topics(e), 4096);
@@ -99,10 +99,10 @@ TEST(Feed, ARowThatLacksASampleIsLeftOut) {
     feed.push(topic, t, {&value, 1});
   };
   push(0, 1), push(1, 1);
-  push(0, 2);  // its other half was lost
+  push(0, 2);  // the other sample of the row was lost
   push(2, 2);
   push(0, 3), push(1, 3);
-  push(0, 4);  // still to come
+  push(0, 4);  // not complete yet
   feed.collect();
   Feed::Position position;
   const signals::Table table = feed.since(position);
@@ -218,8 +218,7 @@ TEST(Show, EachPageGetsEverythingOnce) {
   }
 }
 
-// A change of the plan's list is marked as one of a slider is, once for each page, the release too.
-// A stand is drawn as it goes; nothing of it is changed on the way.
+// A stand is drawn during the run, and has no settings.
 TEST(Show, OfAStandHasItsDrawing) {
   Experiment e = experiment::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml");
   e.stand->duration = 1;

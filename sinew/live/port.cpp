@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t first = 20000, count = 10000;
 
-// FNV-1a: the same on every machine and with every library.
+// FNV-1a hash, which is the same on every computer and with every library.
 std::uint32_t hash(const std::string& text) {
   std::uint32_t out = 2166136261u;
   for (const char c : text) out = (out ^ static_cast<unsigned char>(c)) * 16777619u;

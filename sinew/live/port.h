@@ -1,7 +1,7 @@
-// live/port.h - where a server listens on 127.0.0.1.
+// live/port.h - port of a server on 127.0.0.1.
 //
-// A browser keeps what a reader arranged for each address with its port, so pages that are to be
-// found as they were left need the same port again: folder_port() gives a folder one of its own.
+// A browser stores the settings of a page by address and port, so a page keeps them only if its
+// port stays: folder_port() gives each folder its own.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace sinew::live {
 
-// The port that a server is to listen at.
+// Port at which a server listens.
 struct Port {
   std::uint16_t number = 0;  // 0: a free one
-  bool or_free = false;      // where the number is taken; else that is an error
+  bool or_free = false;      // use a free one if the number is taken; otherwise that is an error
 };
 
-// Returns the port of those who work in this folder, the same each time, or a free one while
-// another program has it. It is below the ports that systems hand out to connections.
+// Returns the port of a folder, the same each time, or a free one while another program uses it. It
+// is below the range of ephemeral ports.
 Port folder_port(const std::filesystem::path& folder);
 
 }  // namespace sinew::live

@@ -1,4 +1,4 @@
-// Where a server listens: the same port for the same folder, another one while it is taken.
+// Ports of a server: the same one for the same folder, another one while it is taken.
 #include "sinew/live/port.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-// live/request.h - what a page may ask of the run that it shows, as text of JSON:
+// live/request.h - requests of a page to the run that it shows, as JSON:
 //
-//   {"do": "pause"}   {"do": "resume"}   {"do": "pace", "value": 0.5}      0: as fast as it goes
+//   {"do": "pause"}   {"do": "resume"}   {"do": "pace", "value": 0.5}      0: no limit
 //   {"do": "set", "key": "control.gains.hip.angle", "value": 0.003}        in the key's SI unit
 //   {"do": "release", "key": "control.gains.hip.angle"}   {"do": "release all"}
-//   {"do": "stop"}      a machine that keeps its own time, in place of pause, resume and pace
+//   {"do": "stop"}      for a machine that keeps its own time, instead of pause, resume and pace
 #pragma once
 
 #include <charconv>
@@ -20,22 +20,22 @@
 namespace sinew::live {
 
 struct Request {
-  // Names what is asked for.
   enum class Kind { pause, resume, pace, stop, set, release, release_all };
 
   Kind kind = Kind::pause;
-  std::size_t setting = 0;  // its number
+  std::size_t setting = 0;  // index of the setting
   double value = 0;
 };
 
 inline constexpr std::size_t longest_request = 1024;  // [bytes]
 
-// Throws std::invalid_argument, which says what was found and what was expected, for anything else.
+// Reads a request. Throws std::invalid_argument with what was found and expected for any other
+// text.
 Request read_request(std::string_view text, const std::vector<gait::Setting>& settings);
 
-// Numbers in the path of a request.
+// --- Numbers in the path of a request ---
 
-// Returns the number behind `begin`, which is the whole rest of the path.
+// Returns the number after `begin`; empty if the rest of the path is not a number.
 inline std::optional<std::size_t> number_in(std::string_view path, std::string_view begin) {
   if (!path.starts_with(begin)) return std::nullopt;
   path.remove_prefix(begin.size());
@@ -45,7 +45,7 @@ inline std::optional<std::size_t> number_in(std::string_view path, std::string_v
   return out;
 }
 
-// Returns the numbers of a list "3,5,8"; nothing where anything else stands in it.
+// Returns the numbers of a list "3,5,8"; empty if the text is no such list.
 inline std::optional<std::vector<std::size_t>> numbers_in(std::string_view list) {
   std::vector<std::size_t> out;
   while (true) {
@@ -58,12 +58,12 @@ inline std::optional<std::vector<std::size_t>> numbers_in(std::string_view list)
   }
 }
 
-// The text that replies are made of.
+// --- Text of replies ---
 
-// The type of a reply that is told in words.
+// Type of a reply in plain text.
 inline constexpr const char* plain = "text/plain; charset=utf-8";
 
-// Returns a file's text as it is, nothing where it cannot be read.
+// Returns a file's text; "" if it cannot be read.
 inline std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream out;

@@ -45,10 +45,10 @@ constexpr std::size_t most_compared = 8;
 
 Reply not_found() { return {404, "Nothing is here; the runs are at runs.\n", plain}; }
 
-// The folder of a run that may be named by its log.
+// Returns the folder of a run, which may be given by its log.
 fs::path folder_of(const fs::path& run) { return fs::is_directory(run) ? run : run.parent_path(); }
 
-// Returns it in the time of this computer: "2026-11-25 02:10".
+// Returns a time in local time: "2026-11-25 02:10".
 std::string date_of(fs::file_time_type written) {
   const auto when = std::chrono::file_clock::to_sys(written);
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
@@ -58,8 +58,8 @@ std::string date_of(fs::file_time_type written) {
   return fmt::format("{:%Y-%m-%d %H:%M}", local);
 }
 
-// The lines of a resolved.toml before its first table: its title and its robot, without the
-// thousand values behind them.
+// Returns the lines of a resolved.toml before its first table, with title and robot, because
+// parsing the whole file is slow.
 std::string top_of(const fs::path& file) {
   std::ifstream in(file);
   std::string out, line;
@@ -73,7 +73,7 @@ std::string text_at(const config::Node& node, std::string_view key) {
   return found != nullptr ? config::written(*found) : "";
 }
 
-// Returns what summary.json says; nothing where the run was not finished.
+// Returns the content of summary.json; an empty object if the run was not finished.
 Json summary_in(const fs::path& folder) {
   std::ifstream in(folder / run::summary_name);
   Json out;
@@ -116,7 +116,7 @@ std::string RunsPages::told_of(std::size_t run) {
   try {
     top = config::parse_text(top_of(folder / run::resolved_name), "resolved.toml");
   } catch (const config::Error&) {
-    // The run's own page says what is wrong with the file; the list names the folder.
+    // The list shows only the folder. The run's own page reports the error.
   }
   Json out = {{"run", run}, {"folder", runs_[run].string()}, {"date", date_of(written)}};
   out["title"] = summary.string("title", text_at(top, "title"));
@@ -133,14 +133,14 @@ Reply RunsPages::list() {
   look_again();
   std::string runs;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    if (!fs::exists(runs_[i])) continue;  // somebody has removed it since
+    if (!fs::exists(runs_[i])) continue;  // was removed
     runs += (runs.empty() ? "" : ",") + told_of(i);
   }
   report::Content content;
   content.title = "Runs";
   content.json = fmt::format(R"({{"folder":{},"most":{},"runs":[{}]}})",
                              Json(folder_.string()).text(), most_compared, runs);
-  content.connect = " 'self'";  // the pictures come from here
+  content.connect = " 'self'";  // for the pictures
   return {200, report::fill(report::run_list_template(), content)};
 }
 
@@ -154,7 +154,7 @@ Reply RunsPages::picture_of(std::size_t run) const {
   try {
     if (fs::exists(recorded.resolved)) resolved = config::parse_file(recorded.resolved.string());
   } catch (const config::Error&) {
-    // The run's own page says what is wrong with the file; here it has no machine.
+    // The picture is drawn without a machine. The run's own page reports the error.
   }
   return {200, report::picture(resolved), "image/svg+xml"};
 }
@@ -196,7 +196,7 @@ Served of_runs(std::shared_ptr<RunsPages> pages) {
               }};
 }
 
-// A folder that is no run, with runs below it: their list is what is wanted.
+// Returns whether a folder is no run but has runs below it, so that their list is served.
 bool is_of_runs(const std::string& what) {
   const fs::path folder(what);
   return fs::is_directory(folder) && !fs::exists(folder / run::log_name) &&
@@ -217,7 +217,7 @@ Served served(const std::string& what, const std::string& machine, run::Notices 
     if (!what.empty()) pages->list_first();
     return of_runs(std::move(pages));
   }
-  (void)run::page_of(run::recorded_run(what), machine);  // its errors belong here
+  (void)run::page_of(run::recorded_run(what), machine);  // throws before the server starts
   return of_runs(std::make_shared<RunsPages>("", std::vector<fs::path>{what}, machine));
 }
 

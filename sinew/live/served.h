@@ -1,4 +1,4 @@
-// live/served.h - what `sinew view` serves of what is there: runs, or a study.
+// live/served.h - pages of existing files for `sinew view`: runs, or studies.
 #pragma once
 
 #include <filesystem>
@@ -15,20 +15,19 @@ namespace sinew::live {
 
 struct Served {
   std::function<Reply(std::string_view path)> get;              // for a server
-  std::function<std::string(const std::string& url)> in_words;  // what stands there
+  std::function<std::string(const std::string& url)> in_words;  // description of the pages
 };
 
-// `what`: the folder of a run, a log, or a study's file; empty: the runs below runs/, the newest
-// first. `machine`: what was run, in place of a folder's resolved.toml; may be empty. Throws
-// config::Error or log::Error where nothing of the kind is there.
+// Returns the pages of `what`: the folder of a run, a log, or a study's file; empty: the runs below
+// runs/, the newest first. `machine` is a file used instead of a run's resolved.toml; it may be
+// empty. Throws config::Error or log::Error if nothing is found.
 Served served(const std::string& what, const std::string& machine, run::Notices notices = {});
 
-// The same of several: none or one is as above, two studies' files stand beside each other.
+// Returns the pages of several files: none or one as above, or two studies on one page.
 Served served(const std::vector<std::string>& what, const std::string& machine,
               run::Notices notices = {});
 
-// The pages of recorded runs, for a server: a list of them, each of them, and
-// several beside each other.
+// --- Recorded runs: a list of them, each of them, and comparisons ---
 
 // Returns the folders below `folder` with a log, the newest first.
 std::vector<std::filesystem::path> runs_below(const std::filesystem::path& folder);
@@ -36,24 +35,24 @@ std::vector<std::filesystem::path> runs_below(const std::filesystem::path& folde
 // Serves the pages of recorded runs.
 class RunsPages {
  public:
-  // `folder`: where runs are looked for, anew whenever the list is asked for; empty: nowhere.
-  // `runs`: what is there by now, one at least; each keeps its number as long as this lives.
-  // `machine`: what was run, in place of each resolved.toml; may be empty.
+  // `folder` is searched for runs whenever the list is requested; empty: it is not. `runs` are
+  // those that exist now, at least one; each keeps its number during the lifetime of this object.
+  // `machine` is a file used instead of each resolved.toml; it may be empty.
   RunsPages(std::filesystem::path folder, std::vector<std::filesystem::path> runs,
             std::string machine);
 
-  // "/" is the list where `list_first()` was called, else the page of the first run. Besides:
-  // "/runs" the list, "/run/3" the page of the run with that number, "/picture/3" a drawing of its
-  // machine, "/compare/3,5" the page of those beside each other. A run that cannot be read answers
-  // with status 500 and the error's words.
+  // Returns the page at a path: "/" is the list if list_first() was called, else the page of the
+  // first run; "/runs" is the list, "/run/3" the page of run 3, "/picture/3" a drawing of its
+  // machine, "/compare/3,5" the comparison of two runs. A run that cannot be read gives status 500
+  // with the error's message.
   Reply get(std::string_view path);
   void list_first() { list_first_ = true; }
 
-  // Returns the runs by their numbers, as they were found so far.
+  // Returns the runs found so far, by their numbers.
   const std::vector<std::filesystem::path>& runs() const { return runs_; }
 
  private:
-  // Holds what the list tells of a run, as JSON; kept until its files change.
+  // Entry of the list for a run, as JSON; cached until its files change.
   struct Told {
     std::filesystem::file_time_type written;
     std::string json;
@@ -70,7 +69,7 @@ class RunsPages {
   std::vector<std::filesystem::path> runs_;
   const std::string machine_;
   bool list_first_ = false;
-  std::map<std::size_t, Told> told_;  // by the run's number
+  std::map<std::size_t, Told> told_;  // key: number of the run
 };
 
 }  // namespace sinew::live

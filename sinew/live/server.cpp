@@ -1,5 +1,4 @@
-// The only source that includes Boost's Asio and Beast: each of their templates takes a compiler
-// long.
+// This is the only source that includes Boost's Asio and Beast, because they compile slowly.
 #include "sinew/live/server.h"
 
 #include <fmt/format.h>
@@ -35,13 +34,13 @@ namespace sinew::live {
 
 namespace {
 
-// --- a word that cannot be guessed, as part of an address ---
+// --- token of the address ---
 
-// 128 random bits of the operating system as 32 hexadecimal digits. Throws std::runtime_error where
-// it has none.
+// Returns 128 random bits of the operating system as 32 hexadecimal digits. Throws
+// std::runtime_error if it has no random numbers.
 std::string random_token() {
   std::array<unsigned char, 16> bits{};
-  // So few bytes come whole, or not at all.
+  // A read of up to 256 bytes is never partial.
   if (getrandom(bits.data(), bits.size(), 0) != static_cast<ssize_t>(bits.size()))
     throw std::runtime_error("the operating system has no random numbers for a token");
   std::string token;
@@ -49,7 +48,7 @@ std::string random_token() {
   return token;
 }
 
-// Whether the two are the same; how long that takes tells their lengths and nothing else.
+// Returns whether two tokens are equal, in a time that depends on their lengths only.
 bool same_token(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned different = 0;
@@ -77,8 +76,8 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
 
   // Makes a WebSocket of the connection that requested one.
   void upgrade(beast::tcp_stream&& stream, const HttpRequest& request);
-  void send_frames();    // to each that is done with the last one
-  void leave_sockets();  // without another word
+  void send_frames();    // to each socket that is ready
+  void leave_sockets();  // closes all without a message
 
   void listen(Port wanted);
   Error try_to_listen(std::uint16_t port);
@@ -94,7 +93,7 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   asio::signal_set signals{io};
   Handlers handlers;
   std::map<Watcher, std::weak_ptr<Socket>> sockets;
-  std::list<Connection*> unauthorized;  // have not shown the token; the oldest first
+  std::list<Connection*> unauthorized;  // connections without the token, the oldest first
   const std::string token = random_token();
   Watcher last = 0;
   std::size_t connections = 0;
@@ -109,7 +108,7 @@ namespace websocket = beast::websocket;
 
 constexpr std::string_view ready = "ready";
 constexpr std::size_t most_answers = 32;
-constexpr bool compression = false;  // Beast would compile a whole deflate for it
+constexpr bool compression = false;  // avoids the compilation of Beast's deflate
 
 }  // namespace
 
@@ -154,7 +153,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
     });
   }
 
-  // Answers first, then a frame of what there is now, if the last one is done with.
+  // Sends pending answers first, then the current frame if the browser is ready.
   void send() {
     if (!open || sending) return;
     if (!answers.empty()) {
@@ -188,7 +187,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
   std::string out;
   std::deque<std::string> answers;
   bool open = false, sending = false;
-  bool waits = true;  // for a frame
+  bool waits = true;  // ready for a frame
 };
 
 void Server::Impl::upgrade(beast::tcp_stream&& stream, const HttpRequest& request) {
@@ -196,7 +195,7 @@ void Server::Impl::upgrade(beast::tcp_stream&& stream, const HttpRequest& reques
 }
 
 void Server::Impl::send_frames() {
-  const auto all = sockets;  // a frame may be the last of its socket
+  const auto all = sockets;  // copied, because sending may remove a socket
   for (const auto& [id, socket] : all)
     if (const auto s = socket.lock()) s->send();
 }
@@ -209,7 +208,7 @@ void Server::Impl::leave_sockets() {
 namespace {
 
 constexpr auto between_frames = std::chrono::milliseconds(40);
-constexpr auto patience = std::chrono::seconds(10);  // with a request that does not come
+constexpr auto patience = std::chrono::seconds(10);  // longest time for a request or a reply
 constexpr auto last_moment = std::chrono::seconds(1);
 constexpr std::size_t longest_head = 8 << 10;  // [bytes]
 constexpr std::size_t most_connections = 64;
@@ -229,7 +228,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
     is_known();
   }
 
-  // It has shown the token.
+  // Removes this from the unauthorized connections.
   void is_known() {
     if (place) server->unauthorized.erase(*place);
     place.reset();
@@ -295,7 +294,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   }
 
   std::shared_ptr<Impl> server;
-  std::optional<std::list<Connection*>::iterator> place;  // of it among the unauthorized
+  std::optional<std::list<Connection*>::iterator> place;  // position in `unauthorized`
   beast::tcp_stream stream;
   beast::flat_buffer buffer;
   std::optional<http::request_parser<http::string_body>> parser;
@@ -304,7 +303,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
 
 // --- the server ---
 
-// The field names this server, as a browser writes it; exactly once.
+// Returns whether a header field occurs once and has this server's name, after `before`.
 bool Server::Impl::is_ours(const HttpRequest& request, http::field field,
                            std::string_view before) const {
   if (request.count(field) != 1) return false;
@@ -314,7 +313,7 @@ bool Server::Impl::is_ours(const HttpRequest& request, http::field field,
   return false;
 }
 
-// The target begins with the token's folder.
+// Returns whether the target begins with the token.
 bool Server::Impl::has_token(std::string_view target) const {
   if (target.empty() || target[0] != '/') return false;
   const std::string_view shown = target.substr(1, token.size());
@@ -350,7 +349,7 @@ void Server::Impl::accept() {
       if (self->make_room()) std::make_shared<Connection>(self, std::move(socket))->read();
       return self->accept();
     }
-    // As of no more descriptors: they do not come by asking at once.
+    // Retries later, because an error such as a lack of file descriptors persists for a while.
     self->pause.expires_after(between_frames);
     self->pause.async_wait([self](Error stopped) {
       if (!stopped) self->accept();
@@ -358,13 +357,13 @@ void Server::Impl::accept() {
   });
 }
 
-// Returns whether there may be one more connection. The oldest that has not shown the token is
-// closed for it; one that has shown it never is.
+// Returns whether one more connection is allowed. If there are too many, the oldest one that has
+// not sent the token is closed; one that has sent it never is.
 bool Server::Impl::make_room() {
   if (connections < most_connections) return true;
   if (unauthorized.empty()) return false;
   Connection& oldest = *unauthorized.front();
-  oldest.is_known();  // it counts until it is gone
+  oldest.is_known();  // still counted until it is destroyed
   oldest.stream.close();
   return true;
 }
@@ -387,7 +386,7 @@ Server::Server(Port port, Handlers handlers) : impl_(std::make_shared<Impl>(std:
   for (const int more : impl_->handlers.signals) impl_->signals.add(more);
 }
 
-// What holds the parts together is undone: each of them holds the server.
+// Cancels all pending operations, because each of them owns a reference to the server.
 Server::~Server() {
   impl_->handlers.left = {};
   Error ignored;

@@ -1,15 +1,15 @@
-// live/server.h - pages over HTTP and WebSocket, for browsers on this machine alone.
+// live/server.h - pages over HTTP and WebSocket, for browsers on this computer only.
 //
-// Listens on 127.0.0.1. The address has a token, drawn anew by each server: whoever else uses this
-// machine can reach the port, but is told nothing and steers nothing. A request whose Host is not
-// this server's own name, as of a foreign page whose name was pointed here, is refused, and so is a
-// WebSocket that another page opens. GET only; what is served is what `get` answers: there are no
-// files. Messages are bounded. One thread. A browser says "ready" when it has dealt with a frame,
-// and gets the next one then: one that is slow gets fewer and holds nobody up.
+// It listens on 127.0.0.1. The address has a random token, so that other users of the computer can
+// connect to the port but neither read pages nor control runs. Requests with another Host header,
+// as after DNS rebinding, and WebSockets opened by other pages are refused. Only GET and HEAD are
+// allowed; all content comes from `get`, never from files. Messages are limited in size. It uses
+// one thread. A browser sends "ready" when it has processed a frame and then gets the next one: a
+// slow one gets fewer frames and does not delay others.
 //
-// A request that does not come whole within `patience`, or an answer that is not read within it,
-// ends its connection. Where there are `most_connections`, the oldest of those that have not shown
-// the token is closed for the next one.
+// A request that is not complete within `patience`, or a reply that is not read within it, ends its
+// connection. At `most_connections` the oldest one that has not sent the token is closed for a new
+// one.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace sinew::live {
 
-// The answer to a request over HTTP.
+// Reply to a request over HTTP.
 struct Reply {
   int status = 200;
   std::string body;
@@ -32,32 +32,31 @@ struct Reply {
 
 class Server {
  public:
-  using Watcher = std::uint64_t;  // a WebSocket; never used again
+  using Watcher = std::uint64_t;  // number of a WebSocket, never reused
 
   struct Handlers {
-    std::function<Reply(std::string_view path)> get;  // what stands behind the token: "/", "/runs"
-    std::function<void()> tick = {};                  // every 40 ms, whether anybody watches or not
-    // Of WebSockets; without `frame` there are none. "": nothing to send.
-    std::function<std::string(Watcher)> frame = {};  // asked for after each tick
+    std::function<Reply(std::string_view path)> get;  // path after the token: "/", "/runs"
+    std::function<void()> tick = {};                  // every 40 ms, also without connections
+    // For WebSockets, which are refused without `frame`. Both return "" to send nothing.
+    std::function<std::string(Watcher)> frame = {};  // called after each tick
     std::function<std::string(Watcher, std::string_view message)> message = {};
     std::function<void(Watcher)> left = {};
-    std::function<void()> interrupted = {};  // by Ctrl-C; without it the server stops
-    std::vector<int> signals = {};           // that are as Ctrl-C, SIGTERM and SIGHUP to it
+    std::function<void()> interrupted = {};  // called on Ctrl-C; without it the server stops
+    std::vector<int> signals = {};           // handled like Ctrl-C, SIGTERM and SIGHUP
   };
 
-  // Listens from now on. Throws std::runtime_error where the port is taken and none but it will do.
+  // Listens from now on. Throws std::runtime_error if the port is taken and no other is allowed.
   Server(Port port, Handlers handlers);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Returns where it listens.
   std::uint16_t port() const;
   std::string url() const;  // "http://127.0.0.1:8080/0f…32 digits…/"
 
-  void run();   // until stop(): calls all handlers
-  void stop();  // from any thread
-  // Sends what waits to be sent, a last frame among it, for at most a moment; then stops.
+  void run();   // serves until stop() and calls all handlers
+  void stop();  // callable from any thread
+  // Sends pending messages and a last frame, for at most 1 s; then stops.
   void finish();
 
  private:

@@ -47,7 +47,7 @@ void Feed::take(const log::Sample& sample) {
     s.columns[0].push_back(sample.values[0]);
     return;
   }
-  if (sample.time_ns != row_time_ns_) {  // one that stayed incomplete is forgotten
+  if (sample.time_ns != row_time_ns_) {  // an incomplete row is dropped
     row_time_ns_ = sample.time_ns;
     filled_ = 0;
   }
@@ -104,7 +104,7 @@ std::string_view word(What what) {
   return "";
 }
 
-// How far a slider goes where the plan has nothing but zeros: about the largest of the thesis.
+// Returns the range of a slider if the plan has only zeros: about the largest value of the thesis.
 double usual(What what) {
   switch (what) {
     case What::angle:
@@ -236,7 +236,8 @@ void Show::notice() {
   }
 }
 
-// A machine goes by its own clock, and a simulation has a plan that it goes through.
+// Returns the reason why a request is refused, or "": a machine has its own clock and cannot be
+// paused, a simulation cannot be stopped.
 std::string Show::refusal(Request::Kind kind) const {
   using enum Request::Kind;
   const bool of_time = kind == pause || kind == resume || kind == pace;

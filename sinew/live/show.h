@@ -1,5 +1,5 @@
-// live/show.h - a run while it goes, for pages: their first text, what they are sent, and what they
-// may ask. All of it belongs to one thread, the watchers'; the loop knows only feed and steering.
+// live/show.h - pages of a run in progress: their initial text, updates and requests. All of this
+// is used by the server's thread; the control loop uses only feed and steering.
 #pragma once
 
 #include <atomic>
@@ -20,39 +20,39 @@
 
 namespace sinew::live {
 
-// Holds the records of a run for its watchers: the loop pushes, a thread of the watchers collects.
+// Samples of a run for its pages: the control loop pushes, the server's thread collects.
 //
-// The loop never waits: where the watchers are behind by a whole ring, what comes is left out, and
-// with it the rest of its row. The log lacks nothing.
+// The loop never waits: if the ring is full, samples are dropped, with the rest of their row. The
+// log is not affected.
 class Feed {
  public:
-  // `topics` in the recorder's order: /valve/… are edges, the others the fields of a row. `ring`:
-  // samples between the two threads.
+  // `topics` are in the recorder's order: /valve/… are edges, the others the fields of a row.
+  // `ring` is the number of samples between the two threads.
   explicit Feed(std::vector<signals::Topic> topics, std::size_t ring = 1 << 16);
 
   // --- the loop's side ---
 
-  // One sample of the topic with this place in the list. No heap, no lock.
+  // Pushes one sample of the topic with this index. It uses neither heap nor locks.
   void push(std::size_t topic, std::int64_t time_ns, std::span<const double> values) noexcept;
 
-  // --- the watchers' side ---
+  // --- the server's side ---
 
-  // Returns what is recorded, in the order of its numbers.
+  // Returns the topics, in the order of their indices.
   std::vector<signals::Topic> topics() const;
 
-  // Takes in what has come: whole rows, and edges.
+  // Collects the pushed samples: complete rows, and edges.
   void collect();
 
-  // How far a watcher has got.
+  // Number of samples that a page has received.
   struct Position {
     std::size_t rows = 0;
-    std::vector<std::size_t> edges;  // of each of those topics
+    std::vector<std::size_t> edges;  // for each topic of edges
   };
   std::size_t rows() const { return rows_; }
-  // What was taken in since; `position` is then where it ends.
+  // Returns the samples collected since `position`, and advances it to their end.
   signals::Table since(Position& position) const;
 
-  // How many samples came too fast to be taken in.
+  // Returns the number of dropped samples.
   std::uint64_t left_out() const noexcept { return left_out_.load(std::memory_order_relaxed); }
 
  private:
@@ -66,41 +66,41 @@ class Feed {
   signals::Ring<log::Sample> ring_;
   std::atomic<std::uint64_t> left_out_{0};
 
-  // The row that is coming in.
-  std::vector<log::Sample> row_;  // by topic
+  // The incomplete row.
+  std::vector<log::Sample> row_;  // one per topic
   std::int64_t row_time_ns_ = -1;
   std::size_t filled_ = 0, rows_ = 0;
 };
 
 class Show {
  public:
-  // Where a page has got; each has its own.
+  // Samples and changes that a page has received.
   struct Position {
     Feed::Position samples;
-    std::size_t changes = 0;  // that it was told
+    std::size_t changes = 0;
   };
 
-  // All of them outlive this; `resolved` is what runs. `stop`: where a page's button stops a
-  // machine that keeps its own time; nullptr for a simulation, which can be paused. `units`: in
-  // which the page begins (config/shown_units.h), as asked for now.
+  // All arguments but `units` must outlive this. `resolved` is the experiment that runs. `stop` is
+  // set by a page's button to stop a machine that keeps its own time; nullptr for a simulation, as
+  // it can be paused. `units` are the initial units of the page (config/shown_units.h).
   Show(const experiment::Experiment& experiment, const config::Node& resolved,
        run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick,
        std::atomic<bool>* stop = nullptr, const std::string& units = "");
 
-  // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
+  // Returns the page without samples. `server` is the address that it may connect to,
+  // "127.0.0.1:8080".
   std::string page(std::string_view server) const;
 
-  // Sees what was set since, by a page or by the plan's own list. To be called at every tick of the
-  // server: what is set is marked where it is seen, at most a few rows late; the page of the
-  // finished run marks it where it took effect.
+  // Records changes of settings since the last call, by a page or by the plan's list. It has to be
+  // called at every tick of the server: a change is marked at the time of the call, at most a few
+  // rows late; the page of the finished run marks it at the time of its effect.
   void notice();
 
-  // Returns what is new to a page: JSON with `piece` (report/page/growing.h) and `changes`
-  // (report/page/changes.h), where there are any, and `state`. "" before the first row.
+  // Returns an update for a page: JSON with `piece` (report/page/growing.h) and `changes`
+  // (report/page/changes.h), if there are any, and `state`. Returns "" before the first row.
   std::string frame(Position& position);
 
-  // Does what a page asks. JSON for it alone: {"error": …} where it was nothing to be done, else
-  // "".
+  // Handles a request of a page. Returns {"error": …} for this page if it fails, else "".
   std::string answer(std::string_view request);
 
  private:
@@ -115,11 +115,11 @@ class Show {
   std::atomic<bool>* stop_;
   std::vector<gait::Setting> settings_;
   report::Growing growing_;
-  std::vector<std::optional<double>> set_;   // of each setting, where it is not the plan's own
+  std::vector<std::optional<double>> set_;   // one per setting; empty: the plan's value
   std::vector<report::PageChange> changes_;  // since the run began
 };
 
-// The largest value that the plan ever has for the setting  [its SI unit].
+// Returns the largest value of a setting in the plan  [its SI unit].
 double largest(const gait::Plan& plan, const gait::Setting& setting);
 
 }  // namespace sinew::live

@@ -24,7 +24,8 @@ StudyFeed::StudyFeed(const fs::path& file)
   }
 }
 
-// Taken before the file is read: what is written while it is read is seen the next time.
+// Returns the stamp of the file. It is taken before the file is read, so that a change during the
+// read is found at the next call.
 StudyFeed::Stamp StudyFeed::stamp() const {
   Stamp out{};
   std::size_t i = 0;
@@ -85,7 +86,7 @@ bool goes(const std::shared_future<std::filesystem::path>& run) {
 
 }  // namespace
 
-RowRuns::~RowRuns() { stop_ = true; }  // each future waits for its thread
+RowRuns::~RowRuns() { stop_ = true; }  // the futures then wait for their threads
 
 bool RowRuns::is_busy() {
   return std::ranges::count_if(runs_, [](const auto& r) { return goes(r.second); }) >= most_at_once;
@@ -104,7 +105,7 @@ std::optional<std::filesystem::path> RowRuns::folder(std::size_t row) {
 
 namespace {
 
-// A page that asks again by itself.
+// Returns a page that reloads itself.
 Reply it_goes(std::size_t row) {
   return {
       200,
@@ -149,7 +150,7 @@ Reply StudyPages::page() {
   return {200, tune::study_page(views, server)};
 }
 
-// What is wrong with a file that was there is said on the page that stands.
+// Returns new rows. An error of the file is included, and shown on the open page.
 Reply StudyPages::rows(Study& study, std::size_t known) {
   std::string error;
   try {

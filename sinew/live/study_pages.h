@@ -1,5 +1,5 @@
-// live/study_pages.h - the page of a study that may still grow, or of two beside each other, and of
-// runs of their rows, for a server.
+// live/study_pages.h - page of one or two studies that may still grow, and of runs of their rows,
+// for a server.
 #pragma once
 
 #include <array>
@@ -20,28 +20,26 @@
 
 namespace sinew::live {
 
-// A study's file as it grows: what is new in it since somebody asked.
-
-// One thread. Rows come in any order, and a row may be written anew; each of both is a change.
+// A study's file and its changes while it grows: new rows, in any order, and rows that are written
+// again. It is used by one thread.
 class StudyFeed {
  public:
   // Throws as tune::study_view() does.
   explicit StudyFeed(const std::filesystem::path& file);
 
-  // Reads the file where it was written since. Throws as tune::study_view() does; what was known
+  // Reads the file if it has changed. Throws as tune::study_view() does; the last content then
   // stays.
   void look();
 
-  // Returns the study as it was read last, and how many changes of it there were.
+  // Return the study as last read, and the number of changes so far.
   const tune::StudyView& study() const { return study_; }
   std::size_t changes() const { return changes_.size(); }
 
-  // Returns the rows of all changes but the first `known`, each once, as they are now.
+  // Returns the rows of all changes but the first `known`, each once, with their current values.
   std::vector<tune::StudyRow> since(std::size_t known) const;
 
  private:
-  using Stamp =
-      std::array<long long, 4>;  // when and how large the file is, and what SQLite has beside it
+  using Stamp = std::array<long long, 4>;  // times and sizes of the file and of its write-ahead log
 
   Stamp stamp() const;
 
@@ -49,12 +47,11 @@ class StudyFeed {
   Stamp seen_{};
   tune::StudyView study_;
   std::vector<std::size_t> changes_;       // numbers of rows
-  std::map<std::size_t, std::size_t> at_;  // of a row's number: its place
+  std::map<std::size_t, std::size_t> at_;  // index of a row by its number
 };
 
-// Runs of a study's rows, each made once, when somebody wants to look at it.
-
-// A run goes on a thread of its own; the object belongs to one thread. Its end stops those that go.
+// Runs of a study's rows, each made once on request. A run has a thread of its own; the object is
+// used by one thread. Its destructor stops unfinished runs.
 class RowRuns {
  public:
   RowRuns() = default;
@@ -62,17 +59,17 @@ class RowRuns {
   RowRuns(const RowRuns&) = delete;
   RowRuns& operator=(const RowRuns&) = delete;
 
-  // Was that row's run made, or is it being made?
+  // Returns whether the run of a row was started.
   bool has(std::size_t row) const { return runs_.contains(row); }
 
-  // Whether one more would have to wait for those that go.
+  // Returns whether the greatest number of simultaneous runs is reached.
   bool is_busy();
 
-  // Runs it as `sinew run` would, into runs/<experiment>/<n>.
+  // Starts a run as `sinew run` does, into runs/<experiment>/<n>.
   void begin(std::size_t row, const tune::StudyRun& run);
 
-  // Returns the folder that keeps the run, nothing where it still goes after a moment. Throws what
-  // the run threw.
+  // Returns the folder of a run, or empty if it does not end within 1.5 s. Throws the exception of
+  // the run.
   std::optional<std::filesystem::path> folder(std::size_t row);
 
  private:
@@ -82,14 +79,13 @@ class RowRuns {
 
 class StudyPages {
  public:
-  // One file or two. Throws as tune::study_view() does, and std::runtime_error where the library
-  // was built without its pages.
+  // Serves one file or two. Throws as tune::study_view() does, and std::runtime_error if the
+  // library was built without its pages.
   StudyPages(const std::vector<std::filesystem::path>& files, run::Notices notices);
 
-  // Returns what stands at a path: "/" is the page, "/rows/12" JSON with the rows that are new
-  // since 12 changes, "/run/3" the page of a run of row 3, which is made for it; of the second
-  // study "/b/rows/12" and "/b/run/3". A run that fails answers with status 500 and the error's
-  // words.
+  // Returns the page at a path: "/" is the study's page, "/rows/12" JSON with the rows since change
+  // 12, "/run/3" the page of a run of row 3, which is run on request; "/b/rows/12" and "/b/run/3"
+  // are those of the second study. A run that fails gives status 500 with the error's message.
   Reply get(std::string_view path);
 
  private:
@@ -98,7 +94,7 @@ class StudyPages {
 
     StudyFeed feed;
     RowRuns runs;
-    std::set<std::size_t> told;  // rows of whose folder there was a note
+    std::set<std::size_t> told;  // rows whose folder was reported
   };
 
   Reply page();
@@ -106,7 +102,7 @@ class StudyPages {
   Reply run_of(Study& study, std::size_t row);
 
   const run::Notices notices_;
-  std::deque<Study> studies_;  // runs that go cannot be moved
+  std::deque<Study> studies_;  // a deque, because unfinished runs cannot be moved
 };
 
 }  // namespace sinew::live

@@ -1,4 +1,4 @@
-// A study that is served while it grows: what is new is told once, and a row's run is the row.
+// A study that is served while it grows: each change is sent once, and rows can be run.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -89,7 +89,7 @@ TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
     EXPECT_EQ(pages.get(path).status, 404) << path;
 }
 
-// The page that stands says what became of the file.
+// The open page reports that the file was removed.
 TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
@@ -121,7 +121,7 @@ TEST_F(StudyPagesTest, RunsARowOnceAndShowsIt) {
   EXPECT_EQ(none.body, "study.db: found no row 5; expected one of 1 rows that are there\n");
 }
 
-// What cannot be run says why, in place of a page.
+// A row that cannot be run gives the reason instead of a page.
 TEST_F(StudyPagesTest, SaysWhyARowCannotRun) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   tune::Asked asked = asked_of(a_sweep());
@@ -143,7 +143,7 @@ TEST_F(StudyPagesTest, IsServedByItsFile) {
   EXPECT_THROW((void)served("", ""), std::exception) << "there is no run here";
 }
 
-// The second one's rows and runs stand below /b.
+// Rows and runs of the second study are below /b.
 TEST_F(StudyPagesTest, TwoStudiesStandBesideEachOther) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   const fs::path other = folder_ / "other.db";

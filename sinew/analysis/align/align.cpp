@@ -17,8 +17,8 @@ namespace sinew::analysis {
 namespace {
 
 constexpr double least_alike = 0.6;
-constexpr double quiet = 0.02;  // of a channel's variance: a piece with less of it says nothing
-constexpr double fastest_drift = 0.02;  // from piece to piece
+constexpr double quiet = 0.02;  // smallest share of the channel's variance in a usable piece [-]
+constexpr double fastest_drift = 0.02;  // largest rate from piece to piece [-]
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -31,7 +31,8 @@ double scale_of(std::vector<double> residuals) {
   return 1.4826 * median(std::move(residuals));
 }
 
-// The first one's time in which both are there.
+// Returns the interval in which all channels of both recordings have samples, by the first one's
+// clock.
 Interval overlap(std::span<const Pair> pairs, const Clock& clock) {
   Interval out{-INFINITY, INFINITY};
   for (const Pair& p : pairs) {
@@ -53,7 +54,8 @@ bool moves_in(const Pair& pair, double variance, const Interval& piece) {
   return n > 0 && square / n - sum / n * sum / n > quiet * variance;
 }
 
-// The best shift within `reach` of the clock's; nothing where it lies at the end of that.
+// Returns the best shift within `reach` of the clock's; empty if it is at the limit or r is too
+// low.
 std::optional<LocalShift> shift_in(std::span<const Pair> pairs, const Clock& about,
                                    const Interval& piece, double reach, double width) {
   const int side = std::max(1, static_cast<int>(std::ceil(reach / width)));
@@ -85,8 +87,8 @@ std::vector<LocalShift> local_shifts(std::span<const Pair> pairs, const Clock& a
   std::vector<double> variance;
   for (const Pair& p : pairs) variance.push_back(spread_of(p.first).variance);
 
-  // From where the clock is known to both ends: what is found in a piece is where the next one
-  // begins to look.
+  // Pieces are searched from the one at `known_at` to both ends, each beginning at the shift of the
+  // one before it.
   std::vector<LocalShift> out;
   const int pieces = static_cast<int>(count);
   const int start = std::clamp(static_cast<int>((known_at - all.from) / length), 0, pieces - 1);
@@ -111,7 +113,7 @@ std::vector<LocalShift> local_shifts(std::span<const Pair> pairs, const Clock& a
 
 namespace {
 
-// Sums of a weighted straight line through points about its first one.
+// Weighted sums for a straight line by least squares.
 struct Line {
   double w = 0, x = 0, xx = 0, y = 0, xy = 0;
   void add(double weight, double t, double d) {
@@ -120,7 +122,7 @@ struct Line {
   double det() const { return w * xx - x * x; }
 };
 
-// With the rate, or without: then `known` is it.
+// Fits the shift, and the rate if `rate`; `known` is the rate otherwise.
 ClockFit fit(std::span<const LocalShift> shifts, bool rate, double known) {
   std::vector<double> huber(shifts.size(), 1), error(shifts.size());
   ClockFit out{.clock = {0, known}, .pieces = shifts.size()};
@@ -161,11 +163,11 @@ ClockFit fit_shift(std::span<const LocalShift> shifts, double rate) {
 namespace {
 
 constexpr double least_correlation = 0.6;
-constexpr double least_fall = 0.01;       // of r within a tenth of the shorter recording
-constexpr double clearly_better = 0.005;  // with what stands still before and after
-constexpr double clearly_higher = 0.01;   // a peak above the next one
+constexpr double least_fall = 0.01;       // fall of r within a tenth of the shorter recording
+constexpr double clearly_better = 0.005;  // in likeness_at_rest(), of the best peak over the next
+constexpr double clearly_higher = 0.01;   // in r, of a peak over the next one
 
-// A wish that cannot be met; align() says of which recording.
+// Reason why an alignment is impossible; align() adds the name of the recording.
 struct Refusal {
   std::string found, expected, try_this;
 };
@@ -186,7 +188,7 @@ std::string name_of(const signals::Series& s, const signals::Field& f) {
   return s.topic.fields.size() > 1 ? s.topic.name + "." + f.name : s.topic.name;
 }
 
-// Every channel that both have, with its samples.
+// Returns every channel that both recordings have, with its samples.
 std::vector<Pair> common_pairs(const signals::Table& first, const signals::Table& other) {
   std::vector<Pair> out;
   for (const signals::Series& a : first.series) {
@@ -209,7 +211,7 @@ bool moves(const Pair& pair) {
   return spread_of(pair.first).moves() && spread_of(pair.other).moves();
 }
 
-// The place of a channel's kind in the order in which kinds are asked.
+// Returns the index of a channel's kind in the order of preference.
 std::size_t kind_of(const Pair& pair) {
   static constexpr std::array<std::string_view, 5> kinds = {"/angle", "/length", "/position",
                                                             "/tension", "/pressure"};
@@ -219,7 +221,7 @@ std::size_t kind_of(const Pair& pair) {
   return name.ends_with("/count") ? kinds.size() + 1 : kinds.size();
 }
 
-// Keeps what moves in both, of the first kind of which there is anything.
+// Returns the channels that move in both recordings, of the first kind that has any, 8 at most.
 std::vector<Pair> chosen_pairs(std::vector<Pair> all) {
   std::erase_if(all, [](const Pair& p) { return !is_of_motion(p.first.channel) || !moves(p); });
   std::size_t first = 100;
@@ -279,7 +281,7 @@ EventPair wished_event(const std::vector<Pair>& all, const AlignRequest& request
   return {*first, *other, request.event};
 }
 
-// Returns when it happens in the first one.
+// Aligns by an event. Returns its time in the first recording [s].
 double align_by_event(const std::vector<Pair>& all, const AlignRequest& request, Alignment& out) {
   EventPair found;
   if (!request.event.empty()) {
@@ -320,7 +322,7 @@ void require_clear(const Found& found, const std::string& channels) {
       "at rest");
 }
 
-// Among peaks that are nearly as high, the one whose beginning and end lie best on each other.
+// Returns, of the peaks that are nearly as high, the one at which beginnings and ends agree best.
 Clock best_of(const std::vector<Pair>& pairs, const Found& found, const std::string& channels) {
   if (found.others.empty()) return found.clock;
   Clock best = found.clock, second = found.others.front();
@@ -348,7 +350,7 @@ std::string list_of(const std::vector<std::string>& channels) {
   return fmt::format("{}", fmt::join(channels, ", "));
 }
 
-// How wide the peak of a motion is over the shift: its own, beside itself.
+// Returns the half width of the peak of the first recording's autocorrelation [s].
 double own_width(const std::vector<Pair>& pairs) {
   std::vector<Pair> own;
   for (const Pair& p : pairs) own.push_back({p.first, p.first, p.unit});
@@ -356,8 +358,8 @@ double own_width(const std::vector<Pair>& pairs) {
   return found ? found->half_width : 10 * longest_step(pairs);
 }
 
-// Shift, and rate where it is wished, from the shifts of pieces; twice, since a clock that is known
-// better makes the pieces more alike.
+// Fits the shift, and the rate on request, to the shifts of pieces; twice, because a better clock
+// makes the pieces more alike.
 void follow_clock(const std::vector<Pair>& pairs, double known_at, double half_width,
                   const AlignRequest& request, Alignment& out) {
   for (int again = 0; again < 2; ++again) {

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t at_rest = 5, stays = 3;  // samples
 
-// Between samples i-1 and i, where the signal passes the level.
+// Returns the instant between samples i-1 and i at which the signal passes the level.
 Instant between(const Signal& s, std::size_t i, double level, double noise) {
   const double t0 = s.time[i - 1], t1 = s.time[i], rise = s.value[i] - s.value[i - 1];
   const double t = t0 + (t1 - t0) * (level - s.value[i - 1]) / rise;
-  // A noisy sample says little of the slope: that over a few samples does.
+  // The slope is taken over a few samples to reduce the effect of noise.
   const std::size_t from = i > 2 ? i - 3 : 0, to = std::min(i + 2, s.time.size() - 1);
   const double slope = std::abs(s.value[to] - s.value[from]) / (s.time[to] - s.time[from]);
   const double by_noise = slope > 0 ? noise / slope : t1 - t0;
@@ -90,7 +90,7 @@ constexpr double most_steps = 4096;
 constexpr double rate_step = 0.0025, most_rate = 0.02;
 constexpr double nearly_as_high = 0.05;
 
-// Sums of products of pairs, about a first value, so that no digits are lost.
+// Sums of products of pairs, less the first pair, which avoids cancellation.
 struct Moments {
   double a0 = 0, b0 = 0, n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 
@@ -105,7 +105,7 @@ struct Moments {
   }
 };
 
-// One channel; NAN where it says nothing.
+// Returns the correlation of one channel; NaN if too few samples meet or one of both is constant.
 double correlation_of(const Pair& pair, const Clock& clock, std::optional<Interval> within,
                       std::size_t& samples) {
   const std::vector<double>& time = pair.first.time;
@@ -135,8 +135,8 @@ struct Grid {
   std::vector<double> value;
 };
 
-// Means of a signal's samples over each step, the line between them where a step has none; times
-// are divided by `slower`.
+// Returns the means of a signal's samples over each step, or a point of the line between samples if
+// a step contains none; times are divided by `slower`.
 Grid grid_of(const Signal& s, double step, double slower) {
   Grid out{s.time.front() / slower, step, {}};
   Reader reader(s);
@@ -153,14 +153,14 @@ Grid grid_of(const Signal& s, double step, double slower) {
   return out;
 }
 
-// About their mean; r does not care, rounding does.
+// Subtracts the mean, which reduces rounding errors and does not change r.
 void center(std::vector<double>& values) {
   double mean = 0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
   for (double& v : values) v -= mean;
 }
 
-// Sums of the first i values, and of their squares.
+// Prefix sums of values and of their squares.
 struct Running {
   explicit Running(const std::vector<double>& values) : sum{0}, square{0} {
     for (const double v : values) {
@@ -171,7 +171,7 @@ struct Running {
   std::vector<double> sum, square;
 };
 
-// sum a_i b_{i+k} for k from -(na - 1) to nb - 1.
+// Returns sum a_i b_{i+k} for k from -(na - 1) to nb - 1.
 std::vector<double> products(const std::vector<double>& a, const std::vector<double>& b) {
   std::size_t n = 1;
   while (n < a.size() + b.size()) n *= 2;
@@ -188,7 +188,7 @@ std::vector<double> products(const std::vector<double>& a, const std::vector<dou
   return out;
 }
 
-// r by whole steps of shift: of lag k at [k + na - 1]; NAN where they overlap too little.
+// Returns r for whole steps of shift: of lag k at [k + na - 1]; NaN if they overlap too little.
 std::vector<double> correlations(Grid a, Grid b) {
   center(a.value), center(b.value);
   const Running of_a(a.value), of_b(b.value);
@@ -214,13 +214,13 @@ std::vector<double> correlations(Grid a, Grid b) {
   return r;
 }
 
-// The mean of all channels by shift, on one grid of shifts: r[i] is of `from` + i·`step`.
+// Mean r of all channels on a grid of shifts: r[i] belongs to `from` + i·`step`.
 struct Shifts {
   double from = 0, step = 0;
   std::vector<double> r;
 };
 
-// Shifts about that which lays the beginnings of both on each other, until they do not overlap.
+// Computes r for all shifts at which both overlap; the middle one aligns their beginnings.
 Shifts shifts_of(std::span<const Pair> pairs, double step, double longest, double rate) {
   const auto steps_between = [&](double first, double other) {
     return static_cast<std::ptrdiff_t>(std::llround((other - first) / step));
@@ -249,7 +249,7 @@ Shifts shifts_of(std::span<const Pair> pairs, double step, double longest, doubl
   return out;
 }
 
-// Returns how far it is from the peak at `top` to where r is half as high, at the nearer side.
+// Returns the distance from the peak at `top` to half its height, on the nearer side [s].
 double half_width(const Shifts& s, std::size_t top) {
   const auto falls = [&](std::ptrdiff_t by) {
     auto i = static_cast<std::ptrdiff_t>(top);
@@ -260,7 +260,7 @@ double half_width(const Shifts& s, std::size_t top) {
   return s.step * static_cast<double>(std::max<std::ptrdiff_t>(1, std::min(falls(-1), falls(1))));
 }
 
-// Finds how far r falls near the peak, and other peaks.
+// Finds the fall of r near the peak, and other peaks.
 void look_around(const Shifts& s, std::size_t top, double near, Found& found) {
   double least = found.r;
   const double rate = found.clock.rate, shift_of_top = s.from + static_cast<double>(top) * s.step;
@@ -279,8 +279,8 @@ void look_around(const Shifts& s, std::size_t top, double near, Found& found) {
 
 // --- beyond beginnings and ends ---
 
-// Does a signal stand still over its first samples, a hundredth of them, or its last? Then the
-// means of both halves are the same, but for noise.
+// Returns whether a signal rests over the first hundredth of its samples, or the last: the means of
+// both halves of these differ by noise only.
 bool rests(const Signal& s, bool at_the_end) {
   const std::size_t half = std::clamp<std::size_t>(s.value.size() / 200, 5, 50);
   if (s.value.size() < 4 * half) return false;
@@ -374,12 +374,12 @@ std::optional<Found> search(std::span<const Pair> pairs, double most, bool rates
 
 namespace {
 
-// One channel's step of least squares: by how much the shift is wrong, and 1/variance of that.
+// Least-squares step of one channel: correction of the shift [s], and 1/variance of the shift.
 struct Step {
   double by = 0, information = 0;
 };
 
-// a ~ alpha·b + beta + gamma·slope, about the means of all three.
+// Normal equations of a ~ alpha·b + beta + gamma·slope, with the means of all three removed.
 struct Normal {
   double n = 0, a = 0, b = 0, c = 0, aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0;
 
@@ -418,7 +418,7 @@ Step step_of(const Pair& pair, const Clock& clock, double width, std::optional<I
   return sums.step();
 }
 
-// Shifts to the vertex of the parabola, where there is one.
+// Moves the shift to the vertex of the parabola, if it has a maximum.
 void to_vertex(std::span<const Pair> pairs, Clock& clock, double width,
                std::optional<Interval> within) {
   const auto r = [&](double by) {

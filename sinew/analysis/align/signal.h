@@ -1,9 +1,7 @@
-// analysis/align/signal.h - a channel as a function of time, for laws that lay two recordings on
-// each other.
+// analysis/align/signal.h - a channel as a function of time, for the alignment of two recordings.
 //
 //   u(t)      the straight line between the two samples around t
-//   noise     sigma^2 = mean (u_{i-1} - 2 u_i + u_{i+1})^2 / 6, which white noise of that sigma
-//             gives
+//   noise     sigma^2 = mean (u_{i-1} - 2 u_i + u_{i+1})^2 / 6, exact for white noise
 //   moves     sigma^2 < var(u)/4: neither constant nor nothing but noise
 #pragma once
 
@@ -15,28 +13,28 @@
 
 namespace sinew::analysis {
 
-// Samples that are numbers, at ascending times.
+// Finite samples at ascending times.
 struct Signal {
   std::string channel;              // "/joint/hip/angle"
   std::vector<double> time, value;  // [s], in the channel's SI unit
 
-  // Has it no samples? How long is it from the first to the last one  [s]?
   bool empty() const { return time.empty(); }
+  // Return the time from the first to the last sample, and the mean step between samples  [s].
   double duration() const { return empty() ? 0 : time.back() - time.front(); }
-  double step() const;  // between samples, on average [s]
+  double step() const;
 };
 
-// Leaves out what is no number; of samples at one time the last one stays.
+// Returns the finite samples of a recording; of several samples at one time the last one.
 Signal signal_of(std::string channel, Recording recording);
 
-// Where a signal is read at ascending times: each search goes on where the last one ended.
+// Reads a signal at ascending times: each search continues from the last one.
 class Reader {
  public:
-  // Reads this signal, which outlives it.
+  // Reads `signal`, which must outlive the reader.
   explicit Reader(const Signal& signal) : signal_(signal) {}
-  // Does t lie within its times?
+  // Returns whether t is within the signal's times.
   bool holds(double t) const { return t >= signal_.time.front() && t <= signal_.time.back(); }
-  // Returns x(t); t lies within the signal's times.
+  // Returns u(t). Requires t within the signal's times.
   double at(double t);
 
  private:
@@ -44,15 +42,15 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-// How the values of a signal are spread.
+// Statistics of a signal's values.
 struct Spread {
   double mean = 0, variance = 0;
   double noise = 0;  // sigma
   double range = 0;  // greatest less least value
-  // Is it neither constant nor nothing but noise?
+  // Returns whether the signal is neither constant nor only noise.
   bool moves() const { return variance > 0 && noise * noise < 0.25 * variance; }
 };
-// Returns how a signal's values are spread, and how much of that is noise.
+// Returns the statistics of a signal's values.
 Spread spread_of(const Signal& signal);
 
 }  // namespace sinew::analysis

@@ -1,4 +1,4 @@
-// analysis/align/test_motion.h - one motion, recorded twice: by two clocks, with noise.
+// analysis/align/test_motion.h - a motion for tests, recorded with any clock and noise.
 #pragma once
 
 #include <cmath>
@@ -19,17 +19,17 @@ inline double motion(double t) {
          0.1 * (1 - std::cos(0.37 * u));
 }
 
-// A second one, for a second channel.
+// A second motion, for a second channel.
 inline double tension(double t) { return 40 + 25 * motion(0.8 * t) + 10 * motion(1.3 * t); }
 
 struct Measured {
-  Clock clock = {};                     // what it shows beside the motion's time
-  double period = 0.01, duration = 30;  // of its samples, by its clock [s]
-  double noise = 0;                     // sigma, of the angle [rad]
+  Clock clock = {};                     // in relation to the motion's time
+  double period = 0.01, duration = 30;  // of the samples, by its clock [s]
+  double noise = 0;                     // sigma of the angle [rad]
   unsigned seed = 1;
 };
 
-// The motion, as somebody records it.
+// Adds a channel with recorded samples of the motion `of`.
 template <class Of>
 void add_channel(signals::Table& table, const std::string& name, const std::string& unit,
                  const Measured& how, double noise, Of of) {

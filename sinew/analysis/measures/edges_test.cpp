@@ -1,4 +1,4 @@
-// The place where two trains of edges part is found, be it a time, a direction or an edge too many.
+// The first difference of two trains of edges is found: a time, a direction or an additional edge.
 #include "sinew/analysis/measures/valves.h"
 
 #include <gtest/gtest.h>

@@ -8,9 +8,10 @@ namespace sinew::analysis {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double come_back = 0.1;  // of the way, that makes a peak [-]
+constexpr double come_back = 0.1;  // least return after a peak, as a share of the way [-]
 
-// Where `values` first reach `level` on their way from `from` on, in rows, straight between them.
+// Returns the row at which `values` first cross `level` in a direction, interpolated linearly; NaN
+// if they do not.
 double crossing(std::span<const double> values, double level, double direction) {
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     const double a = direction * (values[i] - level), b = direction * (values[i + 1] - level);
@@ -44,8 +45,7 @@ double repeat_rms(std::size_t paths, const PathOf& path_of, std::span<const doub
     }
   }
 
-  // Sums of each point the squared distances from the mean; not a number as soon as one path has
-  // none.
+  // Sums the squared distances from the mean by point; NaN if any path is NaN there.
   std::vector<double> spread(weights.size(), 0.0);
   for (std::size_t i = 0; i < paths; ++i) {
     const Path path = path_of(i);
@@ -88,14 +88,15 @@ Rise rise(std::span<const double> values, double period) {
   if (values.size() < 3) return {};
   const double start = values.front();
 
-  // Which way it goes: by the farthest value.
+  // The direction is that of the farthest value.
   double farthest = 0;
   for (const double v : values)
     if (std::abs(v - start) > std::abs(farthest)) farthest = v - start;
   if (farthest == 0) return {};
   const double direction = farthest > 0 ? 1 : -1;
 
-  // The first peak that it comes back from; without one, the farthest.
+  // The first peak beyond half of the farthest value with a return; without one, the farthest
+  // value.
   std::size_t peak = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double way = direction * (values[peak] - start);

@@ -20,7 +20,7 @@ TEST(Foot, SlipIsTheVelocityOfTheLowestPoint) {
   EXPECT_NEAR(slip_velocity(leg, {5.0, 5.4}, {0.7, -0.3}, r, 0.1), expected, 1e-9);
 }
 
-// n paths that are shifted by e_i along x: rms of e_i about its mean.
+// The result for n paths that are shifted by e_i along x is the rms of e_i about its mean.
 TEST(Foot, RepeatOfShiftedPathsIsTheSpreadOfTheShifts) {
   std::vector<Path> paths;
   for (const double shift : {0.0, 0.003, 0.006}) {
@@ -48,7 +48,7 @@ TEST(Foot, ProgressReadsBetweenTheRows) {
     EXPECT_NEAR(out[static_cast<std::size_t>(k)], 2.0 * (10 + 20 * (k + 0.5) / 50), 1e-12);
 }
 
-// Forwards and backwards.
+// Both directions are tested.
 TEST(Foot, RiseOfARampIsItsMiddleEightTenths) {
   for (const double way : {0.2, -0.2}) {
     std::vector<double> x(10, 1.0);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double back = 1;
 
-// A sine of n periods in `samples`, on a slope.
+// Returns a sine of n periods in `samples`, plus a slope.
 std::vector<double> sine(double amplitude, int periods, int samples, double slope = 0) {
   std::vector<double> out;
   for (int i = 0; i <= samples; ++i) {
@@ -37,7 +37,7 @@ TEST(TurningPoints, OfASineAreTwoInAPeriodAndItsAmplitudeIsBetweenThem) {
     }
 }
 
-// The sign does not matter, nor what the whole stands at.
+// Turning points do not depend on the sign or on an offset.
 TEST(TurningPoints, AreTheSameUpsideDownAndElsewhere) {
   std::mt19937 random(1);
   std::normal_distribution<double> walk(0, 0.5);
@@ -51,7 +51,7 @@ TEST(TurningPoints, AreTheSameUpsideDownAndElsewhere) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].row, b[k].row);
 
-    // They are extremes by turns, each at least `back` from the next.
+    // Maxima and minima alternate, each at least `back` from the next.
     for (std::size_t k = 1; k < a.size(); ++k) {
       const double step = a[k].value - a[k - 1].value;
       EXPECT_GE(std::abs(step), back);
@@ -69,7 +69,7 @@ TEST(TurningPoints, OfARampWithCornersAreNone) {
   EXPECT_TRUE(turning_points(sine(1, 3, 300, 60), back).empty()) << "steeper than it swings";
 }
 
-// What a lag makes at a corner of the path: it grows and dies away, and nothing swings.
+// The error of a lag at a corner of the path grows and dies away without a swing.
 TEST(TurningPoints, OfAHumpAreOneAndNoSwing) {
   std::vector<double> x;
   for (int i = -50; i <= 50; ++i) x.push_back(-0.2 * std::abs(i));

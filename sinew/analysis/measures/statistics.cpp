@@ -10,7 +10,7 @@ namespace sinew::analysis {
 std::vector<TurningPoint> turning_points(std::span<const double> values, double back) {
   std::vector<TurningPoint> out;
   TurningPoint top, bottom;  // the extremes since the last turning point
-  int direction = 0;         // in which the values go: up, down, 0 before they have gone anywhere
+  int direction = 0;         // 1 while rising, -1 while falling, 0 before the first change
   bool first = true;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const TurningPoint now{i, values[i]};
@@ -19,7 +19,8 @@ std::vector<TurningPoint> turning_points(std::span<const double> values, double 
     if (first || now.value < bottom.value) bottom = now;
     first = false;
 
-    // A turn is known once the values have come back from it; the other extreme begins here.
+    // A turning point is found once the values have come back from it; the search for the opposite
+    // extreme begins here.
     if (direction >= 0 && top.value - now.value >= back) {
       if (direction > 0) out.push_back(top);
       direction = -1;
@@ -95,14 +96,14 @@ double largest_magnitude(Values values, Seconds seconds) {
   return largest_of(values, seconds, [](double x) { return std::abs(x); });
 }
 
-// Running sums of what differs from the first reading, which keeps them small.
+// Sums the differences from the first finite value, which reduces rounding errors.
 signals::Column moving_mean(Values values, std::size_t half) {
   const std::size_t n = values.size();
   const auto first =
       std::find_if(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
   const double offset = first == values.end() ? no_value : *first;
 
-  // Up to a row, as far as it was summed up.
+  // Sum and count of all values up to a row.
   struct Sum {
     double sum = 0, count = 0;
   };
@@ -112,7 +113,7 @@ signals::Column moving_mean(Values values, std::size_t half) {
     s.count += given ? 1.0 : 0.0;
   };
   signals::Column out(values.file());
-  std::deque<Sum> sums{{}};  // those within the window
+  std::deque<Sum> sums{{}};  // sums within the window
   for (std::size_t i = 0; i < std::min(half, n); ++i) {
     sums.push_back(sums.back());
     add(sums.back(), i);

@@ -63,7 +63,7 @@ TEST(HighPass, IsNotANumberWhereTheWindowIsNotWhole) {
   for (const double x : high_passed(std::vector<double>(20, 1.0), 10)) EXPECT_TRUE(std::isnan(x));
 }
 
-// The gain of a sine: one less the mean of 2 half + 1 cosines about 0.
+// The gain of a sine is one less the mean of 2 half + 1 cosines about 0.
 TEST(HighPass, PassesASineWithItsKnownGain) {
   for (const double period : {0.1, 0.21, 0.33, 1.0, 5.0}) {
     std::vector<double> x;

@@ -37,17 +37,17 @@ TEST(Trolley, IsPushedBackAgainstTheDragToo) {
   EXPECT_NEAR(under(-12, 101).velocity.back(), a, 1e-13);
 }
 
-// Pushed for 1 s, then coasting: v^2/(2 D/M) farther, and at rest for good.
+// After 1 s of push the trolley coasts by v^2/(2 D/M) and then rests.
 TEST(Trolley, CoastsToRestAndStays) {
   std::vector<double> push(600, 0.0);
   for (std::size_t i = 0; i < 100; ++i) push[i] = 15;
-  push[100] = 15;  // straight down to zero over one sample afterwards
+  push[100] = 15;  // falls linearly to zero over one sample afterwards
   const std::vector<double> seconds(push.size(), dt);
   const TrolleyMotion m = integrate(push, seconds, drag, mass, 0);
 
   const double v = m.velocity[101];
   EXPECT_NEAR(m.velocity[100], (15 - drag) / mass, 1e-12);
-  // The step in which it stops is a trapezoid: off by at most v dt of that step.
+  // The step in which it stops is integrated as a trapezoid, with an error of at most v dt.
   EXPECT_NEAR(m.position.back() - m.position[101], 0.5 * v * v * mass / drag,
               0.5 * drag / mass * dt * dt);
   EXPECT_EQ(m.velocity.back(), 0);

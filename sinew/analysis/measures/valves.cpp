@@ -13,13 +13,13 @@ std::string word(const signals::Series& s, std::size_t i) {
   return s.columns[0][i] != 0 ? "opens" : "shuts";
 }
 
-// Edges up to `end`.
+// Counts the edges up to `end`.
 std::size_t edges(const signals::Series& s, std::int64_t end) {
   const auto it = std::ranges::upper_bound(s.time_ns, end);
   return static_cast<std::size_t>(it - s.time_ns.begin());
 }
 
-// Finds the first edge at which two trains part.
+// Finds the first edge at which two trains differ.
 std::optional<EdgeDifference> difference(const signals::Series& recorded,
                                          std::size_t recorded_edges,
                                          const signals::Series& replayed,
@@ -44,7 +44,7 @@ struct Lone {
   bool opens;
 };
 
-// Holds what is left of both trains without the edges that are equal.
+// Appends the edges of both trains that have no equal in the other one.
 void leave_out_equal(const signals::Series& a, std::size_t of_a, const signals::Series& b,
                      std::size_t of_b, std::vector<Lone>& lone_a, std::vector<Lone>& lone_b) {
   std::size_t i = 0, k = 0;
@@ -90,7 +90,8 @@ ValveEdges compared(const signals::Series& recorded, std::size_t of_recorded,
   return out;
 }
 
-// A log that was cut off is compared as far as all of it was there.
+// Returns the time up to which a log is compared: for one that was cut off, the earliest end of its
+// sensors' channels.
 std::int64_t end_of(const signals::Table& table) {
   std::int64_t end = INT64_MAX;
   if (table.complete) return end;
@@ -139,7 +140,7 @@ Edges edges_of(const signals::Times& time_ns, const signals::Column& open) {
 }
 
 Edges delivered(const Edges& electrical, double opening_delay, double closing_delay) {
-  // Edge and instant count as simultaneous within this  [s].
+  // Largest difference of times that count as simultaneous  [s].
   constexpr double simultaneous = 1e-9;
   Edges out(electrical.file());
   for (const Edge& e : electrical) {
@@ -155,7 +156,8 @@ Edges delivered(const Edges& electrical, double opening_delay, double closing_de
 
 namespace {
 
-// How long each pulse, at most `longest` of it, lies within [from, to), summed up  [s].
+// Returns the total time of pulses within [from, to), counting the first `longest` of each pulse
+// [s].
 double time_in_pulses(const Edges& edges, double from, double to, double longest) {
   double sum = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -50,7 +50,7 @@ TEST(Valves, OpenTimeIsCutAtTheWindow) {
   EXPECT_EQ(openings({}, 0, 1), 0);
 }
 
-// Without a boost it is power by time; with one, every pulse has a part of its own.
+// Without a boost the energy is power times time; with one, every pulse adds a boost.
 TEST(Valves, CoilEnergyIsPowerByTimeAndTheBoostOfEveryPulse) {
   Edges edges;
   for (const double length : {0.5e-3, 2e-3, 6e-3})
@@ -61,7 +61,7 @@ TEST(Valves, CoilEnergyIsPowerByTimeAndTheBoostOfEveryPulse) {
   EXPECT_NEAR(coil_energy(edges, boosted, 0, 1), 8.5e-3 + 8 * (0.5e-3 + 1e-3 + 1e-3), 1e-15);
 }
 
-// Parts of a run add up to it, wherever it is cut: also within a boost.
+// The energies of two parts of a run add up to that of the run, also if it is cut within a boost.
 TEST(Valves, CoilEnergyOfPartsAddsUp) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> length(1e-4, 8e-3), anywhere(0.0, 1.0);
@@ -76,7 +76,7 @@ TEST(Valves, CoilEnergyOfPartsAddsUp) {
   }
 }
 
-// 6 ms of 10 ms through 4 ms and 1 ms, 3.4: the law of the delivered duty.
+// Pulses of 6 ms in 10 ms, with delays of 4 ms and 1 ms, have a delivered duty of 30 %, 3.4.
 TEST(Valves, DutyThroughTheDelaysOfChapter3) {
   Edges edges;
   for (int i = 0; i < 100; ++i)

@@ -24,10 +24,10 @@ using Role = robot::Muscle::Role;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Collects the series; what has no column is left out.
+// Collects the series; one without values is left out.
 class Series {
  public:
-  // Topics as within the leg of that name; empty: the machine's only one.
+  // Prefixes topics with the leg of that name; empty for a machine with one leg.
   explicit Series(const Record& record, std::string leg = "")
       : record_(record), leg_(std::move(leg)) {}
 
@@ -58,7 +58,7 @@ class Series {
   std::string leg_;
 };
 
-// out[i] = of(i) where every column is there, else empty.
+// Returns out[i] = of(i), or an empty column if one of `columns` is empty.
 template <class Of, class... Columns>
 Column rowwise(const Record& record, Of of, const Columns&... columns) {
   if ((columns.empty() || ...)) return {};
@@ -71,7 +71,8 @@ bool runs_across(const robot::Muscle& muscle, const robot::Joint& joint) {
   return muscle.joint == joint.name || muscle.second.joint == joint.name;
 }
 
-// Of every muscle that runs across the joint, by its position; false where a topic is missing.
+// Sets out[k] to a column of muscle k, for every muscle across the joint. Returns false if a topic
+// is missing or no muscle crosses the joint.
 bool of_muscles(const Record& record, const Machine& m, const robot::Joint& joint,
                 const std::string& prefix, const std::string& what, std::vector<Column>& out) {
   out.assign(m.robot.muscles.size(), {});
@@ -85,7 +86,7 @@ bool of_muscles(const Record& record, const Machine& m, const robot::Joint& join
   return any;
 }
 
-// For a cam that is not round; where the angle is not logged, at rest.
+// Returns the angle for a cam that is not round, or the rest angle if the angle is not logged.
 double angle_in(const Column& angle, const robot::Joint& joint, std::size_t row) {
   return angle.empty() ? joint.rest_angle : angle[row];
 }
@@ -106,7 +107,8 @@ Column measured_torque(const Record& record, const Machine& m, std::size_t joint
   return out;
 }
 
-// Sum of r^2 dF/dL; what a cam that is not round adds by its slope is left out.
+// Returns the sum of r^2 dF/dL; the contribution of the slope of a cam that is not round is left
+// out.
 Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t joint) {
   const robot::Joint& at = m.robot.joints[joint];
   const Column angle = record.column("/true/joint/" + at.name + "/angle");
@@ -181,12 +183,13 @@ void add_leg(Series& out, const Record& record, const Machine& m) {
              rowwise(record, y(force), hip, knee, t1, t2));
 }
 
-// The trolley is pushed by the friction forces of [75], as long as they count.
+// Push of the friction forces of [75] on the trolley: in the plan's stance, and until the foot is
+// unloaded.
 struct Pushes {
   Column by_plan, loaded;  // [N]
 };
 
-// Adds the push in those rows in which it counts, asked for in their order.
+// Adds the push to `sum` in the rows for which counts(row) holds, called in ascending order.
 template <class Counts>
 void add_push(const Record& record, Column& sum, const Column& push, Counts counts) {
   Column out = record.new_column();
@@ -197,14 +200,14 @@ void add_push(const Record& record, Column& sum, const Column& push, Counts coun
   sum = std::move(out);
 }
 
-// 6.3: the friction force in stance, nothing but drag otherwise; of several legs the sum.
+// Adds the friction force of a leg in stance, 6.3; several legs add up.
 void add_pushes(const Series& of_leg, const Record& record, Pushes& sum) {
   const Column* x = of_leg.column("/foot/force", "x");
   const Column* normal = of_leg.column("/foot/force", "y");
   if (!x || !record.has_sequence()) return;
   add_push(record, sum.by_plan, *x, [&](std::size_t i) { return record.stance()[i] > 0; });
-  // And on into the swing while the normal force of [75] goes on pushing.
-  bool loaded = true;  // a leg that starts on the ground
+  // The force also counts in the swing as long as the normal force of [75] stays positive.
+  bool loaded = true;  // the leg starts on the ground
   add_push(record, sum.loaded, *x, [&](std::size_t i) {
     if (i < record.first_row() || i > record.last_row()) return false;
     loaded = record.stance()[i] > 0 || (loaded && (*normal)[i] > 0);
@@ -250,7 +253,7 @@ void add_slip(Series& out, const Record& record, const Machine& m) {
              rowwise(record, slip, angle[0], angle[1], rate[0], rate[1], trolley));
 }
 
-// All of one leg but what the trolley does.
+// Adds the series of one leg, without those of the trolley.
 void add_one(Series& out, const Record& record, const Machine& machine) {
   for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) add_joint(out, record, machine, j);
   add_passive(out, record, machine);

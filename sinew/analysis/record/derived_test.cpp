@@ -19,13 +19,13 @@ using test::walking_leg;
 constexpr double hip = 5.0, knee = 5.3;
 constexpr robot::TwoLinks links{8.875 * 0.0254, 6.25 * 0.0254};
 
-// Torques that hold `force` of the ground on the foot: T = -J^T F.
+// Returns the torques that balance a force of the ground on the foot: T = -J^T F.
 std::array<double, 2> holding(robot::Point force) {
   const robot::Jacobian j = robot::jacobian(links, hip, knee);
   return {-(j.x1 * force.x + j.y1 * force.y), -(j.x2 * force.x + j.y2 * force.y)};
 }
 
-// A leg that stands still under `force`, the extensors pulling 200 N.
+// Returns the log of a leg at rest under `force`, with 200 N in the extensors.
 test::Log standing(robot::Point force, int steps = 2) {
   const auto [t1, t2] = holding(force);
   test::Log log = walk(steps, 0, 0.5);
@@ -33,7 +33,7 @@ test::Log standing(robot::Point force, int steps = 2) {
   log.scalar("/muscle/hip_extensor/tension", constant(200));
   log.scalar("/muscle/hip_flexor/tension", constant(200 + t1 / 0.0254));
   log.scalar("/muscle/knee_extensor/tension", constant(200));
-  log.scalar("/muscle/knee_flexor/tension", constant(200 - t2 / 0.0254));  // flexion lowers it
+  log.scalar("/muscle/knee_flexor/tension", constant(200 - t2 / 0.0254));  // flexion lowers t2
   return log;
 }
 
@@ -55,16 +55,16 @@ TEST(Derived, FootStandsWhereTheAnglesSay) {
   EXPECT_DOUBLE_EQ(out.column("/foot/position", "y")->front(), foot.y);
 }
 
-// 0.6 s of stance per second push the trolley, 0.4 s of swing do not.
+// The foot pushes the trolley for 0.6 s of stance in every second, and not in 0.4 s of swing.
 TEST(Derived, TrolleyIsPushedInStanceOnly) {
   Machine m = walking_leg();
   m.robot.trolley.drag = 0;
   const double a = 9 / m.robot.trolley.total_mass;
   const signals::Table out = derive(standing({9, 25}).table, m);
-  // Straight lines at both ends of a stance add and take half a sample.
+  // The linear ramps at both ends of a stance add and subtract half a sample.
   EXPECT_NEAR(out.column("/trolley/by_plan/velocity")->back(), 1.2 * a, 1e-12);
 
-  // Loaded all the time: it never lifts off before the sequence ends.
+  // The foot is loaded until the sequence ends.
   EXPECT_NEAR(out.column("/trolley/velocity")->back(), (2.0 - 0.005) * a, 1e-9);
 }
 
@@ -81,7 +81,7 @@ TEST(Derived, LiftoffIsWhereTheNormalForceEnds) {
   m.robot.trolley.drag = 0;
   const double a = 9 / m.robot.trolley.total_mass;
   test::Log log = standing({9, 25}, 1);
-  // From 0.2 s of the swing on the tensions are equal: no force.
+  // From 0.2 s of the swing on the tensions are equal, so that the force is 0.
   for (signals::Series& s : log.table.series)
     if (s.topic.name.ends_with("tension"))
       for (std::size_t i = 20; i < 40; ++i) s.columns[0].set(i, 200);
@@ -109,7 +109,7 @@ TEST(Derived, SingularPosesAndMissingReadingsGiveNoForce) {
   EXPECT_TRUE(std::isfinite(out.column("/trolley/by_plan/position")->back()));
 }
 
-// Two actuators of known braid on one side, a slack cord on the other.
+// Two actuators of known braid on one side, a slack tendon on the other.
 TEST(Derived, TrueStiffnessIsThatOfTheLawTimesTheSquareOfTheArm) {
   Machine m = walking_leg();
   actuator::Actuator& a = m.actuators.front();

@@ -1,9 +1,8 @@
-// analysis/record/legs.h - a machine's several legs, each as a machine of its own, and what of a
-// summary is theirs.
+// analysis/record/legs.h - legs of a machine with several ones, each as a machine of its own.
 //
-// What a log holds of leg `left` stands under /leg/left; a Record of that leg calls it as if there
-// were no other, so that all figures of a leg are made by the same lines. In a summary they stand
-// under legs.left.
+// Topics of leg `left` are under /leg/left in a log. A Record of that leg reads them by their names
+// without that prefix, so that the same code computes the figures of a leg and of a machine with
+// one leg. In a summary they are under legs.left.
 #pragma once
 
 #include <string>
@@ -19,7 +18,7 @@ struct MachineLeg {
   Machine machine;  // with the joints, muscles and foot of that leg alone, named as within it
 };
 
-// None of a machine without [leg.*]: it is its own leg.
+// Returns the legs; empty for a machine without [leg.*], which is its own leg.
 std::vector<MachineLeg> legs_of(const Machine&);
 
 }  // namespace sinew::analysis

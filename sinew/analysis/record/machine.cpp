@@ -20,7 +20,7 @@ using units::Field;
 constexpr std::array<std::string_view, 2> stance_phases = {"foot_plant", "propulsion"};
 constexpr std::string_view swing_phase = "swing";
 
-// Tables whose keys matter to others; here only that they are there.
+// A table of which only the name is read.
 struct Named {
   std::string name;
 };
@@ -58,7 +58,7 @@ void read_parts(config::Reader& reader, Machine& m) {
   }
 }
 
-// Reads when valves open and what their coils take. A log from elsewhere need not have more.
+// Reads the delays and coils of the valves. A log of another program may lack the other keys.
 void read_valves(const config::Node& root, Machine& m) {
   config::Reader reader(root, {.atmosphere = m.atmosphere, .of_a_log = true});
   std::vector<gas::Valve> valves;

@@ -1,8 +1,8 @@
-// analysis/record/machine.h - what the numbers of a log mean: the machine, the phases' names, what
-// is reported of the run. Read from the composed experiment, or from the resolved.toml beside a
-// log.
+// analysis/record/machine.h - description of the machine of a log: its parts, the phases' names and
+// the figures that the source reports of the run. It is read from the composed experiment, or from
+// the resolved.toml next to a log.
 //
-// Only what analysis needs is read, so a file may hold more than this folder knows of.
+// Only the keys that analysis needs are read; a file may have others.
 #pragma once
 
 #include <optional>
@@ -21,18 +21,18 @@
 
 namespace sinew::analysis {
 
-// What of a valve's table matters here: when it follows its coil, and what that takes.
+// Delays and coil of a valve.
 struct MachineValve {
   std::string name;
-  double opening = 0, closing = 0;  // from the edge until half of the way is done; ideal: 0 [s]
+  double opening = 0, closing = 0;  // time from the edge to half of the stroke; ideal: 0 [s]
   gas::Coil coil;
   bool seals = true;  // false: a 3-way valve, which joins its muscle to the supply or to the room
-  double shut = 0;    // from the edge that opens it until the shutter moves [s]
+  double shut = 0;    // time from the opening edge until the shutter moves [s]
 };
 
-// A test stand, and what of its drive matters here.
+// A test stand with the kind and the period of its drive.
 struct MachineStand : robot::Stand {
-  std::string drive = "none";  // its kind
+  std::string drive = "none";  // kind of the drive
   double drive_period = 0.04;  // [s]
 };
 
@@ -41,13 +41,13 @@ struct Machine {
   std::string reproduces;
 
   robot::Robot robot;
-  std::optional<MachineStand> stand;  // in the robot's place, which is empty then
+  std::optional<MachineStand> stand;  // if it is given, `robot` is empty
   std::vector<actuator::Actuator> actuators;
   std::vector<MachineValve> valves;
   double atmosphere = units::atmosphere;  // [Pa]
 
-  std::vector<std::string> phases;    // in the file's order: the position is /plan/phase
-  std::vector<std::string> sequence;  // of one step
+  std::vector<std::string> phases;    // in the file's order: /plan/phase is the index
+  std::vector<std::string> sequence;  // phases of one step
   double period = 0.01;               // between samples [s]
   std::vector<Reported> reported;
   std::vector<MachineFault> faults;
@@ -57,21 +57,22 @@ struct Machine {
 // mistakes in the keys that are read.
 Machine read_machine(const config::Node& root);
 
-// Positions in Machine::phases by what 5.4 calls them: `foot_plant` and `propulsion` are stance,
-// `swing` is swing. Any other phase is neither.
+// Return whether a phase, an index of Machine::phases, is stance or swing by its name in 5.4:
+// `foot_plant` and `propulsion` are stance, `swing` is swing. Any other phase is neither.
 bool is_stance(const Machine&, int phase);
 bool is_swing(const Machine&, int phase);
 std::string_view phase_name(const Machine&, int phase);  // empty outside the sequence
 int find_phase(const Machine&, std::string_view name);   // -1: no such phase
 
-// A foot at the end of two links: where the thesis's kinematics and [75] apply.
+// Returns whether the machine is a foot at the end of two links, for which the thesis's kinematics
+// and [75] apply.
 bool has_leg(const Machine&);
 
-// A valve by its name; one without delays and power for an unknown one.
+// Returns a valve by its name, or one without delays and power if the name is unknown.
 MachineValve valve_of(const Machine&, std::string_view valve);
 
-// Share of a time with a muscle's valves shut, of their duties in it  [-], 6.3: 1 - (inlet +
-// exhaust); 0 with a valve that never seals.
+// Returns the share of the time in which both valves of a muscle are shut  [-], 6.3, from their
+// duties: 1 - (inlet + exhaust); 0 with a valve that never seals.
 double passive(const Machine&, const robot::Muscle&, double inlet_duty, double exhaust_duty);
 
 }  // namespace sinew::analysis

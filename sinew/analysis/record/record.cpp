@@ -54,7 +54,7 @@ void Record::find_times() {
   time_ns_ = base->time_ns;
   const std::size_t n = time_ns_.size();
   last_ns_ = n > 1 ? time_ns_[n - 1] - time_ns_[n - 2] : std::llround(1e9 * period_);
-  // Few differ, so that the median is counted out.
+  // Few durations differ, so that the median is found by counting them.
   seconds_ = new_column();
   std::map<double, std::size_t> of_length;
   for (std::size_t i = 0; i < n; ++i) {
@@ -104,7 +104,7 @@ Column Record::part(int phase, double from, double to) const {
   });
 }
 
-// In one table.
+// Finds a topic in one table.
 const signals::Series* Record::find_in(const signals::Table& table, std::string_view topic) const {
   if (const signals::Series* found = table.find(topic); found || leg_.empty()) return found;
   if (const signals::Series* found = table.find(robot::logged_topic(machine_->robot, topic)))
@@ -139,7 +139,7 @@ std::optional<Stretch> Record::last_of(int phase) const {
 }
 
 std::vector<int> Record::complete_steps() const {
-  std::map<int, std::size_t> phases;  // of each step
+  std::map<int, std::size_t> phases;  // number by step
   for (const Stretch& s : stretches_) ++phases[s.step];
   std::size_t whole = 0;
   for (const auto& [step, n] : phases) whole = std::max(whole, n);

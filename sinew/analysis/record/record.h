@@ -1,10 +1,10 @@
-// analysis/record/record.h - a log as rows: every topic at the same times, and which phase each row
-// is in.
+// analysis/record/record.h - a log as rows: every topic at the same times, and the phase of each
+// row.
 //
-// Rows stand at the samples of /plan/phase, or of the first joint's angle where a log has no plan.
-// Of a machine with several legs, those of the first leg's plan, or of the leg that is asked for.
-// A topic with other times is held from one of its samples to the next. A row holds until the next
-// one; the last one as long as the one before it.
+// Rows have the times of /plan/phase, or of the first joint's angle if a log has no plan. For a
+// machine with several legs they are those of the given leg's plan, by default of the first leg's.
+// A topic with other times is held from one of its samples to the next. A row lasts until the next
+// one; the last one lasts as long as the one before it.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace sinew::analysis {
 
-using signals::Column;  // a value per row; empty: the log has no such topic
+using signals::Column;  // a value per row; empty if the log lacks the topic
 
 // One phase of one step: rows first .. last - 1.
 struct Stretch {
@@ -30,53 +30,56 @@ struct Stretch {
 
 class Record {
  public:
-  // `more` may hold derived series; all three outlive the record. `leg`: the name of the leg that
-  // the machine is a part of (only_leg), whose topics are then called as within it.
+  // `more` may hold derived series; all three must outlive the record. `leg` is the name of the leg
+  // if the machine is one leg of several (only_leg); its topics are then found by their names
+  // without the leg's prefix.
   Record(const signals::Table& table, const Machine& machine, const signals::Table* more = nullptr,
          std::string leg = "");
 
-  // How many rows there are, and when one begins.
+  // Number of rows, and their times.
   std::size_t rows() const { return seconds_.size(); }
   const signals::Times& time_ns() const { return time_ns_; }
   double time(std::size_t row) const { return static_cast<double>(time_ns_[row]) / 1e9; }  // [s]
   double end_of(std::size_t row) const { return static_cast<double>(end_ns(row)) / 1e9; }  // [s]
-  // From the start of row `first` to the end of row `last`  [s].
+  // Returns the time from the start of row `first` to the end of row `last`  [s].
   double lasting(std::size_t first, std::size_t last) const {
     return static_cast<double>(end_ns(last) - time_ns_[first]) / 1e9;
   }
   double lasting(const Stretch& s) const { return lasting(s.first, s.last - 1); }
   double period() const { return period_; }  // median [s]
 
-  // Topics by the names of the machine, or as within its leg; nullptr: in none of the tables.
+  // Return a topic by its name in the log, or in the leg; nullptr or an empty column if neither
+  // table has it.
   const signals::Series* find(std::string_view topic) const;
   Column column(std::string_view topic, std::string_view field = "value") const;
   const signals::Table& table() const { return *table_; }
 
-  // A column for a value per row, to be filled row by row: it goes where the log's own are.
+  // Returns an empty column to be filled row by row, stored in the same file as the log's columns.
   Column new_column() const { return Column(time_ns_.file()); }
 
-  // How long each row holds; 0 where it does not belong  [s].
+  // Return the duration of each row [s]: of all rows, or of those in the sequence, in stance or in
+  // swing, and 0 for the others.
   const Column& run() const { return seconds_; }
   const Column& sequence() const { return sequence_; }
   const Column& stance() const { return stance_; }
   const Column& swing() const { return swing_; }
-  // Rows of that phase (-1: any), with progress in [from, to) of its time.
+  // Returns the same for rows of a phase (-1: any) whose progress is in [from, to).
   Column part(int phase, double from, double to) const;
 
-  // The phases of all steps, as they came.
+  // Returns the phases of all steps in the order of time.
   const signals::PagedVector<Stretch>& stretches() const { return stretches_; }
-  std::optional<Stretch> last_of(int phase) const;  // none: the phase never was
-  // Is there a sequence of phases at all? Its first and last row are asked for only then.
+  std::optional<Stretch> last_of(int phase) const;  // empty if the phase did not occur
+  // Returns whether the log has a sequence of phases. The functions below require one.
   bool has_sequence() const { return !stretches_.empty(); }
   std::size_t first_row() const { return stretches_.front().first; }
   std::size_t last_row() const { return stretches_.back().last - 1; }
-  // The row at which the sequence is over; its last one where nothing was logged afterwards.
+  // Returns the row after the sequence, or its last one if nothing was logged afterwards.
   std::size_t end_row() const { return last_row() + 1 < rows() ? last_row() + 1 : last_row(); }
   double sequence_start() const { return time(first_row()); }  // [s]
   double sequence_end() const { return end_of(last_row()); }   // [s]
   double sequence_lasts() const { return lasting(first_row(), last_row()); }
 
-  // Steps that went through every phase. Of a log that was cut the last one is not.
+  // Returns the steps that went through every phase. The last step of a cut-off log is left out.
   std::vector<int> complete_steps() const;
 
  private:
@@ -87,22 +90,22 @@ class Record {
   const signals::Series* logged(std::string_view topic) const;  // in the log itself
   void find_times();
   void find_stretches();
-  // How long each row holds for which a stretch is wanted; 0 for the others.
+  // Returns the durations of the rows for which wanted(stretch)(row) holds, and 0 for the others.
   template <class Wanted>
-  Column only(Wanted wanted) const;  // wanted(stretch)(row)
+  Column only(Wanted wanted) const;
 
   const signals::Table* table_;
   const signals::Table* more_;
   const Machine* machine_;
-  std::string leg_;  // whose plan and foot are meant; empty: the machine's only one
+  std::string leg_;  // leg whose topics are read; empty for a machine with one leg
   signals::Times time_ns_;
-  std::int64_t last_ns_ = 0;  // how long the last row holds
+  std::int64_t last_ns_ = 0;  // duration of the last row
   Column seconds_, sequence_, stance_, swing_;
   double period_ = 0;
   signals::PagedVector<Stretch> stretches_;
 };
 
-// Values at `at`, each held until the next one; not a number before the first.
+// Returns the values at the times `at`, each held until the next one; NaN before the first.
 Column held(const signals::Times& times, const Column& values, const signals::Times& at);
 
 }  // namespace sinew::analysis

@@ -1,4 +1,4 @@
-// analysis/record/test_log.h - logs of closed form: columns that a test fills by formula, at 10 ms.
+// analysis/record/test_log.h - logs for tests: columns filled by formulas, a sample every 10 ms.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace sinew::analysis::test {
 
 inline constexpr double dt = 0.01;
 
-using Of = std::function<double(double)>;  // of time [s]
+using Of = std::function<double(double)>;  // function of time [s]
 
 class Log {
  public:
@@ -30,7 +30,7 @@ class Log {
     table.series.push_back({{topic, "", {{"x", ""}, {"y", ""}}}, times_, {values(x), values(y)}});
     return *this;
   }
-  // A valve that is open for `pulse` from the start of every 10 ms until `end`.
+  // Adds the edges of a valve that is open for `pulse` from the start of every 10 ms until `end`.
   Log& pulses(const std::string& topic, double pulse, double end) {
     signals::Series s{{topic, "", {{"value", "1"}}}, {}, {{}}};
     for (double t = 0; t < end - 1e-9 && pulse > 0; t += dt)
@@ -58,7 +58,7 @@ inline Of constant(double value) {
   return [value](double) { return value; };
 }
 
-// The thesis's leg with the phases of its walk.
+// Returns the thesis's leg with the phases of its walk.
 inline Machine walking_leg() {
   Machine m;
   m.title = "A walk";
@@ -69,13 +69,13 @@ inline Machine walking_leg() {
   return m;
 }
 
-// A step of 1 s: swing to 0.4 s, foot plant to 0.5 s, propulsion.
+// Returns the phase in a step of 1 s: swing to 0.4 s, foot plant to 0.5 s, then propulsion.
 inline int phase_at(double t) {
   const double s = std::fmod(t + 1e-9, 1.0);
   return s < 0.4 ? 0 : s < 0.5 ? 1 : 2;
 }
 
-// `steps` seconds of the sequence between `before` and `after` seconds outside it.
+// Returns a log of `steps` seconds of the sequence, with `before` and `after` seconds outside it.
 inline Log walk(int steps, double before = 0, double after = 0) {
   const double start = before, end = before + steps;
   Log log(static_cast<int>(std::lround((end + after) / dt)));

@@ -14,7 +14,8 @@ constexpr double small_share = 0.05, large_share = 0.2, about_share = 0.1;
 constexpr double rounding_share = 1e-9;
 constexpr double points = 2, largest_share_of_points = 0.25;
 
-// A half digit is no less than itself for being a sum of binary fractions.
+// Returns value ± distance, widened by the rounding of binary fractions, so that a value at the end
+// is inside.
 Band within(double value, double distance, Wording wording) {
   const double rounding = 1e-12 * (std::fabs(value) + distance);
   return {value - distance - rounding, value + distance + rounding, wording};

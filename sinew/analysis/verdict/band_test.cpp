@@ -13,7 +13,7 @@ void expect(const Band& band, double lowest, double highest) {
   EXPECT_NEAR(band.highest, highest, 1e-9);
 }
 
-// Half a digit counts for short numbers, 5 % for long ones.
+// Half of the last digit decides for short numbers, 5 % for long ones.
 TEST(Band, AMeasuredNumberIsAsSureAsItsLastDigitOrItsBench) {
   expect(measured(3, 1), 2.5, 3.5);
   expect(measured(30, 1), 28.5, 31.5);
@@ -22,7 +22,7 @@ TEST(Band, AMeasuredNumberIsAsSureAsItsLastDigitOrItsBench) {
   expect(measured(0, 1), -0.5, 0.5);
 }
 
-// 2 % accepts no valve that never opens.
+// A reported 2 % does not agree with 0 %.
 TEST(Band, APercentageHasTwoPointsAtMostAQuarter) {
   expect(percentage(94), 92, 96);
   expect(percentage(2), 1.5, 2.5);
@@ -39,7 +39,7 @@ TEST(Band, WordsWithoutANumberAreSharesOfTheRange) {
   EXPECT_NEAR(much_less(44).highest, 35.2, 1e-9);
   EXPECT_NEAR(much_more(10).lowest, 12, 1e-9);
   EXPECT_TRUE(std::isinf(much_more(10).highest));
-  // What is there is not negligible, and the other way round.
+  // Each value is either negligible or noticeable.
   for (double x : {0.0, 1.0, 2.19, 2.21, 9.0})
     EXPECT_NE(negligible(44).holds(x), noticeable(44).holds(x)) << x;
 }

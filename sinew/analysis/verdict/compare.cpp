@@ -17,7 +17,7 @@ std::size_t within(const signals::Times& times, std::int64_t from, std::int64_t 
   return last > first ? static_cast<std::size_t>(last - first) : 0;
 }
 
-// None yet; they will stand where `like` does.
+// Returns empty meetings, stored in the same file as `like`.
 Meetings meetings(Meeting how, Recording like) {
   const signals::PageFile file = like.time_ns->file();
   return {how, signals::Times(file), signals::Column(file)};
@@ -38,7 +38,8 @@ Meetings meet_together(Recording a, Recording b) {
   return out;
 }
 
-// At `t`, which lies within `from`'s times; `k` is where the search goes on.
+// Interpolates linearly at `t`, which must be within `from`'s times; the search starts at sample
+// `k` and leaves it there.
 double straight_at(Recording from, std::int64_t t, std::size_t& k) {
   const auto& time = *from.time_ns;
   while (k + 1 < time.size() && time[k + 1] <= t) ++k;
@@ -61,7 +62,7 @@ Meetings meet_between(Recording sparse, Recording dense, double sign) {
   return out;
 }
 
-// An edge's value at `t`; `k` edges are over.
+// Returns the state of a valve at `t`; updates `k`, the number of edges up to `t`.
 double held_at(Recording edges, std::int64_t t, std::size_t& k) {
   while (k < edges.time_ns->size() && (*edges.time_ns)[k] <= t) ++k;
   return k > 0 ? (*edges.values)[k - 1] : 0.0;
@@ -85,7 +86,7 @@ double span_of(Recording a, Recording b) {
   return high > low ? high - low : 0;
 }
 
-// `weight` of each meeting: 1, or how long it lasts.
+// Returns the difference without its correlation. weight(i) is 1, or the duration of pair i.
 template <class Weight>
 Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) {
   Difference out{.how = met.how, .same = same_samples(a, b), .span = span_of(a, b)};
@@ -110,7 +111,7 @@ Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) 
   return out;
 }
 
-// Returns that of a and a + d, where they met.
+// Returns the correlation of a and a + d at the times where they met.
 double correlation(Recording a, const Meetings& met) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0, a0 = 0;
   std::size_t k = 0;
@@ -169,7 +170,7 @@ Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to
       out.time_ns.push_back(t);
       out.difference.push_back(d);
     }
-    // On to the next edge of either; those up to here are over.
+    // Continues at the next edge of either.
     const auto next = [&](Recording of, std::size_t over) {
       return over < of.time_ns->size() ? (*of.time_ns)[over] : to;
     };

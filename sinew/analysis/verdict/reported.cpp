@@ -15,7 +15,7 @@ namespace sinew::analysis {
 
 namespace {
 
-// "a.b.c" becomes { a: { b: { c: value } } }.
+// Sets a value by its dotted key: "a.b.c" becomes { a: { b: { c: value } } }.
 void put(Json& root, std::string_view key, double value) {
   Json* at = &root;
   for (std::size_t dot; (dot = key.find('.')) != key.npos; key.remove_prefix(dot + 1))
@@ -23,7 +23,7 @@ void put(Json& root, std::string_view key, double value) {
   (*at)[std::string(key)] = value;
 }
 
-// Our own printing, for numbers with the fewest digits; nlohmann's may have one more.
+// Prints JSON with the fewest digits for each number; nlohmann's printing may have one more.
 std::string text_of(const Json& json, const std::string& indent) {
   if (json.is_real()) return config::format_number(json.number());
   if (!json.is_array() && !json.is_object()) return json.text();
@@ -120,7 +120,7 @@ struct BandOrMistake {
   std::optional<config::Mistake> mistake;
 };
 
-// Of an `accept` that is not empty.
+// Returns the band of an `accept` that is not empty.
 BandOrMistake read_accept(const Reported& r, double atmosphere) {
   if (r.accept.size() != 2)
     return {{},
@@ -176,7 +176,7 @@ bool is_share(Wording wording) {
          wording == substantial || wording == much_less || wording == much_more;
 }
 
-// Returns the band of a wording in SI; the rule is applied in the unit of the source's own words.
+// Returns the band of a wording in SI; the rule is applied in the unit of the source's text.
 BandOrMistake read_wording(const Reported& r, double atmosphere) {
   const auto mistake = [](std::string found, std::string expected) {
     return BandOrMistake{{}, config::Mistake{std::move(found), std::move(expected), ""}};
@@ -222,7 +222,7 @@ bool is_unit(std::string_view text, const std::string& unit, double atmosphere) 
   return !config::parse_quantity(fmt::format("1 {}", text), unit, atmosphere).mistake;
 }
 
-// What follows the last number: "in" of "55 to 60 in", "psi gauge" of "100 psi gauge".
+// Returns the text after the last number: "in" of "55 to 60 in", "psi gauge" of "100 psi gauge".
 std::string_view after_last_number(std::string_view text) {
   std::size_t number = text.npos;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -235,7 +235,7 @@ std::string_view after_last_number(std::string_view text) {
   return unit == text.npos ? std::string_view{} : text.substr(unit);
 }
 
-// Returns whether a value in it was set with --set.
+// Returns whether a value in `node` was set with --set.
 bool has_set(const config::Node& node) {
   if (node.where.file == "--set" || (node.key == "source" && node.text == "--set")) return true;
   return std::ranges::any_of(node.children, has_set);
@@ -249,13 +249,13 @@ bool is_changed(const config::Node& root) {
   });
 }
 
-// "53 in to 60 in", "at most 6 in".
+// Returns a band as text: "53 in to 60 in", "at most 6 in".
 std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
                         double atmosphere) {
   const auto number = [&](double si) {
     return config::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
-  // Digits that tell the ends apart.
+  // Enough digits to distinguish the ends.
   const double width = number(band.highest) - number(band.lowest);
   const double size = std::max(std::abs(number(band.lowest)), std::abs(number(band.highest)));
   int digits = 4;
@@ -293,7 +293,7 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
   }
 
   if (!ours) return v;
-  // A narrow band asks for digits that lie in it.
+  // A narrow band requires more digits.
   const auto spoken_in = [&](double si) {
     return config::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
@@ -371,7 +371,7 @@ std::string shown_unit(std::string_view key, const units::ShownUnits& shown, dou
   const bool share = key.find("share") != key.npos || key.find("passiveness") != key.npos ||
                      key.find("duty") != key.npos;
   if (unit == "1") return share ? "%" : unit;
-  // A summary's pressures are absolute ones, which each set has a unit for.
+  // Pressures of a summary are absolute; every set of units has a unit for these.
   const std::string_view held = unit == "Pa abs" ? "Pa" : std::string_view(unit);
   const units::ShownUnit usual = shown.of(held);
   return usual.scale * std::abs(value) < 1000 ? usual.name : shown.of(held, std::abs(value)).name;
@@ -384,7 +384,7 @@ std::string show(double si, std::string_view key, std::string_view unit, double 
   const int wanted = resolution > 0 ? static_cast<int>(std::ceil(-std::log10(resolution))) : 0;
   std::string text;
   if (size < 1e-9) {
-    text = "0";  // what conversion left over
+    text = "0";  // rounding of the conversion
   } else if (size < 0.95) {
     const int digits = wanted + 1 + static_cast<int>(std::floor(std::log10(size)));
     text = fmt::format("{:.{}g}", number, std::clamp(digits, 2, 9));

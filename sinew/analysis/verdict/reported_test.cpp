@@ -53,7 +53,7 @@ TEST(Reported, OursIsShownInTheUnitOfTheSource) {
   EXPECT_EQ(verdict("a_Pa", 790827.07, "100 psi gauge", {}).ours, "100.0 psi gauge");
   EXPECT_EQ(verdict("a_kg", 0.000123456, "0.1 g", {}).ours, "0.12 g");
   EXPECT_EQ(verdict("valves.switchings", 4513, "about 4500", {}).ours, "4513");
-  // Text without a usable unit: that of the band, else SI.
+  // If the text has no usable unit, that of the band is used, else SI.
   EXPECT_EQ(verdict("a_m", 2 * inch, "two inches", {"1 in", "3 in"}).ours, "2.0 in");
   EXPECT_EQ(verdict("a_m", 1.5, "as far as the wall", {}).ours, "1.5 m");
 }
@@ -100,7 +100,7 @@ TEST(Reported, GaugePressuresKnowTheAtmosphere) {
   EXPECT_EQ(compare(s, {r}, 101325).at(0).is, Verdict::Is::differs);
 }
 
-// A reason makes a difference a known one; when it is gone, so is the reason.
+// A reason makes a difference a known one. Agreement in spite of a reason is reported too.
 TEST(Reported, AKnownDifferenceSaysWhy) {
   Summary s;
   s.add("d_m", 1.0);
@@ -113,7 +113,7 @@ TEST(Reported, AKnownDifferenceSaysWhy) {
   EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees_after_all);
 }
 
-// The wording decides on the band, in the unit in which the source speaks.
+// The band follows from the wording, in the source's unit.
 TEST(Reported, ABandFollowsFromTheWording) {
   using config::StatementClass, config::Wording;
   Summary s;
@@ -129,7 +129,7 @@ TEST(Reported, ABandFollowsFromTheWording) {
   EXPECT_EQ(v.statement_class, StatementClass::fitted);
   r.value = "60 in";
   r.wording = Wording::measured;
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::differs);  // 57 in is the least
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::differs);  // the lowest is 57 in
   r.reading_error = "1 in";
   EXPECT_EQ(compare(s, {r}).at(0).accept, "56 in to 64 in");
   EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
@@ -138,7 +138,7 @@ TEST(Reported, ABandFollowsFromTheWording) {
   EXPECT_EQ(compare(s, {r}).at(0).accept, "92 % to 96 %");
   EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
   r = {.key = "p_Pa", .value = "60 psi gauge", .source = "3.4"};
-  r.wording = Wording::measured;  // 5 % of the gauge pressure, which is the one that was read
+  r.wording = Wording::measured;  // 5 % of the gauge pressure, not of the absolute one
   EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
   r = {.key = "d_m", .value = "much smaller", .source = "6.5"};
   r.wording = Wording::much_less;
@@ -164,7 +164,7 @@ TEST(Reported, AWordingNeedsItsNumber) {
   EXPECT_THAT(with("share", "0.94", Wording::percentage), HasSubstr("a value in %"));
 }
 
-// The source describes another run than one that was changed: no verdict is green or red.
+// The source does not describe a run that was changed with --set, so that it is not judged.
 TEST(Reported, IsNotJudgedWhereTheRunWasChanged) {
   const std::string experiment = "[load]\nmass = \"5 lb\"\n", kept = "source = \"--set\"\n";
   Summary summary;

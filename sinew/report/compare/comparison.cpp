@@ -21,12 +21,11 @@ namespace sinew::report {
 
 namespace {
 
-// --- what a sensor without error would have read, for runs that ---
+// --- perfect sensors ---
 
-// A simulation knows pressures and lengths that its robot has no sensor for, under /true; a
-// recording that measured them has them without it. Every table that lacks a topic which another
-// one has, and has it under /true, gets a copy under the plain name. A table that has neither stays
-// as it is.
+// Adds readings of perfect sensors, so that measured channels can be compared with true ones: if a
+// table has a topic only under /true and another table has it without /true, a copy under the plain
+// name is added.
 void add_perfect_sensors(const std::vector<signals::Table*>& tables) {
   constexpr std::string_view truth = "/true";
   std::set<std::string> measured;
@@ -49,7 +48,7 @@ std::string value_of(const std::vector<Parameter>& parameters, std::string_view 
   return at == parameters.end() ? "" : at->value;
 }
 
-// Adds what follows from the samples at their new times.
+// Adds phases, drawings, charts and panels, from the samples at their aligned times.
 void describe(ComparedRun& run, const analysis::Machine& machine) {
   const analysis::Record record(run.logged, machine, &run.derived);
   run.phases = phases_of(record, machine);
@@ -66,7 +65,7 @@ void describe(ComparedRun& run, const analysis::Machine& machine) {
   run.panels = panels(channels, machine);
 }
 
-// Fills in what follows from the samples at their own times.
+// Adds the results of the analysis, from the samples at their original times.
 void open(ComparedRun& run, const analysis::Analysis& own) {
   run.title = own.machine.title;
   run.reproduces = own.machine.reproduces;
@@ -77,7 +76,7 @@ void open(ComparedRun& run, const analysis::Analysis& own) {
   run.derived = own.derived;
 }
 
-// The run's times become those of the first one.
+// Converts the run's times to the first run's clock.
 void place(ComparedRun& run, const analysis::Machine& machine, const analysis::Clock& clock) {
   run.shift = clock.shift;
   analysis::reclock(run.logged, clock);
@@ -94,13 +93,13 @@ void place(ComparedRun& run, const analysis::Machine& machine, const analysis::C
                "a run that goes through a sequence", "align=start");
 }
 
-// Holds what runs are aligned with: the first one, when it is there.
+// The first run, with which others are aligned.
 struct Base {
-  const ComparedRun* run = nullptr;
-  std::optional<std::int64_t> sequence;  // its start [ns]
+  const ComparedRun* run = nullptr;      // nullptr while the first run is opened
+  std::optional<std::int64_t> sequence;  // start of its sequence [ns]
 };
 
-// Finds how the run's clock goes beside the first one's, as it is wished.
+// Finds the run's clock in relation to the first one's.
 analysis::Clock clock_of(ComparedRun& run, const AlignWish& wish, const Base& first,
                          std::optional<std::int64_t> sequence) {
   if (!first.run) return {};
@@ -122,7 +121,7 @@ analysis::Clock clock_of(ComparedRun& run, const AlignWish& wish, const Base& fi
   return run.alignment->clock;
 }
 
-// The first run is told to `first`.
+// Analyses a run and aligns it with `first`, in which the start of the first run's sequence is set.
 ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
   ComparedRun run;
   run.label = std::move(recorded.label);
@@ -131,7 +130,7 @@ ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
   run.seed = value_of(run.parameters, "seed");
   run.version = value_of(run.parameters, "sinew_version");
   const analysis::Machine machine = analysis::read_machine(recorded.resolved);
-  std::optional<std::int64_t> sequence;  // its start [ns]
+  std::optional<std::int64_t> sequence;  // start of the sequence [ns]
   {
     const analysis::Analysis own(run.logged, machine);
     open(run, own);
@@ -143,7 +142,7 @@ ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
   return run;
 }
 
-// Into the rows of the first run's channels.
+// Adds the differences of a run to the rows of the channels.
 void add_differences(std::vector<ChannelRow>& rows, const signals::Table& first,
                      const signals::Table& other, std::size_t run, std::size_t runs) {
   for (analysis::ChannelDifference& d : analysis::differences(first, other)) {
@@ -189,7 +188,7 @@ std::string_view to_text(Align align) {
 
 Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish) {
   Comparison out{.align = wish.by, .clocks_fitted = wish.fit_clock};
-  out.runs.reserve(runs.size());  // the first one stays where it is
+  out.runs.reserve(runs.size());  // the pointer to the first run stays valid
   std::vector<signals::Table*> tables;
   for (RecordedRun& run : runs) tables.push_back(&run.logged);
   add_perfect_sensors(tables);
@@ -227,14 +226,14 @@ void keep(Comparison& comparison, const std::set<std::string>& topics) {
 
 namespace {
 
-// One channel of a run, and what it differs by from the first one's.
+// Differences of one channel of a run from the first run's.
 struct Residual {
   std::string heading;  // "B /joint/hip/angle [rad]"
   analysis::Meetings met;
-  std::size_t at = 0;  // the next one to be written
+  std::size_t at = 0;  // index of the next difference to be written
 };
 
-// The channel's samples, logged or derived.
+// Returns the channel's samples, logged or derived.
 analysis::Recording recording_of(const ComparedRun& run, const Channel& channel) {
   for (const signals::Table* table : {&run.logged, &run.derived}) {
     const signals::Series* s = table->find(channel.topic);
@@ -269,7 +268,7 @@ std::string residuals_csv(const Comparison& comparison) {
   for (const Residual& r : all) out += "," + r.heading;
   out += "\n";
   for (;;) {
-    // The earliest time that is not written yet.
+    // The next row is at the earliest time that is not written yet.
     std::optional<std::int64_t> now;
     for (const Residual& r : all)
       if (r.at < r.met.time_ns.size())

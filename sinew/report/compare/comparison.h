@@ -1,12 +1,12 @@
-// report/compare/comparison.h - runs beside each other: what `sinew compare` prints and shows as a
-// page.
+// report/compare/comparison.h - comparison of several runs, which `sinew compare` prints and shows
+// as a page.
 //
 //   Comparison c = compare(std::move(runs), Align::start);
 //   fill(comparison_template(), content(c))     the page
 //
-// All runs are held against the first one. Of a channel: how far the samples are apart
-// (analysis/verdict/compare.h). A run may be of a machine, of hardware or of the test stand; what
-// is compared is what the first one and another have.
+// All runs are compared with the first one; channels by the differences of their samples
+// (analysis/verdict/compare.h). A run may be of a machine, of hardware or of the test stand. Only
+// channels that the first run and another one have are compared.
 #pragma once
 
 #include <limits>
@@ -31,28 +31,28 @@
 
 namespace sinew::report {
 
-// Zero of the times: the start of each run, or its sequence's start, aligned with the
-// first one's; or both aligned by an event or by the greatest correlation (analysis/align/align.h).
+// Alignment of the times: by the start of each run, by the start of its sequence, by an event or by
+// the greatest correlation (analysis/align/align.h).
 enum class Align { start, sequence, event, correlation };
-// Returns it in words.
+// Returns its name.
 std::string_view to_text(Align align);
 
-// Alignment of runs with the first one.
+// Options of the alignment of runs with the first one.
 struct AlignWish {
-  // Aligns runs in this way; clocks are taken as they are.
+  // Aligns runs in this way, without a correction of the clocks' rates.
   AlignWish(Align how = Align::start) : by(how) {}
 
   Align by;
-  std::string event;                  // "/joint/elbow/angle > 10 deg"; empty: the surest motion
-  std::vector<std::string> channels;  // that are correlated; empty: chosen
-  bool fit_clock = false;             // the rate of each run's clock too
-  double most_shift = std::numeric_limits<double>::infinity();  // that is looked for [s]
+  std::string event;  // "/joint/elbow/angle > 10 deg"; empty: the most certain first motion
+  std::vector<std::string> channels;                            // to be correlated; empty: chosen
+  bool fit_clock = false;                                       // fit the rate of each run's clock
+  double most_shift = std::numeric_limits<double>::infinity();  // largest shift of the search [s]
 };
 
-// A run as it was recorded.
+// A recorded run.
 struct RecordedRun {
-  std::string label;      // as it is told from the others
-  signals::Table logged;  // what was logged
+  std::string label;      // name in the comparison
+  signals::Table logged;  // recorded channels
   config::Node resolved;  // resolved.toml
 };
 
@@ -61,23 +61,23 @@ struct ComparedRun {
   std::string label;
   std::string title, reproduces, robot, seed, version;
   double atmosphere = 0;  // [Pa]
-  double shift = 0;       // by which its times were moved back [s]
-  // How that was found, and its clock's rate, which is taken out of its times as well. The first
-  // run has none, nor have runs that count from their own start or sequence.
+  double shift = 0;       // subtracted from its times [s]
+  // Result of the alignment, with the clock's rate, which is also removed from its times. Empty for
+  // the first run, and for runs aligned by start or sequence without a fit of the clock.
   std::optional<analysis::Alignment> alignment;
-  double first = 0, last = 0;      // times, after that [s]
-  signals::Table logged, derived;  // at those times
-  signals::Table drawn;            // what charts hold beside them
+  double first = 0, last = 0;      // aligned times [s]
+  signals::Table logged, derived;  // at the aligned times
+  signals::Table drawn;            // series of the drawings
   std::vector<Panel> panels;
-  std::vector<Chart> charts;  // of the test stand
-  Scene scene;                // the machine as a drawing; empty of a stand, or without angles
-  Stand stand;                // the stand as a drawing; empty of a machine
-  std::string phases;         // JSON, as content.h has it
+  std::vector<Chart> charts;  // charts of the test stand
+  Scene scene;                // drawing of the machine; empty for a stand, or without angles
+  Stand stand;                // drawing of the stand; empty for a machine
+  std::string phases;         // JSON (content.h)
   analysis::Summary summary;
   std::vector<analysis::Verdict> verdicts;
   std::vector<Parameter> parameters;
 
-  // "agrees (fitted)". Empty where nothing is reported of the key, or nothing that could be judged.
+  // Returns "agrees (fitted)" for a key; empty if it is not reported or cannot be judged.
   std::string verdict_of(const std::string& key) const;
 };
 
@@ -85,7 +85,7 @@ struct ComparedRun {
 struct ChannelRow {
   Channel channel;
   std::string unit;
-  std::vector<std::optional<analysis::Difference>> differences;  // per run; the first has none
+  std::vector<std::optional<analysis::Difference>> differences;  // per run; empty for the first
 };
 
 struct Comparison {
@@ -93,32 +93,31 @@ struct Comparison {
   bool clocks_fitted = false;
   std::vector<ComparedRun> runs;
   std::vector<analysis::FigureRow> figures;  // every key
-  std::vector<ParameterRow> parameters;      // that differ
+  std::vector<ParameterRow> parameters;      // those that differ
   std::vector<ChannelRow> channels;          // recorded, then derived
 };
 
-// Two runs or more. Throws config::Error for a resolved.toml that cannot be read, for runs without
-// a common channel, and where a run cannot be aligned with the first one as it is wished, saying
-// why.
+// Compares two runs or more. Throws config::Error for a resolved.toml that cannot be read, for runs
+// without a common channel, and with the reason if a run cannot be aligned with the first one.
 Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish);
 
 // Leaves only the channels of these topics.
 void keep(Comparison& comparison, const std::set<std::string>& topics);
 
-// All of it but the samples, as JSON: "format": "sinew.comparison/1", SI, null for what is not
-// there.
+// Returns the comparison without samples as JSON: "format": "sinew.comparison/1", SI, null for
+// missing values.
 std::string to_json(const Comparison& comparison);
 
-// Returns what each run differs by from the first one, as CSV: a row per time at which any
-// channel's samples meet, a column per run and channel, "B /joint/hip/angle [rad]", empty where
-// that one has none; no valves. SI.
+// Returns the differences of each run from the first one as CSV in SI, without valves: a row per
+// time at which any channel's samples meet, a column per run and channel, "B /joint/hip/angle
+// [rad]", empty if that channel has no value.
 std::string residuals_csv(const Comparison& comparison);
 
-// For page.h's fill(), with the page of web/src/compare.html.
+// Returns the content for page.h's fill(), with the page of web/src/compare.html.
 Content content(const Comparison& comparison);
 
-// Throws std::runtime_error, with what to do, where the program was built without its page.
-// It begins in `units`.
+// Returns the page, initially in `units`. Throws std::runtime_error with instructions if the
+// program was built without its page.
 std::string page(const Comparison& comparison, const units::ShownUnits& units = {});
 
 }  // namespace sinew::report

@@ -125,9 +125,9 @@ Json tables_of(const Comparison& c) {
 
 // --- samples ---
 
-// A column of each run, and of each but the first what it differs by. What is the same as the
-// first one's stands once; where all samples meet, a run's own column is left out: it is the first
-// one's and the difference, which keeps the digits of a small one.
+// Columns of all runs, and differences of the others from the first one. A column that equals the
+// first one's is stored once. If all samples meet, a run's own column is left out: it is the sum of
+// the first one's and the difference, which preserves the digits of small differences.
 class RunSamples {
  public:
   explicit RunSamples(const Comparison& c) {
@@ -153,7 +153,7 @@ class RunSamples {
     panel["differences"] = std::move(differences);
   }
 
-  // A run's own columns.
+  // Returns the columns of one run.
   Columns columns(std::size_t run) { return {channels_[run], blob_}; }
   const Blob& blob() const { return blob_; }
 
@@ -165,7 +165,7 @@ class RunSamples {
       column = blob_.add(first);
       return;
     }
-    // Of one clock, and no number where the other has one is the other's alone.
+    // The sum is exact if all times are equal and the difference is NaN only where `other` is.
     bool sum_is_other = met.time_ns == *first.time_ns && met.time_ns == *other.time_ns;
     for (std::size_t i = 0; sum_is_other && i < met.difference.size(); ++i)
       sum_is_other = std::isfinite(met.difference[i]) || std::isnan((*other.values)[i]);
@@ -180,7 +180,7 @@ class RunSamples {
   Blob blob_;
 };
 
-// A plot for every line of the first run's panels that another run has too.
+// Returns a plot for every line of the first run's panels that another run has too.
 Json panels_of(const Comparison& c, RunSamples& samples) {
   Json out = Json::array();
   for (const Panel& panel : c.runs.front().panels)
@@ -201,7 +201,7 @@ Json panels_of(const Comparison& c, RunSamples& samples) {
   return out;
 }
 
-// The first run's charts, with the curves of all runs that have such a one.
+// Returns the first run's charts, with the curves of all runs that have a chart of the same title.
 Json charts_of(const Comparison& c, RunSamples& samples) {
   Json out = Json::array();
   for (const Chart& first : c.runs.front().charts) {
@@ -222,7 +222,8 @@ Json charts_of(const Comparison& c, RunSamples& samples) {
   return out;
 }
 
-// Where the foot truly was, if all runs know; else as it was measured.
+// Returns the topic of the foot's position: the true one if all runs have it, else the measured
+// one.
 std::string foot_of(const Comparison& c) {
   std::string found;
   for (const std::string topic : {"/true/foot/position", "/foot/position"})

@@ -130,13 +130,13 @@ TEST(Comparison, SaysWhatCannotBeCompared) {
 
 TEST(Comparison, HasAPlotForEveryLineThatBothHave) {
   signals::Table b = table();
-  std::erase_if(b.series, [](const signals::Series& s) {  // and what would stand in for it
+  std::erase_if(b.series, [](const signals::Series& s) {  // the true one would replace it
     return s.topic.name == "/joint/hip/angle" || s.topic.name == "/true/joint/hip/angle";
   });
   const Json page = Json::parse(content(two(table(), std::move(b))).json);
   EXPECT_THROW(panel(page, "/joint/hip/angle"), std::invalid_argument);
   EXPECT_EQ(panel(page, "/joint/knee/angle")["columns"].size(), 2u);
-  EXPECT_EQ(page["foot"], "");  // without the hip's angle nobody knows where
+  EXPECT_EQ(page["foot"], "");  // unknown without the hip's angle
 }
 
 TEST(Comparison, KeepsOneColumnOfWhatIsTheSame) {
@@ -149,11 +149,11 @@ TEST(Comparison, KeepsOneColumnOfWhatIsTheSame) {
   const Json same = panel(page, "/true/joint/hip/angle");
   EXPECT_EQ(same["columns"][0], same["columns"][1]);
   EXPECT_TRUE(same["differences"][1].is_null());
-  // Small differences are stored as such, or they would drown in the digits of the values.
+  // Small differences are stored separately, because they are lost in the digits of the values.
   const Json shifted = panel(page, "/joint/hip/angle");
   EXPECT_TRUE(shifted["columns"][1].is_null());
   EXPECT_TRUE(shifted["differences"][1].is_number());
-  // A gap of the other alone is a gap of the difference.
+  // A gap of the other run alone is a gap of the difference.
   EXPECT_TRUE(panel(page, "/joint/knee/angle")["columns"][1].is_null());
 
   const std::size_t columns = page["samples"]["columns"].size();
@@ -205,8 +205,8 @@ TEST(Comparison, KeepsTheChosenTopics) {
   EXPECT_EQ(Json::parse(to_json(c))["channels"][0]["topic"], "/joint/hip/angle");
 }
 
-// A laboratory measured a pressure for which the simulated robot has no sensor: it is held against
-// the true one, on either side, and differs from it by what was added.
+// A measured pressure for which the simulated robot has no sensor is compared with the true one,
+// and differs by the added 1000 Pa, in either order of the runs.
 TEST(Comparison, WhatOnlyASimulationKnowsStandsForASensorWithoutError) {
   const std::string plain = "/muscle/hip_flexor/pressure", known = "/true" + plain;
   for (const bool measured_first : {true, false}) {

@@ -19,7 +19,7 @@ using Align = TextTable::Align;
 using units::ShownUnit;
 using units::ShownUnits;
 
-// Prints into a text.
+// Appends formatted text.
 template <class... Args>
 void print(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
@@ -28,7 +28,7 @@ void print(std::string& out, fmt::format_string<Args...> format, Args&&... args)
 std::string letter_of(std::size_t run) { return {static_cast<char>('A' + run)}; }
 
 constexpr std::size_t most_figures = 12, most_parameters = 15, most_channels = 12;
-constexpr std::size_t most_letters = 32;  // of a parameter's value
+constexpr std::size_t most_letters = 32;  // longest shown value of a parameter
 
 bool is_share(std::string_view key) {
   return key.find("share") != key.npos || key.find("passiveness") != key.npos ||
@@ -39,7 +39,7 @@ std::string signed_text(const std::string& text, double value) {
   return value > 0 ? "+" + text : text;
 }
 
-// Three digits, and all of those before the point.
+// Returns the number of digits: three, or all of those before the point.
 int digits_of(double value) {
   const double size = std::abs(value);
   return size >= 1000 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 3;
@@ -52,19 +52,19 @@ std::string percent(const std::optional<double>& relative) {
   return std::abs(p) >= 9.95 ? fmt::format("{:+.0f} %", p) : fmt::format("{:+.2g} %", p);
 }
 
-// A number with its unit, which may be none.
+// Returns a number with its unit, which may be empty.
 std::string with_unit(double number, int digits, const ShownUnit& unit) {
   return fmt::format("{:.{}g}{}{}", number, digits, unit.name.empty() ? "" : " ", unit.name);
 }
 
-// The usual unit of a difference; from 1000 of it on a larger one where there is one: 26.6 s
+// Returns the usual unit of a difference, or from 1000 of it on a larger one if it exists: 26.6 s
 // instead of 26582 ms.
 ShownUnit unit_of_difference(const ShownUnits& units, const std::string& unit, double si) {
   const ShownUnit usual = units.of_difference(unit);
   return std::abs(usual.of(si)) < 1000 ? usual : units.of_difference(unit, std::abs(si));
 }
 
-// A figure's value and difference in the units that are shown.
+// Formats a figure's values and differences in the shown units.
 class Figure {
  public:
   Figure(std::string_view key, const ShownUnits& units, double atmosphere)
@@ -80,14 +80,15 @@ class Figure {
     const ShownUnit shown = unit_of_difference(units_, unit_, d);
     return signed_text(with_unit(shown.of(d), digits_of(shown.of(d)), shown), d);
   }
-  // Beside a gauge pressure, whose zero is the room's, a share of the absolute one would mislead.
+  // Returns the relative difference. It is left out for gauge pressures, because it refers to the
+  // absolute pressure.
   std::string relative(double first, double other) const {
     if (units_.of(unit_).gauge) return other == first ? "=" : "";
     return percent(analysis::relative_difference(first, other));
   }
 
  private:
-  // A summary's pressures are absolute ones, for which every set has a unit.
+  // Pressures of a summary are absolute; every set of units has a unit for these.
   static std::string unit_of(std::string_view key) {
     const std::string unit = analysis::unit_of_key(key);
     return unit == "1" && is_share(key) ? "share" : unit == "Pa abs" ? "Pa" : unit;
@@ -98,7 +99,7 @@ class Figure {
   double atmosphere_;
 };
 
-// "2.500 s ± 0.003 s", with two digits of what is not sure.
+// Returns a value with two digits of its uncertainty: "+2.5000 s ± 0.0030 s".
 std::string with_uncertainty(double value, double uncertainty, std::string_view unit) {
   if (!std::isfinite(uncertainty)) return fmt::format("{:+.4g} {}", value, unit);
   const int digits =
@@ -107,7 +108,7 @@ std::string with_uncertainty(double value, double uncertainty, std::string_view 
   return fmt::format("{:+.{}f} {} ± {:.{}f} {}", value, digits, unit, uncertainty, digits, unit);
 }
 
-// "0.29 % ± 0.11 % faster", or slower.
+// Returns a clock's rate in words: "0.29 % ± 0.11 % faster", or slower.
 std::string pace(double rate, double uncertainty) {
   const std::string words = with_uncertainty(100 * std::abs(rate), 100 * uncertainty, "%");
   return words.substr(1) + (rate < 0 ? " slower" : " faster");  // without its sign
@@ -153,7 +154,8 @@ void print_runs(const Comparison& c, const std::string& fit_clock, std::string& 
 
 std::string red(const std::string& text) { return "\033[31m" + text + "\033[0m"; }
 
-// "agrees", or where it is not the same of all "agrees → differs"; empty where none is judged.
+// Returns "agrees", or "agrees → differs" if the runs are judged differently; empty if no run is
+// judged.
 std::string verdicts_of(const Comparison& c, const std::string& key, bool color = false) {
   std::vector<std::string> words;
   std::set<std::string> judged;
@@ -168,7 +170,7 @@ std::string verdicts_of(const Comparison& c, const std::string& key, bool color 
   return color && judged.size() > 1 ? red(text) : text;
 }
 
-// A run that lacks a figure does not differ in it.
+// Returns whether runs differ in a figure; runs that lack it do not count.
 bool differs(const analysis::FigureRow& row) {
   std::optional<double> first;
   for (const auto& value : row.values) {
@@ -183,7 +185,8 @@ bool is_of_one_alone(const analysis::FigureRow& row) {
   return std::ranges::count_if(row.values, [](const auto& v) { return v.has_value(); }) < 2;
 }
 
-// What is judged first, then the largest relative differences; with `all`, the summary's order.
+// Returns the judged figures, then the others by decreasing relative difference; with `all`, all
+// figures in the summary's order.
 std::vector<const analysis::FigureRow*> chosen_figures(const Comparison& c, bool all) {
   std::vector<const analysis::FigureRow*> judged, rest;
   for (const analysis::FigureRow& row : c.figures)
@@ -219,7 +222,7 @@ void print_table(const TextTable& table, const ComparisonText& how, std::string&
   if (!table.empty()) out += table.text_within(how.width);
 }
 
-// What is not shown, and how to see it.
+// Prints the number of rows that are not shown, and the hint to see them.
 void print_rest(std::size_t rest, std::string_view what, const ComparisonText& how,
                 std::string& out) {
   if (rest > 0)
@@ -294,7 +297,7 @@ std::string note_of(const analysis::Difference& d) {
   return note;
 }
 
-// A log may hold units that only its maker knows: they are shown as they are.
+// Returns a difference with its unit. Unknown units of a log are shown unchanged.
 std::string difference_text(double si, const std::string& unit, const ShownUnits& units) {
   const ShownUnit shown = unit_of_difference(units, unit, si);
   return with_unit(shown.of(si), digits_of(shown.of(si)), shown);
@@ -318,7 +321,7 @@ std::vector<std::string> channel_cells(const ChannelRow& row, const analysis::Di
           note_of(d)};
 }
 
-// Of one run against the first.
+// Prints the channels of one run compared with the first run.
 void print_channels(const Comparison& c, std::size_t run, const ComparisonText& how,
                     std::string& out) {
   std::vector<const ChannelRow*> rows;

@@ -1,4 +1,4 @@
-// report/compare/comparison_text.h - a comparison as tables for people.
+// report/compare/comparison_text.h - text tables of a comparison.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 namespace sinew::report {
 
 struct ComparisonText {
-  units::ShownUnits units = units::UnitSet::thesis;  // of the tables
-  bool all = false;                                  // what is equal too
+  units::ShownUnits units = units::UnitSet::thesis;  // units of the tables
+  bool all = false;                                  // include equal rows
   std::size_t width = 0;                             // letters of a line; 0: any
-  std::string see_all = {};                          // where a table is cut: how to see all of it
-  std::string fit_clock = "clock=fit";               // how a clock's rate is taken out
+  std::string see_all = {};                          // hint shown where a table is cut
+  std::string fit_clock = "clock=fit";               // option that removes a clock's rate
   bool color = false;  // verdicts that changed are red, by the escapes of a terminal
 };
 
-// Returns runs, figures, parameters and channels that differ.
+// Returns tables of the runs, and of figures, parameters and channels that differ.
 std::string text_of(const Comparison& comparison, const ComparisonText& how);
 
 }  // namespace sinew::report

@@ -10,7 +10,7 @@
 namespace sinew::report {
 namespace {
 
-// Digits that show where in the band a number lies: three, more where the band is narrow.
+// Formats a number with three digits, or more if the band is narrow.
 std::string number(double value, const Band& band) {
   const double width = band.highest - band.lowest;
   if (value == 0 || (std::isfinite(width) && std::fabs(value) < 1e-5 * width)) return "0";
@@ -75,7 +75,7 @@ Claim claim(const analysis::Verdict& v) {
             .verdict = v.is,
             .statement_class = v.statement_class,
             .wording = v.wording};
-  // A verdict's source ends with the reason of what is known to differ.
+  // The source of a verdict ends with the reason of a known difference.
   constexpr std::string_view mark = ". Why: ";
   if (const std::size_t at = out.where.find(mark); at != out.where.npos) {
     out.why +=

@@ -1,13 +1,14 @@
-// report/figures/claim.h - what a source says of a figure, and whether ours shows it.
+// report/figures/claim.h - statements of a source about a figure, and whether the computed figure
+// agrees with them.
 //
 //   judge(StatementClass::put_in,
 //         {.where = "4.3", .says = "the shutter opens in about half a millisecond",
 //          .theirs = "0.5 ms", .quantity = "first dip of the current", .ours = 0.47, .unit = "ms",
 //          .accept = analysis::about(0.5)})
 //
-// A verdict is always computed, from the curves as they are drawn or from a run's summary. What no
-// number can settle says so and why. Its class says what agreement is worth, its band follows from
-// the wording (analysis/verdict/band.h); docs/evidence/evidence.md defines both.
+// A verdict is always computed, from the drawn curves or from a run's summary. A statement that no
+// number can decide has no verdict and a reason. Its class is the strength of the evidence, its
+// band follows from the wording (analysis/verdict/band.h); docs/evidence/evidence.md defines both.
 #pragma once
 
 #include <array>
@@ -25,47 +26,48 @@ using Is = analysis::Verdict::Is;
 using analysis::Band;
 using config::StatementClass;
 
-// A claim that a number answers.
+// A statement that a number decides.
 struct Measured {
   std::string where;     // section or equation of the source
-  std::string says;      // what it says, in our words
-  std::string theirs;    // its number with the unit; empty where it gives none
-  std::string quantity;  // what was taken from ours
+  std::string says;      // the statement, paraphrased
+  std::string theirs;    // the source's number with its unit; empty if it gives no number
+  std::string quantity;  // quantity taken from the computed figure
   double ours = 0;
-  std::string unit;  // of `ours` and `accept`; empty: a pure number
+  std::string unit;  // unit of `ours` and `accept`; empty: a pure number
   Band accept;
-  std::string why;      // a band by no rule is as it is; else what is to be known of the comparison
-  std::string because;  // ours is known to differ; empty: it should agree
+  std::string why;      // reason of a band that follows no rule, or a remark
+  std::string because;  // reason of a known difference; empty if it should agree
 };
 
-// For people, and as it stands in the index.
+// A statement with its verdict as text, as in the index.
 struct Claim {
   std::string where, says, theirs, quantity;
-  std::string ours;    // "0.47 ms"; empty where nothing is compared
+  std::string ours;    // "0.47 ms"; empty if nothing is compared
   std::string accept;  // "0.4 to 0.6 ms", "at most 2 %"
-  std::string why;     // the band, a difference that is known, or why nothing is compared
+  std::string why;     // reason of the band, of a known difference, or of the missing comparison
   Is verdict = Is::not_applicable;
-  StatementClass statement_class = StatementClass::none;  // none: nothing is compared
+  StatementClass statement_class = StatementClass::none;  // none if nothing is compared
   analysis::Wording wording = analysis::Wording::another;
 };
 
-// NaN differs. Throws std::logic_error for a band by no rule without its reason.
+// Judges a statement; NaN differs. Throws std::logic_error for a band that follows no rule and has
+// no reason.
 Claim judge(StatementClass statement_class, const Measured& measured);
 
-// What a number cannot settle, and why.
+// Returns a statement that a number cannot decide, with the reason.
 Claim not_applicable(std::string where, std::string says, std::string theirs, std::string why);
 
-// A key of a summary that its experiment has judged (analysis/verdict/reported.h).
+// Converts the verdict on a key of a summary (analysis/verdict/reported.h).
 Claim claim(const analysis::Verdict& verdict);
 
-// Statements by class and verdict.
+// Counts of statements by class and verdict.
 class Tally {
  public:
   // Counts one statement.
   void add(StatementClass statement_class, Is verdict) {
     ++count_[row(statement_class)][row(verdict)];
   }
-  // Returns how many there are of that class and verdict, of either alone, or at all.
+  // Return the number of statements of a class and verdict, of either alone, or in total.
   int of(StatementClass statement_class, Is verdict) const {
     return count_[row(statement_class)][row(verdict)];
   }
@@ -83,7 +85,7 @@ class Tally {
 // Counts the statements of claims.
 void count(Tally& tally, const std::vector<Claim>& claims);
 
-// In the order of tables, `none` last among the classes.
+// Classes and verdicts in the order of tables.
 inline constexpr std::array<StatementClass, 6> all_classes = {StatementClass::predicted,
                                                               StatementClass::fitted,
                                                               StatementClass::put_in,

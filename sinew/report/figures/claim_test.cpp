@@ -1,4 +1,4 @@
-// Verdicts follow from numbers, and from nothing else.
+// Verdicts follow from numbers alone.
 #include "sinew/report/figures/claim.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Claim, AgreesInsideOfItsBandAndAtItsEnds) {
     EXPECT_EQ(judge(predicted, half_a_millisecond(ours)).verdict, Is::differs) << ours;
 }
 
-// What agreement is worth is counted apart; missed, a statement differs whatever its class.
+// Statements are counted by class; one that is missed differs in every class.
 TEST(Claim, IsCountedByClassAndVerdict) {
   Measured m = half_a_millisecond(0.5);
   Tally tally;
@@ -45,7 +45,7 @@ TEST(Claim, IsCountedByClassAndVerdict) {
   EXPECT_EQ(tally.total(), 3);
 }
 
-// A band follows a rule, or tells why it does not.
+// A band follows a rule or needs a reason.
 TEST(Claim, ABandOfOurOwnNeedsItsReason) {
   Measured m = half_a_millisecond(0.5);
   m.why.clear();
@@ -63,7 +63,7 @@ TEST(Claim, AKnownDifferenceThatIsNoMoreIsToldToo) {
   EXPECT_EQ(judge(predicted, m).verdict, Is::agrees_after_all);
   Tally tally;
   count(tally, {judge(predicted, m)});
-  EXPECT_EQ(tally.of(predicted, Is::agrees_after_all), 1);  // somebody has to take the reason away
+  EXPECT_EQ(tally.of(predicted, Is::agrees_after_all), 1);  // the reason has to be removed
 }
 
 TEST(Claim, TellsNumbersWithTheirUnits) {
@@ -75,7 +75,7 @@ TEST(Claim, TellsNumbersWithTheirUnits) {
   EXPECT_EQ(judge(predicted, m).accept, "at most 2 ms");
   EXPECT_EQ(judge(predicted, m).ours, "-1e-09 ms");
   m.accept = analysis::range(0, 2);
-  EXPECT_EQ(judge(predicted, m).ours, "0 ms");  // rounding, beside such a band
+  EXPECT_EQ(judge(predicted, m).ours, "0 ms");  // rounding, compared with the band
   m.unit = "";
   m.accept = analysis::at_least(3);
   m.ours = 12345.678;
@@ -84,7 +84,7 @@ TEST(Claim, TellsNumbersWithTheirUnits) {
   EXPECT_EQ(judge(predicted, m).ours, "none");
 }
 
-// Of a verdict that the experiment's file has: its reason stands apart from its source.
+// The reason in a verdict of the experiment's file is separated from its source.
 TEST(Claim, TakesAVerdictWithItsReason) {
   analysis::Verdict v{.key = "trolley.distance_m",
                       .reported = "5 ft",
@@ -106,7 +106,7 @@ TEST(Claim, TakesAVerdictWithItsReason) {
   EXPECT_EQ(claim(v).verdict, Is::differs_as_known);
 }
 
-// A narrow band shows the digits that lie in it.
+// A number is shown with the digits that a narrow band requires.
 TEST(Claim, ShowsWhyANumberIsOutside) {
   Measured m = half_a_millisecond(2.8934);
   m.accept = analysis::range(2.8931, 2.8933);

@@ -16,7 +16,7 @@ std::string heading_of(const std::string& name, const std::string& unit) {
   return fmt::format("{} [{}]", name, unit.empty() ? "-" : unit);
 }
 
-// A heading that no other column of the sheet has.
+// Returns a heading that no other column of the sheet has.
 std::string free_heading(const Sheet& sheet, const std::string& name, const std::string& unit) {
   std::string heading = heading_of(name, unit);
   for (int n = 2; std::ranges::find(sheet.headings, heading) != sheet.headings.end(); ++n)
@@ -48,7 +48,7 @@ void check(const Figure& figure, const Curve& curve) {
                     curve.label, curve.xs.size(), curve.ys.size()));
 }
 
-// The same bits: NaN equals itself, 0 is not -0.
+// Returns whether values are identical: NaN equals NaN, and 0 is not -0.
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::ranges::equal(a, b, [](double p, double q) {
     return p == q ? std::signbit(p) == std::signbit(q) : std::isnan(p) && std::isnan(q);
@@ -66,7 +66,7 @@ class Layout {
  private:
   void lay_out(const Plot& plot) {
     const std::size_t first = out.sheets.size();
-    std::vector<std::string> named_after;  // of each sheet of this plot
+    std::vector<std::string> named_after;  // first curve of each sheet of this plot
     out.places.emplace_back();
     for (const Curve& curve : plot.curves) {
       check(figure_, curve);
@@ -163,7 +163,7 @@ Curve once(const Curve& path) {
     }
     if (left_out && number) {
       add(x, std::nan(""));
-      add(path.xs[i - 1], path.ys[i - 1]);  // where the new part leaves the old one
+      add(path.xs[i - 1], path.ys[i - 1]);  // start of the new part on the old one
     }
     left_out = false;
     add(x, y);

@@ -23,7 +23,7 @@ bool within(const Axis& axis, double value) {
          (!axis.logarithmic || value > 0);
 }
 
-// Of the samples that stand within the axes.
+// Range of the samples that are within the axes.
 struct Extent {
   Range x, y;
 
@@ -37,7 +37,7 @@ struct Extent {
   }
 };
 
-// 1, 2 or 5 times a power of ten, at least `step`.
+// Returns 1, 2 or 5 times a power of ten, at least `step`.
 double round_step(double step) {
   const double power = std::pow(10, std::floor(std::log10(step)));
   for (const double factor : {1.0, 2.0, 5.0})
@@ -45,7 +45,7 @@ double round_step(double step) {
   return 10 * power;
 }
 
-// A number that is a few steps from 0 exactly, not almost.
+// Returns n steps; a step below 1 is applied as a division, so that the result is exactly rounded.
 double multiple(double step, double n) { return step < 1 ? n / std::round(1 / step) : n * step; }
 
 Scale logarithmic_scale(const Axis& axis, double least, double greatest) {
@@ -61,7 +61,7 @@ struct Axes {
   double left, right, height;
 };
 
-// Room for names of rows.
+// Makes room for the names of rows.
 void make_room(const std::vector<Axis::Tick>& rows, const Print& print, Axes& axes) {
   std::size_t longest = 0;
   for (const Axis::Tick& row : rows) longest = std::max(longest, letters(row.text));
@@ -71,7 +71,7 @@ void make_room(const std::vector<Axis::Tick>& rows, const Print& print, Axes& ax
   axes.height = std::max(print.lowest, 1.1 * print.line * static_cast<double>(rows.size()));
 }
 
-// As long in x as in y: first the height, then what has to be shown more of where it has an end.
+// Gives both axes the same scale, by the height within its limits, or else by extending one range.
 void make_equal(const Print& print, double lowest, double tallest, Axes& axes) {
   const double width = print.width - print.left - print.right;
   const double wanted = width * (axes.y.to - axes.y.from) / (axes.x.to - axes.x.from);
@@ -85,9 +85,9 @@ void make_equal(const Print& print, double lowest, double tallest, Axes& axes) {
   axes.y.step = round_step((axes.y.to - axes.y.from) / std::min(6.0, axes.height / print.tick));
 }
 
-// Numbers below a narrow axis, or beside a low one, do not run into each other.
+// Reduces the ticks of a short axis, so that their numbers do not overlap.
 void make_apart(const Plot& plot, const Print& print, Axes& axes) {
-  constexpr double number = 6;  // letters that one takes, with what is between two
+  constexpr double number = 6;  // letters per number, with the space between two
   const auto fewer = [](const Axis& axis, Scale& s, double room) {
     if (axis.logarithmic || !axis.ticks.empty() || (s.to - s.from) / s.step <= room) return;
     s.step = round_step((s.to - s.from) / std::max(1.0, room));
@@ -96,7 +96,7 @@ void make_apart(const Plot& plot, const Print& print, Axes& axes) {
   fewer(plot.y, axes.y, axes.height / (0.8 * print.tick));
 }
 
-// `height`: of the data; 0: as high as the plot wants to be.
+// Returns the axes of a plot. `height` is that of the data; 0: the default.
 Axes axes_of(const Plot& plot, const Print& print, double height) {
   Extent all;
   for (const Curve& c : plot.curves) all.add(plot, c);
@@ -127,7 +127,7 @@ std::string in_legend(const Curve& curve) {
   return curve.kind == Curve::Kind::synthetic ? curve.label + " (synthetic)" : curve.label;
 }
 
-// Columns of equal width; returns the height of the legend.
+// Adds the legend in columns of equal width. Returns its height.
 double add_legend(const Plot& plot, const Print& print, PlotLayout& out, double top) {
   std::size_t longest = 0;
   for (const std::size_t c : out.curves) {
@@ -162,7 +162,7 @@ Scale scale(const Axis& axis, double least, double greatest, bool tight) {
   if (std::isnan(out.from)) out.from = std::isnan(out.to) ? least : std::min(least, out.to);
   if (std::isnan(out.to)) out.to = std::max(greatest, out.from);
   if (!(out.to - out.from > 1e-12 * std::max(std::fabs(out.from), std::fabs(out.to)))) {
-    // A constant stands in the middle.
+    // A constant is in the middle.
     const double beside = out.from == 0 ? 1 : 0.1 * std::fabs(out.from);
     if (std::isnan(axis.from)) out.from -= beside;
     if (std::isnan(axis.to)) out.to += beside;
@@ -171,7 +171,7 @@ Scale scale(const Axis& axis, double least, double greatest, bool tight) {
   out.step = round_step((out.to - out.from) / (tight ? 7 : 6));
   const double first = multiple(out.step, std::floor(out.from / out.step + 1e-9));
   const double last = multiple(out.step, std::ceil(out.to / out.step - 1e-9));
-  // A tight end that is almost at a tick is there: the first sample of a run may be at 10 ms.
+  // A tight end that is close to a tick is moved to it: the first sample of a run may be at 10 ms.
   const double near = tight ? 0.02 * (out.to - out.from) : INFINITY;
   if (std::isnan(axis.from) && out.from - first <= near) out.from = first;
   if (std::isnan(axis.to) && last - out.to <= near) out.to = last;
@@ -179,7 +179,7 @@ Scale scale(const Axis& axis, double least, double greatest, bool tight) {
 }
 
 Print::Print(const Paper& paper) : width(paper.width), font(paper.font) {
-  const double by = font / 7;  // the letters for which the numbers below were chosen
+  const double by = font / 7;  // the numbers below were chosen for 7 pt
   const double wide = std::sqrt(width / 252);
   left = 38 * by;
   right = 8 * by;
@@ -195,7 +195,7 @@ Print::Print(const Paper& paper) : width(paper.width), font(paper.font) {
 
 namespace {
 
-// Everything where it stands if the data of each plot are as high as that.
+// Returns the layout for a given height of each plot's data.
 FigureLayout laid_out(const Figure& figure, const Print& print, double height) {
   FigureLayout out;
   double y = print.top;

@@ -1,5 +1,5 @@
-// report/figures/figure_layout.h - where the parts of a printed figure stand: one column of a
-// journal wide, the legend above the data, axes that end at round numbers.
+// report/figures/figure_layout.h - layout of a printed figure: by default one column of a journal
+// wide, the legend above the data, axes that end at round numbers.
 #pragma once
 
 #include <cstddef>
@@ -10,42 +10,42 @@
 
 namespace sinew::report {
 
-// Sizes in points, 72 to the inch: they grow with the letters.
+// Sizes in points, 72 to the inch. Most are proportional to the font.
 struct Print {
-  // Sizes for letters and width of that paper.
+  // Computes the sizes for font and width of a paper.
   explicit Print(const Paper& paper = {});
 
   double width, font;
   double left, right, top = 6, bottom = 4;
-  double line;     // from line to line
-  double letter;   // mean width
-  double numbers;  // below the axis, at its ticks
-  double plot, lowest = 60, tallest;
-  double tick;         // between two numbers above each other
-  double sample, gap;  // of a line in the legend; beside it
+  double line;                        // distance of two lines of text
+  double letter;                      // mean width of a letter
+  double numbers;                     // height of the numbers below an axis
+  double plot, lowest = 60, tallest;  // height of the data: default, least, greatest
+  double tick;                        // distance of two numbers at a vertical axis
+  double sample, gap;                 // length of a line in the legend; space next to it
 };
 
-// Of one axis, as drawn.
+// Range and ticks of an axis.
 struct Scale {
   double from = 0, to = 1;
-  double step = 0.5;  // between ticks; logarithmic: a factor
+  double step = 0.5;  // distance of ticks; logarithmic: their factor
 };
 
 // A curve's name in the legend.
 struct LegendEntry {
   std::size_t curve = 0;
   std::string text;
-  double x = 0, y = 0;  // middle of its sample's left end, from the left and from the top [pt]
+  double x = 0, y = 0;  // left end of its sample line, from the left and the top [pt]
 };
 
-// Where one plot of a figure stands.
+// Layout of one plot of a figure.
 struct PlotLayout {
   Scale x, y;
-  double left = 0, right = 0;  // of the data, from the picture's edges [pt]
-  double title = 0;            // its middle, from the top [pt]
-  double top = 0, bottom = 0;  // of the data, from the top [pt]
+  double left = 0, right = 0;  // distance of the data from the picture's edges [pt]
+  double title = 0;            // middle of the title, from the top [pt]
+  double top = 0, bottom = 0;  // edges of the data, from the top [pt]
   std::vector<LegendEntry> legend;
-  std::vector<std::size_t> curves;  // those that have samples within the axes
+  std::vector<std::size_t> curves;  // curves with samples within the axes
 };
 
 struct FigureLayout {
@@ -53,18 +53,18 @@ struct FigureLayout {
   std::vector<PlotLayout> plots;
 };
 
-// Returns where everything in the figure stands. Throws std::invalid_argument, with the least
-// height, where its plots have no room in the height of its paper.
+// Returns the layout of a figure. Throws std::invalid_argument with the least height if its paper
+// is too low for its plots.
 FigureLayout layout(const Figure& figure);
 
-// Where that curve has its name: points have no end, so theirs stands above the data.
+// Returns the position of a curve's name: points have no end, so they are named above the data.
 Plot::Names naming(const Plot& plot, const Curve& curve);
 
-// Ends at round numbers with at most seven ticks; what the axis prescribes stays. `tight`: ends
-// where the data do.
+// Returns a scale that ends at round numbers, with at most seven ticks; given ends are kept.
+// `tight`: it ends at the data.
 Scale scale(const Axis& axis, double least, double greatest, bool tight);
 
-// Letters, not bytes.
+// Returns the number of letters, not bytes.
 std::size_t letters(std::string_view utf8);
 
 }  // namespace sinew::report

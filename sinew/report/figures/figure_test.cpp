@@ -90,7 +90,7 @@ TEST(FigureData, RefusesUnlikeNumbersAndNamesThatAreNoFiles) {
 }
 
 TEST(Once, LeavesOutWhereAPathWasBefore) {
-  // A square twice, then a way off from its third corner.
+  // The path is a square twice, then leaves it at its third corner.
   const Curve path{
       .label = "path", .xs = {0, 1, 1, 0, 0, 1, 1, 2, 3}, .ys = {0, 0, 1, 1, 0, 0, 1, 2, 2}};
   const Curve drawn = once(path);
@@ -173,7 +173,7 @@ TEST(Layout, MakesRoomForNamesOfRowsAndAtTheEnds) {
   EXPECT_GE(named.right, usual.right + 17 * Print().letter / 2);
   EXPECT_TRUE(named.legend.empty());
   EXPECT_EQ(usual.legend.size(), 2u);
-  figure.plots[0].curves[1].style = Curve::Style::points;  // these have no end
+  figure.plots[0].curves[1].style = Curve::Style::points;  // points have no end
   EXPECT_EQ(layout(figure).plots[0].legend.size(), 1u);
   figure.plots[0].names = Plot::Names::legend;
   figure.plots[0].curves[1].in_legend = false;

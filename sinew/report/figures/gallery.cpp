@@ -12,7 +12,7 @@ namespace sinew::report {
 
 namespace {
 
-// --- the style of the page of figures; colors as in web/src/style.css ---
+// --- style of the page of figures; colors as in web/src/style.css ---
 
 constexpr std::string_view gallery_style = R"css(
 :root { color-scheme: light; --paper: #fff; --back: #f5f6f8; --ink: #1c2430; --quiet: #5d6878;
@@ -93,7 +93,7 @@ dl { margin: 0; }
   .claim { padding: 5pt 0; } figure img { padding: 0; } }
 )css";
 
-// Shows the figures that were chosen.
+// Shows the chosen figures.
 constexpr std::string_view gallery_script = R"js(
 const choice = document.getElementById('choice');
 if (choice) {
@@ -113,7 +113,7 @@ bool holds_kind(const Figure& figure, Curve::Kind kind) {
   return false;
 }
 
-// A class as a name in the page.
+// Returns the name of a class in the page.
 std::string_view name_of(StatementClass c) {
   switch (c) {
     case StatementClass::predicted:
@@ -138,7 +138,7 @@ std::string_view class_of(Is verdict) {
   return verdict == Is::differs_as_known ? "known" : "differs";
 }
 
-// What the page's choice looks for.
+// Returns the properties by which the page filters figures.
 std::string properties(const Exhibit& e) {
   Tally t;
   count(t, e.claims);
@@ -176,7 +176,7 @@ class Page {
   void curves(const Figure& figure);
 
   const Gallery& gallery_;
-  bool claims_;  // are there any? Else figures stand side by side
+  bool claims_;  // whether a figure has claims; otherwise figures are shown side by side
   std::string out_;
 };
 
@@ -191,7 +191,7 @@ void Page::head() {
   add("</header>");
 }
 
-// Verdicts by class. What is worth most stands first.
+// Adds the verdicts by class, the strongest evidence first.
 void Page::tally_table() {
   const Tally t = tally(gallery_);
   add("<table class=\"tally\">\n<caption>{} statements about {} "
@@ -248,7 +248,7 @@ void Page::files(const Figure& figure, const FigureData& data) {
   add("</div>");
 }
 
-// A browser shows no PDF as an image: figures of which there are only PDFs are links, above.
+// Adds the picture. A browser does not show a PDF as an image: such figures are linked only.
 void Page::picture(const Exhibit& e) {
   add("<figure>");
   const auto shown = std::ranges::find_if(
@@ -260,7 +260,7 @@ void Page::picture(const Exhibit& e) {
   add("</figure>");
 }
 
-// "4.3" is a section, "table 4-1" says what it is.
+// Returns "section 4.3" for "4.3"; "table 4-1" stays as it is.
 std::string in_words(const std::string& where) {
   return where.empty() || where[0] < '0' || where[0] > '9' ? where : "section " + where;
 }
@@ -293,7 +293,7 @@ void Page::claims(const std::vector<Claim>& claims) {
   for (const Claim& c : claims) claim(c);
 }
 
-// Curves of one kind and one source in one line.
+// Adds a line for all curves of one kind and one source.
 void Page::curves(const Figure& figure) {
   struct Group {
     Curve::Kind kind;

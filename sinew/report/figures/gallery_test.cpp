@@ -1,4 +1,4 @@
-// The page says what its figures and claims say, and nothing in them can leave its place.
+// The page contains the texts of its figures and claims, escaped.
 #include "sinew/report/figures/gallery.h"
 #include "sinew/json/json.h"
 

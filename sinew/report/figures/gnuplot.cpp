@@ -29,7 +29,7 @@ double length(std::string_view name, const std::string& text, const config::Rang
   return config::quantity_setting(name, text, "m", units::atmosphere, range) / point;
 }
 
-// "9 pt", or the number alone: nobody measures letters in anything else.
+// Reads the size of letters, "9 pt" or the number alone  [pt].
 double letters_of(const std::string& text) {
   std::string_view rest = config::trimmed(text);
   double size = 0;
@@ -61,7 +61,7 @@ using Kind = Curve::Kind;
 using Style = Curve::Style;
 using config::format_number;
 
-// The page's colors; dashes tell them apart in grey, dots what was desired.
+// The page's colors, with dashes that distinguish them in grey, and dots for desired curves.
 struct Look {
   const char *color, *dash, *dots;
 };
@@ -74,7 +74,7 @@ constexpr Look looks[] = {{"#0072b2", "1", "(1,1.5)"},
                           {"#6b6f76", "(5,4)", "(1,2.2)"},
                           {"#7a4b12", "(2,1)", "(1,7)"}};
 
-// In single quotes a quote alone means something to gnuplot.
+// Returns a gnuplot string in single quotes, in which only the quote is special.
 std::string as_literal(std::string_view typed) {
   std::string out = "'";
   for (const char c : typed) {
@@ -105,7 +105,7 @@ class Script {
   void add(fmt::format_string<Parts...> format, Parts&&... parts) {
     out_ += fmt::format(format, std::forward<Parts>(parts)...) + '\n';
   }
-  // Parts of the picture, from the left and from below.
+  // Return positions as shares of the picture, from the left and from the bottom.
   std::string across(double points) const { return rounded(points / print_.width); }
   std::string up(double points) const { return rounded(1 - points / layout_.height); }
 
@@ -129,13 +129,13 @@ class Script {
   std::string out_;
 };
 
-// Where a curve has no color of its own, the next one.
+// Returns the color of a curve, or the next one if it has no color.
 const Look& look_of(const Plot& plot, std::size_t curve) {
   const int own = plot.curves[curve].color;
   return looks[(own == Curve::next ? curve : static_cast<std::size_t>(own)) % std::size(looks)];
 }
 
-// Its dash goes with its color, unless it has one of its own.
+// Returns the dash of a curve, or that of its color if it has no dash.
 const Look& dash_of(const Plot& plot, std::size_t curve) {
   const int own = plot.curves[curve].dash;
   return own == Curve::next ? look_of(plot, curve)
@@ -144,7 +144,7 @@ const Look& dash_of(const Plot& plot, std::size_t curve) {
 
 bool has_points(const Curve& c) { return c.style == Style::points || c.style == Style::marked; }
 
-// As a property of a curve, an arrow or a label's point.
+// Returns the line style of a curve, also for an arrow or a label's point.
 std::string line_of(const Plot& plot, std::size_t c) {
   const Look &look = look_of(plot, c), &dash = dash_of(plot, c);
   const Curve& curve = plot.curves[c];
@@ -198,7 +198,7 @@ void Script::begin(const std::vector<Picture>& pictures) {
   add("set multiplot");
 }
 
-// Sizes of each picture are in points of 72 to the inch, however large the terminal's own are.
+// Sets the terminals so that all sizes are in points of 72 to the inch.
 void Script::terminals(const std::vector<Picture>& pictures) {
   const auto pixels = [&](double dots, double points) {
     return fmt::format("{:.0f}", points * dots / 72);
@@ -212,14 +212,14 @@ void Script::terminals(const std::vector<Picture>& pictures) {
           pixels(96, print_.width), pixels(96, layout_.height), font * 96 / 72, 96.0 / 72);
       add("heading = ',{:.2f}'; mark = 0.5", (font + 1) * 96 / 72);
     } else if (p == Picture::png) {
-      // Its points are of 96 to the inch.
+      // This terminal's points are 96 to the inch.
       add("set terminal pngcairo size {},{} noenhanced font 'Arial,{}' fontscale {:.3f} "
           "linewidth {:.3f} pointscale {:.3f} background '#ffffff'",
           pixels(300, print_.width), pixels(300, layout_.height), font, 300.0 / 96, 300.0 / 72,
           300.0 / 72);
       add("heading = ',{}'; mark = 0.3", font + 1);
     } else {
-      // Its points are of 96 to the inch, too, and its lines of half a point.
+      // This terminal's points are 96 to the inch, too, and its lines half a point wide.
       add("set terminal pdfcairo size {:.4f}in,{:.4f}in noenhanced font 'Arial,{}' "
           "fontscale 0.75 linewidth 2",
           print_.width / 72, layout_.height / 72, font);
@@ -229,7 +229,7 @@ void Script::terminals(const std::vector<Picture>& pictures) {
   }
 }
 
-// A tick's text is a format: a percent sign stands for itself when it is doubled.
+// Returns the ticks. A tick's text is a format, in which a percent sign has to be doubled.
 std::string named(const std::vector<Axis::Tick>& ticks) {
   std::string out;
   for (const Axis::Tick& t : ticks) {
@@ -277,7 +277,7 @@ void Script::legend(const Plot& plot, const PlotLayout& at) {
   }
 }
 
-// Names where curves leave the plot.
+// Adds names at the ends of curves.
 void Script::ends(const Plot& plot, const PlotLayout& at) {
   for (const std::size_t c : at.curves) {
     const Curve& curve = plot.curves[c];
@@ -360,7 +360,7 @@ std::string script(const Figure& figure, const FigureData& data,
 
 namespace {
 
-// With its settings as delivered: nothing of the user's, nothing of this terminal.
+// Starts gnuplot with its default settings, without those of the user and of the terminal.
 pid_t start(const std::filesystem::path& folder, std::string argument) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -384,7 +384,7 @@ bool succeeds(pid_t pid) {
 }  // namespace
 
 bool has_gnuplot() {
-  // Nothing to do: it ends at once.
+  // An empty script ends at once.
   return succeeds(start({}, "/dev/null"));
 }
 
@@ -402,7 +402,7 @@ std::vector<std::string> draw(const std::filesystem::path& folder,
   return failed;
 }
 
-// The rest of a PDF knows by their places where its parts are, so blanks take the date's place.
+// A PDF refers to its parts by their offsets, so the date is replaced by blanks.
 void take_date_out(const std::filesystem::path& pdf) {
   std::ostringstream text;
   text << std::ifstream(pdf, std::ios::binary).rdbuf();

@@ -21,12 +21,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-// Text with everything that some program on the way could take for its own.
+// Text with all characters that are special to a program between here and the picture.
 const std::string nasty = R"(it's "q" a_b^{c}@d }{ \ \n & <x> `date` $y %d # µ°²)";
 
 bool has_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
 
-// A folder with a figure's files, drawn; removed afterwards.
+// A temporary folder with a figure's files and pictures.
 class Drawn {
  public:
   explicit Drawn(const Figure& figure) {
@@ -153,7 +153,7 @@ TEST(Gnuplot, LeavesAGapWhereThereIsNoNumber) {
   figure.plots[0].curves[0].ys[2] = nan;
   const Drawn gap(figure);
   ASSERT_EQ(gap.code, 0) << gap.messages;
-  // Every stretch of a line begins with an M.
+  // Every segment of a line begins with an M.
   EXPECT_EQ(std::ranges::count(gap.svg, 'M'), std::ranges::count(whole.svg, 'M') + 1);
 }
 

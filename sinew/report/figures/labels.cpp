@@ -39,13 +39,13 @@ std::vector<Label> read_table(const Node& table, Problems& wrong) {
   return out;
 }
 
-// A letter, a digit, or a part of a letter of more than one byte.
+// Returns whether a byte is a letter, a digit, or part of a letter of more than one byte.
 bool within_word(char c) {
   const auto u = static_cast<unsigned char>(c);
   return u >= 0x80 || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// The longest words that begin at that place of the text and end with a word of it.
+// Returns the longest label that matches whole words of the text from `at` on.
 const Label* longest_at(const std::vector<Label>& labels, std::string_view text, std::size_t at) {
   const Label* found = nullptr;
   for (const Label& label : labels) {
@@ -139,7 +139,7 @@ std::vector<config::Problem> unsaid(const Labels& labels, const Phrases& phrases
   const auto look = [&](const char* table, const std::vector<Label>& list,
                         const std::set<std::string>& said, bool within) {
     for (const Label& label : list) {
-      // Words may be a part of what a figure says.
+      // Words may match a part of a figure's text.
       const bool found = std::ranges::any_of(said, [&](const std::string& text) {
         return within ? Labels{.words = {{label.ours, ""}}}.of(text) != text : text == label.ours;
       });
@@ -157,7 +157,7 @@ std::vector<config::Problem> unsaid(const Labels& labels, const Phrases& phrases
 
 namespace {
 
-// A TOML text, with what it may not hold as it is.
+// Returns a quoted and escaped TOML string.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -167,7 +167,7 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-// "hip" is enough where there is "hip desired" and "desired", too.
+// Splits "hip desired" into "hip" and "desired", so that each has to be translated once.
 std::set<std::string> parts_of(const std::set<std::string>& words) {
   constexpr std::string_view endings[] = {
       " desired", " true", " measured", " estimated", " oscillation", " from torques", " read"};

@@ -1,18 +1,18 @@
-// report/figures/labels.h - a figure's labels in somebody's own language, from a small file:
+// report/figures/labels.h - a figure's labels in the user's language, from a small file:
 //
 //   format = "sinew.labels/1"
 //   decimal_comma = true
 //
-//   [words]                       # whole words as figures have them = yours
+//   [words]                       # whole words of the figure = translation
 //   "joint angles" = "Gelenkwinkel"
 //   "desired" = "Soll"
 //
 //   [units]
 //   "bar gauge" = "bar (Überdruck)"
 //
-// A label is translated by the longest words that the file has: "hip desired" by "hip desired", or
-// else by "hip" and "desired". Pictures have the file's words; CSV files and captions stay as they
-// are, so that a program that reads them works for every language.
+// A label is translated by the longest entry that matches: "hip desired" by "hip desired" if there
+// is one, else by "hip" and "desired". Only pictures are translated; CSV files and captions are
+// not, so that programs that read them work for every language.
 #pragma once
 
 #include <set>
@@ -25,39 +25,40 @@
 
 namespace sinew::report {
 
-// Words of a figure, and what is to stand in their place.
+// Words of a figure, and their translation.
 struct Label {
   std::string ours, yours;
   config::Location where;
 };
 
-// Holds what a file of labels says.
+// Content of a file of labels.
 struct Labels {
   std::vector<Label> words, units;
   bool decimal_comma = false;
 
-  // Returns a text, or a unit's name, in the file's words.
+  // Return the translation of a text, or of a unit's name.
   std::string of(std::string_view text) const;
   std::string unit(std::string_view name) const;
 };
 
-// Throws config::Error, with the line, for a file that cannot be read or has something else in it.
+// Reads a file of labels. Throws config::Error with the line for a file that cannot be read or has
+// other content.
 Labels read_labels(const std::string& path);
 
 // Returns the figure with these labels.
 Figure labelled(Figure figure, const Labels& labels);
 
-// Lists what figures say: words of axes and curves, and units.
+// Texts of figures: words of axes and curves, and units.
 struct Phrases {
   std::set<std::string> words, units;
-  // Adds what a figure says.
+  // Adds the texts of a figure.
   void add(const Figure& figure);
 };
 
-// Returns a problem for each label that no figure says, with the nearest that one does.
+// Returns a problem for each label that no figure uses, with the most similar one that is used.
 std::vector<config::Problem> unsaid(const Labels& labels, const Phrases& phrases);
 
-// Returns a file of labels, to begin with: each phrase stands for itself.
+// Returns a file of labels as a start: each phrase is translated by itself.
 std::string labels_file(const Phrases& phrases);
 
 }  // namespace sinew::report

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 namespace fs = std::filesystem;
 
-// A file that goes with the test.
+// A temporary file.
 struct File {
   explicit File(const std::string& text)
       : path(::testing::TempDir() + "labels-" + std::to_string(::getpid()) + ".toml") {

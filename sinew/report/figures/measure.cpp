@@ -13,13 +13,13 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 bool there(const Trace& t, std::size_t i) { return !std::isnan(t.x[i]) && !std::isnan(t.y[i]); }
 
-// Where the line from sample a to sample b has y = level.
+// Returns x at which the line from sample a to sample b has y = level.
 double crossing(const Trace& t, std::size_t a, std::size_t b, double level) {
   const double rise = t.y[b] - t.y[a];
   return rise == 0 ? t.x[b] : t.x[a] + (t.x[b] - t.x[a]) * (level - t.y[a]) / rise;
 }
 
-// `up`: y >= level, else y <= level.
+// Returns the first x from `from` on with y >= level if `up`, else y <= level.
 double first_crossing(const Trace& t, double level, double from, bool up) {
   std::size_t before = t.x.size();  // none yet
   for (std::size_t i = 0; i < t.x.size(); ++i) {
@@ -124,7 +124,7 @@ double mean(const Trace& t) {
 double first_dip(const Trace& t, double from) {
   for (std::size_t i = 1; i + 1 < t.y.size(); ++i) {
     if (t.x[i] < from || !(t.y[i] < t.y[i - 1])) continue;
-    std::size_t next = i + 1;  // over a flat bottom
+    std::size_t next = i + 1;  // end of a flat minimum
     while (next + 1 < t.y.size() && t.y[next] == t.y[i]) ++next;
     if (t.y[next] > t.y[i]) return t.x[i];
   }

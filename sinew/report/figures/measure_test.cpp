@@ -1,4 +1,4 @@
-// What is read off a curve is what the curve was made from.
+// Measurements of curves give the parameters of the curves.
 #include "sinew/report/figures/measure.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,8 @@ TEST(Measure, FindsTheFirstCrossing) {
   EXPECT_TRUE(std::isnan(first_at_least(c.trace(), 2)));
 }
 
-// A parabola over [0, 1] lies at most 1/6 off its line of least squares, whose range is 1.
+// A parabola over [0, 1] has a range of 1 and differs by at most 1/6 from its line of least
+// squares.
 TEST(Measure, ALineDoesNotBendAndAParabolaDoes) {
   const Curve line = drawn(-3, 5, 100, [](double x) { return 2 - 7 * x; });
   EXPECT_NEAR(bend(line.trace()), 0, 1e-12);
@@ -65,7 +66,7 @@ TEST(Measure, DipsAreTurns) {
   EXPECT_TRUE(std::isnan(first_dip(drawn(0, 1, 9, [](double x) { return -x; }).trace())));
 }
 
-// A fast sine on a slow ramp: the ramp does not count, the sine by its amplitude.
+// The result for a fast sine on a slow ramp is the amplitude of the sine.
 TEST(Measure, AmplitudeIsOfWhatIsFast) {
   const Curve c = drawn(0, 10, 10'000,
                         [](double x) { return 5 * x + 0.3 * std::sin(2 * std::numbers::pi * x); });

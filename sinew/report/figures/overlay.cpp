@@ -7,9 +7,9 @@
 namespace sinew::report {
 namespace {
 
-constexpr std::size_t most_together = 4;  // curves that one plot holds, but for what was desired
+constexpr std::size_t most_together = 4;  // curves of one plot, without desired ones
 
-// A curve of one run, with the run's place among them.
+// A curve with the index of its run.
 struct Entry {
   std::size_t run = 0;
   Curve curve;
@@ -25,7 +25,7 @@ bool is_desired(const Curve& curve) { return curve.kind == Curve::Kind::desired;
 
 bool same_samples(const Curve& a, const Curve& b) { return a.xs == b.xs && a.ys == b.ys; }
 
-// Can what is in `from` be shown in `to`?
+// Returns whether values of the axis `from` can be shown on the axis `to`.
 bool convertible(const Axis& from, const Axis& to) {
   return from.unit == to.unit || (from.scale > 0 && to.scale > 0 && from.name == to.name);
 }
@@ -35,7 +35,8 @@ void convert(std::vector<double>& values, const Axis& from, const Axis& to) {
   for (double& value : values) value *= to.scale / from.scale;
 }
 
-// Keeps the order in which they come; the label of a lone curve is its axis's name.
+// Returns the labels of the curves that are not desired ones, in the order of occurrence. A single
+// curve has an empty label, because its axis is named.
 std::vector<std::string> channels_of(const Stack& stack) {
   std::vector<std::string> out;
   for (const Entry& e : stack.entries)
@@ -88,7 +89,8 @@ void Overlay::add(const Figure& of, std::size_t run) {
   }
 }
 
-// That of the same place in an earlier run, unless what they show cannot stand in one plot.
+// Returns the stack of the same plot in an earlier run, or a new one if the units cannot be
+// converted.
 Stack& Overlay::stack_for(const Plot& plot, std::size_t place) {
   if (place < stacks_.size() && convertible(plot.x, stacks_[place].plot.x) &&
       convertible(plot.y, stacks_[place].plot.y))
@@ -118,7 +120,7 @@ bool has(const std::vector<std::string>& list, const std::string& text) {
   return std::ranges::find(list, text) != list.end();
 }
 
-// Was the same desired by an earlier run?
+// Returns whether an earlier run has the same desired curve.
 bool was_before(const Stack& stack, const Entry& wish) {
   return std::ranges::any_of(stack.entries, [&](const Entry& e) {
     return e.run < wish.run && is_desired(e.curve) && e.curve.label == wish.curve.label &&
@@ -126,7 +128,7 @@ bool was_before(const Stack& stack, const Entry& wish) {
   });
 }
 
-// A curve as the legend tells it from those of other channels and runs.
+// Returns a curve with label, color and dash that distinguish it from other channels and runs.
 Curve Overlay::told_apart(const Entry& e, const std::vector<std::string>& channels,
                           const Plot& before) const {
   Curve out = e.curve;
@@ -146,10 +148,10 @@ Curve Overlay::told_apart(const Entry& e, const std::vector<std::string>& channe
   return out;
 }
 
-// The curves of these channels and what those were to be.
+// Returns a plot of these channels and their desired curves.
 Plot Overlay::with(const Stack& stack, const std::vector<std::string>& channels) const {
   Plot plot = stack.plot;
-  std::vector<int> colors;  // of these channels in their own plot
+  std::vector<int> colors;  // colors of these channels in the runs' own plots
   for (const Entry& e : stack.entries)
     if (!is_desired(e.curve) && has(channels, e.curve.label)) colors.push_back(e.curve.color);
   for (const Entry& e : stack.entries) {

@@ -13,7 +13,7 @@ Curve curve(const std::string& label, int color, double value, Kind kind = Kind:
   return {.label = label, .xs = {0, 1}, .ys = {value, value}, .kind = kind, .color = color};
 }
 
-// Angles of so many joints, each with what it was to be.
+// Returns a figure of the angles of `joints` joints, each with its desired one.
 Figure angles(int joints, double value, double wish) {
   Plot plot{.x = {"time", "s"}, .y = {.name = "joint angles", .unit = "deg"}};
   for (int j = 0; j < joints; ++j) {
@@ -80,7 +80,7 @@ TEST(Overlay, KeepsWhatOnlyOneRunHas) {
   Figure other = angles(1, 1, 1);
   other.name = "tension";
   Figure unlike = angles(1, 1, 1);
-  unlike.plots[0].y.unit = "count";  // of which nobody knows how much it is
+  unlike.plots[0].y.unit = "count";  // a unit that cannot be converted
   const auto all = overlaid({{"a", {angles(1, 1, 1)}}, {"b", {other, unlike}}});
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].plots.size(), 2u) << "two units stand in two plots";

@@ -23,46 +23,46 @@
 
 namespace sinew::report {
 
-// Holds the common part of the figures of one run: its samples in shown units, the shaded
-// stretches, and the words of the captions.
+// --- Common part of the figures of one run: samples in shown units, shaded spans, captions ---
 
-// Holds what captions and curves say of a run.
+// Description of a run in captions and curves.
 struct RunWords {
   std::string run;     // "Walking, test 1" (walk-test-1)
-  std::string source;  // of every curve: "simulated, robot …, seed 1, sinew 0.1.0"
+  std::string source;  // source of every curve: "simulated, robot …, seed 1, Sinew 0.1.0"
   Curve::Kind kind = Curve::Kind::computed;
 };
 
-// `title` and `robot` are of what was run; either may be empty.
+// Returns the description of a run. `title` and `robot` may be empty.
 RunWords words_of(const Run& run, const std::string& title, const std::string& robot);
 
 // Makes the figures of one run out of its channels.
 class Maker {
  public:
-  // `channels` outlive this. `atmosphere`: what gauges count from  [Pa].
+  // `channels` must outlive this. `atmosphere` is the reference of gauge pressures  [Pa].
   Maker(const Channels& channels, RunWords about, const RunFigureOptions& options,
         double atmosphere)
       : channels_(channels), about_(std::move(about)), options_(options), atmosphere_(atmosphere) {}
 
-  // Shades where the foot stands.
+  // Shades the stance.
   void shade(std::vector<Span> stance) { stance_ = std::move(stance); }
   // The faults that the run had, up to its end  [s].
   void shade(const std::vector<analysis::MachineFault>& faults, double end);
-  // Adds the figure of a panel, without the lines that wait to be asked for.
+  // Adds the figure of a panel, without its hidden lines.
   void panel(const Panel& panel);
-  // Lines of one unit as plots of that name, as many as the colors ask for; none of no samples.
+  // Returns the lines of a panel as plots, each with as many lines as there are colors. Plots
+  // without samples are left out.
   std::vector<Plot> plots(const Panel& panel) const;
-  // Returns what all captions of the run end with: stance, faults, and how the lines are defined.
+  // Returns the end of all captions of the run: stance, faults, and the definitions of the lines.
   std::string notes(const Panel& panel) const;
-  // Adds it, by a name of its own, unless there is nothing in it.
+  // Adds a figure under a unique name, unless it is empty.
   void finish(Figure figure);
-  // y over x, at the times of x; `desired` may have none.
+  // Adds a figure of curves of y over x, without those that have no samples.
   void over(const std::string& name, const std::string& title, const Axis& x, const Axis& y,
             std::vector<Curve> curves, bool equal_scale, const std::string& caption);
   Curve pair(const std::string& label, const Channel& x, const Channel& y,
              const units::ShownUnit& x_unit, const units::ShownUnit& y_unit,
              Curve::Kind kind) const;
-  // For numbers of that size  [SI].
+  // Returns the shown unit for numbers of that size  [SI].
   units::ShownUnit unit(std::string_view of, double largest) const {
     return options_.units.of(of, largest, atmosphere_);
   }
@@ -83,19 +83,19 @@ class Maker {
   const RunFigureOptions options_;
   const double atmosphere_;
   std::vector<Span> stance_, faults_;
-  std::string broken_;  // those faults in words
+  std::string broken_;  // description of the faults
 };
 
-// A time of a table  [s].
+// Converts a time of a table  [s].
 inline double seconds_of(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
-// An axis of a quantity in that unit; one of plain numbers says so.
+// Returns an axis of a quantity in a unit; plain numbers have the unit "-".
 Axis axis_of(std::string name, const units::ShownUnit& unit);
 
-// The greatest size of a number in it; 0 where there is none.
+// Returns the greatest magnitude of the finite values; 0 without any.
 double size_of(const signals::Column& values);
 
-// "Joint angles" within a sentence.
+// Returns a title for use within a sentence, "joint angles" for "Joint angles".
 std::string in_sentence(std::string title);
 
 namespace {
@@ -171,7 +171,7 @@ double Maker::largest(const Channel& channel) const {
   return samples ? size_of(*samples.values) : 0;
 }
 
-// At the times of x; y is held in between.
+// Returns y over x at the times of x; y is held between its samples.
 Curve Maker::pair(const std::string& label, const Channel& x, const Channel& y,
                   const units::ShownUnit& x_unit, const units::ShownUnit& y_unit, Kind kind) const {
   Curve out{.label = label, .kind = kind, .source = about_.source};
@@ -193,7 +193,8 @@ std::string Maker::description(const Channel& channel) const {
   return "";
 }
 
-// "hip, knee: measured, by the controller's scale. hip desired: …"
+// Returns the definitions of lines: "hip, knee: measured, by the controller's scale. hip desired:
+// …"
 std::string Maker::meanings(const Panel& panel) const {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_text;
   for (const Line& line : panel.lines) {
@@ -272,7 +273,7 @@ void Maker::panel(const Panel& all) {
   figure.caption += notes(panel);
   figure.plots = plots(panel);
   if (figure.plots.size() == 1 && figure.plots[0].curves.size() == 1)
-    figure.plots[0].curves[0].label.clear();  // its axis says it
+    figure.plots[0].curves[0].label.clear();  // its axis has the name
   finish(std::move(figure));
 }
 
@@ -294,7 +295,7 @@ constexpr std::string_view truth = "/true";
 
 bool same(const Channel& a, const Channel& b) { return a.topic == b.topic && a.field == b.field; }
 
-// The topics of a choice, in the order of the tables.
+// Returns the topics of a choice, in the order of the tables.
 std::vector<const signals::Series*> topics_in(const Channels& channels, const ChosenChannels& of) {
   std::vector<const signals::Series*> out;
   const auto add = [&](bool true_ones) {
@@ -313,7 +314,7 @@ std::vector<const signals::Series*> topics_in(const Channels& channels, const Ch
   return out;
 }
 
-// Where a channel stands in the panels; nullptr for both where it does not.
+// Position of a channel in the panels; nullptr for both if no panel has it.
 struct Known {
   const Panel* panel = nullptr;
   const Line* line = nullptr;
@@ -333,7 +334,7 @@ const Line* desired_of(const Known& of) {
   return nullptr;
 }
 
-// "/valve/hip_flexor/inlet/open" -> "valve hip flexor inlet open"
+// Converts "/valve/hip_flexor/inlet/open" to "valve hip flexor inlet open".
 std::string words_in(std::string topic) {
   std::ranges::replace(topic, '/', ' ');
   std::ranges::replace(topic, '_', ' ');
@@ -341,7 +342,7 @@ std::string words_in(std::string topic) {
   return topic;
 }
 
-// One plot, or as many as it has units, each as a panel.
+// One chosen plot as panels, one for each unit.
 class Part {
  public:
   Part(const Channels& channels, const std::vector<Panel>& panels, const ChosenChannels& of)
@@ -381,7 +382,8 @@ class Part {
     return channel.field == "value" ? name : name + " " + channel.field;
   }
 
-  // Returns what all channels of a unit are called: as their panel, or as the end of their topics.
+  // Returns the panel of a unit, creating it if it is new. Its title is that of the channel's
+  // panel, or the end of its topic.
   Panel& panel_for(const Known& at, const Channel& channel, const std::string& unit) {
     const std::string title = at.panel && at.panel->title.find("channels") == std::string::npos
                                   ? at.panel->title
@@ -391,7 +393,7 @@ class Part {
         if (panel.title != title) panel.title = "value";
         return panel;
       }
-    // Steps are drawn where a value holds until the next one.
+    // Values that hold until the next one are drawn as steps.
     const bool steps =
         signals::is_of_valve(channel.topic) || (at.panel && at.panel->group == "Valves");
     list.push_back({steps ? "Valves" : "", title, unit, {}});
@@ -403,7 +405,7 @@ class Part {
   const std::vector<const signals::Series*> topics_;
 };
 
-// Names of files, of what was asked for.
+// Returns the file name of a chosen figure.
 std::string name_for(const ChosenFigure& chosen) {
   std::string out;
   for (const ChosenChannels& part : chosen) out += part.name + " ";
@@ -413,7 +415,7 @@ std::string name_for(const ChosenFigure& chosen) {
 Figure figure_of(const Maker& make, const Channels& channels, const std::vector<Panel>& panels,
                  const ChosenFigure& chosen) {
   Figure figure{.name = name_for(chosen)};
-  Panel all;  // for what is said of all lines
+  Panel all;  // all lines, for the notes
   for (const ChosenChannels& part : chosen) {
     const Part made(channels, panels, part);
     for (const Panel& panel : made.list) {
@@ -432,10 +434,10 @@ Figure figure_of(const Maker& make, const Channels& channels, const std::vector<
   return figure;
 }
 
-// A figure for each choice, a plot for each of its parts, or several where a part has channels of
-// several units. Beside a channel stands what it was to be, where the run has that. `panels` know
-// what the channels are called and what they are measured in; a channel that no panel has is called
-// as its topic. A choice that the run has nothing of leaves its plot out.
+// Returns a figure for each choice, with a plot for each of its parts, or several if a part has
+// channels of several units. Desired curves are added to their channels. Names and units of the
+// channels are those of `panels`; a channel that no panel has is named after its topic. Parts
+// without channels in the run are left out.
 std::vector<Figure> channel_figures(Maker& make, const Channels& channels,
                                     const std::vector<Panel>& panels,
                                     const std::vector<ChosenFigure>& chosen) {
@@ -446,7 +448,7 @@ std::vector<Figure> channel_figures(Maker& make, const Channels& channels,
 using units::ShownUnit;
 using Kind = Curve::Kind;
 
-// `leg`: whose; empty: the machine's only one.
+// Adds the path of a foot. `leg` is empty for a machine with one leg.
 void add_foot_path(Maker& make, const Channels& channels, const std::string& leg) {
   const std::string measured = robot::topic_of_leg(leg, "/foot/position");
   const std::string desired = robot::topic_of_leg(leg, "/desired/foot/position");
@@ -469,7 +471,7 @@ void add_foot_path(Maker& make, const Channels& channels, const std::string& leg
                 : " Of the ankle about the first joint, as simulated; the desired one once.");
 }
 
-// The numbers of a chart, in its axes' units.
+// Returns a curve of a chart, in the units of its axes.
 Curve charted(const Maker& make, const ChartCurve& from, const ShownUnit& x, const ShownUnit& y) {
   Curve out = from.x_channel.none()
                   ? Curve{.label = from.label, .xs = from.x, .ys = from.y, .kind = make.kind()}
@@ -492,7 +494,7 @@ void add_chart(Maker& make, const Chart& chart) {
   std::vector<Curve> curves;
   for (const ChartCurve& c : chart.curves) {
     Curve curve = charted(make, c, x, y);
-    // The points of the line before them.
+    // Points without a label belong to the line before them.
     if (!curves.empty() && curve.label.empty() && curve.xs == curves.back().xs)
       curves.back().style = Curve::Style::marked;
     else
@@ -540,7 +542,7 @@ std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options)
 
   Maker make(channels, words_of(run, machine.title, machine.robot.name), options,
              machine.atmosphere);
-  if (machine.robot.legs.empty()) make.shade(stance_of(record, machine));  // else each has its own
+  if (machine.robot.legs.empty()) make.shade(stance_of(record, machine));  // legs differ in stance
   if (record.rows() > 0) make.shade(machine.faults, record.time(record.rows() - 1));
   if (!stand_of_run.empty()) {
     const signals::Times& time = *channels.find(stand_of_run.length).time_ns;

@@ -3,8 +3,8 @@
 //
 //   for (const Figure& f : run_figures({.analysis = analysis, .resolved = resolved})) …
 //
-// Of a robot, in simulation or on hardware, and of the test stand. What a page hides until it is
-// asked for is left out.
+// Runs of a robot, in simulation or on hardware, and of the test stand have figures. Lines that the
+// page initially hides are left out.
 #pragma once
 
 #include <functional>
@@ -21,31 +21,31 @@
 
 namespace sinew::report {
 
-// Channels that stand in one plot: those for whose topic it returns true. A channel of a simulation
-// is asked for without /true, too, where no other has the name that is left.
+// Channels of one plot: those for whose topic `has` returns true. If no topic matches, topics under
+// /true are matched by their names without /true.
 struct ChosenChannels {
-  std::string name;  // of the plot, "/joint/*/angle"
+  std::string name;  // name of the plot, "/joint/*/angle"
   std::function<bool(std::string_view topic)> has;
 };
 // Plots below each other.
 using ChosenFigure = std::vector<ChosenChannels>;
 
-// How the figures of a run are made.
+// Options of the figures of a run.
 struct RunFigureOptions {
   units::ShownUnits units = {};
-  double from = -std::numeric_limits<double>::infinity();  // samples that are shown [s]
-  double to = std::numeric_limits<double>::infinity();
-  std::vector<ChosenFigure> channels = {};  // figures of these in place of the page's panels
+  double from = -std::numeric_limits<double>::infinity();  // first time that is shown [s]
+  double to = std::numeric_limits<double>::infinity();     // last time [s]
+  std::vector<ChosenFigure> channels = {};  // figures of these instead of the page's panels
 };
 
-// Returns the names of the topics that a run's figures can show: recorded ones and those that are
-// made of them. Throws as run_figures() does.
+// Returns the topics that a run's figures can show, recorded and derived. Throws as run_figures()
+// does.
 std::vector<std::string> topics_of(const Run& run);
 
-// Stance by plan, foot plant and propulsion as one  [s].
+// Returns the spans of stance by plan, foot plant and propulsion as one  [s].
 std::vector<Span> stance_of(const analysis::Record& record, const analysis::Machine& machine);
 
-// Throws config::Error for a resolved.toml that cannot be read.
+// Returns the figures of a run. Throws config::Error for a resolved.toml that cannot be read.
 std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options = {});
 
 }  // namespace sinew::report

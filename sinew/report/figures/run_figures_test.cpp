@@ -22,7 +22,7 @@ config::Node walk() {
   return config::compose(sinew::test::source_dir() + "/experiments/walk-test-1.toml", {});
 }
 
-// With the units that a run writes.
+// Returns the log of a walk with the units of a real run.
 signals::Table logged() {
   signals::Table table = test::walking(analysis::read_machine(walk()));
   for (signals::Series& s : table.series)
@@ -116,12 +116,12 @@ TEST(RunFigures, HaveNamesOfTheirOwnAndShadeStance) {
     EXPECT_EQ(file_name_of(figure.name), figure.name);
     EXPECT_NO_THROW(data(figure));
     if (figure.plots[0].x.unit != "s") continue;
-    // Three steps: plant and propulsion join.
+    // Three steps have three spans, because foot plant and propulsion are joined.
     EXPECT_EQ(figure.plots[0].spans.size(), 3u) << figure.name;
   }
 }
 
-// Where a part is broken on purpose is shaded between lines, and the caption says which.
+// The times of faults are shaded between lines, and the caption has the faults.
 TEST(RunFigures, ShadeTheTimesOfFaults) {
   const config::Node broken = config::compose(
       sinew::test::source_dir() + "/experiments/walk-test-1.toml",

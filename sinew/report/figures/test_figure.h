@@ -10,7 +10,7 @@ namespace sinew::report::test {
 
 inline const double nan = std::nan("");
 
-// Returns curves of every kind; one has a gap, and one has times of its own.
+// Returns a figure with curves of several kinds; one has a gap, and one has other times.
 inline Figure walk() {
   const std::vector<double> t{0, 0.1, 0.2, 0.3};
   Plot angles{.name = "angles", .x = {"time", "s"}, .y = {"joint angle", "deg"}};

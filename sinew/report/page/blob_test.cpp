@@ -29,7 +29,7 @@ std::string from_base64(const std::string& text) {
   return out;
 }
 
-// As the page reads it.
+// Columns as decoded by the page.
 struct Read {
   std::vector<std::vector<std::int64_t>> ticks;
   std::vector<std::vector<float>> columns;
@@ -126,7 +126,7 @@ TEST(Blob, HoldsEveryColumnAndEveryClockOnce) {
   EXPECT_EQ(blob.layout().columns, (std::vector<int>{0, 0, 1}));
 }
 
-// Every peak is there, no more than that, and no later than the share of the samples that it is of.
+// Each group of samples is replaced by its extremes, at the time of its first sample.
 TEST(Blob, OfALongRunKeepsTheExtremesOfALine) {
   for (const int count : {65'537, 65'600, 200'000, 720'000}) {
     Column c = random_column(count, count);
@@ -151,7 +151,7 @@ TEST(Blob, OfALongRunKeepsTheExtremesOfALine) {
   }
 }
 
-// A pose is one that was: all its columns are of one and the same sample.
+// All columns of a pose are from the same sample.
 TEST(Blob, OfALongRunKeepsWholePoses) {
   const Column x = random_column(3, 100'000);
   Column y{x.time_ns, {}};

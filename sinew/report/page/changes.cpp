@@ -8,7 +8,7 @@
 namespace sinew::report {
 namespace {
 
-// Returns what a table says for the key, without where it comes from.
+// Returns the value of a key, without its source; nullptr if the key is missing.
 const config::Node* node_at(const config::Node& table, std::string_view key) {
   const config::Node* node = table.find(key);
   if (node == nullptr) return nullptr;
@@ -21,7 +21,7 @@ std::string written_at(const config::Node& table, std::string_view key) {
   return node != nullptr ? config::written(*node) : "";
 }
 
-// "0.004 1/count": the number, and its unit behind it.
+// A number with its unit: "0.004 1/count".
 struct Number {
   double value = 0;
   std::string unit;

@@ -1,5 +1,4 @@
-// These tests are of what was set while a run went, and of the picture by which a run is told in a
-// list.
+// Tests of parameters that were changed during a run, and of the picture of a run in a list.
 #include "sinew/report/page/changes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// report/page/channels.h - where a page's numbers are found: the tables of a run, one after the
-// other.
+// report/page/channels.h - channels of a run, found in several tables.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +11,14 @@ namespace sinew::report {
 
 // A field of a topic.
 struct Channel {
-  std::string topic;  // empty: none
+  std::string topic;  // empty: no channel
   std::string field = "value";
 
-  // Does it stand for no channel?
+  // Returns whether this is no channel.
   bool none() const { return topic.empty(); }
 };
 
-// A channel's samples. Points into a table.
+// A channel's samples; points into a table.
 struct Samples {
   const signals::Times* time_ns = nullptr;
   const signals::Column* values = nullptr;
@@ -28,14 +27,14 @@ struct Samples {
   explicit operator bool() const { return values && !values->empty(); }
 };
 
-// Recorded, derived and drawn series; where two have the same channel, the first one's counts.
+// Recorded, derived and drawn series. If several tables have a channel, the first one counts.
 class Channels {
  public:
-  void add(const signals::Table& table) { tables_.push_back(&table); }  // outlives this
-  // Returns its samples, of the first table that has it; empty where none has.
+  void add(const signals::Table& table) { tables_.push_back(&table); }  // must outlive this
+  // Returns the samples of the first table that has the channel; empty if no table has it.
   Samples find(const Channel& channel) const;
   bool has(const Channel& channel) const { return static_cast<bool>(find(channel)); }
-  // The first of them that is there; none where none is.
+  // Returns the first of these topics that has samples; none() if no topic has.
   Channel first_of(std::initializer_list<std::string> topics) const;
   const std::vector<const signals::Table*>& tables() const { return tables_; }
 

@@ -1,4 +1,4 @@
-// report/page/charts.h - one quantity against another: points, lines and bands.
+// report/page/charts.h - charts of one quantity against another: points, lines and bands.
 #pragma once
 
 #include <string>
@@ -11,38 +11,38 @@ namespace sinew::report {
 
 struct ChartAxis {
   std::string label;  // "length"
-  std::string unit;   // SI, "share" of 1, or "Pa diff"; the page shows it in others
+  std::string unit;   // SI, "share" of 1, or "Pa diff"; the page converts it
 };
 
-// Either numbers, or two channels of one clock. A number that is none breaks a line.
+// A curve, given by numbers or by two channels with the same times. NaN breaks a line.
 struct ChartCurve {
-  // Says what is drawn at the numbers.
+  // The way in which the curve is drawn.
   enum class Style {
     points,
     line,
-    held_out,  // points that a fit did not see
-    left_out,  // points that none was to see, hollow: each `mark` has a shape
+    held_out,  // points that were held out of a fit
+    left_out,  // points that were left out of all fits, hollow: each `mark` has a shape
     other,     // a line of a model that was not chosen
-    band       // from y to y_high
+    band       // area between y and y_high
   };
 
   std::string label;
   Style style = Style::line;
-  int color = 0;  // place in the page's palette
+  int color = 0;  // index in the page's palette
   std::vector<double> x, y, y_high;
-  Channel x_channel, y_channel;  // in place of numbers
-  std::vector<double> dash;      // of a line: lengths of its strokes and gaps; empty: none [px]
-  int mark = 0;                  // shape of points that were left out; of others 0 is a disc
+  Channel x_channel, y_channel;  // used instead of numbers
+  std::vector<double> dash;      // lengths of a line's strokes and gaps; empty: solid [px]
+  int mark = 0;                  // shape of points that were left out; 0 for others: a disc
   bool bold = false;
-  bool hidden = false;  // until it is asked for
+  bool hidden = false;  // initially not shown
 };
 
-// A quantity against another, in one picture.
+// Curves of a quantity against another, in one picture.
 struct Chart {
   std::string title;
   ChartAxis x, y;
   std::vector<ChartCurve> curves;
-  std::string note;  // what one should know when looking at it
+  std::string note;  // remark for the reader
 
   bool empty() const { return curves.empty(); }
 };

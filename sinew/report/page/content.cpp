@@ -20,7 +20,7 @@ namespace sinew::report {
 
 namespace {
 
-// The numbers' bytes by rank, appended.
+// Appends 4-byte numbers to a text, split into planes of bytes of equal rank.
 class Planes {
  public:
   explicit Planes(std::size_t numbers, std::string& out)
@@ -42,8 +42,8 @@ std::int64_t tick_at(std::int64_t time_ns) {
   return (time_ns + (time_ns < 0 ? -half : half)) / signals::tick_nanoseconds;
 }
 
-// How many samples of a clock two stand for; 0: each for itself. Odd, so that of what goes up and
-// down by turns, as a valve does, both are seen.
+// Returns the number of samples that are replaced by two; 0 if the clock is not thinned. It is odd,
+// so that both states of a channel that alternates, such as a valve, remain visible.
 std::size_t share_of(std::size_t samples) {
   return samples <= Blob::most ? 0 : ((2 * samples + Blob::most - 1) / Blob::most) | 1;
 }
@@ -53,7 +53,7 @@ std::size_t shown_of(std::size_t samples) {
   return share == 0 ? samples : 2 * ((samples + share - 1) / share);
 }
 
-// The first sample of a share, and its middle.
+// Returns the row of a shown sample: the first one of a group, or its middle.
 std::size_t row_of(std::size_t shown, std::size_t samples) {
   const std::size_t share = share_of(samples);
   if (share == 0) return shown;
@@ -71,11 +71,11 @@ void put_clock(const signals::Times& time_ns, std::string& out) {
   }
 }
 
-// The least and the greatest number, in the order in which they come; where there is none, that.
+// Returns the least and the greatest number in the order of time; NaN if all are NaN.
 std::pair<double, double> extremes(const signals::Column& values, std::size_t from,
                                    std::size_t to) {
   double least = values[from], most = least;
-  bool rises = true;  // the greatest one comes last
+  bool rises = true;  // the greatest one is after the least
   for (std::size_t i = from + 1; i < to; ++i) {
     const double x = values[i];
     if (std::isnan(x)) continue;
@@ -113,7 +113,7 @@ int Blob::clock_of(const signals::Times& time_ns) {
 }
 
 int Blob::add(const Samples& samples, As as) {
-  if (share_of(samples.values->size()) == 0) as = As::line;  // both are the same
+  if (share_of(samples.values->size()) == 0) as = As::line;  // both uses give the same column
   const auto [at, is_new] =
       known_.try_emplace({samples.values, as}, static_cast<int>(columns_.size()));
   if (is_new) columns_.push_back({clock_of(*samples.time_ns), samples.values, as});
@@ -177,7 +177,7 @@ struct About {
   double atmosphere = 0;
 };
 
-// A JSON object that grows; its members are JSON.
+// Builds a JSON object from members in JSON.
 class Object {
  public:
   void put(std::string_view key, std::string_view json) {
@@ -203,7 +203,7 @@ Object head(const Run& run, const About& about) {
   return out;
 }
 
-// What pages of any run end with.
+// Adds the members that pages of all runs have.
 Content finish(Object json, const Run& run, const Blob& blob) {
   const analysis::Summary& summary = run.analysis.summary;
   json.put("verdicts", to_json(run.analysis.verdicts));
@@ -217,13 +217,13 @@ Content finish(Object json, const Run& run, const Blob& blob) {
           .units = units_json(shown.units)};
 }
 
-// Returns the warning at the top of the page of a run that was ended.
+// Returns the warning at the top of the page of a run that ended early.
 std::vector<analysis::Warning> how_it_ended(const Run& run) {
   if (run.analysis.ended.empty()) return {};
   return {{"the run was ended: " + run.analysis.ended, {}}};
 }
 
-// Returns what the page says where it cannot show all of a long run.
+// Returns a warning if the page does not show all samples of a long run.
 std::vector<analysis::Warning> what_is_left_out(const Blob& blob, const Channels& channels,
                                                 std::size_t stretches) {
   if (blob.thinned() == 0) return {};

@@ -1,5 +1,5 @@
-// report/page/content.h - the parts of a page's JSON, the columns that they refer to, and the
-// bytes that hold the columns' samples.
+// report/page/content.h - parts of a page's JSON, the columns that they refer to, and the encoded
+// samples of the columns.
 #pragma once
 
 #include <cstddef>
@@ -23,35 +23,35 @@
 
 namespace sinew::report {
 
-// A run's samples as one text that a page can hold: base64 of zlib of columns.
+// A run's samples as one text within a page: base64 of zlib of columns.
 //
-// Inside: for every clock its times as int32 ticks of 100 us, each less the one before it; then for
-// every column its values as float32. Each of these arrays stands byte by byte: the lowest bytes of
-// all its numbers, then the next ones, since bytes of one rank are alike and shrink better. A time
-// between ticks is rounded to the next one.
+// The columns are, for every clock, its times as int32 ticks of 100 us, each less the one before
+// it; then for every column its values as float32. Each of these arrays is split into planes: the
+// lowest bytes of all its numbers, then the next ones, which compresses better. A time between
+// ticks is rounded to the nearest one.
 //
-// Of a clock with more samples than a screen can show the page gets two of every few: of a column
-// that is drawn as a line the least value and the greatest one, in the order in which they come, so
-// that no peak is lost; of one that belongs to a pose the values of the first sample and of the
-// middle one, so that a pose is one that was.
+// A clock with more samples than a screen can show is thinned: every group of samples is replaced
+// by two. For a column drawn as a line these are the least and the greatest value in the order of
+// time, so that no peak is lost; for a column of a pose they are the first and the middle sample,
+// so that the columns of a pose belong to one sample.
 class Blob {
  public:
   static constexpr std::size_t most = 65536;  // samples of a clock
 
-  // Says what a column is for: a curve, or a machine that is drawn.
+  // The use of a column: a curve, or a machine that is drawn.
   enum class As { line, pose };
 
-  // Position of its column; that of the first time, where it was added before.
+  // Adds a column, unless it was added before. Returns its index.
   int add(const Samples& samples, As as = As::line);
 
-  // Samples that two stand for, of the clock with the most; 0 where all of them are there.
+  // Returns the size of a thinned group, of the clock with the most samples; 0 if none is thinned.
   std::size_t thinned() const;
 
   struct Layout {
     std::vector<std::size_t> clocks;  // samples of each
     std::vector<int> columns;         // the clock of each
   };
-  // Returns where each column stands in the text; and the text.
+  // Return the layout of the columns in the text, and the text.
   Layout layout() const;
   std::string base64() const;
 
@@ -68,18 +68,17 @@ class Blob {
   std::map<std::pair<const void*, As>, int> known_;  // columns by their values
 };
 
-// Returns bytes as letters that any text can hold.
+// Encodes bytes in base64.
 std::string to_base64(std::string_view bytes);
 
-// Numbers of columns in place of channels: each is added to the blob when it is first asked for.
+// Maps channels to column indices: a channel is added to the blob when it is first requested.
 class Columns {
  public:
   static constexpr int none = -1;
 
-  // Both outlive it.
+  // Both must outlive this.
   Columns(const Channels& channels, Blob& blob) : channels_(channels), blob_(blob) {}
-  // Returns the number of the channel's column, added where it is new; `none` where there are no
-  // samples.
+  // Returns the index of the channel's column, adding it if it is new; `none` if it has no samples.
   int of(const Channel& channel, Blob::As as) {
     const Samples samples = channels_.find(channel);
     if (!samples) return none;
@@ -87,7 +86,7 @@ class Columns {
     if (column == static_cast<int>(list_.size())) list_.push_back({channel, as});
     return column;
   }
-  // Of each column, by its number.
+  // Channel and use of each column, by its index.
   struct Asked {
     Channel channel;
     Blob::As as = Blob::As::line;
@@ -100,46 +99,47 @@ class Columns {
   std::vector<Asked> list_;
 };
 
-// Each as JSON; a channel is the number of its column, or null.
+// Return JSON; a channel is the index of its column, or null.
 std::string to_json(const std::vector<Panel>& panels, Columns& columns);
-std::string to_json(const Scene& scene, Columns& columns);  // null: an empty one
-std::string to_json(const Stand& stand, Columns& columns);  // null: an empty one
+std::string to_json(const Scene& scene, Columns& columns);  // null if it is empty
+std::string to_json(const Stand& stand, Columns& columns);  // null if it is empty
 std::string to_json(const std::vector<Chart>& charts, Columns& columns);
 std::string to_json(const std::vector<Parameter>& parameters);
 std::string to_json(const std::vector<analysis::Warning>& warnings);
-std::string to_json(const std::vector<analysis::MachineFault>& faults, double end);  // of the run
+// `end` is that of the run [s].
+std::string to_json(const std::vector<analysis::MachineFault>& faults, double end);
 std::string to_json(const std::vector<analysis::Verdict>& verdicts);
 std::string to_json(const Blob::Layout& layout);
 std::string to_json(const std::string& text);
 std::string to_json(double number);
 
-// A member of an object and its new JSON; an empty one removes it. phases/stretches is the member
-// `stretches` of the member `phases`.
+// A member of an object and its new JSON; an empty text removes the member. phases/stretches is the
+// member `stretches` of the member `phases`.
 struct ChangedMember {
   std::string name, json;
 };
 // Returns the object with these members changed.
 std::string with_members(const std::string& object, const std::vector<ChangedMember>& members);
 
-// Without the stretches where there are more than a screen can show.
+// Returns the phases of a run as JSON, without the stretches if there are more than a screen can
+// show.
 std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);
 
 inline constexpr std::size_t most_stretches = 4000;
 
-// Returns the table of units that a page carries, so that its switch shows numbers in any set, and
-// in the reader's own:
+// Returns the table of units of a page, from which its switch shows numbers in any set, and in a
+// custom one:
 //
 //   {"start": "metric", "sets": [{"name": "si", "title": "SI", "about": "…", "units":
 //      {"m": {"label": "m", "scale": 1}, "Pa": {"label": "psi gauge", "scale": …, "gauge": true},
 //       "kg": {"label": "g", "scale": 1000, "large": {"label": "kg", "scale": 1}}, …}}, …]}
 //
-// shown = (value + offset) * scale, and less the room's pressure where it says gauge. `large` is
-// the unit in which a single number stands from 1000 of the usual one on. The three sets are always
-// there; one with choices is a fourth, "own".
+// shown = (value + offset) * scale, less the room's pressure for a gauge unit. `large` is the unit
+// for single numbers from 1000 of the usual one on. The three sets are always present; one with
+// choices is a fourth, "own".
 std::string units_json(const units::ShownUnits& start);
 
-// Returns it for a page of which nobody asked for anything but what the environment and the
-// person's settings say.
+// Returns the table that starts with the units of the environment and the user's settings.
 std::string units_json();
 
 }  // namespace sinew::report

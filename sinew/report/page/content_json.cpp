@@ -14,8 +14,7 @@ using robot::Point;
 
 std::string text_of(const Json& json) { return json.text(); }
 
-// Returns the place of the column of a channel, which is seen together with others of the same
-// instant unless it is said to be a line.
+// Returns the index of a channel's column, by default for a pose, or null.
 Json column_of(const Channel& channel, Columns& columns, Blob::As as = Blob::As::pose) {
   const int column = columns.of(channel, as);
   return column == Columns::none ? Json() : Json(column);
@@ -60,7 +59,7 @@ std::string_view word(Stand::Air air) {
 
 Json axis_of(const ChartAxis& axis) { return {{"label", axis.label}, {"unit", axis.unit}}; }
 
-// Numbers, or the column where they stand. As many digits as a picture can show.
+// Returns numbers with the digits that a picture can show, or the index of a channel's column.
 Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
   if (!channel.none()) return column_of(channel, columns);
   Json out = Json::array();
@@ -142,7 +141,7 @@ Json cylinder_of(const CylinderShape& c, Columns& columns) {
   return out;
 }
 
-// Both components; null where there are none.
+// Returns the columns of both components; null for no channel.
 Json vector_of(const Channel& x, Columns& columns) {
   if (x.none()) return {};
   return Json::array({column_of(x, columns), column_of({x.topic, "y"}, columns)});
@@ -241,7 +240,7 @@ std::string to_json(const std::vector<Parameter>& parameters) {
 
 namespace {
 
-// Those so near that no screen can tell them apart are one.
+// Joins spans that are too close to be distinguished on a screen.
 std::vector<analysis::Span> shown(const std::vector<analysis::Span>& spans) {
   constexpr std::size_t most = 2000;
   if (spans.size() <= most) return spans;

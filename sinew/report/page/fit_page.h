@@ -1,5 +1,5 @@
-// report/page/fit_page.h - what an identification found as one self-contained page: every model
-// that was tried, why one was chosen, its values, and what was measured beside what they say.
+// report/page/fit_page.h - results of an identification as one self-contained page: all models, the
+// reason of the choice, its values, and measurements compared with predictions.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace sinew::report {
 
-// One report of `sinew identify`: of several sensors each has its own.
+// One report of `sinew identify`; of several sensors each has its own.
 struct FitPart {
   std::string report;  // JSON of format sinew.identification/1
   std::vector<Chart> charts;
@@ -21,13 +21,13 @@ struct FitPart {
 struct FitPage {
   std::string title;
   std::string version;
-  std::vector<std::string> data;  // files, and how they were read
-  double atmosphere = 0;          // that gauges read against [Pa]
+  std::vector<std::string> data;  // files, and the way in which they were read
+  double atmosphere = 0;          // reference of gauge pressures [Pa]
   std::vector<FitPart> parts;
-  std::vector<Parameter> values;  // of the parameter file
+  std::vector<Parameter> values;  // values in the parameter file
 };
 
-// Throws std::runtime_error where the program was built without its pages.
+// Returns the page. Throws std::runtime_error if the program was built without its pages.
 std::string page(const FitPage& fit);
 Content content(const FitPage& fit);
 std::string to_json(const FitPage& fit, Columns& columns);

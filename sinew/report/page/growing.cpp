@@ -23,8 +23,8 @@ constexpr std::int64_t row_ns = 10'000'000;
 
 bool is_edge(const signals::Topic& topic) { return signals::is_of_valve(topic.name); }
 
-// What the page must have room for: the machine at rest, and with every joint turned either way.
-// Edges get a clock each, as they will have.
+// A log that gives the page its extent: the machine at rest, and with every joint turned either
+// way. Edges have a clock each, as in a run.
 class Prototype {
  public:
   Prototype(const std::vector<signals::Topic>& topics, const analysis::Machine& machine,
@@ -66,7 +66,7 @@ class Prototype {
                         robot::actuator_of(muscle, m.actuators).braid.thread_length);
     return m.stand ? value_of_stand(topic, row, m) : 0;
   }
-  // Between the longest and the shortest element, so that there is room for all that it can be.
+  // Returns lengths from the longest to the shortest element, so that the page has room for all.
   static double value_of_stand(const std::string& topic, std::size_t row,
                                const analysis::Machine& m) {
     const robot::Stand& stand = *m.stand;
@@ -160,7 +160,7 @@ Content Growing::content(const std::string& live) const {
 std::string Growing::piece(const Table& table) const {
   const Parts parts(table, machine_);
   Blob blob;
-  std::deque<signals::Column> no_values;  // each a place of its own: a column each
+  std::deque<signals::Column> no_values;  // one per missing channel: a blob joins equal addresses
   const signals::Times no_times;
   for (const Columns::Asked& asked : columns_) {
     Samples samples = parts.channels.find(asked.channel);

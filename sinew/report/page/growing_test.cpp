@@ -1,4 +1,4 @@
-// The page of a run that goes: pieces give what the whole gives.
+// The page of a run in progress: its pieces give the same samples as the whole run.
 #include "sinew/report/page/growing.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Growing growing(const Table& table, bool foot_path = true) {
           {.resolved = resolved(), .name = "walk", .duration = 12.5, .foot_path = foot_path}};
 }
 
-// Samples of [from, to).
+// Returns the samples within [from, to).
 Table part(const Table& all, std::int64_t from, std::int64_t to) {
   Table out;
   for (const signals::Series& s : all.series) {
@@ -65,7 +65,7 @@ std::string from_base64(const std::string& text) {
   return out;
 }
 
-// Ticks and bits of every column, as the page reads them.
+// Ticks and bits of every column, as decoded by the page.
 struct Column {
   std::vector<std::int32_t> ticks;
   std::vector<std::uint32_t> bits;
@@ -120,7 +120,7 @@ TEST(Growing, PiecesAreTheWhole) {
   }
 }
 
-// The page knows beforehand what will break, to mark it when it does.
+// The page is given the faults in advance, to mark them when they begin.
 TEST(Growing, ThePageKnowsTheFaults) {
   const Table all = table();
   EXPECT_FALSE(Json::parse(growing(all).content("{}").json).contains("faults"));

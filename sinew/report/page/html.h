@@ -1,4 +1,4 @@
-// report/page/html.h - text that stands in a page as it was typed.
+// report/page/html.h - escaping of text in HTML.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace sinew::report {
 
-// For text between tags and in attributes with double quotes.
+// Escapes text for use between tags and in attributes with double quotes.
 std::string escaped(std::string_view text);
 
 }  // namespace sinew::report

@@ -9,7 +9,7 @@
 namespace sinew::report {
 namespace {
 
-// JSON that no parser of HTML can take for the end of its script element.
+// Escapes JSON so that it cannot end its script element.
 std::string harmless(std::string_view json) {
   std::string out;
   for (const char c : json) {

@@ -3,9 +3,9 @@
 //   const analysis::Analysis analysis(table, analysis::read_machine(resolved));
 //   const std::string html = page({.analysis = analysis, .resolved = resolved});
 //
-// The look stands in web/ and is bundled into one template when the program is built; this folder
+// The design is in web/ and is bundled into one template when the program is built; this folder
 // fills it. The page computes nothing: series, poses, figures and verdicts are all made here.
-// The same run gives the same bytes, whether from memory or from its log.
+// A run gives the same bytes from memory and from its log.
 #pragma once
 
 #include <string>
@@ -17,49 +17,51 @@
 namespace sinew::report {
 
 struct Run {
-  const analysis::Analysis& analysis;  // of what was logged
+  const analysis::Analysis& analysis;  // results of the log
   const config::Node& resolved;        // resolved.toml
-  std::string name;                    // of the experiment; empty where nobody knows
-  std::string units{};                 // asked for now, as config/shown_units.h reads it
+  std::string name;                    // name of the experiment; empty if unknown
+  std::string units{};                 // requested units, read by config/shown_units.h
 };
 
-// Was the program built with its page? Without npm there is none.
+// Returns whether the program was built with its page, which requires npm.
 bool has_page();
 
-// Throws std::runtime_error, with what to do, where there is none; `file` would have been it.
+// Throws std::runtime_error with instructions if the program was built without its page; `file` is
+// the name of the page that would have been written.
 void require_page(std::string_view file);
 
-// Throws config::Error for a resolved.toml that cannot be read, and std::runtime_error, with what
-// to do, where the program was built without its page.
+// Returns the page. Throws config::Error for a resolved.toml that cannot be read, and
+// std::runtime_error with instructions if the program was built without its page.
 std::string page(const Run& run);
 
-// The run's part of the page: a JSON object and the samples (content.h).
+// Content of a page: a JSON object and the samples (content.h).
 struct Content {
   std::string title;
   std::string json;
   std::string samples;
-  std::string connect{};  // ends the page's security policy: "; connect-src ws://127.0.0.1:8080"
-  std::string units{};    // JSON (content.h); empty: by environment and the person's settings
+  std::string connect{};  // end of the page's security policy: "; connect-src ws://127.0.0.1:8080"
+  std::string units{};    // JSON (content.h); empty: by the environment and the user's settings
 };
 Content content(const Run& run);
 
-// A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of
-// type application/json and in one of another type. Whatever the texts hold cannot leave its
-// element. Throws std::invalid_argument for a template that lacks one. A page that is to connect to
-// somewhere has @connect@, too, at the end of its policy, and one that shows quantities @units@, in
-// a script element of type application/json.
+// Fills a template. It has @title@, @run@ and @samples@ once each: in its <title>, in a script
+// element of type application/json and in one of another type; the texts are escaped so that they
+// cannot leave their element. A page with a connection also has @connect@ at the end of its policy,
+// and one that shows quantities has @units@ in a script element of type application/json. Throws
+// std::invalid_argument for a template that lacks one of the first three, or @connect@ if
+// `content.connect` is given.
 std::string fill(std::string_view page_template, const Content& content);
 
-// The pages that web/ is bundled into, by the build.
+// --- Pages that the build bundles web/ into ---
 
-// All are empty where the program was built without npm.
-std::string_view page_template();        // of one run
-std::string_view comparison_template();  // of several
-std::string_view fit_template();         // of an identification
-std::string_view study_template();       // of a sweep or a tuning, or of two
-std::string_view run_list_template();    // of the runs in a folder
+// Return a page's template; empty if the program was built without npm.
+std::string_view page_template();        // one run
+std::string_view comparison_template();  // several runs
+std::string_view fit_template();         // an identification
+std::string_view study_template();       // a sweep or a tuning, or two of them
+std::string_view run_list_template();    // the runs in a folder
 
-// Returns what makes a film of a run's page, to be run in it; empty as above.
+// Returns the script that makes a film of a run's page when it runs in the page; empty as above.
 std::string_view film_script();
 
 }  // namespace sinew::report

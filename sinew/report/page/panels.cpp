@@ -12,13 +12,14 @@ namespace {
 
 using Style = Line::Style;
 
-// "hip_flexor" as people write it.
+// Converts "hip_flexor" to "hip flexor".
 std::string words(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
 }
 
-// A channel that never had a number, as the desired path of a plan without one, is not shown.
+// Returns whether a channel has finite values. Others, such as the desired path of a plan without a
+// path, are not shown.
 bool has_number(const Samples& samples) {
   return std::ranges::any_of(*samples.values, [](double v) { return std::isfinite(v); });
 }
@@ -33,11 +34,12 @@ class Panels {
     for (const robot::Muscle& m : robot.muscles) muscles_.push_back(m.name);
   }
 
-  // `unit` in place of the channels' own: they do not tell a share from another number.
+  // Begins a panel. `unit` replaces the channels' unit, which does not distinguish shares from
+  // other numbers.
   void open(std::string group, std::string title, std::string unit = "") {
     list.push_back({std::move(group), std::move(title), std::move(unit), {}});
   }
-  // Topics by the robot's names.
+  // Adds a line if the channel has values. Topics are those of a machine with one leg.
   void line(std::string label, Channel channel, int color, Style style = Style::measured) {
     channel.topic = robot::logged_topic(robot_, channel.topic);
     const Samples samples = channels_.find(channel);
@@ -46,7 +48,7 @@ class Panels {
     if (!has_number(samples)) return;
     Panel& panel = list.back();
     if (panel.unit.empty()) panel.unit = samples.unit;
-    // What would stand in for it is missing: nothing to hide behind.
+    // A hidden line is shown if the line that it would be hidden behind is missing.
     const bool alone = std::ranges::none_of(
         panel.lines, [&](const Line& l) { return l.color == color && l.style == Style::measured; });
     if (style == Style::hidden && alone) style = Style::measured;
@@ -56,7 +58,7 @@ class Panels {
                  Style style = Style::measured) {
     per(joints_, before, after, note, style);
   }
-  // Of what a joint has from its muscles: of a passive one it says nothing.
+  // Adds a line per joint for a quantity of its muscles, which a passive joint does not have.
   void per_driven(const std::string& before, const std::string& after, const std::string& note = "",
                   Style style = Style::measured) {
     for (std::size_t i = 0; i < joints_.size(); ++i)
@@ -69,7 +71,7 @@ class Panels {
                   Style style = Style::measured) {
     per(muscles_, before, after, note, style);
   }
-  // Transducers of the stand that read in `unit`; their truth waits behind them.
+  // Adds the stand's transducers that read in `unit`, with the true values as hidden lines.
   void per_sensor(const std::string& unit);
   void others(const std::string& group);
 
@@ -117,7 +119,7 @@ void muscles(Panels& p) {
   p.open("Muscles", "Tension");
   p.per_muscle("/muscle/", "/tension");
   p.per_muscle("/true/muscle/", "/tension", " true", Style::hidden);
-  // Sensors of these are rare: where there is none, the true one stands alone.
+  // Few machines have sensors for these. Without one, the true line is shown.
   for (const auto& [title, after] :
        {std::pair("Pressure", "/pressure"), std::pair("Length", "/length")}) {
     p.open("Muscles", title);
@@ -142,7 +144,7 @@ void valves(Panels& p) {
   p.per_muscle("/valve/", "/inlet/set_point");
 }
 
-// Lines of one leg; its name, if it has one, stands before every line.
+// Adds the lines of one leg's foot, prefixed with the leg's name if it has one.
 void foot(Panels& p, const robot::Foot& foot, const std::string& leg) {
   const auto line = [&](const std::string& label, const std::string& topic,
                         const std::string& field, int color, Style style = Style::measured) {
@@ -208,7 +210,7 @@ void Panels::per_sensor(const std::string& unit) {
       if (!topic.starts_with("/sensor/") || !topic.ends_with("/value")) continue;
       const Channel channel{topic};
       if (channels_.find(channel).unit != unit) continue;
-      constexpr std::size_t before = 8, after = 6;  // of the name
+      constexpr std::size_t before = 8, after = 6;  // lengths of "/sensor/" and "/value"
       line(words(topic.substr(before, topic.size() - before - after)) + " read", channel, color++);
     }
 }
@@ -253,7 +255,8 @@ void stand_valves(Panels& p, const std::string& element) {
   p.line("tank", {"/true/supply/tank_pressure"}, 1);
 }
 
-// Edges are lights in the drawing, the plan's phase is the plots' background.
+// Returns whether a topic is in a panel or shown otherwise: edges are lights in the drawing, the
+// plan's phase is the plots' background.
 bool Panels::shown_elsewhere(const std::string& topic) const {
   return claimed_.contains(topic) || topic.ends_with("/open") ||
          topic.find("/plan/") != topic.npos || topic.starts_with("/draw/") ||

@@ -1,4 +1,5 @@
-// report/page/panels.h - which channels are plotted together: a run's panels, from top to bottom.
+// report/page/panels.h - panels of a run, from top to bottom: the channels that are plotted
+// together.
 #pragma once
 
 #include <string>
@@ -11,11 +12,11 @@ namespace sinew::report {
 
 // One channel of a panel.
 struct Line {
-  enum class Style { measured, desired, hidden };  // full, dashed; not shown until asked for
+  enum class Style { measured, desired, hidden };  // solid, dashed, initially not shown
 
   std::string label;
   Channel channel;
-  int color = 0;  // place in the page's palette: one for each joint, muscle or component
+  int color = 0;  // index in the page's palette: one for each joint, muscle or component
   Style style = Style::measured;
 };
 
@@ -23,11 +24,12 @@ struct Line {
 struct Panel {
   std::string group;  // "Joints"
   std::string title;  // "Joint angles"
-  std::string unit;   // SI, or "share" of 1; the page shows it in others
+  std::string unit;   // SI, or "share" of 1; the page converts it
   std::vector<Line> lines;
 };
 
-// Panels of what the channels hold, empty ones left out. What no panel knows comes last, by unit.
+// Returns the panels of the channels, without empty ones. Channels that no panel has come last, by
+// unit.
 std::vector<Panel> panels(const Channels& channels, const analysis::Machine& machine);
 
 }  // namespace sinew::report

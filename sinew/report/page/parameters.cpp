@@ -43,7 +43,7 @@ bool is_list_of_tables(const Node& node) {
          node.children.front().is_table();
 }
 
-// A table's own source is that of its values which have none.
+// Appends the values of a table. The table's source is used for values without a source.
 void collect(const Node& table, const std::string& path, std::vector<Parameter>& out) {
   const std::string source = text_of(table, "source");
   for (const Node& child : table.children) {
@@ -82,7 +82,7 @@ std::vector<ParameterRow> differing(const std::vector<const std::vector<Paramete
       rows[at->second].values[run] = p.value;
     }
   std::erase_if(rows, [](const ParameterRow& row) {
-    // Which files a recording came from is no parameter of the machine.
+    // The files of a recording are no parameters of the machine.
     return row.key == "title" || row.key == "reproduces" || row.key.starts_with("imported[") ||
            std::ranges::all_of(row.values, [&](const auto& v) { return v == row.values.front(); });
   });

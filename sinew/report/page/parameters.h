@@ -1,4 +1,4 @@
-// report/page/parameters.h - every value that a run used, as rows of a table.
+// report/page/parameters.h - table of every value that a run used.
 #pragma once
 
 #include <optional>
@@ -9,28 +9,28 @@
 
 namespace sinew::report {
 
-// A value as its row of the table shows it.
+// A row of the table.
 struct Parameter {
   std::string key;          // joint.hip.damping
-  std::string value;        // as resolved.toml has it: SI
+  std::string value;        // as in resolved.toml: SI
   std::string mark;         // "fit", "guess", "default" or empty
-  std::string range;        // "0.3 N m to 1.6 N m"; empty where none is given
+  std::string range;        // "0.3 N m to 1.6 N m"; empty if not given
   std::string uncertainty;  // as written
   std::string source;
 };
 
-// Of a resolved.toml, in its order. What is reported of the run is no parameter, nor is what is
-// empty.
+// Returns the parameters of a resolved.toml, in its order, without reported figures and empty
+// values.
 std::vector<Parameter> parameters(const config::Node& resolved);
 
-// A key that has not the same value in all runs; nothing where a run has no such key.
+// A key whose value differs between runs.
 struct ParameterRow {
   std::string key;
-  std::vector<std::optional<std::string>> values;  // one per run
+  std::vector<std::optional<std::string>> values;  // one per run; empty if the run lacks the key
 };
 
-// Of the runs' parameters: in the first one's order, then what only others have. Values count, not
-// where they come from; neither do a run's title and what it reproduces.
+// Returns the parameters that differ: those of the first run in its order, then those that only
+// others have. Values are compared, not their sources; title and reproduced source do not count.
 std::vector<ParameterRow> differing(const std::vector<const std::vector<Parameter>*>& runs);
 
 }  // namespace sinew::report

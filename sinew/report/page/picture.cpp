@@ -16,12 +16,12 @@
 namespace sinew::report {
 namespace {
 
-// On light and on dark paper alike.
+// Colors for light and dark backgrounds.
 constexpr const char* metal = "#8a95a5";
 constexpr const char* muscle_color = "#2f86c5";
 constexpr const char* cord_color = "#6d7988";
 
-// A drawing with y upwards, which knows how large it has become  [m].
+// An SVG drawing with y upwards, which records its extent  [m].
 class Drawing {
  public:
   void line(robot::Point a, robot::Point b, double width, const char* color) {
@@ -37,7 +37,7 @@ class Drawing {
                          -center.y, radius, color);
   }
 
-  // As wide as it is high, with a margin.
+  // Returns a square picture with a margin.
   std::string svg() const {
     const double side = 1.12 * std::max({high_.x - low_.x, high_.y - low_.y, 1e-3});
     const double x = (low_.x + high_.x - side) / 2, y = -(low_.y + high_.y + side) / 2;
@@ -56,9 +56,9 @@ class Drawing {
   robot::Point low_{1e9, 1e9}, high_{-1e9, -1e9};
 };
 
-// --- the machine as it starts ---
+// --- the machine in its initial pose ---
 
-// The angle at which the experiment starts a joint, or the one at which it rests  [rad].
+// Returns the angle at which the experiment starts a joint, or else its rest angle  [rad].
 double start_angle(const config::Node& resolved, const robot::Joint& joint) {
   const config::Node* node = resolved.find("start");
   for (const std::string& key : {std::string("joint_angles"), joint.name})
@@ -70,7 +70,7 @@ double start_angle(const config::Node& resolved, const robot::Joint& joint) {
   return angle;
 }
 
-// A log of a single row.
+// Returns a log with a single row.
 signals::Table first_row(const config::Node& resolved, const analysis::Machine& machine) {
   signals::Table out;
   for (const robot::Joint& joint : machine.robot.joints) {
@@ -86,7 +86,7 @@ signals::Table first_row(const config::Node& resolved, const analysis::Machine& 
   return out;
 }
 
-// Where the frames of a scene are at its first row.
+// Positions in the frames of a scene at its first row.
 class Places {
  public:
   Places(const Scene& scene, const signals::Table& drawn) : scene_(scene) { channels_.add(drawn); }
@@ -151,9 +151,9 @@ std::string picture_of_robot(const config::Node& resolved) {
   return out.svg();
 }
 
-// --- what is always the same ---
+// --- fixed pictures ---
 
-// A muscle on its beam, and what hangs from it.
+// Draws a muscle on its beam, with a hanging load.
 std::string picture_of_stand() {
   Drawing out;
   out.line({-4, 9}, {4, 9}, 0.8, metal);
@@ -184,7 +184,7 @@ std::string picture(const config::Node& resolved) {
   try {
     if (std::string drawn = picture_of_robot(resolved); !drawn.empty()) return drawn;
   } catch (const std::exception&) {
-    // A file that tells of no machine that could be drawn: the curve says enough in a list.
+    // The file does not describe a machine that can be drawn; the curve is used instead.
   }
   return picture_of_recording();
 }

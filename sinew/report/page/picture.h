@@ -1,5 +1,5 @@
-// report/page/picture.h - a small picture of the machine of a run, to be told by in a list: an SVG
-// drawing from the side, as the machine stands when it starts.
+// report/page/picture.h - a small picture of the machine of a run, for a list: an SVG drawing from
+// the side, in the initial pose.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace sinew::report {
 
-// Draws a robot with its links, muscles and feet, or the muscle of a test stand; a curve stands for
-// what was not run on a machine of which the file tells. Its colors serve on light and on dark.
+// Draws a robot with its links, muscles and feet, or the muscle of a test stand; a curve if the
+// file does not describe a machine. The colors suit light and dark backgrounds.
 std::string picture(const config::Node& resolved);
 
 }  // namespace sinew::report

@@ -60,7 +60,7 @@ namespace {
 using analysis::Column;
 using robot::Point;
 
-// A series beside the recorded ones, at the record's rows.
+// Adds a series at the record's rows to `drawn`.
 Channel draw(signals::Table& drawn, const analysis::Record& record, const std::string& name,
              const std::string& unit, Column values) {
   drawn.series.push_back(
@@ -90,7 +90,7 @@ struct Maker {
   }
 };
 
-// --- what moves ---------------------------------------------------------------------------------
+// --- frames -------------------------------------------------------------------------------------
 
 void add_frames(Maker& m) {
   m.out.frames.push_back({"body",
@@ -120,8 +120,8 @@ void add_frames(Maker& m) {
 
 // --- muscles ------------------------------------------------------------------------------------
 
-// Outline of the largest cam at a joint, as it stands in the distal link at the joint's rest angle:
-// the cord leaves it where the proximal frame's muscle is.
+// Returns the outline of a muscle's cam at a joint, in the distal link's frame: the radius at each
+// direction is the moment arm at the joint's angle from rest.
 std::vector<Point> outline(const robot::Muscle& muscle, const robot::Joint& joint) {
   constexpr int corners = 48;
   std::vector<Point> out;
@@ -160,7 +160,7 @@ Column lengths(const Maker& m, const robot::Muscle& muscle) {
   return out;
 }
 
-// Unit vector at a right angle to `along`, to the side on which a pull that way raises the angle.
+// Returns the unit vector perpendicular to `along`, on the side of a tendon with that moment arm.
 Point side_of(Point along, double pull) {
   const double sign = pull < 0 ? -1.0 : 1.0;
   return {sign * along.y, -sign * along.x};
@@ -168,11 +168,11 @@ Point side_of(Point along, double pull) {
 
 Point plus(Point a, Point b, double times) { return {a.x + times * b.x, a.y + times * b.y}; }
 
-// In the frame that joint j turns against: where that joint is, and the way back from it.
+// Position of a joint in its proximal frame, and the direction from it back along the link.
 struct Seat {
   int frame = 0;
   Point joint, back;
-  double room = 0;  // along the link [m]; 0: as much as is needed
+  double room = 0;  // length available along the link [m]; 0: unlimited
 };
 Seat seat_at(const robot::Robot& robot, std::size_t j) {
   const int parent = robot::parent_of(robot, j);
@@ -185,7 +185,7 @@ double rest_pull(const robot::Muscle& muscle, const robot::Joint& joint) {
   return robot::pull_at(muscle, joint, joint.rest_angle);
 }
 
-// A muscle of one joint: its cord leaves the cam along the proximal link.
+// Places a muscle of one joint: its tendon leaves the cam along the proximal link.
 void place(MuscleShape& shape, const robot::Robot& robot, const robot::Muscle& muscle,
            std::size_t joint) {
   const Seat seat = seat_at(robot, joint);
@@ -198,7 +198,8 @@ void place(MuscleShape& shape, const robot::Robot& robot, const robot::Muscle& m
   shape.direction = {-seat.back.x, -seat.back.y};
 }
 
-// A muscle of two: it lies along the link between them, cam to cam; a cord holds it to the body.
+// Places a muscle of two joints along the link between them, from cam to cam, with a tendon that
+// continues beyond the first joint.
 void place_across(MuscleShape& shape, Maker& m, const robot::Muscle& muscle, std::size_t first,
                   std::size_t second) {
   const robot::Robot& robot = m.robot();
@@ -245,9 +246,10 @@ void add_muscle(Maker& m, const robot::Muscle& muscle) {
   m.out.muscles.push_back(std::move(shape));
 }
 
-// --- what it stands and rolls on ----------------------------------------------------------------
+// --- feet, track and cylinder -------------------------------------------------------------------
 
-// The discs of a leg's foot; its one disc is about the end of the leg, which an ankle may follow.
+// Adds the discs of a leg's foot; a single disc is at the end of the second link of a leg with an
+// ankle, else at the end of the last link.
 void add_discs(Maker& m, std::size_t leg) {
   const robot::Foot& foot = robot::foot_of(m.robot(), leg);
   const int last = robot::foot_link(m.robot(), leg);
@@ -262,7 +264,7 @@ void add_discs(Maker& m, std::size_t leg) {
   if (m.robot().ground.present) m.out.surface = m.robot().ground.height - foot.radius;
 }
 
-// Without rollers in the file the trolley is as long as the leg's first link is.
+// Adds the track. Without rollers in the file their distance is 0.9 times the first link's length.
 void add_track(Maker& m) {
   const robot::Robot& robot = m.robot();
   const double unit = robot.links.empty() ? 0.1 : robot.links.front().length;
@@ -278,7 +280,7 @@ void add_track(Maker& m) {
   m.out.track = track;
 }
 
-// One that is locked is a part of the body.
+// Adds the cylinder, unless it is locked, as part of the body, or free.
 void add_cylinder(Maker& m) {
   const robot::Cylinder& c = m.robot().cylinder;
   using Mode = robot::Cylinder::Mode;
@@ -293,7 +295,7 @@ void add_cylinder(Maker& m) {
   m.out.cylinder = std::move(shape);
 }
 
-// The place where the ground's force acts: under the foot, or between its discs by their loads.
+// Returns x at which the ground's force acts: under the foot, or between its discs by their loads.
 Column contact(const Maker& m, const robot::Foot& foot, const std::string& leg,
                std::span<const Disc> discs) {
   std::vector<Column> load;
@@ -323,7 +325,7 @@ void add_foot(Maker& m, std::size_t leg) {
   add_discs(m, leg);
   if (m.out.discs.size() == before) return;
   const robot::LegParts parts = robot::legs_of(m.robot())[leg];
-  // With a number in it: a plan without a foot path desires none.
+  // Topics without finite values are skipped, such as the desired path of a plan without a path.
   const auto first_of = [&](std::initializer_list<std::string> topics) {
     const auto is_number = [](double v) { return std::isfinite(v); };
     for (const std::string& topic : topics) {

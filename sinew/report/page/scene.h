@@ -1,10 +1,10 @@
-// report/page/scene.h - the machine from the side, as a drawing that a page can move: shapes in
-// frames, and for every sample where the frames are. All kinematics happens here.
+// report/page/scene.h - animated drawing of the machine from the side: shapes in frames, and the
+// pose of every frame in every sample. All kinematics is computed here.
 //
 // Frame 0 is the body that carries the first joint, frame k + 1 has its origin in joint k and its x
-// along link k. Plane as in robot.h; the page places a frame by x, y and heading and knows no more.
-// A robot's file does not say where its muscles are mounted: each is drawn at its true scale beside
-// the link it is on, on the side on which it pulls, from an anchor to its joint's cam.
+// along link k. The plane is that of robot.h; the page only places frames by x, y and heading.
+// A robot's file does not contain the mounts of its muscles: each is drawn to scale next to its
+// link, on the side on which it pulls, from an anchor to its joint's cam.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@
 
 namespace sinew::report {
 
-// A place that moves, in which shapes are drawn.
+// A moving frame of shapes.
 struct Frame {
   std::string name;
   Channel x, y, heading;  // [m], [rad]
@@ -31,51 +31,52 @@ struct LinkShape {
   double length = 0;  // [m]
 };
 
-// Fixed to the distal link, so that it turns with it.
+// A cam, fixed to the distal link.
 struct CamShape {
   int frame = 0;
   std::vector<robot::Point> outline;  // about the joint [m]
 };
 
-// From `anchor` the actuators reach `length` along `direction`; a cord goes on to `touch`.
+// A muscle: from `anchor` the actuators extend by `length` along `direction`; a tendon continues to
+// `touch`.
 struct MuscleShape {
   std::string name;
   int frame = 0;
   robot::Point anchor, direction, touch;  // [m], [-], [m]
-  int count = 1;                          // actuators side by side
-  double longest = 0;                     // of the whole run [m]
-  Channel length, diameter, pressure;     // pressure: none in a log of hardware
-  Channel inlet, exhaust;                 // valve edges; none where there are none
+  int count = 1;                          // parallel actuators
+  double longest = 0;                     // greatest length of the run [m]
+  Channel length, diameter, pressure;     // a log of hardware has no pressure
+  Channel inlet, exhaust;                 // valve edges, if the log has them
 };
 
-// A line within a frame.
+// A tendon within a frame.
 struct Cord {
   int frame = 0;
   robot::Point from, to;  // [m]
 };
 
-// That touches the ground.
+// A disc of a foot, which touches the ground.
 struct Disc {
   int frame = 0;
   robot::Point center;  // [m]
   double radius = 0;    // [m]
 };
 
-// The foot of one leg: its paths are about its first joint.
+// The foot of one leg. Its paths are relative to the leg's first joint.
 struct FootShape {
-  double at = 0;               // of the leg's first joint, ahead of the body's origin [m]
+  double at = 0;               // x of the leg's first joint in the body's frame [m]
   Channel path, desired_path;  // topics with fields x and y [m]
-  Channel force;               // the same, on the foot [N]
-  Channel contact;             // x where the force acts, in the plane [m]
+  Channel force;               // topic with fields x and y, on the foot [N]
+  Channel contact;             // x of the point of the force, in the plane [m]
 };
 
 struct Track {
-  double height = 0, from = 0, to = 0;  // of the first joint's way, at rest above it [m]
-  double rear = 0, front = 0;           // where the rollers are, from the first joint [m]
-  bool rollers = false;                 // their places are the robot's, not ours
+  double height = 0, from = 0, to = 0;  // height above the first joint at rest, its travel [m]
+  double rear = 0, front = 0;           // x of the rollers from the first joint [m]
+  bool rollers = false;                 // rollers are given by the robot's file, not assumed
 };
 
-// Between trolley and body.
+// The cylinder between trolley and body.
 struct CylinderShape {
   double bore = 0, stroke = 0;  // [m]
   Channel up, down;             // pressures
@@ -89,32 +90,32 @@ struct Scene {
   std::vector<MuscleShape> muscles;
   std::vector<Cord> cords;
   std::vector<Disc> discs;
-  std::optional<double> surface;  // of the table [m]
-  std::optional<Track> track;     // none: the body is fixed
+  std::optional<double> surface;  // height of the table [m]
+  std::optional<Track> track;     // empty if the body is fixed
   std::optional<CylinderShape> cylinder;
-  std::vector<FootShape> feet;  // by leg, of those that have one
+  std::vector<FootShape> feet;  // feet in the order of the legs, without legs that have no foot
   std::string drawn_from;       // "true angles" or "measured angles"
 
-  bool empty() const { return frames.empty(); }  // the log does not say how the machine stood
+  bool empty() const { return frames.empty(); }  // true if the log lacks the pose
 };
 
-// `drawn` receives the series that the scene refers to beside those of `channels`: /draw/….
+// Returns the scene. Series that it refers to and `channels` lacks are added to `drawn`: /draw/….
 Scene scene(const Channels& channels, const analysis::Machine& machine,
             const analysis::Record& record, signals::Table& drawn);
 
-// Holds the pose of the machine at every row of a log: the part of the scene that moves.
+// Pose of the machine at every row of a log.
 
 struct Poses {
-  std::vector<analysis::Column> angle;  // of every joint [rad]; empty: not known
-  analysis::Column trolley, lift;       // of the body [m]; zeros where it does not move
-  bool is_true = false;                 // as simulated, not as measured
+  std::vector<analysis::Column> angle;  // angle of every joint [rad]; empty if unknown
+  analysis::Column trolley, lift;       // x and y of the body [m]; zeros if it is fixed
+  bool is_true = false;                 // true angles, not measured ones
 
-  // Does the log say how the machine stood?
+  // Returns whether the log has the pose.
   bool known() const { return !angle.empty(); }
 };
 
-// True angles where the log has them, else measured ones. A joint of which a log of hardware says
-// nothing stays at its rest angle, if another one is known.
+// Returns the poses, from the true angles if the log has them, else from measured ones. A joint
+// without a measured angle stays at its rest angle if another joint has one.
 Poses poses(const analysis::Machine& machine, const analysis::Record& record);
 
 }  // namespace sinew::report

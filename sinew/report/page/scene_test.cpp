@@ -52,7 +52,7 @@ TEST(Scene, PutsTheFootWhereKinematicsDoes) {
   }
 }
 
-// What the drawing shows as the cord's lever is what the muscle has.
+// The moment arm of the tendon in the drawing is that of the muscle.
 TEST(Scene, CordsPullWithTheMusclesMomentArm) {
   const Drawn d = walking();
   const robot::Robot& robot = d.machine.robot;
@@ -90,7 +90,7 @@ TEST(Scene, SwellsMusclesAsTheBraidDoes) {
               actuator::diameter(d.machine.actuators[0].braid, d.at(m.length, row)));
 }
 
-// A muscle over two joints lies cam to cam between them, on the side on which it bends each.
+// A muscle over two joints is drawn between them, from cam to cam, on the side on which it pulls.
 TEST(Scene, LaysAMuscleOfTwoJointsBetweenThem) {
   analysis::Machine m = test::machine();
   robot::Muscle& both = m.robot.muscles[0];
@@ -145,7 +145,7 @@ TEST(Scene, PutsTheForceBetweenDiscsByTheirLoads) {
   }
 }
 
-// Two legs on one body, the second one 0.2 m ahead: the figures of each leg as if it were alone.
+// Two legs on one body, the second one 0.2 m ahead: each is drawn like a single leg.
 TEST(Scene, DrawsEveryLeg) {
   analysis::Machine m = test::machine();
   m.robot = robot::test::two_legs();
@@ -198,7 +198,7 @@ TEST(Pose, LengthOverARoundCamIsTheLaw) {
   }
 }
 
-// dL/dtheta = -pull, whatever the cam.
+// dL/dtheta = -pull for a cam of any shape.
 TEST(Pose, LengthOverACamOfAnyShapeChangesByItsRadius) {
   robot::Robot robot = test::machine().robot;
   robot.muscles[0].cam = {.radius = robot::not_set, .angle = {4, 5, 6}, .radii = {.02, .03, .015}};
@@ -212,7 +212,7 @@ TEST(Pose, LengthOverACamOfAnyShapeChangesByItsRadius) {
                             robot::muscle_length(robot, robot.muscles[0], less)) /
                            (2 * h);
       const double pull = robot::pull_at(robot.muscles[0], robot.joints[j], j == 0 ? hip : 5.2);
-      EXPECT_NEAR(slope, -pull, 0.02 * std::abs(pull)) << hip;  // the corner falls between points
+      EXPECT_NEAR(slope, -pull, 0.02 * std::abs(pull)) << hip;  // a corner is between the points
     }
 }
 

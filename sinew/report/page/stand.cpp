@@ -29,7 +29,7 @@ class StandMaker {
   }
 
  private:
-  // The true one, else what the sensor of that quantity reads.
+  // Returns the true channel, or else that of a sensor of the quantity.
   Channel first(const std::string& topic, robot::Transducer::Of of) const {
     if (channels_.has({topic})) return {topic};
     for (const robot::Transducer& s : stand_.sensors)
@@ -81,7 +81,7 @@ class StandMaker {
     out_.pressure = absolute(pressure);
   }
 
-  // A transducer reads gauge.
+  // Returns a pressure as an absolute one; transducers read gauge pressures.
   Channel absolute(const Channel& pressure) {
     if (!pressure.topic.starts_with("/sensor/")) return pressure;
     const Samples read = channels_.find(pressure);
@@ -95,7 +95,7 @@ class StandMaker {
     out_.tension = first("/true/stand/force", robot::Transducer::Of::force);
     if (stand_.load.mode != robot::Stand::Load::Mode::hanging) {
       out_.load = out_.most > out_.least ? Stand::Load::driven : Stand::Load::clamped;
-      // What a sensor reads of a clamped element is never quite one length.
+      // The measured length of a clamped element is never exactly constant.
       if (stand_.load.lengths.empty()) out_.load = Stand::Load::clamped;
       return;
     }
@@ -106,7 +106,7 @@ class StandMaker {
     out_.weight = draw("stand/weight", "N", length_, std::move(weight));
   }
 
-  // What pulls down beside inertia, [36]: M g + F_ext  [N].
+  // Returns the downward force without inertia, [36]: M g + F_ext  [N].
   double pull(double t) const {
     const robot::Stand::Load& load = stand_.load;
     const double mass = load.weights.empty() ? load.mass : weights_.at(t);
@@ -114,7 +114,7 @@ class StandMaker {
     return mass * load.gravity + force;
   }
 
-  // By which the schedules change what hangs; 0 where nothing changes  [N].
+  // Returns the smallest step of the load's schedules; 0 if the load does not change  [N].
   double smallest_step() const {
     double least = 0;
     const auto look = [&](const std::vector<signals::Schedule::Point>& points, double newtons) {
@@ -144,11 +144,11 @@ Stand stand(const Channels& channels, const analysis::Machine& machine, signals:
   return StandMaker(channels, machine, drawn).make();
 }
 
-// What a page shows of the test stand: over time, and one quantity against another.
+// --- charts ---
 
 namespace {
 
-// Does it move by more than rounding?
+// Returns whether a channel changes by more than rounding.
 bool varies(const Samples& s) {
   if (!s) return false;
   double least = INFINITY, most = -INFINITY;
@@ -157,7 +157,7 @@ bool varies(const Samples& s) {
   return most - least > 1e-9 * std::max(std::abs(most), std::abs(least));
 }
 
-// One against another over the run, if both move on one clock.
+// Adds a chart of one channel against another, if both vary and have the same times.
 void add_loop(const Channels& channels, const std::string& title, const ChartAxis& x,
               const Channel& xs, const ChartAxis& y, const Channel& ys, std::vector<Chart>& out) {
   const Samples a = channels.find(xs), b = channels.find(ys);

@@ -43,7 +43,7 @@ struct Drawn {
   const signals::Column& values(const Channel& c) const { return *channels.find(c).values; }
 };
 
-// 60 s at 10 ms, the length goes up and down.
+// Returns a log of 60 s with a sample every 10 ms and a length that oscillates.
 analysis::test::Log hanging() {
   analysis::test::Log log(6000);
   log.scalar("/true/stand/length", [](double t) { return 0.08 + 0.01 * std::sin(t); });
@@ -64,7 +64,7 @@ TEST(Stand, SwellsTheActuatorAsTheBraidDoes) {
   EXPECT_EQ(d.stand.drawn_from, "true values");
 }
 
-// A hook of 0.1 lb; 1 lb more from second 1 to 2 of every two, up to 15 lb.
+// A hook of 0.1 lb; the load rises by 1 lb within 1 s of every two, up to 15 lb, and falls again.
 TEST(Stand, HangsWhatTheFileHangs) {
   const Drawn d("weights-60.toml", hanging());
   const signals::Column& weight = d.values(d.stand.weight);
@@ -92,7 +92,7 @@ TEST(Stand, KnowsItsValves) {
   EXPECT_EQ(Drawn("length-sweep.toml", hanging()).stand.air, Stand::Air::regulated);
 }
 
-// A log of hardware has no /true, and its transducer of the pressure reads gauge.
+// A log of hardware has no topics under /true, and its pressure transducer reads gauge.
 TEST(Stand, IsDrawnFromSensorsWhereThereIsNoTruth) {
   analysis::test::Log log(100);
   log.scalar("/sensor/length/value", constant(0.08));

@@ -1,4 +1,4 @@
-// report/page/test_run.h - a walk in closed form, with everything that a page can show of it.
+// report/page/test_run.h - log of a walk by formulas, with every channel that a page can show.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace sinew::report::test {
 
-// Hip and knee swing, the trolley rolls, muscles breathe: no physics, but all topics of a run.
+// Returns a log with all topics of a run, filled with simple curves that are no physical motion.
 inline signals::Table walking(const analysis::Machine& machine, int steps = 3) {
   using analysis::test::constant;
   analysis::test::Log log = analysis::test::walk(steps, 0.5, 0.2);
@@ -30,14 +30,14 @@ inline signals::Table walking(const analysis::Machine& machine, int steps = 3) {
   return log.table;
 }
 
-// Its machine, with braids, whose diameters are drawn.
+// Returns the machine of the walk, with braids, whose diameters are drawn.
 inline analysis::Machine machine() {
   analysis::Machine m = analysis::test::walking_leg();
   m.actuators.front().braid = {.thread_length = 0.107, .turns = 1.5};
   return m;
 }
 
-// Returns the run's part of the page of a table.
+// Returns the content of the page of a table.
 inline Content content_of(const signals::Table& table, const config::Node& resolved,
                           const std::string& name) {
   const analysis::Analysis analysis(table, analysis::read_machine(resolved));

@@ -1,4 +1,4 @@
-// report/page/units_test.cpp - the table of units in a page says what the library says.
+// report/page/units_test.cpp - the table of units in a page agrees with the library.
 #include "sinew/report/page/content.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Json set_of(const Json& table, const std::string& name) {
   return {};
 }
 
-// shown = (value + offset) * scale, less the room's pressure where it says gauge.
+// Returns (value + offset) * scale, less the room's pressure for a gauge unit.
 double shown(const Json& unit, double value, double room) {
   const double offset = unit.value("gauge", false) ? -room : unit.value("offset", 0.0);
   return (value + offset) * unit["scale"].get<double>();

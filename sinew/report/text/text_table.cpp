@@ -7,7 +7,7 @@ namespace sinew::report {
 
 namespace {
 
-// Lines of at most `width` letters, broken between words; a longer word stands alone.
+// Returns lines of at most `width` letters, broken between words; a longer word has its own line.
 std::vector<std::string> broken(std::string_view text, std::size_t width) {
   std::vector<std::string> lines(1);
   while (!text.empty()) {
@@ -29,7 +29,7 @@ std::vector<std::string> broken(std::string_view text, std::size_t width) {
 
 std::size_t columns(std::string_view text) {
   std::size_t count = 0;
-  bool color = false;  // from ESC to its m
+  bool color = false;  // within an escape, which ends with m
   for (const char c : text) {
     color = color || c == '\033';
     if (!color && (static_cast<unsigned char>(c) & 0xC0) != 0x80) ++count;

@@ -1,4 +1,4 @@
-// report/text/text_table.h - rows of words in columns that line up.
+// report/text/text_table.h - text table with aligned columns.
 #pragma once
 
 #include <string>
@@ -9,24 +9,24 @@ namespace sinew::report {
 
 class TextTable {
  public:
-  // On which side the words of a column line up.
+  // Alignment of a column.
   enum class Align { left, right };
 
-  // Titles of the columns; `align` is that of the values, left where it says nothing.
+  // Creates a table with titles. `align` is that of the columns' values, by default left.
   explicit TextTable(std::vector<std::string> titles, std::vector<Align> align = {});
 
-  // Throws std::logic_error for more cells than there are titles.
+  // Adds a row. Throws std::logic_error for more cells than titles.
   void add(std::vector<std::string> row);
   bool empty() const { return rows_.size() == 1; }
 
-  // Letters that all columns but the last need side by side.
+  // Returns the width of all columns but the last, in letters.
   std::size_t width_before_last() const;
 
-  // The last column is never padded. `indent` stands before each line.
+  // Returns the table with `indent` before each line. The last column is not padded.
   std::string text(std::string_view indent = "") const;
 
-  // The same within `width` letters, 0 for any: the last column is broken between its words, or
-  // stands on lines of its own where little room is left for it.
+  // Returns the table within `width` letters, 0 for any: the last column is broken between its
+  // words, or moved to lines of its own if little room is left.
   std::string text_within(std::size_t width) const;
 
  private:
@@ -37,7 +37,8 @@ class TextTable {
   std::vector<Align> align_;
 };
 
-// Letters of a UTF-8 text without its colors; none here is wider than one column.
+// Returns the number of letters of a UTF-8 text without color escapes; all count as one column
+// wide.
 std::size_t columns(std::string_view text);
 
 }  // namespace sinew::report
