@@ -10,7 +10,7 @@ namespace sinew::fmu {
 
 namespace {
 
-// A file in memory, as minizip asks for one.
+// File in memory, for minizip's I/O functions.
 struct Memory {
   std::string bytes;
   std::size_t at = 0;
@@ -52,7 +52,7 @@ int error_of_memory(void*, void*) { return 0; }
 
 void add(zipFile zip, const ArchiveFile& file) {
   zip_fileinfo info{};
-  info.dosDate = 0x00210000;  // 1980-01-01, the first that a zip archive knows
+  info.dosDate = 0x00210000;  // 1980-01-01, the earliest date of a zip archive
   bool good = zipOpenNewFileInZip(zip, file.name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr,
                                   Z_DEFLATED, Z_DEFAULT_COMPRESSION) == ZIP_OK;
   good = good && zipWriteInFileInZip(zip, file.bytes.data(),

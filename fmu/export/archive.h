@@ -1,5 +1,5 @@
-// fmu/export/archive.h - files as the bytes of a zip archive: the same files give the same bytes,
-// since no dates are in it.
+// fmu/export/archive.h - creation of a zip archive. Equal files give equal bytes, as the archive
+// has no dates.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace sinew::fmu {
 
-// Holds a file of the archive.
+// File in the archive.
 struct ArchiveFile {
-  std::string name;  // with folders: "resources/model.txt"
+  std::string name;  // including folders: "resources/model.txt"
   std::string bytes;
 };
 
-// Throws std::runtime_error where the archive cannot be made.
+// Returns the archive's bytes. Throws std::runtime_error on failure.
 std::string archive_of(const std::vector<ArchiveFile>& files);
 
 }  // namespace sinew::fmu

@@ -29,12 +29,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A model that is to be packed.
+// Model to be packed.
 struct Made {
   std::string kind, name, doc;
   Description description;
   std::vector<Variable> variables;
-  std::string module;  // that has its functions
+  std::string module;  // module with its functions
   bool sources = false;
   double stop_time = 1, step = 1e-3;  // [s]
 };
@@ -141,7 +141,7 @@ std::string bytes_of(const fs::path& file) {
   return out;
 }
 
-// Returns a name that a C compiler and a file system both take.
+// Returns a name that is valid for a C compiler and a file system.
 std::string identifier_of(const std::string& name) {
   std::string out;
   for (const char c : name) {
@@ -182,14 +182,14 @@ void add_sources(std::vector<ArchiveFile>& files, const fs::path& folder, int ve
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) found.push_back(entry.path());
   std::ranges::sort(found);
-  // The one of the other version stays out.
+  // The sources of the other version are left out.
   const std::string other = version == 2 ? "fmi3" : "fmi2";
   for (const fs::path& file : found)
     if (!file.filename().string().starts_with(other))
       files.push_back({"sources/" + fs::relative(file, folder).generic_string(), bytes_of(file)});
 }
 
-// The names that FMI has for this kind of computer; 2.0 has none for others than x86-64.
+// Returns FMI's name of this platform; 2.0 has names only for x86-64.
 std::string platform_folder(int version) {
 #if defined(__x86_64__)
   return version == 2 ? "linux64" : "x86_64-linux";
@@ -199,7 +199,7 @@ std::string platform_folder(int version) {
 #endif
 }
 
-// An importer finds variables by their names.
+// Variables must have unique names, by which importers find them.
 void refuse_twins(const std::vector<Variable>& variables) {
   std::set<std::string> names;
   for (const Variable& v : variables)

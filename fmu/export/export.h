@@ -1,5 +1,5 @@
-// fmu/export/export.h - a file of ours as an FMU: an actuator, a muscle with its valves, joints, or
-// a whole machine with its controllers, for somebody else's co-simulation.
+// fmu/export/export.h - export of a file as an FMU for co-simulation in other programs: an
+// actuator, a muscle with its valves, joints, or a whole machine with its controllers.
 //
 //   const Fmu fmu = make_fmu({.file = "robots/leg/robot.toml", .muscle = "hip_flexor"});
 //   run::write_file("hip_flexor.fmu", fmu.bytes);
@@ -11,8 +11,8 @@
 //   robot        joints, or nothing  joint     angles, rates, valves' currents -> torques
 //   experiment   -                   machine   settings -> all channels of a run
 //
-// `without_valves` makes a tube of a muscle. An experiment is taken as its robot where a muscle or
-// joints are asked for.
+// `without_valves` makes a tube of a muscle. For an experiment, a request for a muscle or for
+// joints uses its robot.
 #pragma once
 
 #include <string>
@@ -22,33 +22,33 @@
 
 namespace sinew::fmu {
 
-// Says of which file an FMU is to be made, and what an importer is to see of it.
+// File to export as an FMU, and the variables to include.
 struct Asked {
   std::string file;
-  std::vector<std::string> sets;  // key=value in place of the file's
-  std::string name;               // of the model; empty: from the file, the muscle or the joints
-  int version = 2;                // of FMI: 2 or 3
+  std::vector<std::string> sets;  // key=value, overrides the file's
+  std::string name;               // model name; empty: from the file, the muscle or the joints
+  int version = 2;                // FMI version: 2 or 3
 
-  std::string actuator;  // of a file with several
+  std::string actuator;  // for a file with several actuators
   std::string muscle;
   std::vector<std::string> joints;
   bool without_valves = false;
-  std::vector<std::string> inputs, outputs, parameters;  // of an experiment, machine.h
+  std::vector<std::string> inputs, outputs, parameters;  // for an experiment, see machine.h
 
-  // The folder lib/sinew of an installation, whose modules become the FMU's binary; empty: beside
-  // the program, or below /usr/local or /usr.
+  // Folder lib/sinew of an installation that has the modules for the FMU's binary; empty: next to
+  // the program, or in /usr/local or /usr.
   std::string modules;
 };
 
-// Holds an FMU that was made.
+// Exported FMU.
 struct Fmu {
   std::string kind, name, identifier, token;
   std::vector<Variable> variables;
-  std::string bytes;  // of the archive; equal descriptions give equal ones
+  std::string bytes;  // archive; equal descriptions give equal archives
 };
 
-// Throws config::Error with all that is wrong with the file, std::invalid_argument for what does
-// not go together, and std::runtime_error where this installation lacks the module.
+// Exports a file. Throws config::Error with all faults of the file, std::invalid_argument for
+// requests that contradict each other, and std::runtime_error if the installation lacks the module.
 Fmu make_fmu(const Asked& asked);
 
 }  // namespace sinew::fmu

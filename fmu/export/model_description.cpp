@@ -20,7 +20,7 @@ using report::escaped;
 
 constexpr const char* xml_head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
-// ` name="value"`; nothing for an empty text or no finite number.
+// Returns ` name="value"`; nothing for an empty text or a number that is not finite.
 std::string attribute(std::string_view name, std::string_view value) {
   return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, escaped(value));
 }
@@ -28,7 +28,7 @@ std::string attribute(std::string_view name, double value) {
   return std::isfinite(value) ? attribute(name, std::string_view(text_of(value))) : "";
 }
 
-// A field's unit without what says where a pressure counts from; empty for a bare number.
+// Returns a field's unit without the reference of a pressure; empty for a plain number.
 std::string plain_unit(std::string_view unit) {
   for (const std::string_view word : {" abs", " gauge", " diff"})
     if (unit.ends_with(word)) unit.remove_suffix(word.size());
@@ -37,7 +37,7 @@ std::string plain_unit(std::string_view unit) {
 
 bool has_unit(const Variable& v) { return v.type == Type::real && !plain_unit(v.unit).empty(); }
 
-// SI's base units; a volt is kg m2/(s3 A), and a count is a plain number there.
+// Returns the unit in SI base units: a volt is kg m2/(s3 A), and a count is a plain number.
 std::string base_unit(const std::string& unit) {
   const units::UnitReading read = units::read_unit(unit);
   if (!read.ok) return "";
@@ -52,7 +52,7 @@ std::string base_unit(const std::string& unit) {
          (factor == 1 ? "" : attribute("factor", factor)) + "/>";
 }
 
-// Units that laboratories read: a value in one of them = factor x the value in SI.
+// Display units used in laboratories: value in the unit = factor x value in SI.
 struct Display {
   std::string_view si, name;
 };
@@ -110,7 +110,7 @@ std::string start_of(const Variable& v) {
   return attribute("start", v.start);
 }
 
-// Attributes that both versions have behind name, reference and words.
+// Returns the attributes that both versions have after name, reference and description.
 std::string value_attributes(const Variable& v) {
   std::string out;
   if (has_unit(v)) out += attribute("unit", std::string_view(plain_unit(v.unit)));
@@ -124,7 +124,7 @@ std::string numbers(const std::vector<int>& of, int more) {
   return out;
 }
 
-// "0 to 1", "at least 0"; empty where anything goes.
+// Returns "0 to 1" or "at least 0"; empty if there are no limits.
 std::string range_of(const Variable& v) {
   const bool least = std::isfinite(v.min), most = std::isfinite(v.max);
   if (v.type == Type::boolean || (!least && !most)) return "";
@@ -148,7 +148,7 @@ std::string head(const Described& model, std::string_view version, std::string_v
          " variableNamingConvention=\"structured\">\n";
 }
 
-// Returns what stands in front of the values: name, reference, meaning, causality and variability.
+// Returns the attributes before the values: name, reference, meaning, causality and variability.
 std::string named(const Variable& v, std::size_t place) {
   return attribute("name", std::string_view(v.name)) +
          fmt::format(" valueReference=\"{}\"", place) +
@@ -181,7 +181,7 @@ std::string fmi2_description(const Described& model) {
                        value_attributes(v));
   }
   out += "  </ModelVariables>\n  <ModelStructure>\n";
-  // Indices count from 1 here.
+  // Indices count from 1.
   std::string unknowns;
   for (const std::size_t k : places_of(model, Causality::output))
     unknowns += fmt::format("      <Unknown index=\"{}\" dependencies=\"{}\"/>\n", k + 1,

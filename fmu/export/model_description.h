@@ -1,5 +1,5 @@
-// fmu/export/model_description.h - modelDescription.xml of FMI 2.0 and 3.0, and a page of the
-// variables for people.
+// fmu/export/model_description.h - modelDescription.xml of FMI 2.0 and 3.0, and an HTML page of the
+// variables.
 #pragma once
 
 #include <string>
@@ -9,27 +9,27 @@
 
 namespace sinew::fmu {
 
-// Holds what a description says of a model.
+// Contents of a model description.
 struct Described {
-  std::string name;        // of the model, for people
+  std::string name;        // display name of the model
   std::string identifier;  // a C identifier: the binary's file name
-  std::string token;       // that the binary expects
+  std::string token;       // token that the binary expects
   std::string description;
-  std::string version;              // of Sinew
+  std::string version;              // version of Sinew
   double stop_time = 1;             // [s]
-  double step = 1e-3;               // that suits it [s]
-  bool sources = false;             // does the FMU have them?
-  std::vector<Variable> variables;  // the time first
+  double step = 1e-3;               // suitable step [s]
+  bool sources = false;             // whether the FMU contains sources
+  std::vector<Variable> variables;  // variables, the time first
 };
 
 // Return modelDescription.xml.
 std::string fmi2_description(const Described& model);
 std::string fmi3_description(const Described& model);
 
-// sources/buildDescription.xml, which FMI 3.0 asks for beside sources.
+// Returns sources/buildDescription.xml, which FMI 3.0 requires together with sources.
 std::string build_description(const Described& model);
 
-// documentation/index.html: every variable with its unit, start, range and meaning.
+// Returns documentation/index.html: each variable with its unit, start, range and meaning.
 std::string variables_page(const Described& model);
 
 }  // namespace sinew::fmu

@@ -22,7 +22,7 @@ using Given = run::Column::Given;
 
 constexpr const char* file_name = "machine.toml";
 
-// The number of a key of the experiment, in SI; and its unit.
+// Number of a key of the experiment in SI, its unit and its source.
 struct Number {
   double value = 0;
   std::string unit, source;
@@ -106,7 +106,7 @@ void Machine::place_variables(const Description& description) {
   }
 }
 
-// Many a solver stops at NaN: a channel without a value is 0, and x and y have a flag together.
+// Many solvers stop at NaN, so a channel without a value is 0; x and y share a flag.
 void Machine::place_output(const std::string& name) {
   const std::size_t number = simulation_->find(name);
   const run::Simulation::Channel& channel = simulation_->channels()[number];
@@ -133,7 +133,7 @@ void Machine::place_output(const std::string& name) {
   shows_.push_back(Shows::validity);
 }
 
-// The experiment with the parameters as they are set.
+// Returns the experiment with the parameters that were set.
 experiment::Experiment Machine::experiment() const {
   config::Node tree = tree_;
   for (const Shown& p : parameters_)
@@ -167,10 +167,10 @@ const char* Machine::advance(double end, double) noexcept {
         simulation_->change(input.number, value);
         input.told = value;
       }
-  } catch (const std::exception&) {  // the range was checked when it was set
+  } catch (const std::exception&) {  // the range was checked when the value was set
     return "a setting was refused";
   }
-  // A communication point that is a tick but for rounding is that tick.
+  // A communication point that differs from a tick only by rounding is at that tick.
   constexpr double slack = 1e-3;  // [ticks]
   const double ticks = end / signals::tick_seconds;
   const auto last = static_cast<double>(simulation_->last());

@@ -1,13 +1,15 @@
-// fmu/machine/machine.h - a whole machine with its controllers: an experiment, as run::Simulation
-// runs it. The same instants give its bits.
+// fmu/machine/machine.h - FMU model of a whole machine with its controllers: an experiment,
+// simulated by run::Simulation. With communication points at the same instants the results are
+// equal to the bit.
 //
-// Inputs are settings of the plan that somebody else decides ("control.stiffness.hip"): from the
-// first value other than the start they hold in the plan's place, from the next period on. Outputs
-// are channels of the log; parameters are values of the experiment's files. A channel that has a
-// value only at times is 0 while it has none, with a Boolean output that is true while it has one.
+// Inputs are settings of the plan that the importer may override ("control.stiffness.hip"): from
+// the first value that differs from the start, they replace the plan's values from the next period
+// on. Outputs are channels of the log; parameters are values of the experiment's files. A
+// channel that has values only at some times is 0 at other times, and a Boolean output shows
+// whether it has a value.
 //
-// Controllers live in ticks of 0.1 ms. At a communication point between two ticks outputs are those
-// of the tick before.
+// Controllers run in ticks of 0.1 ms. At a communication point between two ticks, the outputs are
+// those of the earlier tick.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +23,7 @@
 
 namespace sinew::fmu {
 
-// Names what of an experiment an importer sees.
+// Variables of an experiment that an importer can access.
 struct MachineShown {
   std::vector<std::string> inputs;      // keys of settings
   std::vector<std::string> outputs;     // channels; empty: all that have a value
@@ -32,36 +34,36 @@ class Machine {
  public:
   static constexpr std::string_view kind = "machine";
 
-  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
+  // Builds the model of a description. Throws std::exception if the description is invalid.
   explicit Machine(const Description& description);
-  // Throws config::Error or std::exception for an experiment that cannot be built and for names
-  // that it does not have.
+  // Returns the description of an experiment. Throws config::Error or std::exception for an
+  // experiment that cannot be built and for unknown names.
   static Description describe(const experiment::Experiment& experiment, const MachineShown& shown);
 
-  // The variables, with the values of those that are set.
+  // Return the variables, with the values that were set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
   void begin();
-  // See instance.h: an output, what forbids a step, the step, and where the plan ends.
+  // See instance.h: an output, the reason why a step is refused, the step, and the end of the plan.
   double output(std::size_t place) const;
   std::string wrong(double) const { return {}; }
   const char* advance(double end, double step) noexcept;
   double last() const noexcept { return simulation_->ended() ? simulation_->time() : duration(); }
 
-  // The model's own state as bytes, and back.
+  // Save and restore the model's own state as bytes.
   std::vector<std::byte> save() const;
   void restore(std::span<const std::byte> saved);
 
-  // Returns how long the plan takes  [s].
+  // Returns the duration of the plan [s].
   double duration() const noexcept;
 
  private:
   struct Shown {
-    std::size_t place = 0, number = 0;  // of the variable; of the setting or the channel
+    std::size_t place = 0, number = 0;  // of the variable; of the setting or channel
     std::string key;
     std::string unit;
-    double told = 0;  // inputs: what the simulation was told last
+    double told = 0;  // inputs: value that was last passed to the simulation
   };
 
   experiment::Experiment experiment() const;
@@ -73,12 +75,12 @@ class Machine {
   std::vector<Shown> inputs_, parameters_;
   std::unique_ptr<run::Simulation> simulation_;
 
-  // Outputs at the tick that the simulation stands at, read together once one is asked for; the
-  // first one's place, after which the others follow.
+  // Outputs at the simulation's present tick, read together when one is read first. They follow
+  // each other, beginning with this variable.
   std::size_t first_output_ = 0;
   std::vector<std::size_t> channels_;
   enum class Shows { value, value_or_zero, validity };
-  std::vector<Shows> shows_;  // by output, of its channel
+  std::vector<Shows> shows_;  // one per output: how it shows its channel
   mutable std::vector<double> read_;
   mutable bool fresh_ = false;
   std::string cause_;

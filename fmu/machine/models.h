@@ -1,4 +1,4 @@
-// fmu/machine/models.h - the model of the module sinew_fmu_machine.
+// fmu/machine/models.h - list of the models of the module sinew_fmu_machine.
 #pragma once
 
 #include <variant>

@@ -16,7 +16,7 @@ namespace {
 
 using Causality = Variable::Causality;
 
-// Visits what a muscle's route asks of a joint.
+// Visits the fields of a joint that a muscle's route needs.
 template <class Visitor>
 void route_fields(Visitor& v, robot::Joint& joint) {
   using Flexion = robot::Joint::Flexion;
@@ -59,7 +59,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Returns the robot's joint of that name. Throws where there is none, and where nothing pulls it.
+// Returns the robot's joint of that name. Throws if it does not exist or if no muscle crosses it.
 const robot::Joint& pulled_joint(const robot::Robot& robot, const std::string& name) {
   const int at = robot::find_joint(robot, name);
   if (at < 0) throw std::invalid_argument("joint: found \"" + name + "\", which the robot has not");
@@ -205,7 +205,7 @@ void Joint::lengths_at(std::span<const double> angles, Lengths& lengths,
   routing_->at<most>(angles.data(), still.data(), lengths, rates, arms);
 }
 
-// Says which muscle would have a length that it cannot have; empty: none.
+// Returns the name and length of a muscle with an impossible length; empty if there is none.
 std::string Joint::wrong_at(std::span<const double> angles) const {
   Lengths lengths;
   Arms arms{};
@@ -243,7 +243,7 @@ void Joint::begin() {
   }
 }
 
-// Torque of the muscles, or the bound of their dry friction  [N m].
+// Returns the torque of the muscles, or the bound of their dry friction [N m].
 double Joint::of_joint(std::size_t joint, bool friction) const noexcept {
   double sum = 0;
   routing_->each(arms_, [&](int m, std::size_t j, double arm) {
@@ -263,7 +263,7 @@ double Joint::output(std::size_t place) const {
     if (place == pull.length) return pull.driven->length();
     if (place == pull.mass) return pull.driven->air_mass();
   }
-  return 0;  // every output has its place above
+  return 0;  // all outputs are handled above
 }
 
 const char* Joint::advance(double, double step) noexcept {

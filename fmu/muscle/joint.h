@@ -1,14 +1,15 @@
-// fmu/muscle/joint.h - joints with their muscles and valves, for a body that somebody else moves:
-// angles, rates and currents of the valves in, torques out.
+// fmu/muscle/joint.h - FMU model of joints with their muscles and valves, for a body simulated by
+// the importer: angles, rates and currents of the valves in, torques out.
 //
 //   L_m = mount - sum_k s_k S_k(theta_k)        T_k = sum_m s_k r_k(theta_k) F_m
 //
-// with the cams of mechanism/planar/muscle_routing.h. Over a step the angles run straight from
-// where they are to angle + rate x step; each muscle's length runs straight between its lengths at
-// the two ends. Torque > 0 raises the angle. Gravity, stops, damping and dry friction of the joint
-// are the body's; `friction` is the bound of what the muscles' meshes add to it.
+// The cams are in mechanism/planar/muscle_routing.h. During a step the angles change linearly to
+// angle + rate x step, and each muscle's length changes linearly between its lengths at both ends.
+// Torque > 0 raises the angle. Gravity, stops, damping and dry friction of the joint belong to the
+// body; `friction` is the bound of the friction that the muscles' meshes add.
 //
-// Each muscle is fed at the supply's pressure: a tank that several muscles empty is refused.
+// Each muscle is supplied at the supply's pressure: a robot with a tank shared by several muscles
+// is refused.
 #pragma once
 
 #include <cstddef>
@@ -27,28 +28,28 @@ class Joint {
  public:
   static constexpr std::string_view kind = "joint";
 
-  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
+  // Builds the model of a description. Throws std::exception if the description is invalid.
   explicit Joint(const Description& description);
   // Describes the named joints of a robot with every muscle that crosses one of them; `muscles` are
-  // the robot's, in its order. Throws std::invalid_argument for a joint that there is not, for one
-  // without muscles, for a muscle that crosses a joint that is not named, and for a tank.
+  // the robot's, in its order. Throws std::invalid_argument for an unknown joint, a joint without
+  // muscles, a muscle that also crosses another joint, and a tank.
   static Description describe(const robot::Robot& robot, const std::vector<air::Muscle>& muscles,
                               const std::vector<std::string>& joints, const gas::Air& air,
                               const gas::Supply& supply, double pressure);
 
-  // The variables, with the values of those that are set.
+  // Return the variables, with the values that were set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
-  // Throws std::exception for parameters that do not go together, and for angles at which a muscle
-  // would be longer or shorter than it can be.
+  // Starts the model. Throws std::exception for parameters that contradict each other, and for
+  // angles at which a muscle has an impossible length.
   void begin();
   double output(std::size_t place) const;
   std::string wrong(double step) const;
   const char* advance(double end, double step) noexcept;
   double last() const noexcept { return units::unbounded; }
 
-  // The model's own state as bytes, and back.
+  // Save and restore the model's own state as bytes.
   std::vector<std::byte> save() const;
   void restore(std::span<const std::byte> saved);
 
@@ -78,15 +79,15 @@ class Joint {
   double of_joint(std::size_t joint, bool friction) const noexcept;
 
   Sheet sheet_;
-  robot::Robot robot_;  // joints and routes alone
+  robot::Robot robot_;  // only joints and routes
   gas::Air air_;
   gas::Supply supply_;
   std::vector<Pull> pulls_;
-  std::vector<Places> at_;  // by joint
+  std::vector<Places> at_;  // one per joint
   std::size_t initial_pressure_ = 0;
   std::optional<plant::MuscleRouting> routing_;
-  std::vector<double> angles_;  // where the last step ended [rad]
-  Arms arms_{};                 // there [m]
+  std::vector<double> angles_;  // at the end of the last step [rad]
+  Arms arms_{};                 // at these angles [m]
 };
 
 }  // namespace sinew::fmu

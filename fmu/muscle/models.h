@@ -1,4 +1,4 @@
-// fmu/muscle/models.h - the models of the module sinew_fmu_muscle.
+// fmu/muscle/models.h - list of the models of the module sinew_fmu_muscle.
 #pragma once
 
 #include <variant>

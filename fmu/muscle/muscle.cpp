@@ -69,7 +69,7 @@ void command(air::DrivenMuscle& muscle, const Sheet& sheet, const ValvePlaces& a
 
 Description Muscle::describe(const air::Muscle& muscle, const gas::Air& air,
                              const gas::Supply& supply, const MuscleStart& start) {
-  air::Muscle m = muscle;  // visitors take what they list by reference
+  air::Muscle m = muscle;  // visitors take fields by non-const reference
   gas::Air a = air;
   gas::Supply s = supply;
   Lister list("");

@@ -1,9 +1,10 @@
-// fmu/muscle/muscle.h - a braided muscle with its valves, hose, leak and supply: length, rate and
-// currents of the valves in, tension out. It is air::DrivenMuscle; the same steps give its bits.
+// fmu/muscle/muscle.h - FMU model of a braided muscle with its valves, hose, leak and supply:
+// length, rate and currents of the valves in, tension out. It uses air::DrivenMuscle; equal steps
+// give results equal to the bit.
 //
-// In a step the length runs straight from where it is to length + rate x step; a master that knows
-// only where the muscle is now leaves the rate at 0, and the muscle follows a step late. Valves
-// move at their own instants within the step, delays included.
+// During a step the length changes linearly to length + rate x step; a master that has only the
+// present length leaves the rate at 0, and the muscle lags by a step. Valves switch at their own
+// instants within the step, including their delays.
 #pragma once
 
 #include <cstddef>
@@ -17,27 +18,27 @@
 
 namespace sinew::fmu {
 
-// Says where a muscle starts.
+// Initial state of a muscle.
 struct MuscleStart {
   double length = 0;    // [m]
-  double pressure = 0;  // of its air, absolute [Pa]
+  double pressure = 0;  // pressure of its air, absolute [Pa]
 };
 
-// Places of a muscle's valves among the inputs; 0: it has no such input.
+// Indices of the inputs of a muscle's valves; 0: no such input.
 struct ValvePlaces {
   std::size_t inlet = 0, exhaust = 0, set_point = 0;
 };
-// Adds the inputs that the valves of the muscle ask for; `prefix` is "" or "hip_flexor.".
+// Adds the inputs of the muscle's valves; `prefix` is "" or "hip_flexor.".
 ValvePlaces add_valves(Sheet& sheet, const air::Muscle& muscle, const std::string& prefix);
 
-// Returns the kind of a muscle's inlet in a list of its parameters: it says which keys there are.
+// Returns the kind of a muscle's inlet in a list of its parameters, which determines its keys.
 gas::Valve::Kind inlet_kind(const std::vector<Parameter>& list, const std::string& prefix);
 
-// Remembers what was commanded last, so that a valve is told only of changes.
+// Last commands, so that only changes are passed to a valve.
 struct Commanded {
   double inlet = 0, exhaust = 0, set_point = 0;
 };
-// Tells the valves what the inputs say now, where that is new.
+// Passes the inputs to the valves if they have changed.
 void command(air::DrivenMuscle& muscle, const Sheet& sheet, const ValvePlaces& at,
              Commanded& commanded) noexcept;
 
@@ -45,25 +46,25 @@ class Muscle {
  public:
   static constexpr std::string_view kind = "muscle";
 
-  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
+  // Builds the model of a description. Throws std::exception if the description is invalid.
   explicit Muscle(const Description& description);
-  // Returns what the exporter writes of a muscle.
+  // Returns the description of a muscle.
   static Description describe(const air::Muscle& muscle, const gas::Air& air,
                               const gas::Supply& supply, const MuscleStart& start);
 
-  // The variables, with the values of those that are set.
+  // Return the variables, with the values that were set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
-  // Throws std::exception for parameters that do not go together, and for a length that it cannot
-  // have.
+  // Starts the model. Throws std::exception for parameters that contradict each other, and for an
+  // impossible length.
   void begin();
   double output(std::size_t place) const;
   std::string wrong(double step) const;
   const char* advance(double end, double step) noexcept;
   double last() const noexcept { return units::unbounded; }
 
-  // The model's own state as bytes, and back.
+  // Save and restore the model's own state as bytes.
   std::vector<std::byte> save() const;
   void restore(std::span<const std::byte> saved);
 

@@ -1,5 +1,5 @@
-// fmu/muscle/muscle_fields.h - the keys under which an FMU's parameters stand: those of our files,
-// joined for one muscle.
+// fmu/muscle/muscle_fields.h - keys of an FMU's parameters: those of Sinew's files, combined for
+// one muscle.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace sinew::fmu {
 
-// Visits what a muscle has beside its actuator, valves and hose.
+// Visits the fields of a muscle besides those of its actuator, valves and hose.
 template <class Visitor>
 void bundle_fields(Visitor& v, int& count, double& external_volume) {
   v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, count);
@@ -37,8 +37,8 @@ void fields(Visitor& v, air::Muscle& muscle) {
   v.group({.name = "leak"}, [&](auto& g) { gas::fields(g, muscle.leak); });
 }
 
-// Says what is wrong with a length of an actuator, by the name that the importer knows it by: it is
-// shorter than the caps alone or longer than they and one and a half threads. Empty: nothing.
+// Returns the fault of an actuator's length with the importer's name for it: shorter than the caps
+// alone, or longer than these and one and a half threads. Empty: no fault.
 inline std::string wrong_length(const actuator::Actuator& a, const std::string& name,
                                 double length) {
   const double least = a.caps.length, most = least + 1.5 * a.braid.thread_length;
@@ -47,8 +47,8 @@ inline std::string wrong_length(const actuator::Actuator& a, const std::string& 
          " m (the caps alone), at most " + text_of(most) + " m (one and a half threads)";
 }
 
-// Returns whether an importer has no use for it: what a coil takes, since an FMU does not count
-// electrical energy; and the counted mesh, whose thread and turns stand beside it.
+// Returns whether an importer has no use for a parameter: those of coils, as an FMU does not
+// compute electrical energy, and of the counted mesh, which is redundant with thread and turns.
 inline bool is_idle(const Parameter& p) {
   for (const char* part : {".coil.", ".circuit.", ".trapezoids."})
     if (p.name.find(part) != std::string::npos) return true;

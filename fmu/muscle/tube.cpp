@@ -30,7 +30,7 @@ void fields(Visitor& v, TubeParts parts) {
 
 Description Tube::describe(const actuator::Actuator& actuator, const gas::Air& air, int count,
                            double external_volume) {
-  actuator::Actuator a = actuator;  // visitors take what they list by reference
+  actuator::Actuator a = actuator;  // visitors take fields by non-const reference
   gas::Air surroundings = air;
   Lister list("");
   fields(list, {a, surroundings, count, external_volume});

@@ -1,13 +1,13 @@
-// fmu/muscle/tube.h - a braided muscle whose pressure somebody else knows: length, rate and gauge
-// pressure in, tension out. It has no state; outputs follow the inputs at once.
+// fmu/muscle/tube.h - FMU model of a braided muscle whose pressure is an input: length, rate and
+// gauge pressure in, tension out. It has no state; outputs depend directly on the inputs.
 //
 //   F = tension of actuator/tension.h, [31] and [33] without dry friction, times the actuators in
-//       parallel; a cord never pushes, so that F >= 0
-//   friction = bound of the dry friction, [33], [34]: whoever integrates decides whether it sticks
+//       parallel; a tendon cannot push, so that F >= 0
+//   friction = bound of the dry friction, [33], [34]: the integrator decides whether it sticks
 //   stiffness = dF/dL at constant pressure with that of ends and bladder, [26]
 //
-// Valid where docs/theory/actuator.md says so; beyond possible lengths (muscle_fields.h) nothing is
-// answered.
+// The range of validity is in docs/theory/actuator.md; outputs at impossible lengths
+// (muscle_fields.h) are refused.
 #pragma once
 
 #include <cstddef>
@@ -25,20 +25,20 @@ class Tube {
  public:
   static constexpr std::string_view kind = "tube";
 
-  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
+  // Builds the model of a description. Throws std::exception if the description is invalid.
   explicit Tube(const Description& description);
-  // Returns what the exporter writes of an actuator.
+  // Returns the description of an actuator.
   static Description describe(const actuator::Actuator& actuator, const gas::Air& air, int count,
                               double external_volume);
 
-  // The variables, with the values of those that are set.
+  // Return the variables, with the values that were set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
   void begin();
-  // Returns an output. Throws Discarded for a length that the actuator cannot have.
+  // Returns an output. Throws Discarded for an impossible length.
   double output(std::size_t place) const;
-  // Nothing moves by itself.
+  // A tube is static: each step succeeds.
   std::string wrong(double) const { return {}; }
   const char* advance(double, double) noexcept { return nullptr; }
   double last() const noexcept { return units::unbounded; }
@@ -59,7 +59,7 @@ class Tube {
   actuator::Actuator actuator_;
   gas::Air air_;
   int count_ = 1;
-  double external_volume_ = 0;  // per bundle [m3]
+  double external_volume_ = 0;  // volume per bundle [m3]
 };
 
 }  // namespace sinew::fmu

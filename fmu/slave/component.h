@@ -1,5 +1,5 @@
-// fmu/slave/component.h - what stands behind an importer's handle: an instance with its name and
-// the importer's log. C functions of either version of the interface go through guarded().
+// fmu/slave/component.h - object of an importer's handle: an instance with its name and the
+// importer's log. The C functions of both versions of the interface use guarded().
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@
 
 namespace sinew::fmu {
 
-// The categories that modelDescription.xml names.
+// Log categories in modelDescription.xml.
 inline constexpr const char* error_category = "logStatusError";
 inline constexpr const char* discard_category = "logStatusDiscard";
 inline constexpr const char* event_category = "logEvents";
 
-// `Importer` has log(status, category, message) and, of the version's Status, the same enumerators.
+// `Importer` has log(status, category, message) and a Status with the enumerators of its version.
 template <class Models, class Importer>
 struct Held {
   using Status = typename Importer::Status;
@@ -29,7 +29,7 @@ struct Held {
   Importer importer;
   bool logging = false;
 
-  // Tells the importer; of what is no trouble only where it has asked for it.
+  // Logs a message; messages without trouble only if logging is on.
   void log(Status status, const std::string& message) const {
     if (status == Status::ok && !logging) return;
     const char* category = status == Status::ok ? event_category : error_category;
@@ -37,19 +37,18 @@ struct Held {
   }
 };
 
-// Tells the importer why a call answers so, and answers so.
+// Logs the reason of a status and returns the status.
 template <class HeldInstance>
 typename HeldInstance::Status told(const HeldInstance& held, typename HeldInstance::Status status,
                                    const char* function, const char* why) noexcept {
   try {
     held.log(status, std::string(function) + ": " + why);
-  } catch (...) {  // no memory for the message
+  } catch (...) {  // out of memory for the message
   }
   return status;
 }
 
-// Calls `work(held)`, which may throw. Answers error, and tells the importer why, where it does or
-// where there is no instance.
+// Calls `work(held)`. Returns error if it throws, and logs the reason, or if there is no instance.
 template <class HeldInstance, class Work>
 typename HeldInstance::Status guarded(void* component, const char* function,
                                       const Work& work) noexcept {
@@ -70,8 +69,8 @@ typename HeldInstance::Status guarded(void* component, const char* function,
   }
 }
 
-// Makes a step. Done where it came to its end, or to where the model ends; discarded where the
-// model had ended before; `short_of` is what a step answers that the model's end has cut.
+// Makes a step. Returns ok if it was completed or reached exactly the end of the model, discard if
+// the model had ended before, and `short_of` if the end of the model shortened it.
 template <class HeldInstance>
 typename HeldInstance::Status do_step(HeldInstance& held, const char* function, double from,
                                       double length, typename HeldInstance::Status short_of) {
@@ -89,7 +88,7 @@ typename HeldInstance::Status do_step(HeldInstance& held, const char* function, 
              : told(held, short_of, function, "the model has come to its end within the step");
 }
 
-// Reads values by their references. `convert` makes of the number what the caller's array holds.
+// Reads values by their references. `convert` returns the element of the caller's array.
 template <class HeldInstance, class T, class Convert>
 void get_values(HeldInstance& held, Variable::Type type, const unsigned int* references,
                 std::size_t count, T* values, const Convert& convert) {
@@ -98,7 +97,7 @@ void get_values(HeldInstance& held, Variable::Type type, const unsigned int* ref
     values[k] = convert(held.instance.get(references[k], type));
 }
 
-// Sets all values or, where one of them is wrong, those before it.
+// Sets the values in order; an error leaves the earlier ones set.
 template <class HeldInstance, class T>
 void set_values(HeldInstance& held, Variable::Type type, const unsigned int* references,
                 std::size_t count, const T* values) {
@@ -110,17 +109,17 @@ void set_values(HeldInstance& held, Variable::Type type, const unsigned int* ref
   }
 }
 
-// --- saved states: an importer's handle is a vector of bytes ---
+// --- saved states: the handle is a vector of bytes ---
 
 using Saved = std::vector<std::byte>;
 
-// Returns what the handle holds. Throws where there is none.
+// Returns the bytes of the handle. Throws if it is null.
 inline const Saved& bytes_of(const void* state) {
   if (!state) throw std::runtime_error("found no state");
   return *static_cast<const Saved*>(state);
 }
 
-// Puts the bytes behind the handle: a new one where it holds none yet.
+// Stores the bytes in the handle; allocates a new vector if it is null.
 inline void hand_over(void** state, Saved bytes) {
   if (!state) throw std::runtime_error("found no place for the state");
   if (*state)
@@ -129,14 +128,14 @@ inline void hand_over(void** state, Saved bytes) {
     *state = new Saved(std::move(bytes));
 }
 
-// Gives the state's bytes back and leaves the handle empty; of an empty one there is nothing to do.
+// Frees the state and sets the handle to null; does nothing if it is null.
 inline void free_state(void** state) {
   if (!state) return;
   delete static_cast<Saved*>(*state);
   *state = nullptr;
 }
 
-// Copies a state into an importer's room of so many bytes, and out of it.
+// Copy a state into the importer's buffer of `size` bytes, and from it.
 inline void copy_out(const void* state, void* out, std::size_t size) {
   const Saved& bytes = bytes_of(state);
   if (!out || size < bytes.size())

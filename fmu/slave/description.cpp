@@ -25,7 +25,7 @@ std::string sixteen_digits(std::uint64_t number) {
   return out;
 }
 
-// Returns the text with a question mark for each character that is not printed.
+// Returns the text with a question mark for each character that is not printable ASCII.
 std::string printable(std::string_view text) {
   std::string out(text);
   for (char& c : out)

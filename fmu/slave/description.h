@@ -1,14 +1,13 @@
-// fmu/slave/description.h - the file resources/model.txt of an FMU: which model it is, and its
-// numbers.
+// fmu/slave/description.h - file resources/model.txt of an FMU: kind of the model, and its numbers.
 //
 //   sinew fmu 1
 //   kind = muscle
 //   actuator.braid.turns = 2.3125
 //   …
-//   hash = 3f0c…        of all lines before it
+//   hash = 3f0c…        hash of all lines before
 //
-// Numbers are SI, written so that reading gives the same bits. The hash is against mistakes and
-// damage, not against anybody.
+// Numbers are in SI with the digits that read back to the same bits. The hash protects against
+// mistakes and damage, but not against attacks.
 #pragma once
 
 #include <filesystem>
@@ -23,34 +22,34 @@ class Description {
  public:
   Description() = default;
 
-  // Reads the file in the folder of resources. Throws std::runtime_error with what is wrong.
+  // Reads the file in the folder of resources. Throws std::runtime_error with the fault.
   static Description read(const std::filesystem::path& resources);
-  // Reads the file's text, without the files beside it.
+  // Parses the file's text, without the attached files.
   static Description parse(std::string_view text);
 
   // Returns the file's text, its hash last.
   std::string text() const;
-  // Hash of the text as 16 digits: equal descriptions have equal ones.
+  // Returns the hash of the text as 16 digits; equal descriptions have equal hashes.
   std::string hash() const;
 
-  // Files that stand beside it; read() has read them, and throws std::runtime_error where one is
-  // not the one that was attached when the description was written.
+  // Attaches a file of the same folder. read() reads attached files, and throws std::runtime_error
+  // if one differs from the file attached when the description was written.
   void attach(const std::string& name, std::string text);
-  // Returns the file's text. Throws std::runtime_error where there is none of that name.
+  // Returns the text of an attached file. Throws std::runtime_error if there is no such file.
   const std::string& file(const std::string& name) const;
   struct File {
     std::string name, text;
   };
   const std::vector<File>& attached() const { return files_; }
 
-  // Adds a line. A key may stand in several lines, which are a list then.
+  // Adds a line. Several lines with the same key form a list.
   void add(std::string key, std::string value);
-  // Returns the first value of the key; nullptr where there is none.
+  // Returns the first value of the key; nullptr if the key is missing.
   const std::string* find(std::string_view key) const;
-  // Throws std::runtime_error where there is none.
+  // Returns the first value of the key. Throws std::runtime_error if the key is missing.
   const std::string& at(std::string_view key) const;
   std::vector<std::string> all(std::string_view key) const;
-  // Returns the lines whose keys begin so, without that beginning.
+  // Returns the lines whose keys begin with `beginning`, without that part.
   std::vector<std::pair<std::string, std::string>> lines_of(std::string_view beginning) const;
 
  private:
@@ -63,12 +62,12 @@ class Description {
   std::vector<File> files_;  // in memory
 };
 
-// Returns the folder that an importer names: a path, or a file: URI with percent signs undone.
-// Throws std::runtime_error for another kind of URI and for nothing at all.
+// Returns the folder given by an importer: a path, or a file: URI, with percent signs decoded.
+// Throws std::runtime_error for other URIs and for an empty one.
 std::filesystem::path resource_folder(const char* location);
 
-// Numbers as text with the fewest digits that bring back the same bits, and back. `number_of`
-// throws std::runtime_error, naming the key, for what is no number.
+// Convert a number to text with the fewest digits that read back to the same bits, and back.
+// `number_of` throws std::runtime_error, which names the key, for a text that is not a number.
 std::string text_of(double number);
 double number_of(std::string_view key, const std::string& text);
 

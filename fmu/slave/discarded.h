@@ -1,5 +1,5 @@
-// fmu/slave/discarded.h - what an importer may do otherwise and go on: a value out of range, a step
-// that is too long. The interface answers "discard".
+// fmu/slave/discarded.h - exception for requests that an importer can change, such as a value
+// out of range or a step that is too long. The interface returns the status "discard".
 #pragma once
 
 #include <stdexcept>

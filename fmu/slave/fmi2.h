@@ -1,5 +1,5 @@
-// fmu/slave/fmi2.h - FMI 2.0 for co-simulation as this project declares it: types and statuses of
-// the standard's sections 2.1 and 4.2, by their values. Importers are compiled with their own.
+// fmu/slave/fmi2.h - declarations of FMI 2.0 for co-simulation: types and statuses of the
+// standard's sections 2.1 and 4.2 with the same values. Importers are compiled with their own.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@ using Boolean = int;
 using Byte = char;
 using String = const char*;
 
-// The standard's enumerations, in its order.
+// Enumerations of the standard, in its order.
 enum class Status { ok, warning, discard, error, fatal, pending };
 enum class Type { model_exchange, co_simulation };
 enum class StatusKind { do_step, pending, last_successful_time, terminated };
 
-// Holds what an importer lets a slave call.
+// Functions that an importer provides to a slave.
 struct Callbacks {
   void (*logger)(Environment, String instance, Status, String category, String format, ...);
   void* (*allocate)(std::size_t, std::size_t);

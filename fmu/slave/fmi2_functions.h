@@ -1,10 +1,10 @@
-// fmu/slave/fmi2_functions.h - the functions of FMI 2.0 for co-simulation, which a module exports:
-// included once, by a source that has said what `sinew::fmu::Models` is.
+// fmu/slave/fmi2_functions.h - functions of FMI 2.0 for co-simulation, exported by a module. A
+// source that defines `sinew::fmu::Models` includes this file once.
 //
-// All that the standard declares for co-simulation is there, since importers look for every one.
-// Not provided, and answered with an error in words: text variables (there are none), directional
-// derivatives, derivatives of outputs; a step is done when doStep returns, so that nothing is ever
-// pending.
+// All functions that the standard declares for co-simulation exist, since importers resolve every
+// one. Text variables, directional derivatives and derivatives of outputs are not supported, and
+// calls for them return an error with a message. A step is complete when doStep returns, so no step
+// is ever pending.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@
 
 namespace sinew::fmu::fmi2 {
 
-// Tells the importer, through the logger that it has given.
+// Logger of the importer.
 struct Importer {
   using Status = fmi2::Status;
   Callbacks callbacks{};
   std::string name;
 
-  // Writes into the importer's log, if it has one.
+  // Writes to the importer's log, if it has one.
   void log(Status status, const char* category, const std::string& message) const {
     if (callbacks.logger)
       callbacks.logger(callbacks.environment, name.c_str(), status, category, "%s",
@@ -31,18 +31,19 @@ struct Importer {
 using Slave = Held<Models, Importer>;
 using Variable = sinew::fmu::Variable;
 
-// Calls `work(slave)` and answers its status; error, in words, where it throws (component.h).
+// Returns the status of `work(slave)`; returns error and logs the reason if it throws
+// (component.h).
 template <class Work>
 Status call(Component c, const char* function, const Work& work) noexcept {
   return guarded<Slave>(c, function, work);
 }
 
-// Answers an error for what this model does not provide.
+// Returns an error for a function that the model does not support.
 inline Status refuse(Component c, const char* function, const char* why) noexcept {
   return call(c, function, [&](Slave&) { throw std::runtime_error(why); });
 }
 
-// Makes an instance; nullptr, and a word in the log, for what is wrong with what is asked.
+// Creates an instance; returns nullptr and logs the reason if the arguments are invalid.
 inline Component instantiate(String name, Type type, String guid, String resources,
                              const Callbacks* callbacks, bool logging) noexcept {
   Importer importer;
@@ -58,13 +59,13 @@ inline Component instantiate(String name, Type type, String guid, String resourc
   } catch (const std::exception& e) {
     try {
       importer.log(Status::error, error_category, std::string("fmi2Instantiate: ") + e.what());
-    } catch (...) {  // no memory for the message
+    } catch (...) {  // out of memory for the message
     }
     return nullptr;
   }
 }
 
-// FMI 2.0 answers so where a slave does not have the status that is asked for.
+// Returns the status that FMI 2.0 requires if a slave does not have the requested status.
 inline Status no_status(Component c, const char* function, const char* why) noexcept {
   return call(c, function, [&](Slave&) -> Status { throw Discarded(why); });
 }
@@ -189,8 +190,8 @@ Status fmi2CancelStep(Component c) {
   return refuse(c, __func__, "a step is done when fmi2DoStep returns: no step can be cancelled");
 }
 
-// The first derivative of a muscle's length or a joint's angle is its rate. What this model has no
-// use for - rates of rates, of pressures, higher orders - is heard and left.
+// The first derivative of a muscle's length or a joint's angle is its rate. Derivatives that the
+// model does not use (of rates, of pressures, of higher order) are ignored.
 Status fmi2SetRealInputDerivatives(Component c, const Reference* at, std::size_t n,
                                    const Integer* orders, const Real* values) {
   return call(c, __func__, [&](Slave& s) {
@@ -215,7 +216,7 @@ Status fmi2GetDirectionalDerivative(Component c, const Reference*, std::size_t, 
   return refuse(c, __func__, "this model gives no directional derivatives");
 }
 
-// --- what became of the last step ---
+// --- status of the last step ---
 
 Status fmi2GetStatus(Component c, StatusKind, Status*) {
   return no_status(c, __func__, "no step of this model is ever pending");

@@ -1,9 +1,9 @@
-// fmu/slave/fmi3_functions.h - the functions of FMI 3.0, which a module exports: included once, by
-// a source that has said what `sinew::fmu::Models` is.
+// fmu/slave/fmi3_functions.h - functions of FMI 3.0, exported by a module. A source that defines
+// `sinew::fmu::Models` includes this file once.
 //
-// Everything that the standard declares is there. Co-simulation is provided; model exchange,
+// All functions that the standard declares exist. Co-simulation is supported; model exchange,
 // scheduled execution, clocks, events, arrays, binary and text variables, derivatives and
-// intermediate updates are not, and answered with an error in words. Reals are Float64, whole
+// intermediate updates are not, and return an error with a message. Reals are Float64, whole
 // numbers Int32.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace sinew::fmu::fmi3 {
 
-// The standard's, in its order.
+// Statuses of the standard, in its order.
 enum class Status { ok, warning, discard, error, fatal };
 
 using Instance = void*;
@@ -25,13 +25,13 @@ using String = const char*;
 using Binary = const std::uint8_t*;
 using Log = void (*)(Environment, Status, String category, String message);
 
-// Tells the importer, through the function that it has given.
+// Logger of the importer.
 struct Importer {
   using Status = fmi3::Status;
   Environment environment = nullptr;
   Log write = nullptr;
 
-  // Writes into the importer's log, if it has one.
+  // Writes to the importer's log, if it has one.
   void log(Status status, const char* category, const std::string& message) const {
     if (write) write(environment, status, category, message.c_str());
   }
@@ -40,13 +40,14 @@ struct Importer {
 using Slave = Held<Models, Importer>;
 using Variable = sinew::fmu::Variable;
 
-// Calls `work(slave)` and answers its status; error, in words, where it throws (component.h).
+// Returns the status of `work(slave)`; returns error and logs the reason if it throws
+// (component.h).
 template <class Work>
 Status call(Instance c, const char* function, const Work& work) noexcept {
   return guarded<Slave>(c, function, work);
 }
 
-// Answers an error for what this model does not provide.
+// Returns an error for a function that the model does not support.
 inline Status refuse(Instance c, const char* function, const char* why) noexcept {
   return call(c, function, [&](Slave&) { throw std::runtime_error(why); });
 }
@@ -56,18 +57,18 @@ inline constexpr const char* no_clocks = "this model has no clocks";
 inline constexpr const char* no_exchange =
     "this model is for co-simulation, not for model exchange";
 
-// Says in the log why there is no instance, and answers none.
+// Logs the reason why no instance was created, and returns null.
 inline Instance refuse_instance(const char* function, Environment environment, Log write,
                                 const std::string& why) noexcept {
   try {
     Importer{environment, write}.log(Status::error, error_category,
                                      std::string(function) + ": " + why);
-  } catch (...) {  // no memory for the message
+  } catch (...) {  // out of memory for the message
   }
   return nullptr;
 }
 
-// A getter or a setter of a type that no variable has: right where nothing is asked for.
+// Handles getters and setters of a type that no variable has: ok if no values are requested.
 inline Status none(Instance c, const char* function, std::size_t count) noexcept {
   return count == 0 ? Status::ok : refuse(c, function, no_such_type);
 }
@@ -148,7 +149,7 @@ Status fmi3Reset(Instance c) {
   return call(c, __func__, [](Slave& s) { s.instance.reset(); });
 }
 
-// --- values; none of them is an array, so that there are as many values as references ---
+// --- values; there are no arrays, so the number of values equals that of references ---
 
 Status fmi3GetFloat64(Instance c, At at, Size n, double* values, Size count) {
   return call(c, __func__, [&](Slave& s) {
@@ -228,7 +229,7 @@ Status fmi3SetBinary(Instance c, At, Size n, const Size*, const Binary*, Size) {
 }
 Status fmi3SetClock(Instance c, At, Size n, const bool*) { return none(c, __func__, n); }
 
-// --- what an output follows at once ---
+// --- direct feedthrough of outputs ---
 
 Status fmi3GetNumberOfVariableDependencies(Instance c, Reference at, Size* count) {
   return call(c, __func__, [&](Slave& s) {
@@ -290,7 +291,7 @@ Status fmi3DoStep(Instance c, double from, double length, bool, bool* event_need
   });
 }
 
-// --- what this model does not provide ---
+// --- functions that are not supported ---
 
 Status fmi3GetDirectionalDerivative(Instance c, At, Size, At, Size, const double*, Size, double*,
                                     Size) {

@@ -1,20 +1,20 @@
-// fmu/slave/instance.h - one instance of an FMU's model, whatever version of the interface speaks
-// to it: phases, checks of every value, time, saved states.
+// fmu/slave/instance.h - instance of an FMU's model, independent of the version of the interface:
+// phases, checks of all values, time, saved states.
 //
-// `Models` is a std::variant of what the binary knows. A model has
+// `Models` is a std::variant of the models in the binary. A model has
 //
-//   kind          the word in resources/model.txt
-//   Model(d)      from a Description; throws
-//   sheet()       variables, and values that are set
-//   begin()       takes parameters and inputs as they are; throws
-//   output(k)     the value of the output at place k, once it has begun; may throw
-//   wrong(h)      what forbids a step of h seconds, in words; empty: nothing. Changes nothing
-//   advance(end, h)   goes to `end` seconds after the start. Returns what went wrong, or nullptr
-//   last()        seconds after the start at which it has come to its end; infinite: it has none
-//   save(), restore(bytes)   its own state, once it has begun
+//   kind          its name in resources/model.txt
+//   Model(d)      construction from a Description; throws
+//   sheet()       variables and their values
+//   begin()       start with the present parameters and inputs; throws
+//   output(k)     value of the output at index k, after begin(); may throw
+//   wrong(h)      reason why a step of h seconds is refused; empty: none. Changes nothing
+//   advance(end, h)   advances to `end` seconds after the start. Returns the failure, or nullptr
+//   last()        end of the model in seconds after the start; infinite: no end
+//   save(), restore(bytes)   its own state, after begin()
 //
-// Every function but step() throws std::exception with a sentence for the importer's log; the C
-// functions around it catch. Nothing is shared between instances.
+// Functions throw std::exception with a sentence for the importer's log, which the C functions
+// catch; step() returns a failure of the model instead. Instances share no data.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@
 
 namespace sinew::fmu {
 
-// Returns the model that the description names. Throws std::runtime_error where there is none.
+// Returns the model named in the description. Throws std::runtime_error if it is unknown.
 template <class Models, std::size_t K = 0>
 Models make_model(const Description& description) {
   if constexpr (K == std::variant_size_v<Models>) {
@@ -52,14 +52,14 @@ Models make_model(const Description& description) {
 template <class Models>
 class Instance {
  public:
-  // Says how far an instance's life has come.
+  // Phase of an instance.
   enum class Phase : std::uint32_t { made, initializing, stepping, terminated, failed };
 
-  // Says what became of a step: done; done up to where the model ends, in it or before it; failed.
+  // Result of a step: done; done up to the end of the model, in this step or before; failed.
   enum class Step { done, ended, failed };
 
-  // Makes the model; `version` is that of the library, whose states it takes. Throws where the
-  // token is not the description's.
+  // Makes the model; `version` is the library's, which saved states must match. Throws if the token
+  // differs from the description's hash.
   Instance(const Description& description, const std::string& token, const char* version)
       : description_(description),
         stamp_(units::hash(layout, units::hash(version, units::hash(description_.text())))),
@@ -70,14 +70,14 @@ class Instance {
     sheet().to_start();
   }
 
-  // How far it is; and the simulated time that the last step has ended at [s].
+  // Return the phase, and the simulated time at the end of the last step [s].
   Phase phase() const { return phase_; }
   double time() const { return time_; }
 
   // --- phases ---
 
-  // The phases, in their order. Each throws where another one comes first; reset begins again with
-  // the description's values.
+  // Enter the phases, in their order. Each throws if it is called in the wrong phase; reset starts
+  // again with the description's values.
   void set_start(double time, std::optional<double> stop) {
     require(phase_ == Phase::made, "the start time is set", "before initialization");
     if (!std::isfinite(time)) throw std::runtime_error("start time: found no finite number");
@@ -111,9 +111,9 @@ class Instance {
     begun_ = false;
   }
 
-  // --- values, by place ---
+  // --- values, by index ---
 
-  // Returns a value. Throws for a place or a type that there is not, and for an output before
+  // Returns a value. Throws for an unknown index or a wrong type, and for an output before
   // initialization.
   double get(std::size_t place, Variable::Type type) {
     const Variable& v = variable(place, type);
@@ -124,8 +124,8 @@ class Instance {
     return std::visit([&](auto& m) { return m.output(place); }, model_);
   }
 
-  // Sets a parameter or an input. Throws for others, at the wrong time, and Discarded out of its
-  // range.
+  // Sets a parameter or an input. Throws for other variables and in the wrong phase; throws
+  // Discarded for a value out of range.
   void set(std::size_t place, Variable::Type type, double value) {
     const Variable& v = variable(place, type);
     using C = Variable::Causality;
@@ -144,7 +144,7 @@ class Instance {
     sheet().set(place, value);
   }
 
-  // Returns the place's variable. Throws where there is none of that type.
+  // Returns the variable at an index. Throws if there is none or if it has another type.
   const Variable& variable(std::size_t place, Variable::Type type) const {
     const Variable& v = variable(place);
     if (v.type != type)
@@ -160,9 +160,9 @@ class Instance {
 
   // --- time ---
 
-  // Advances from `from`, where it stands, by `length` [s]. Throws, and changes nothing, for times
-  // that do not go on from each other and for what the model refuses beforehand; what the physics
-  // does is answered.
+  // Advances from `from`, the present time, by `length` [s]. Throws, and changes nothing, for
+  // times that are not consecutive and for steps that the model refuses; a failure during the step
+  // is returned.
   Step step(double from, double length) {
     require(phase_ == Phase::stepping, "a step is made", "after initialization");
     const double slack = 1e-9 * (1.0 + std::abs(time_));
@@ -193,14 +193,14 @@ class Instance {
     ended_ = last <= end + slack;
     return whole ? Step::done : Step::ended;
   }
-  // Returns why the last step failed.
+  // Returns the reason why the last step failed.
   const char* trouble() const { return trouble_ ? trouble_ : ""; }
-  // Has a step come to where the model ends?
+  // Returns whether a step has reached the end of the model.
   bool ended() const { return begun_ && ended_; }
 
-  // --- saved states: parameters, inputs, time and the model's own ---
+  // --- saved states: parameters, inputs, time and the model's own state ---
 
-  // Returns everything as bytes, with a hash behind them.
+  // Returns the whole state as bytes, followed by a hash.
   std::vector<std::byte> save() {
     std::vector<std::byte> out;
     append(out,
@@ -214,7 +214,7 @@ class Instance {
     return out;
   }
 
-  // Throws, and changes nothing, for what is no state of this FMU and version.
+  // Restores a state. Throws, and changes nothing, if it is not a state of this FMU and version.
   void restore(std::span<const std::byte> saved) {
     if (saved.size() < sizeof(Header) + sizeof(std::uint64_t))
       throw std::runtime_error("a saved state is cut off");
@@ -245,7 +245,7 @@ class Instance {
  private:
   static constexpr double longest_step = 1e5;  // [s]
   static constexpr double no_stop = units::unbounded;
-  static constexpr const char* layout = "2";  // of saved states: another Header, another number
+  static constexpr const char* layout = "2";  // format of saved states: changes with Header
 
   struct Header {  // without padding
     std::uint64_t stamp = 0;
@@ -277,7 +277,7 @@ class Instance {
     return true;
   }
 
-  // A model with those values and, where it had begun, that state of its own.
+  // Returns a model with these values and, if it had begun, with this state.
   Models made_anew(const std::vector<double>& values, bool begun,
                    std::span<const std::byte> own) const {
     Models out = make_model<Models>(description_);
@@ -300,7 +300,7 @@ class Instance {
   }
 
   Description description_;
-  std::uint64_t stamp_;  // of the description and the library's version
+  std::uint64_t stamp_;  // hash of the description and the library's version
   Models model_;
   Phase phase_ = Phase::made;
   bool begun_ = false, ended_ = false;

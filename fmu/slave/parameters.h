@@ -1,14 +1,14 @@
-// fmu/slave/parameters.h - structs with field tables (units/field.h) as a flat list of parameters,
-// and back.
+// fmu/slave/parameters.h - conversion of structs with field tables (units/field.h) to a flat
+// list of parameters and back.
 //
 //   Lister list("actuator.");
 //   actuator::fields(list, a);            // list.found: actuator.braid.turns, …
 //   Filler fill(list.found, "actuator.");
 //   actuator::fields(fill, b);            // b == a
 //
-// So an importer sees the keys of our files, with their units, ranges and words, and a value that
-// it sets goes the way that a file's value would. Numbers are what the struct holds: SI, no
-// conversion of gauge or absolute pressures.
+// An importer thus sees the keys of Sinew's files with their units, ranges and descriptions, and
+// its values are processed like a file's values. Numbers are as in the struct: SI, without
+// conversion between gauge and absolute pressures.
 #pragma once
 
 #include <cmath>
@@ -23,9 +23,9 @@
 
 namespace sinew::fmu {
 
-// Holds one value of a struct under its key.
+// Value of a struct with its key.
 struct Parameter {
-  // A word is a choice, a flag or a text: no variable of an FMU.
+  // word: a choice, a flag or a text, which is not a variable of an FMU.
   enum class Kind { number, integer, word };
   std::string name;  // "actuator.effectiveness.polynomial[1]"
   Kind kind = Kind::number;
@@ -36,16 +36,16 @@ struct Parameter {
   std::string word;
 };
 
-// The visitor that lists. What is not set (no finite number, an empty text) is left out.
+// Visitor that lists parameters. Unset values (not finite, an empty text) are left out.
 class Lister {
  public:
   using Field = units::Field;
-  // Lists below `prefix`.
+  // Adds `prefix` to all names.
   explicit Lister(std::string prefix) : prefix_(std::move(prefix)) {}
 
   std::vector<Parameter> found;
 
-  // The functions of a visitor, units/field.h.
+  // Functions of a visitor, see units/field.h.
   void number(const Field& f, double& value) { add(f, std::string(f.name), f.unit, value); }
   void numbers(const Field& f, std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) add(f, element(f, k), f.unit, values[k]);
@@ -102,17 +102,17 @@ class Lister {
   std::string prefix_;
 };
 
-// The visitor that fills a struct from such a list; what the list does not have keeps the struct's
-// default. Throws std::runtime_error for values that do not go together, in the words that the
-// file's reader has.
+// Visitor that fills a struct from such a list; a value that the list lacks keeps the struct's
+// default. Throws std::runtime_error with the messages of the file's reader for values that
+// contradict each other.
 class Filler {
  public:
   using Field = units::Field;
-  // Fills from what stands below `prefix` in the list, which outlives this.
+  // Uses the parameters with `prefix` in the list, which must outlive this object.
   Filler(const std::vector<Parameter>& from, std::string prefix)
       : from_(from), prefix_(std::move(prefix)) {}
 
-  // The functions of a visitor, units/field.h.
+  // Functions of a visitor, see units/field.h.
   void number(const Field& f, double& value) {
     if (const Parameter* p = find(std::string(f.name))) value = p->number;
   }
@@ -156,7 +156,7 @@ class Filler {
     inside(*this);
     prefix_ = outer;
   }
-  // Throws what does not go together.
+  // Throws for values that contradict each other.
   [[noreturn]] void complain(std::string_view key, const std::string& found,
                              const std::string& expected, const std::string& try_this) {
     throw std::runtime_error(prefix_ + std::string(key) + ": found " + found + "; expected " +
@@ -175,8 +175,7 @@ class Filler {
   std::string prefix_;
 };
 
-// The list as lines of a description, and such lines as a list with names and values alone, which
-// is what a Filler needs.
+// Writes the list as lines of a description.
 inline void write(const std::vector<Parameter>& list, Description& out) {
   for (const Parameter& p : list) {
     const bool word = p.kind == Parameter::Kind::word;
@@ -184,7 +183,7 @@ inline void write(const std::vector<Parameter>& list, Description& out) {
   }
 }
 
-// Returns the lines of values as a list with names and values alone.
+// Returns these lines as a list with only names and values, which a Filler needs.
 inline std::vector<Parameter> parameters_of(const Description& description) {
   std::vector<Parameter> out;
   for (const auto& [key, value] : description.lines_of("value.")) {

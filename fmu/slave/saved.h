@@ -1,5 +1,5 @@
-// fmu/slave/saved.h - plain structs as bytes, one after the other. An importer may compare saved
-// states, and must not see this process's memory in them: whoever makes a struct makes all of it.
+// fmu/slave/saved.h - serialization of plain structs. An importer may compare saved states, so they
+// must not contain uninitialized memory: all members of a struct and its padding must be set.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace sinew::fmu {
 
-// Puts the value's bytes behind the others.
+// Appends the bytes of the value.
 template <class T>
 void append(std::vector<std::byte>& out, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -20,7 +20,8 @@ void append(std::vector<std::byte>& out, const T& value) {
   std::memcpy(out.data() + at, &value, sizeof value);
 }
 
-// Takes the value off the front. Throws std::runtime_error where there are too few bytes.
+// Removes a value from the front and returns it. Throws std::runtime_error if there are too
+// few bytes.
 template <class T>
 T take(std::span<const std::byte>& from) {
   static_assert(std::is_trivially_copyable_v<T>);

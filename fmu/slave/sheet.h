@@ -1,4 +1,4 @@
-// fmu/slave/sheet.h - a model's variables, with the values of those that an importer sets.
+// fmu/slave/sheet.h - list of a model's variables with their current values.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@ namespace sinew::fmu {
 
 class Sheet {
  public:
-  // Begins with the time.
+  // Starts with the time.
   Sheet() { add(time_variable()); }
 
-  // Returns the variable's place.
+  // Adds a variable and returns its index.
   std::size_t add(Variable variable) {
     values_.push_back(variable.start);
     variables_.push_back(std::move(variable));
     return variables_.size() - 1;
   }
 
-  // Adds all numbers of the list as parameters, but those that `hidden` says; words stay as they
-  // are.
+  // Adds all numbers of the list as parameters, except those for which `hidden` returns true; words
+  // keep their values.
   void add(const std::vector<Parameter>& list,
            const std::function<bool(const Parameter&)>& hidden = {}) {
     for (const Parameter& p : list) {
@@ -44,7 +44,7 @@ class Sheet {
     }
   }
 
-  // The parameters with their present values.
+  // Returns the parameters with their current values.
   std::vector<Parameter> parameters() const {
     std::vector<Parameter> out;
     for (const Placed& p : parameters_) {
@@ -54,13 +54,13 @@ class Sheet {
     return out;
   }
 
-  // The variables, and the value at a place: as a number, as on or off, and set.
+  // Return the variables and the value at an index, as a number or as a boolean; set() changes it.
   const std::vector<Variable>& variables() const { return variables_; }
   double value(std::size_t place) const { return values_[place]; }
   bool on(std::size_t place) const { return values_[place] != 0; }
   void set(std::size_t place, double value) { values_[place] = value; }
 
-  // All values by place; and the start values in their stead.
+  // Return all values by index; to_start() resets them to the start values.
   std::span<const double> values() const { return values_; }
   std::span<double> values() { return values_; }
   void to_start() {
@@ -70,7 +70,7 @@ class Sheet {
  private:
   struct Placed {
     Parameter parameter;
-    std::size_t place = 0;  // 0: it is no variable
+    std::size_t place = 0;  // 0: not a variable
   };
 
   std::vector<Variable> variables_;

@@ -1,4 +1,4 @@
-// fmu/slave/variable.h - what an importer sees of a model: its named values.
+// fmu/slave/variable.h - named values of a model that an importer can access.
 #pragma once
 
 #include <string>
@@ -8,32 +8,32 @@
 
 namespace sinew::fmu {
 
-// A variable's place in the model's list is its value reference, whatever its type. Place 0 is the
+// A variable's value reference is its index in the model's list, for all types. Index 0 is the
 // time.
 struct Variable {
-  // The type of its value, and who gives it one.
+  // Type of the value, and the origin of the value.
   enum class Type { real, integer, boolean };
   enum class Causality { time, parameter, input, output };
 
   std::string name;  // in the structured convention: "muscle.hip_flexor.tension"
   Type type = Type::real;
   Causality causality = Causality::parameter;
-  std::string unit;  // SI, as field tables write it; empty or "1": none
-  double start = 0;  // of parameters and inputs
+  std::string unit;  // SI, as in field tables; empty or "1": none
+  double start = 0;  // start value of parameters and inputs
   double min = -units::unbounded, max = units::unbounded;
   std::string doc;                // one line
-  std::vector<int> follows = {};  // outputs: the inputs that they follow at once, by place
-  bool discrete = false;          // a real number that jumps: nobody should interpolate it
-  int rate = 0;                   // inputs: the place of their derivative, also an input; 0: none
+  std::vector<int> follows = {};  // outputs: indices of the inputs with direct feedthrough
+  bool discrete = false;          // a real number that jumps and must not be interpolated
+  int rate = 0;                   // inputs: index of their derivative, also an input; 0: none
 };
 
-// Returns the variable that stands first.
+// Returns the first variable.
 inline Variable time_variable() {
   return {
       .name = "time", .causality = Variable::Causality::time, .unit = "s", .doc = "simulated time"};
 }
 
-// Returns what the standard calls it: "parameter", "input", "output", "independent".
+// Return the standard's names: "parameter", "input", "output", "independent".
 inline const char* word(Variable::Causality causality) {
   using C = Variable::Causality;
   if (causality == C::time) return "independent";
@@ -45,8 +45,8 @@ inline const char* word(Variable::Type type) {
   return type == T::real ? "real" : type == T::integer ? "integer" : "boolean";
 }
 
-// Returns a name in the structured convention: words joined by dots, with what is no identifier in
-// single quotes. "/joint/hip/angle" is joint.hip.angle.
+// Returns a name in the structured convention: words joined by dots, in single quotes if they are
+// not identifiers. "/joint/hip/angle" becomes joint.hip.angle.
 std::string structured(const std::string& channel);
 
 }  // namespace sinew::fmu

@@ -1,4 +1,4 @@
-"""What the tests share: FMUs that the program has exported, and random runs."""
+"""Helpers of the tests: FMUs exported by the program, and random runs."""
 
 import os
 import random
@@ -25,7 +25,7 @@ def program(*words: str) -> "subprocess.CompletedProcess[str]":
 
 
 def exported(*words: str) -> str:
-    """Return the file that `sinew fmu export WORDS` writes; each is made once."""
+    """Return the file that `sinew fmu export WORDS` writes; each is exported once."""
     if words not in _made:
         path = os.path.join(WORK, f"{len(_made)}.fmu")
         done = program("fmu", "export", *words, "-o", path)
@@ -44,7 +44,7 @@ def fmu(*words: str) -> Fmu:
 
 
 def steps(seed: int, until: float, least: float = 1e-4, most: float = 7e-3) -> Iterator[Any]:
-    """Instants and lengths of random steps up to `until`; they lie on no grid."""
+    """Return instants and lengths of random steps up to `until`, not on a grid."""
     chance, at = random.Random(seed), 0.0
     while at < until:
         length = chance.uniform(least, most)

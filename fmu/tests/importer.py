@@ -1,6 +1,5 @@
-"""A small importer of FMUs of Sinew's tests, which knows of them what the standard says: it unpacks
-the archive, reads modelDescription.xml and calls the binary by ctypes. It shares no code and no
-header with what exports them.
+"""Small importer of FMUs for Sinew's tests, written after the standard: it unpacks the archive, reads
+modelDescription.xml and calls the binary through ctypes. It shares no code with the exporter.
 
 `Fmu` reads and loads one; `Slave` is an instance, of FMI 2.0 or 3.0 alike.
 """
@@ -32,7 +31,7 @@ class Callbacks(ctypes.Structure):
 
 
 class Failed(Exception):
-    """A call that did not answer OK; `status`, and what the log said."""
+    """A call that did not return OK, with its `status` and the log messages."""
 
     def __init__(self, function: str, status: int, said: Sequence[str]) -> None:
         super().__init__(f"{function}: {status}: {'; '.join(said)}")
@@ -61,7 +60,7 @@ class Variable:
 
 class Fmu:
     def __init__(self, path: str, binary: Optional[str] = None) -> None:
-        self.folder = tempfile.mkdtemp(prefix="fmu of ")  # a space, as in many a person's path
+        self.folder = tempfile.mkdtemp(prefix="fmu of ")  # with a space, as in many users' paths
         with zipfile.ZipFile(path) as archive:
             assert archive.testzip() is None
             self.files = archive.namelist()
@@ -96,7 +95,7 @@ class Fmu:
 
 
 class Slave:
-    """An instance. `said` is what it logged."""
+    """An instance. `said` holds its log messages."""
 
     def __init__(
         self,
@@ -131,7 +130,7 @@ class Slave:
             raise Failed("instantiate", ERROR, self.said)
 
     def call(self, function: str, *arguments: Any) -> None:
-        """Calls fmi2… or fmi3…; raises Failed where it does not answer OK."""
+        """Call fmi2… or fmi3…; raises Failed if it does not return OK."""
         entry = getattr(self.lib, self.pre + function)
         entry.restype = c_int
         before = len(self.said)
@@ -149,7 +148,7 @@ class Slave:
     def initialize(
         self, start: float = 0.0, stop: Optional[float] = None, **values: Any
     ) -> "Slave":
-        """From instantiated to stepping; `values` by name, with _ for dots, are set before."""
+        """Initialize for stepping; first set `values`, given by name with _ for dots."""
         self.enter(start, stop)
         for name, value in values.items():
             self.set(name, value)
@@ -178,7 +177,7 @@ class Slave:
         return way + self.NAMES_3[kind], self.CTYPES_3[kind]
 
     def raw(self, way: str, kind: str, references: Sequence[int], values: Any) -> Any:
-        """Get or Set of a type, with the references as they are."""
+        """Get or set values of a type by their value references."""
         function, of = self._function(way, kind)
         at = (c_uint * len(references))(*references)
         array = (of * len(references))(*values)
@@ -201,7 +200,7 @@ class Slave:
     # --- time ---
 
     def step(self, at: float, length: float) -> bool:
-        """Answers whether the model has come to its end."""
+        """Return whether the model has reached its end."""
         if self.fmu.version == 2:
             self.call("DoStep", c_double(at), c_double(length), 1)
             return False

@@ -1,4 +1,4 @@
-"""The same run has the same bits in an FMU, in the library, and cut, saved or interleaved."""
+"""Equal runs give equal bits in an FMU and in the library, also if split, saved or interleaved."""
 
 import glob
 import math
@@ -16,7 +16,7 @@ MUSCLE = ["tension", "friction", "pressure", "air_mass"]
 
 
 def driven(seed: int, version: str = "2") -> "List[List[float]]":
-    """A muscle of an FMU, moved and switched at random instants that lie on no grid."""
+    """Move and switch a muscle of an FMU at random instants, not on a grid."""
     slave = fmu(RIG, "--fmi", version).instantiate().initialize()
     out = []
     commands = iter(zip(pulses(seed, 10**4), pulses(seed + 1, 10**4)))
@@ -137,7 +137,7 @@ class Tube(unittest.TestCase):
 
 class Joint(unittest.TestCase):
     def test_torque_is_that_of_its_muscles(self) -> None:
-        """The hip turns; each muscle alone, moved by its cam's length, gives tension and torque."""
+        """The hip turns; single muscles, moved by their cam lengths, give the same tension and torque."""
         f = fmu(ROBOT, "--joint", "hip")
         arm, rest = (f.variables[f"joint.hip.{key}"].start for key in ("moment_arm", "rest_angle"))
         slave = f.instantiate().initialize()
@@ -199,7 +199,7 @@ class Machine(unittest.TestCase):
             slave.free()
 
     def test_outputs_are_numbers_where_channels_have_no_value(self) -> None:
-        """The walk desires a foot's position in some phases; a staircase of the knee never."""
+        """The walk has a desired foot position in some phases, a staircase of the knee in none."""
         for version in "23":
             f = fmu(WALK, "--fmi", version)
             reals = [v.name for v in f.variables.values() if v.causality == "output" and v.kind == "Real"]

@@ -1,4 +1,4 @@
-"""What is wrong on the command line of `sinew fmu export` is refused in words, and nothing is lost."""
+"""Faults on the command line of `sinew fmu export` are refused with a message; no file is lost."""
 
 import os
 import unittest

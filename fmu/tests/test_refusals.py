@@ -1,5 +1,5 @@
-"""What is wrong is refused in words, changes nothing and ends nobody's process: at the interface, in
-the unpacked files, and at the program."""
+"""Faults are refused with a message, change nothing and never end the importer's process: in calls,
+in the unpacked files, and in the program."""
 
 import ctypes
 import itertools
@@ -99,14 +99,14 @@ class Interface(unittest.TestCase):
                 ]
             )
             before = slave.get("pressure")
-            slave.step(0.0, 0.1)  # what was refused has changed nothing
+            slave.step(0.0, 0.1)  # refused calls have changed nothing
             self.assertAlmostEqual(slave.get("pressure"), before, delta=1.0)
             slave.call("Terminate")
             self.refused([(lambda: slave.step(0.1, 0.1), "at the wrong time")])
             slave.free()
 
     def test_parameters_that_do_not_go_together(self) -> None:
-        """The words are those of the file's reader."""
+        """The message is that of the file's reader."""
         for version in "23":
             slave = fmu(RIG, "--fmi", version).instantiate()
             slave.set("actuator.effectiveness.valid[0]", 5e5)
@@ -156,7 +156,7 @@ class Interface(unittest.TestCase):
             slave.call(f"Serialized{name}Size", state, byref(size))
             self.assertEqual(size.value, len(saved))
             slave.free_state(state)
-            slave.call("Free" + name, None)  # nothing to free is no mistake
+            slave.call("Free" + name, None)  # freeing null is allowed
             slave.free()
             other.free()
 
@@ -189,7 +189,7 @@ class Interface(unittest.TestCase):
         self.assertEqual(entry(None, c_double(0), c_double(1), 1), 3)  # no instance: error
 
     def test_derivative_of_the_length_is_its_rate(self) -> None:
-        """What the model has no use for, an importer that has all derivatives may set as well."""
+        """An importer may also set derivatives that the model does not use."""
         f = fmu(RIG)
         slave = f.instantiate().initialize()
         vr = (c_uint * 3)(*[f.variables[name].reference for name in ("length", "rate", "length")])
@@ -199,7 +199,7 @@ class Interface(unittest.TestCase):
         slave.free()
 
     def test_lengths_that_no_muscle_has_are_refused_before_a_step(self) -> None:
-        """They say which and what is possible; then the run goes on."""
+        """Messages name the value and its range; then the run continues."""
         for version in "23":
             muscle = fmu(RIG, "--fmi", version).instantiate().initialize()
             muscle.set("rate", 100.0)
@@ -213,7 +213,7 @@ class Interface(unittest.TestCase):
             self.assertAlmostEqual(muscle.get("pressure"), before, delta=1.0)
             muscle.free()
             joint = fmu(ROBOT, "--joint", "hip", "--fmi", version).instantiate()
-            joint.set("hip.angle", 50.0)  # somebody's degrees
+            joint.set("hip.angle", 50.0)  # a value in degrees
             with self.assertRaises(Failed) as raised:
                 joint.initialize()
             self.assertIn("which are in rad", str(raised.exception))
@@ -239,7 +239,7 @@ class Interface(unittest.TestCase):
             slave.free()
 
     def test_a_plan_comes_to_its_end(self) -> None:
-        """A step goes as far as the plan does and says so; the one after it is discarded."""
+        """A step ends where the plan ends and reports it; the next step is discarded."""
         for version in "23":
             f = fmu(f"{ROOT}/experiments/one-joint.toml", "--fmi", version)
             end = f.root.find("DefaultExperiment")
@@ -263,13 +263,13 @@ class Interface(unittest.TestCase):
             with self.assertRaises(Failed) as raised:
                 slave.step(reached, 1.0)
             self.assertEqual(raised.exception.status, DISCARD)
-            slave.back_to(state)  # before the end, from where it goes on
+            slave.back_to(state)  # before the end, where it can continue
             slave.step(stop - 0.5, 0.25)
             slave.free_state(state)
             slave.free()
 
     def test_a_step_past_a_defined_stop_time_is_an_error(self) -> None:
-        """Tube, muscle, joint and machine; up to the stop time itself, all is well."""
+        """For tube, muscle, joint and machine, steps up to the stop time itself are accepted."""
         for words, version in itertools.product(
             ((ACTUATOR,), (RIG,), (ROBOT, "--joint", "hip"), (WALK,)), "23"
         ):
@@ -278,7 +278,7 @@ class Interface(unittest.TestCase):
                 for k in range(10):
                     slave.step(2.0 + k * 0.01, 0.01)
                 saved = slave.serialized()
-                other = fmu(*words, "--fmi", version).instantiate()  # the stop time is of the state
+                other = fmu(*words, "--fmi", version).instantiate()  # the state includes the stop time
                 other.back_to(other.deserialized(saved))
                 for one in (slave, other):
                     with self.assertRaises(Failed) as raised:
@@ -307,7 +307,7 @@ class Interface(unittest.TestCase):
             slave.free()
 
     def test_a_machine_that_fails_says_why(self) -> None:
-        """The supervisor trips: the FMU answers an error with the run's own words, as long as asked."""
+        """The supervisor trips: the FMU returns an error with the run's message at each further call."""
         path = f"{ROOT}/experiments/faults/valve-stuck-open.toml"
         slave = fmu(path).instantiate().initialize()
         at, status = 0.0, 0

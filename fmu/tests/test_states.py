@@ -1,4 +1,4 @@
-"""A state that is kept, saved, reset or interleaved goes on with the same bits; several instances and threads."""
+"""A kept, saved, reset or interleaved state continues with equal bits, also in several threads."""
 
 import os
 import pickle
@@ -76,10 +76,10 @@ class States(unittest.TestCase):
             self.assertEqual(pickle.loads(done.stdout), here)
 
     def test_equal_states_are_equal_bytes(self) -> None:
-        """Of muscles and joints: nothing of the importer's memory is in them, which is filled in between."""
+        """States of muscles and joints contain no uninitialized memory, which is filled in between."""
         for f, count in self.each():
             if f.identifier.startswith("walk"):
-                continue  # a machine's has gaps between its controllers' numbers
+                continue  # a machine's state has padding between its controllers' numbers
             saved = []
             for k in range(2):
                 filling = [bytes([k + 65]) * 40000 for _ in range(200)]
@@ -91,7 +91,7 @@ class States(unittest.TestCase):
             self.assertEqual(saved[0], saved[1])
 
     def test_goes_on_without_its_files(self) -> None:
-        """An importer may remove what it has unpacked once an instance is made."""
+        """An importer may remove the unpacked files once an instance exists."""
         for words, self.names, _ in self.CASES:
             f = Fmu(exported(*words))
             slave = f.instantiate()
@@ -144,7 +144,7 @@ class States(unittest.TestCase):
             self.assertEqual(results[0], results[1])
 
     def test_memory_does_not_grow(self) -> None:
-        """Resets, states that are kept, and instances that come and go."""
+        """Memory does not grow with resets, kept states, and instances created and freed."""
 
         def resident() -> int:  # [KB]
             with open("/proc/self/status", encoding="utf-8") as file:

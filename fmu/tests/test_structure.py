@@ -1,4 +1,4 @@
-"""Is an FMU what the standard says: its archive, its modelDescription.xml, what its binary exports?"""
+"""An FMU conforms to the standard: its archive, modelDescription.xml and exported functions."""
 
 import itertools
 import os
@@ -19,7 +19,7 @@ KINDS = {
 }
 ALL = [(kind, words, version) for (kind, words), version in itertools.product(KINDS.items(), "23")]
 
-# What FMI 2.0 declares for co-simulation (sections 2.1 and 4.2), and FMI 3.0 for all interfaces.
+# Functions that FMI 2.0 declares for co-simulation (sections 2.1 and 4.2), and FMI 3.0 for all interfaces.
 FUNCTIONS_2 = """GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment
 EnterInitializationMode ExitInitializationMode Terminate Reset GetReal GetInteger GetBoolean GetString
 SetReal SetInteger SetBoolean SetString GetFMUstate SetFMUstate FreeFMUstate SerializedFMUstateSize
@@ -123,7 +123,7 @@ class Description(unittest.TestCase):
                         self.assertEqual(order[int(known) - more].causality, "input")
 
     def test_units_are_those_of_si(self) -> None:
-        """A few units by hand; the FMU of a machine has volts and counts too."""
+        """A few units are checked by hand; the FMU of a machine also has volts and counts."""
         expected = {
             "N": {"kg": "1", "m": "1", "s": "-2"},
             "Pa": {"kg": "1", "m": "-1", "s": "-2"},
@@ -163,7 +163,7 @@ class Binary(unittest.TestCase):
                 ["objdump", "-T", fmu(*KINDS[kind]).binary], capture_output=True, text=True, check=True
             ).stdout
             newest = max(int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", versions))
-            self.assertLessEqual(newest, 35)  # what docs/how-to/fmu.md says
+            self.assertLessEqual(newest, 35)  # the version stated in docs/how-to/fmu.md
 
     def test_start_values_are_those_of_the_description(self) -> None:
         for kind, words, version in ALL:

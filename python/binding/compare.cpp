@@ -1,4 +1,4 @@
-// python/binding/compare.cpp - kept runs beside each other, and replayed.
+// python/binding/compare.cpp - comparison and replay of kept runs.
 #include <pybind11/stl.h>
 
 #include "python/binding/bind.h"
@@ -48,7 +48,7 @@ report::AlignWish wish_of(const std::string& align, const std::string& event,
   return wish;
 }
 
-// Settings as texts; a dict's values are texts with their units.
+// Returns settings as texts; values in a dict must be texts with their units.
 std::vector<std::string> texts_of(const py::object& sets) {
   return sets_of(sets, []() -> const config::Origins& {
     throw py::type_error(

@@ -1,6 +1,6 @@
-// python/binding/episode.cpp - what sinew.gym does in every step: an action becomes settings, the
-// run goes on, what is seen becomes an observation. Here, and not in Python, since a step of 10 ms
-// takes the computer some ten microseconds.
+// python/binding/episode.cpp - steps of sinew.gym: sets the action, advances the run and reads the
+// observation. In C++ rather than Python, as computing a step of 10 ms takes only some ten
+// microseconds.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -19,7 +19,7 @@ using HeldPointer = std::shared_ptr<HeldSimulation>;
 
 using run::Course;
 
-// A course of lists, as Python has them.
+// Makes a course from Python's lists.
 std::shared_ptr<Course> course_of(HeldSimulation& example, const std::vector<std::string>& settings,
                                   const std::vector<double>& offsets,
                                   const std::vector<double>& factors,
@@ -47,7 +47,7 @@ void check_action(double number, std::size_t place) {
         fmt::format("action: found {} in place {}; expected finite numbers", number, place));
 }
 
-// Episode is one run of a course.
+// One run of a course.
 class Episode {
  public:
   Episode(std::shared_ptr<Course> course, HeldPointer simulation)
@@ -97,7 +97,7 @@ py::tuple step(Episode& episode, const py::object& given) {
   return py::make_tuple(seen, measured, episode.ended());
 }
 
-// Steps those that are not to be skipped; one that fails keeps none of the others from going on.
+// Steps the episodes that are not skipped; a failed one does not stop the others.
 py::tuple step_all(const std::vector<std::shared_ptr<Episode>>& episodes, const py::object& given,
                    const py::array_t<bool>& skipped) {
   const Numbers actions = numbers(given, "actions");

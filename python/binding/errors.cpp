@@ -1,4 +1,5 @@
-// python/binding/errors.cpp - the library's errors as Python's exceptions, with the same words.
+// python/binding/errors.cpp - conversion of the library's errors to Python exceptions with the same
+// messages.
 #include <pybind11/stl.h>
 
 #include <filesystem>
@@ -14,14 +15,14 @@ namespace sinew::python {
 
 namespace {
 
-// Raises `type` with the words, and with the problems as its attribute.
+// Raises `type` with the message, and with the problems as its attribute.
 void raise_input_error(const py::handle& type, const config::Error& error) {
   py::object exception = py::reinterpret_borrow<py::object>(type)(error.what());
   exception.attr("problems") = py::cast(error.problems());
   PyErr_SetObject(type.ptr(), exception.ptr());
 }
 
-// Raises `type` with the words, in which a file's name may have bytes that are not UTF-8.
+// Raises `type` with the message, which may contain a file name that is not UTF-8.
 void raise(const py::handle& type, const std::exception& error) {
   PyErr_SetString(type.ptr(), config::printable(error.what()).c_str());
 }

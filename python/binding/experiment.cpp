@@ -1,4 +1,4 @@
-// python/binding/experiment.cpp - experiments: read, looked at by key, varied, pickled.
+// python/binding/experiment.cpp - experiments: reading, access by key, variation, pickling.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -20,8 +20,7 @@ namespace {
 
 using experiment::Experiment;
 
-// Returns the text that stands for a value behind "key=". A number is meant in the SI unit that the
-// key has.
+// Returns a value as the text after "key=". A number is in the SI unit of the key.
 std::string text_of(const std::string& key, const py::handle& value,
                     const config::Origins& origins) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
@@ -72,7 +71,7 @@ ExperimentPointer load(const py::object& path, const py::object& sets) {
               "");
 }
 
-// Raises KeyError for a key that the experiment does not have.
+// Returns the origin of a key. Raises KeyError if the experiment does not have the key.
 const config::Origin& origin_at(const HeldExperiment& held, const std::string& key) {
   if (const config::Origin* origin = config::find_origin(held.read.origins, key)) return *origin;
   std::vector<std::string_view> keys;
@@ -82,7 +81,7 @@ const config::Origin& origin_at(const HeldExperiment& held, const std::string& k
                                   config::in_quotes(key), near.empty() ? "" : "; try " + near));
 }
 
-// In SI; None where the key is there and nothing is set.
+// Returns the value in SI; None if the key exists but is not set.
 py::object in_si(const HeldExperiment& held, const std::string& key) {
   const config::Origin& origin = origin_at(held, key);
   const config::Node root = experiment::values_in_si({"experiment", held.read});
@@ -91,7 +90,7 @@ py::object in_si(const HeldExperiment& held, const std::string& key) {
   return value_of(*node, !origin.unit.empty());
 }
 
-// The experiment with other noise, without reading its files again.
+// Returns the experiment with another seed of noise, without reading its files again.
 std::shared_ptr<HeldExperiment> with_seed(const HeldExperiment& of, int seed) {
   if (seed < 0)
     throw std::invalid_argument(fmt::format("seed: found {}; expected 0 to 2147483647", seed));

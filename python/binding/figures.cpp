@@ -1,4 +1,4 @@
-// python/binding/figures.cpp - figures for print and films of runs that are kept.
+// python/binding/figures.cpp - printable figures and films of kept runs.
 #include <pybind11/stl.h>
 
 #include "python/binding/bind.h"

@@ -1,5 +1,5 @@
-// python/binding/files.cpp - files: which there are, a new one to begin with, an older format that
-// becomes today's, and the keys that they can have.
+// python/binding/files.cpp - files: listing, creation of new ones, migration from older formats,
+// and their keys.
 #include "sinew/files/key_text.h"
 #include "sinew/files/keys.h"
 #include "sinew/files/list.h"

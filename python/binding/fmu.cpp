@@ -1,4 +1,4 @@
-// python/binding/fmu.cpp - files of ours as FMUs.
+// python/binding/fmu.cpp - export of files as FMUs.
 #include <pybind11/stl.h>
 
 #include "fmu/export/export.h"

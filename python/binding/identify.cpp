@@ -1,4 +1,4 @@
-// python/binding/identify.cpp - parameters from measurements that Python holds as arrays.
+// python/binding/identify.cpp - identification from measurements in Python arrays.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -20,7 +20,7 @@ namespace sinew::python {
 
 namespace {
 
-// Returns the numbers of an argument: as many as there are points, or one for all.
+// Returns the numbers of an argument: one per point, or one for all.
 std::vector<double> each(const py::object& given, const char* name, py::ssize_t points) {
   const Numbers all = numbers(given, name);
   if (all.size() != 1 && (all.ndim() != 1 || all.size() != points))
@@ -44,7 +44,7 @@ identify::HoldOut hold_out_of(const std::string& word) {
       "hold_out: found \"{}\"; expected \"pressure\", \"length\", \"muscle\" or \"\"", word));
 }
 
-// As the rows of a table with these columns would be.
+// Returns the input that a table with these columns would give.
 identify::CheckInput input_of(const py::object& length, const py::object& pressure,
                               const py::object& force, const py::object& rest_length,
                               const py::object& fitted, double diameter,
@@ -74,7 +74,7 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
   return out;
 }
 
-// The report as `sinew identify static --json` has it, and the parameter file of each muscle.
+// Returns the report like `sinew identify static --json`, and the parameter file of each muscle.
 py::tuple identify_static(const py::object& length, const py::object& pressure,
                           const py::object& force, const py::object& rest_length,
                           const py::object& fitted, const std::string& model,

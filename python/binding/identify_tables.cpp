@@ -1,5 +1,5 @@
-// python/binding/identify_tables.cpp - the methods of identification, as `sinew identify` has them:
-// tables and settings in, a report and parameter files out.
+// python/binding/identify_tables.cpp - methods of identification like `sinew identify`: tables and
+// settings in, a report and parameter files out.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -22,15 +22,15 @@ namespace {
 
 using Sources = std::vector<identify::Source>;
 
-// What a method found, whatever the method.
+// Result of any method.
 struct Identified {
-  std::string report;  // as --json prints it
+  std::string report;  // text of --json
   std::vector<identify::FileText> files;
-  std::string refused;                                             // what the data do not support
-  std::function<identify::TimingFile(const std::string&)> timing;  // a valve's
-  std::function<std::vector<const identify::Report*>()> reports;   // of its page
+  std::string refused;  // why the data do not support a file
+  std::function<identify::TimingFile(const std::string&)> timing;  // timing file of a valve
+  std::function<std::vector<const identify::Report*>()> reports;   // reports on its page
   std::string title;
-  std::vector<std::string> read;  // tables, in words
+  std::vector<std::string> read;  // descriptions of the tables
   double atmosphere = 0;          // [Pa]
 };
 
@@ -38,7 +38,7 @@ py::object loaded(const std::string& json) {
   return py::module_::import("json").attr("loads")(json);
 }
 
-// Fills in the settings of a method by Python's keywords. A visitor of identify/task/settings.h.
+// Reads the settings of a method from Python keywords. A visitor of identify/task/settings.h.
 class Keywords : public identify::RowVisitor<Keywords> {
  public:
   using Row = identify::Setting;
@@ -71,7 +71,7 @@ class Keywords : public identify::RowVisitor<Keywords> {
     }
   }
 
-  // Throws TypeError for a keyword that the method does not have.
+  // Throws TypeError for an unknown keyword.
   void refuse_others() const {
     for (const auto& [key, value] : left_)
       throw py::type_error(
@@ -90,7 +90,7 @@ class Keywords : public identify::RowVisitor<Keywords> {
   std::string name_;
 };
 
-// Finds without Python's lock.
+// Runs the method without Python's lock.
 template <class Method>
 Identified found_by(Method settings, const Sources& sources, const py::dict& given) {
   Keywords keywords(given);
@@ -117,8 +117,7 @@ Identified found_by(Method settings, const Sources& sources, const py::dict& giv
   return out;
 }
 
-// Calls `use` with the settings of the method of that name. Throws std::invalid_argument where
-// there is none.
+// Calls `use` with the settings of the named method. Throws std::invalid_argument if it is unknown.
 template <class Use>
 void with_method(const std::string& name, const Use& use) {
   bool known = false;
@@ -131,7 +130,7 @@ void with_method(const std::string& name, const Use& use) {
     throw std::invalid_argument(fmt::format("method: found \"{}\"; expected one there is", name));
 }
 
-// Tables are dicts, as source_of() has them.
+// Runs a method on tables given as dicts, see source_of().
 Identified identify_tables(const std::string& method, const py::list& tables,
                            const py::dict& given) {
   Sources sources;
@@ -141,7 +140,7 @@ Identified identify_tables(const std::string& method, const py::list& tables,
   return out;
 }
 
-// Returns what `sinew force-beam --json` prints.
+// Returns the output of `sinew force-beam --json`.
 py::object force_beam(const py::dict& given) {
   identify::TransducerSettings s;
   Keywords keywords(given);
@@ -149,7 +148,7 @@ py::object force_beam(const py::dict& given) {
   return loaded(identify::json_of(identify::transducer_of(s), identify::wanted_sensitivity(s)));
 }
 
-// The rows of a method's settings, as SettingList has them.
+// Returns the rows of a method's settings, see SettingList.
 py::object identify_settings(const std::string& method) {
   if (method == "force-beam")
     return loaded(identify::SettingList(identify::TransducerSettings()).rows.text());
@@ -159,7 +158,7 @@ py::object identify_settings(const std::string& method) {
   return loaded(rows);
 }
 
-// The SI units of the columns that a method reads, by their names; those of a sensor have any name.
+// Returns the SI unit of each column that a method reads; columns of `sensor` have arbitrary names.
 py::dict identify_columns(const std::string& method) {
   py::dict out;
   for (const identify::MethodInputs& inputs : identify::method_inputs())
@@ -169,12 +168,12 @@ py::dict identify_columns(const std::string& method) {
   return out;
 }
 
-// Returns what `sinew identify METHOD --columns --json` prints.
+// Returns the output of `sinew identify METHOD --columns --json`.
 py::object identify_inputs(const std::string& method) {
   return loaded(to_json(identify::inputs_of(method)).text());
 }
 
-// Returns what `--template` writes.
+// Returns the output of `--template`.
 std::string identify_template(const std::string& method, const std::string& kind) {
   return identify::template_of(identify::inputs_of(method), kind);
 }
@@ -186,14 +185,14 @@ std::string text_of(const Identified& found, std::size_t which, const std::strin
   return found.files[which](out);
 }
 
-// The page has the values of the file, where the data support one.
+// Returns the file with the values for the page; empty if the data do not support one.
 std::string file_for_page(const Identified& found) try {
   return found.files.empty() ? "" : found.files[0]("");
 } catch (const identify::Refusal&) {
   return "";
 }
 
-// The page with the data beside the models, as `--report` leaves it.
+// Returns the page with data and models, like `--report`.
 std::string page_of(const Identified& found) {
   const std::vector<const identify::Report*> reports = found.reports();
   if (reports.empty())
@@ -208,7 +207,7 @@ std::string page_of(const Identified& found) {
                          .parameter_file = file_for_page(found)});
 }
 
-// A cell of a notebook shows the page within.
+// Returns the page for a notebook cell.
 py::object cell(const Identified& found) {
   if (found.reports().empty() || !report::has_page()) return py::none();
   return in_a_cell(page_of(found));

@@ -1,4 +1,4 @@
-// python/binding/imported.cpp - recordings of a laboratory as runs.
+// python/binding/imported.cpp - import of laboratory recordings as runs.
 #include <pybind11/stl.h>
 
 #include <map>
@@ -14,7 +14,7 @@ namespace {
 
 using Texts = std::map<std::string, std::string>;
 
-// Reads what a caller says of columns.
+// Column settings of a caller.
 struct Said {
   Texts map, units, offset, where;
   std::map<std::string, double> scale;
@@ -30,7 +30,7 @@ recording::Mapping mapping_of(const Said& said) {
   return out;
 }
 
-// One file, or several.
+// Returns the paths of one file or several.
 std::vector<std::string> files_of(const py::object& meant) {
   if (!py::isinstance<py::list>(meant) && !py::isinstance<py::tuple>(meant))
     return {path_of(meant)};

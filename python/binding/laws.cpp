@@ -1,4 +1,4 @@
-// python/binding/laws.cpp - an actuator and a valve as functions of arrays.
+// python/binding/laws.cpp - actuator and valve as functions of arrays.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Path = const py::object&;
 
-// An actuator in its surroundings. All of SI; pressures are gauge pressures.
+// Actuator and its surroundings, in SI; pressures are gauge pressures.
 struct HeldActuator {
   actuator::Actuator law;
   actuator::Surroundings around;
@@ -36,7 +36,7 @@ HeldActuator read_actuator(Path where, const std::string& name, double external_
           {air.atmosphere, air.polytropic_exponent, external_volume}};
 }
 
-// Throws std::invalid_argument where the law has no such length, pressure or velocity.
+// Throws std::invalid_argument for a length, pressure or velocity outside the law's range.
 void check_point(const HeldActuator& a, double length, double pressure) {
   const double shortest = a.law.caps.length, longest = shortest + 1.5 * a.law.braid.thread_length;
   if (!(length >= shortest && length <= longest))
@@ -57,7 +57,7 @@ actuator::OperatingPoint point_at(const HeldActuator& a, double length, double p
   return actuator::operating_point(a.law, length, pressure, a.around, velocity);
 }
 
-// Of a number of each operating point.
+// Returns a number for each operating point.
 template <class Of>
 py::object at_points(const HeldActuator& a, const py::object& length, const py::object& pressure,
                      Of of) {

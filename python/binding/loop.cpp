@@ -1,5 +1,5 @@
-// python/binding/loop.cpp - a controller of one's own around a simulation: numbers in, numbers out,
-// a step at a time, without a word of text on the way.
+// python/binding/loop.cpp - step function for a user's controller: numbers in, numbers out, without
+// text conversion.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -15,8 +15,8 @@ namespace {
 using Use = HeldSimulation::Use;
 using HeldPointer = std::shared_ptr<HeldSimulation>;
 
-// Loop knows the places of what is written and read. Its numbers of settings and channels hold for
-// every simulation of an experiment with the same robot.
+// Stores the indices of the settings to write and the channels to read. They are valid for every
+// simulation of an experiment with the same robot.
 class Loop {
  public:
   Loop(HeldPointer simulation, const std::vector<std::string>& writes,
@@ -36,7 +36,7 @@ class Loop {
   std::size_t writes() const { return settings_.size(); }
   std::size_t reads() const { return channels_.size(); }
 
-  // Writes, advances by a period, reads. Python's lock is held by whoever calls.
+  // Writes, advances by a period, and reads. The caller holds Python's lock.
   void step(const double* written, double* out) {
     const Use use(*simulation_);
     write(*use, written);

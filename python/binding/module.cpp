@@ -1,4 +1,4 @@
-// python/binding/module.cpp - the Python module `sinew._sinew`, which the package `sinew` shows.
+// python/binding/module.cpp - Python module `sinew._sinew`, which is part of the package `sinew`.
 #include "python/binding/bind.h"
 
 PYBIND11_MODULE(_sinew, m) {

@@ -1,4 +1,5 @@
-// python/binding/muscle.cpp - a muscle with its valves, hose and supply in a loop of Python's own.
+// python/binding/muscle.cpp - muscle with its valves, hose and supply, simulated from a Python
+// loop.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -17,10 +18,10 @@ namespace sinew::python {
 
 namespace {
 
-constexpr double longest_step = 10;  // of one call [s]
-constexpr double slice = 10;         // of the muscle's time, between two looks for Ctrl-C [s]
+constexpr double longest_step = 10;  // limit of one call [s]
+constexpr double slice = 10;         // simulated time between two checks for Ctrl-C [s]
 
-// One thread at a time is at the muscle.
+// Muscle that only one thread at a time may use.
 class HeldMuscle {
  public:
   HeldMuscle(std::string its_path, run::MuscleSetup its_setup, double length, double pressure)
@@ -53,9 +54,9 @@ class HeldMuscle {
 using Held = std::shared_ptr<HeldMuscle>;
 using UseMuscle = HeldMuscle::Use;
 
-// --- made, copied, saved ---
+// --- construction, copies, saved states ---
 
-// What is beyond is a slip of its unit.
+// Refuses impossible lengths, most likely given in a wrong unit.
 void check_length(const run::MuscleSetup& setup, double length) {
   const actuator::Actuator& a = setup.muscle.actuator;
   const double longest = a.caps.length + 1.5 * a.braid.thread_length;
@@ -87,7 +88,7 @@ Held make(const py::object& where, const std::string& name, const std::optional<
   return std::make_shared<HeldMuscle>(path, std::move(setup), long_now, pressed);
 }
 
-// Another muscle of the same description, at the same instant.
+// Returns a muscle with the same description and state.
 Held copied(HeldMuscle& of) {
   const UseMuscle use(of);
   auto copy =
@@ -120,7 +121,7 @@ Held unpickled(const py::tuple& state) {
   return made;
 }
 
-// --- advanced ---
+// --- steps ---
 
 void check_step(double step) {
   if (!(step > 0 && step <= longest_step))
@@ -128,7 +129,7 @@ void check_step(double step) {
         fmt::format("step: found {} s; expected above 0, at most {} s", step, longest_step));
 }
 
-// Throws RunError where its state is no number any more.
+// Throws RunError if its state is not finite.
 void refuse_failed(const air::DrivenMuscle& m) {
   if (m.failed())
     throw RunError(fmt::format(
@@ -146,7 +147,7 @@ void advance(HeldMuscle& m, double step, double length) {
   refuse_failed(*use);
 }
 
-// Commands of a course: a flag for each of its steps, or one for all; or none at all.
+// Commands of a sequence of steps: a flag for each step, one for all, or none.
 class Commands {
  public:
   Commands(const py::object& given, const char* name, py::ssize_t steps) {
@@ -219,7 +220,7 @@ py::dict account(HeldMuscle& m) {
   return out;
 }
 
-// --- shown ---
+// --- Python class ---
 
 using Class = py::class_<HeldMuscle, Held>;
 

@@ -6,7 +6,7 @@ namespace sinew::python {
 
 namespace {
 
-// A masked array is an array whose masked places hold numbers that are not meant.
+// Refuses masked arrays, whose masked elements hold meaningless numbers.
 void refuse_masked(const py::handle& given, const char* name) {
   if (!py::isinstance<py::array>(given) || !py::hasattr(given, "mask")) return;
   const auto masked =

@@ -26,8 +26,8 @@ std::string name_of(const signals::Topic& topic, std::size_t field) {
   return topic.fields.size() > 1 ? topic.name + "." + topic.fields[field].name : topic.name;
 }
 
-// Returns numbers of a recording as an array that stands in its memory, keeps it alive, and cannot
-// be written to.
+// Returns numbers of a recording as a read-only array in its memory, which keeps the recording
+// alive.
 py::array view(const Pointer& recording, const std::vector<double>& values) {
   const auto owner = new Pointer(recording);
   const py::capsule base(owner, [](void* p) { delete static_cast<Pointer*>(p); });
@@ -43,12 +43,12 @@ py::object parsed(const std::string& json) {
 std::string page(const Recording& recording) {
   if (recording.name.empty())
     throw std::invalid_argument("page: found what follows from a run; expected the run itself");
-  // With the lock: samples that stand in a file are read by one thread at a time.
+  // With Python's lock, as only one thread at a time may read samples that are in a file.
   return report::page(
       {.analysis = *recording.analysis, .resolved = recording.resolved, .name = recording.name});
 }
 
-// A cell of a notebook shows the page within.
+// Returns the page for a notebook cell.
 py::object cell(const Recording& recording) {
   if (recording.name.empty() || !report::has_page()) return py::none();
   return in_a_cell(page(recording));

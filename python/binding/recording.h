@@ -1,4 +1,4 @@
-// python/binding/recording.h - what a run recorded, as Python holds it.
+// python/binding/recording.h - recorded run held by Python.
 #pragma once
 
 #include <map>
@@ -15,27 +15,27 @@
 
 namespace sinew::python {
 
-// Recording gives its samples out as arrays that stand in its own memory.
+// Recorded run that provides its samples as arrays in its own memory.
 class Recording {
  public:
   signals::Table table;
-  // Holds what follows from the table; nullptr where the table itself was derived from a run.
+  // Analysis of the table; nullptr if the table itself was derived from a run.
   std::unique_ptr<const analysis::Analysis> analysis;
   std::string summary;   // summary.json
-  std::string verdicts;  // what is reported of the run, beside it: JSON
+  std::string verdicts;  // comparison with reported figures: JSON
   std::vector<std::string> warnings;
-  config::Node resolved;  // what was run, as resolved.toml says it
-  std::string name;       // of the experiment
-  std::string folder;     // where it is kept; empty: nowhere
-  std::string board;      // who answered at the port; empty: simulated, or not known
+  config::Node resolved;  // the run's resolved.toml
+  std::string name;       // name of the experiment
+  std::string folder;     // folder of the run; empty: not kept
+  std::string board;      // board at the port; empty: simulated, or unknown
 
-  // "/joint/hip/angle", "/foot/position.x": every channel that there is, with its unit.
+  // Channel with its unit: "/joint/hip/angle", "/foot/position.x".
   struct Channel {
     std::string name, unit, description;
   };
   std::vector<Channel> channels() const;
 
-  // Throw py::key_error for a channel that there is not.
+  // Return the samples and their times. Throw py::key_error for an unknown channel.
   const std::vector<double>& values(const std::string& channel);
   const std::vector<double>& time(const std::string& channel);
 
@@ -45,18 +45,18 @@ class Recording {
   };
   Place find(const std::string& channel) const;
 
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> values_;  // once asked for
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> values_;  // cache
   std::map<std::size_t, std::vector<double>> times_;
 };
 
-// Fills what follows from table and `resolved`, which both stay: summary and verdicts; a part of a
-// run has no verdicts.
+// Sets the summary and the verdicts from `table` and `resolved`, which are kept; a part of a run
+// has no verdicts.
 void sum_up(Recording& recording);
 
-// Returns a page as HTML that a cell of a notebook shows.
+// Returns HTML that shows a page in a notebook cell.
 py::object in_a_cell(const std::string& page);
 
-// Returns what a kept run's folder, or a log, holds. Throws config::Error and log::Error.
+// Reads a kept run's folder or a log. Throws config::Error and log::Error.
 std::shared_ptr<Recording> read_run(const std::string& named);
 
 }  // namespace sinew::python

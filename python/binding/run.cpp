@@ -1,4 +1,4 @@
-// python/binding/run.cpp - whole runs, interrupted by Ctrl-C where Python is.
+// python/binding/run.cpp - whole runs, interruptible by Ctrl-C.
 #include "sinew/run/simulation/run.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace {
 
 using Pointer = std::shared_ptr<Recording>;
 
-// The run in memory alone, simulated or on a board that is ready then.
+// Runs in memory only, simulated or on a board that is ready.
 void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atomic<bool>& stop,
               Recording& out) {
   run::Place place(request.port, e.read);
@@ -43,7 +43,7 @@ void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atom
     out.warnings.push_back(std::move(text));
 }
 
-// The run kept in a folder, as `sinew run` keeps it.
+// Runs and keeps the run in a folder like `sinew run`.
 void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording& out) {
   std::vector<std::string> warnings;
   run::RunRequest stopped_by_python = request;
@@ -63,7 +63,7 @@ void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording
     const std::string words = run::black_box(kept.experiment(), outcome);
     try {
       (void)kept.keep(std::move(outcome));
-    } catch (const std::exception& told) {  // says where its log is
+    } catch (const std::exception& told) {  // the message has the place of the log
       throw RunError(told.what());
     }
     throw RunError(words);
@@ -73,7 +73,7 @@ void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording
   out.warnings = std::move(warnings);
 }
 
-// Throws std::invalid_argument for what is no place.
+// Throws std::invalid_argument for an invalid port.
 void check_place(const std::string& place) {
   if (const std::string wrong = run::problem_of_place(place); !wrong.empty())
     throw std::invalid_argument("port: " + wrong);

@@ -19,7 +19,7 @@ namespace {
 
 bool is_text(const py::handle& value) { return py::isinstance<py::str>(value); }
 
-// numpy's numbers too, but neither arrays nor texts.
+// Returns whether it is a single number, including numpy's; arrays and texts are not.
 bool is_plain_number(const py::handle& value) {
   return !py::isinstance<py::bool_>(value) && !is_text(value) && !py::hasattr(value, "__len__") &&
          PyNumber_Check(value.ptr()) != 0 && PyComplex_Check(value.ptr()) == 0;
@@ -86,7 +86,7 @@ void Settings::integer(const char* name, int& out) const {
   if (value.is_none()) return;
   if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0)
     refuse(name, value, "a whole number");
-  const py::ssize_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);  // huge: the nearest
+  const py::ssize_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);  // huge: clamped
   out = static_cast<int>(std::clamp<py::ssize_t>(number, -1'000'000'000, 1'000'000'000));
 }
 

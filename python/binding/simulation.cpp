@@ -1,4 +1,4 @@
-// python/binding/simulation.cpp - a run that Python holds.
+// python/binding/simulation.cpp - simulation advanced from Python.
 #include "python/binding/simulation.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ using signals::Tick;
 using HeldPointer = std::shared_ptr<HeldSimulation>;
 using Use = HeldSimulation::Use;
 
-// Between two looks for Ctrl-C: some ten milliseconds of the computer's time.
+// Ticks between two checks for Ctrl-C: some ten milliseconds of computing time.
 constexpr Tick slice = 100'000;
 
 HeldPointer copied(HeldSimulation& of) {
@@ -48,7 +48,7 @@ double read(HeldSimulation& s, const py::object& channel) {
   if (PyIndex_Check(channel.ptr()) == 0)
     throw py::type_error(fmt::format("channel: found {}; expected a name, or a place in channels",
                                      py::repr(channel).cast<std::string>()));
-  const py::ssize_t number = PyNumber_AsSsize_t(channel.ptr(), nullptr);  // huge: the nearest
+  const py::ssize_t number = PyNumber_AsSsize_t(channel.ptr(), nullptr);  // huge: clamped
   if (number < 0 || static_cast<std::size_t>(number) >= use->channels().size())
     throw py::index_error(fmt::format("channel: found {}; expected 0 to {}",
                                       py::str(channel).cast<std::string>(),

@@ -1,4 +1,4 @@
-// python/binding/simulation.h - a simulation as Python holds it.
+// python/binding/simulation.h - simulation held by Python.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace sinew::python {
 
-// HeldSimulation lets one thread at a time at a simulation.
+// Simulation that only one thread at a time may use.
 class HeldSimulation {
  public:
   explicit HeldSimulation(ExperimentPointer experiment)
@@ -17,8 +17,8 @@ class HeldSimulation {
 
   const ExperimentPointer& experiment() const { return experiment_; }
 
-  // The simulation, as long as a Use of it lives. Throws std::runtime_error where another thread
-  // has one.
+  // Access to the simulation during the lifetime of this object. Throws std::runtime_error if
+  // another thread uses the simulation.
   class Use {
    public:
     explicit Use(HeldSimulation& held) : held_(held), now_(held.used_, "simulation") {}
@@ -37,14 +37,14 @@ class HeldSimulation {
   Used used_;
 };
 
-// Advances by seconds, rounded to ticks, or to the plan's end. Looks for Ctrl-C on the way. Throws
-// std::invalid_argument for what is no time, RunError where the run has failed.
+// Advances by seconds, rounded to ticks, or to the plan's end. Checks for Ctrl-C meanwhile. Throws
+// std::invalid_argument for an invalid time, RunError if the run has failed.
 void advance(run::Simulation& simulation, double seconds);
 
 // Throws std::invalid_argument for a time that is not finite, or below 0  [s].
 void check_time(double seconds);
 
-// Throws RunError where the run has ended before its plan did.
+// Throws RunError if the run ended before its plan.
 void refuse_failed(const run::Simulation& simulation);
 
 }  // namespace sinew::python

@@ -1,4 +1,4 @@
-// python/binding/sweep.cpp - many runs of one experiment, on all cores.
+// python/binding/sweep.cpp - many runs of an experiment, on all cores.
 #include "sinew/tune/sweep.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace sinew::python {
 
 namespace {
 
-// A list of texts, or one text. Throws TypeError for anything else.
+// Returns a list of texts, or one text as a list. Throws TypeError for anything else.
 std::vector<std::string> texts_of(const py::object& given, const char* name) {
   if (py::isinstance<py::str>(given)) return {given.cast<std::string>()};
   std::vector<std::string> out;
@@ -35,7 +35,7 @@ std::vector<std::string> texts_of(const py::object& given, const char* name) {
                                    py::repr(given).cast<std::string>()));
 }
 
-// "KEY=a,b,c unit": of numbers in the SI unit that the key has in the experiment.
+// Returns "KEY=a,b,c unit"; numbers are in the SI unit of the key.
 std::string axis_of(const std::string& key, const py::handle& values, const HeldExperiment& e) {
   if (py::isinstance<py::str>(values)) return key + "=" + values.cast<std::string>();
   const py::array given = py::array::ensure(values);
@@ -64,7 +64,7 @@ std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e
   return out;
 }
 
-// A function of Python that is told how far it is.
+// Calls the user's progress function.
 void tell(const py::object& progress, std::int64_t done, std::size_t points) {
   if (!progress.is_none()) progress(done, points);
 }
@@ -108,7 +108,7 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
       tune::json_of(tune::headings(asked), rows))["rows"];
 }
 
-// What `sinew tune --json` prints, of a tuning's file.
+// Returns the output of `sinew tune --json` for a tuning file.
 py::object tune_file(const py::object& path, const py::object& results, const py::object& sets,
                      int generations, int threads, const py::object& progress) {
   for (const auto& [name, value] : {std::pair{"generations", generations}, {"threads", threads}})

@@ -1,4 +1,5 @@
-// python/binding/used.h - one thread at a time at what is changed without Python's lock.
+// python/binding/used.h - guard for objects that are changed without Python's lock: one thread at a
+// time.
 #pragma once
 
 #include <atomic>
@@ -9,8 +10,8 @@ namespace sinew::python {
 
 class Used {
  public:
-  // The thing is in use as long as this lives. Throws std::runtime_error, which calls it `what`,
-  // where another thread, or a signal's handler within a call, has it.
+  // Marks the object as used during the lifetime of this guard. Throws std::runtime_error, which
+  // calls the object `what`, if another thread, or a signal handler within a call, uses it.
   class Now {
    public:
     Now(Used& used, const char* what) : used_(used) {

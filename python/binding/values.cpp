@@ -64,7 +64,7 @@ py::dict origin_of(const config::Origin& origin) {
 
 namespace {
 
-// Of an experiment, rig, robot, actuator, valves or wiring file: its values and their origins.
+// Returns the values and origins of an experiment, rig, robot, actuator, valves or wiring file.
 py::tuple read_values(const py::object& path, const py::object& sets) {
   const std::string file = path_of(path);
   config::Origins plain;  // for the units of numbers

@@ -1,4 +1,4 @@
-// python/binding/values.h - values of files as Python has them, and where they came from.
+// python/binding/values.h - conversion of file values and their origins to Python objects.
 #pragma once
 
 #include "python/binding/bind.h"
@@ -7,15 +7,15 @@
 
 namespace sinew::python {
 
-// Returns a value as Python has it. A `quantity` is a number in SI, which the tree has as text,
+// Returns a value as a Python object. A `quantity` becomes a number in SI; the tree has it as text,
 // "5.24 rad".
 py::object value_of(const config::Node& node, bool quantity);
 
-// Returns the values of a tree in SI by their keys; those that are not set are left out.
+// Returns the values of a tree in SI, keyed by path; unset values are left out.
 py::dict values_of(const config::Node& in_si, const config::Origins& origins);
 
-// Returns text as written, unit, source, file, line, whether it is a default, a fit or a guess,
-// range and uncertainty.
+// Returns a dict with text as written, unit, source, file, line, whether it is a default, a fit or
+// a guess, range and uncertainty.
 py::dict origin_of(const config::Origin& origin);
 
 }  // namespace sinew::python

@@ -10,8 +10,8 @@
     leg.advance(2.0)
     leg.change("control.stiffness.hip", 3.0)       # N m/rad
 
-Values are in SI wherever nothing else is said; channels have the unit that they name. What is wrong
-with a file is raised as InputError, with the words that `sinew check` prints.
+Values are in SI unless stated otherwise; channels state their unit. Faults of a file raise InputError
+with the messages of `sinew check`.
 """
 
 from sinew._sinew import (

@@ -1,13 +1,13 @@
-"""`python3 -m sinew run …`: the program `sinew` of the installation that this package belongs to."""
+"""`python3 -m sinew run …`: runs the program `sinew` of this package's installation."""
 
 import os
 import sys
 
 
 def program() -> str:
-    """Return the program's path: bin/sinew beside a folder above this package.
+    """Return the program's path: bin/sinew in a folder above this package.
 
-    Raises FileNotFoundError where this installation has none.
+    Raises FileNotFoundError if this installation has none.
     """
     above = os.path.dirname(os.path.abspath(__file__))
     while above != os.path.dirname(above):
@@ -22,7 +22,7 @@ def program() -> str:
 
 
 def main() -> None:
-    """Become the program, with the words of the command line."""
+    """Replace this process by the program, with the same arguments."""
     try:
         path = program()
     except FileNotFoundError as error:

@@ -1,4 +1,4 @@
-"""What a method of identification found."""
+"""Results of the methods of identification."""
 
 import dataclasses
 import os
@@ -14,13 +14,13 @@ def _write(path: Path, text: str, force: bool) -> None:
 
 
 class Found:
-    """What a method found: its report, and the parameter file that it makes."""
+    """Result of a method: its report and its parameter file."""
 
     report: Dict[str, Any]
     """As `sinew identify --json` prints it: all models that were tried, with values, intervals, errors."""
 
     def __init__(self, found: _sinew.Identified) -> None:
-        """Hold what the library found."""
+        """Hold the result of the library."""
         self._found = found
         self.report = found.report
 
@@ -31,28 +31,28 @@ class Found:
 
     @property
     def score(self) -> Sequence[Dict[str, Any]]:
-        """How a machine in simulation meets a run that was not fitted, driven by its valve commands alone.
+        """Agreement of the simulated machine, driven by the valve commands, with a run that was not fitted.
 
-        One of each quantity, "angle" [rad], "tension" [N], "pressure" [Pa]: "parts" has rmse, nrmse,
-        correlation and r_squared of each joint or muscle, "all" those of all of them. Empty: not scored.
+        One dict per quantity, "angle" [rad], "tension" [N], "pressure" [Pa]: "parts" has rmse, nrmse,
+        correlation and r_squared of each joint or muscle, "all" those of all together. Empty: not scored.
         """
         return list(self.report.get("score", []))
 
     def text(self, path: Path = "") -> str:
-        """Return the parameter file, as it would stand at `path`: a base is named from there.
+        """Return the text of the parameter file, with the path of a base relative to `path`.
 
-        Raises RefusalError where the data support no file, IndexError where the method makes none.
+        Raises RefusalError if the data do not support a file, IndexError if the method makes none.
         """
         return self._found.text(0, os.fspath(path))
 
     def write(self, path: Path, force: bool = False) -> None:
-        """Write the parameter file. Raises FileExistsError, unless `force` replaces it; and as text()."""
+        """Write the parameter file. Raises FileExistsError unless `force` is set, and like text()."""
         _write(path, self.text(path), force)
 
     def page(self) -> str:
-        """Return the page with the data beside the models, as HTML: what `--report` leaves.
+        """Return the HTML page with the data and the models, like `--report`.
 
-        Raises ValueError for what was counted, RuntimeError where the library was built without a page.
+        Raises ValueError for a counted braid, RuntimeError if the library was built without a page.
         """
         return self._found.page()
 
@@ -66,30 +66,30 @@ class Found:
 
 
 class Joint(Found):
-    """What was found of a joint: a part of its robot's file, and its actuator's."""
+    """Result for a joint: a part of its robot's file, and its actuator's file."""
 
     def actuator_text(self) -> str:
-        """Return the actuator's file, with the effectiveness that was found."""
+        """Return the text of the actuator's file, with the identified effectiveness."""
         return self._found.text(1, "")
 
     def write_actuator(self, path: Path, force: bool = False) -> None:
-        """Write the actuator's file. Raises FileExistsError, unless `force` replaces it."""
+        """Write the actuator's file. Raises FileExistsError unless `force` is set."""
         _write(path, self.actuator_text(), force)
 
 
 class Valve(Found):
-    """What was found of a valve."""
+    """Result for a valve."""
 
     @property
     def refused(self) -> str:
-        """What the data do not support, beside what the report has; empty where they support all."""
+        """Results that the data do not support, besides those in the report; empty if they support all."""
         return self._found.refused
 
     def timing(self, frequency: Union[float, int, str, None] = None) -> str:
-        """Return predict.dat: when to switch the coil, so that the valve itself is open for the duty.
+        """Return predict.dat: instants to switch the coil, so that the valve itself is open for the duty.
 
-        frequency [Hz] of the pulses; None: the one that was asked with, or 100 Hz. Raises RefusalError
-        where the delays are not known.
+        frequency [Hz] of the pulses; None: that of the identification, or 100 Hz. Raises RefusalError if
+        the delays are unknown.
         """
         return self._found.timing(frequency)[0]
 
@@ -98,8 +98,8 @@ class Valve(Found):
 class Static:
     """The static law of an actuator, or of several of one make.
 
-    report: what was found, as `sinew identify static --json` prints it: all models that were tried, with
-        values, intervals and errors, and the chosen one.
+    report: output of `sinew identify static --json`: all models that were tried, with values, intervals
+        and errors, and the chosen one.
     files: the text of an actuator file for each muscle, the longest first.
     """
 
@@ -112,7 +112,7 @@ class Static:
         return str(self.report["chosen"])
 
     def write(self, path: Path, muscle: int = 0, force: bool = False) -> None:
-        """Write the actuator file of a muscle. Raises FileExistsError, unless `force` replaces it."""
+        """Write the actuator file of a muscle. Raises FileExistsError unless `force` is set."""
         if not 0 <= muscle < len(self.files):
             raise IndexError(f"muscle: found {muscle}; expected 0 to {len(self.files) - 1}")
         _write(path, self.files[muscle], force)
@@ -120,10 +120,10 @@ class Static:
 
 @dataclasses.dataclass(frozen=True)
 class Checked:
-    """What measurements are, what is wrong with them, and what a static law could find in them.
+    """Check of measurements: their contents, their faults, and the parameters that they determine.
 
-    report: as `sinew identify check --json` prints it: what was recognised, noise of the force, which
-        parameters the data determine, and the checks.
+    report: output of `sinew identify check --json`: recognised columns, noise of the force, parameters
+        that the data determine, and the checks.
     """
 
     report: Dict[str, Any]
@@ -146,7 +146,7 @@ class Checked:
         return out
 
     def __str__(self) -> str:
-        """Return what is not green, a line each."""
+        """Return the checks that are not green, a line each."""
         return "\n".join(
             f"{check['light']}: {check['name']}: {check['evidence']} {check.get('advice', '')}".rstrip()
             for check in self.checks
@@ -156,7 +156,7 @@ class Checked:
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """Which lengths and pressures to measure: the plan, and the table to fill in."""
+    """Plan of the lengths and pressures to measure, and the table to fill in."""
 
     report: Dict[str, Any]
     """As `sinew identify plan --json` prints it: mounts in order, each with the error after it, in percent."""
@@ -166,9 +166,9 @@ class Plan:
 
     @property
     def minutes(self) -> float:
-        """How long it takes."""
+        """Duration of the measurements [min]."""
         return float(self.report["time_s"]) / 60
 
     def write(self, path: Path, force: bool = False) -> None:
-        """Write the table. Raises FileExistsError, unless `force` replaces it."""
+        """Write the table. Raises FileExistsError unless `force` is set."""
         _write(path, self.table, force)

@@ -1,4 +1,4 @@
-"""Recordings as pandas' tables."""
+"""Conversion of recordings to pandas."""
 
 from typing import TYPE_CHECKING, Any, Optional, Sequence
 
@@ -11,9 +11,9 @@ if TYPE_CHECKING:
 def to_pandas(recording: Recording, channels: Optional[Sequence[str]] = None) -> "pandas.DataFrame":
     """Return channels of a recording as a table, a row for each instant, the index in seconds.
 
-    Without `channels` all that are sampled together; valves' edges, which have times of their own,
-    only where they are named. Where the times differ, a cell without a sample is NaN. Raises
-    KeyError for a channel that there is not, and ImportError where pandas is not installed.
+    Without `channels`, all that are sampled together; valves' edges have times of their own and must
+    be named. If times differ, a cell without a sample is NaN. Raises KeyError for an unknown channel,
+    and ImportError if pandas is not installed.
     """
     import pandas
 

@@ -1,4 +1,4 @@
-"""Robots, and other files of parts, as objects whose attributes are their values."""
+"""Robots and other files of parts as objects whose attributes are their values."""
 
 import os
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
@@ -9,9 +9,9 @@ _Sets = Optional[Union[Mapping[str, Any], Sequence[str]]]
 
 
 class Part:
-    """A table of a file: what stands below a key. Names that are no words are reached by brackets.
+    """Table of a file. Its attributes are values, in SI, and the tables below.
 
-    Its attributes are values, in SI, and the parts below.
+    Names that are not identifiers are accessed with brackets.
     """
 
     _robot: "Robot"
@@ -31,7 +31,7 @@ class Part:
         if any(other.startswith(key + ".") for other in self._robot._origins):
             return Part(self._robot, key)
         if key in self._robot._origins:
-            return None  # there, and not set
+            return None  # exists, but is not set
         raise KeyError(key)
 
     def _missing(self, name: str) -> str:
@@ -41,7 +41,7 @@ class Part:
         )
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # Python's own: a copy asks for some before it has a key
+        if name.startswith("_"):  # Python's own: copying requests some before the key is set
             raise AttributeError(name)
         try:
             return self._get(name)
@@ -55,11 +55,11 @@ class Part:
             raise KeyError(self._missing(name)) from None
 
     def __setitem__(self, name: str, value: Any) -> None:
-        self[name]  # raises KeyError where there is none
+        self[name]  # raises KeyError if it does not exist
         self._robot._change(self._below(name), value)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        getattr(self, name)  # raises AttributeError where there is none
+        getattr(self, name)  # raises AttributeError if it does not exist
         self[name] = value
 
     def __iter__(self) -> Iterator[str]:
@@ -80,9 +80,9 @@ class Part:
         return [*super().__dir__(), *self]
 
     def origin(self, name: str) -> Dict[str, Any]:
-        """Return where a value came from: text as written, unit, source, file, line, range.
+        """Return the origin of a value: text as written, unit, source, file, line, range.
 
-        Raises KeyError for a name that is no value's.
+        Raises KeyError for a name that is not a value.
         """
         key = self._below(name)
         if key not in self._robot._origins:
@@ -94,15 +94,14 @@ class Part:
 
 
 class Robot(Part):
-    """A robot's file, or that of an experiment, a rig, an actuator, valves or wiring.
+    """File of a robot, an experiment, a rig, an actuator, valves or wiring.
 
         leg = sinew.Robot(sinew.shipped("robots/leg/robot.toml"))
         leg.joint.hip.damping                  # N m s/rad
         leg.joint.hip.damping = 0.1            # checked at once
         sinew.run(walk, leg.changes)
 
-    Nothing is written to the file. Raises InputError for what is wrong with it, and for a value that
-    a key cannot have.
+    Nothing is written to the file. Raises InputError for faults of the file and for invalid values.
     """
 
     path: str

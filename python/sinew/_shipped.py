@@ -1,4 +1,4 @@
-"""The robots and experiments that come with Sinew."""
+"""Robots and experiments shipped with Sinew."""
 
 import os
 from typing import Union
@@ -7,9 +7,9 @@ from sinew import _where
 
 
 def shipped(path: Union[str, "os.PathLike[str]"] = "") -> str:
-    """Return where a file that comes with Sinew is: shipped("experiments/walk-test-1.toml").
+    """Return the path of a file shipped with Sinew: shipped("experiments/walk-test-1.toml").
 
-    Without a path, the folder of them all. Raises FileNotFoundError, which names what is there.
+    Without an argument, returns their folder. Raises FileNotFoundError, which lists the existing files.
     """
     full = os.path.join(_where.SHARE, os.fspath(path))
     if os.path.exists(full):

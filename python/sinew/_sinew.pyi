@@ -15,7 +15,7 @@ _Array = numpy.typing.NDArray[numpy.float64]
 version: str
 
 class Problem:
-    """One thing that is wrong with a file or a setting."""
+    """A fault of a file or a setting."""
 
     @property
     def file(self) -> str: ...

@@ -1,4 +1,4 @@
-"""Tables of measurements as the library reads them: files, or columns of numbers."""
+"""Conversion of tables of measurements to the library's form: files, or columns of numbers."""
 
 import dataclasses
 import os
@@ -13,21 +13,20 @@ Path = Union[str, "os.PathLike[str]"]
 
 @dataclasses.dataclass(frozen=True)
 class Table:
-    """A table of measurements, and what its columns mean.
+    """A table of measurements, and the meaning of its columns.
 
-    data: the path of a CSV file; or columns by their names, each an array or one number for all rows: a
-        dict, a pandas frame, a structured array. A column is called "force [lbf]", or "force" in SI.
-    values: of columns that the table does not have, {"length": "205 mm"}. offsets: added to columns, {"length":
-        "200 mm"}.
-    names: what the table calls a column, {"force": "F_N"}. units: of its columns, {"F_N": "N"}.
+    data: the path of a CSV file; or columns by name, each an array or one number for all rows: a dict, a
+        pandas frame, a structured array. A column is named "force [lbf]", or "force" if it is in SI.
+    values: values of missing columns, {"length": "205 mm"}. offsets: added to columns, {"length": "200 mm"}.
+    names: the table's name of a column, {"force": "F_N"}. units: units of its columns, {"F_N": "N"}.
     where: only rows with these values, {"phase": "fill"}. columns: the header of a file without one,
-        ["force [N]", "time [s]"]. atmosphere: that gauges read against [Pa], absolute.
-    drop_incomplete: leave out rows with cells that are no numbers.
+        ["force [N]", "time [s]"]. atmosphere: reference of gauge pressures [Pa], absolute.
+    drop_incomplete: leave out rows with cells that do not hold a number.
 
-    What a file may leave open: encoding "latin1"; decimal "." or ","; thousands ".", ",", " " or "'"; dates
-    "day first", "month first" or "excel" (days since 1900); rate "100 Hz" of the rows, in place of a column
-    of times; spread_times: rows that share a time are spread evenly up to the next one; part 2: of
-        several recordings in the file the second one alone.
+    Format settings that a file may leave open: encoding "latin1"; decimal "." or ","; thousands ".", ",",
+    " " or "'"; dates "day first", "month first" or "excel" (days since 1900); rate "100 Hz" of the rows, in
+    place of a column of times; spread_times: rows that share a time are spread evenly up to the next time;
+    part: 2 reads only the second of several recordings in the file.
     """
 
     data: Any
@@ -49,7 +48,7 @@ class Table:
 
 
 def names_of(data: Any) -> "Optional[List[str]]":
-    """Return the names of columns; None for what has none."""
+    """Return the names of the columns; None if the object has no named columns."""
     if isinstance(data, numpy.ndarray):
         return list(data.dtype.names) if data.dtype.names else None
     keys = getattr(data, "keys", None)
@@ -57,12 +56,12 @@ def names_of(data: Any) -> "Optional[List[str]]":
 
 
 def number_text(number: "Union[float, int]") -> str:
-    """Return a number as text; of a stamp of 19 digits, which a float would round, every digit."""
+    """Return a number as text, with all digits of large integers, which a float would round."""
     return str(number) if isinstance(number, int) and abs(number) > 2**53 else repr(float(number))
 
 
 def cells(name: str, values: Any) -> "List[str]":
-    """Return the texts of a column. Raises TypeError for what a table cannot have."""
+    """Return the cells of a column. Raises TypeError for values that a table cannot hold."""
     column = numpy.asarray(values)
     masked: Any = getattr(values, "mask", None) if isinstance(values, numpy.ma.MaskedArray) else None
     if masked is not None and numpy.any(masked):
@@ -103,7 +102,7 @@ def text_of(table: Table, names: "List[str]", units: "Mapping[str, str]") -> str
 
 
 def texts_of(name: str, given: Any) -> "Optional[Dict[str, str]]":
-    """Return texts by names, or None. Raises TypeError for anything else."""
+    """Return a dict of texts, or None. Raises TypeError for anything else."""
     if given is None:
         return None
     pairs = dict(given) if isinstance(given, Mapping) else None
@@ -113,7 +112,7 @@ def texts_of(name: str, given: Any) -> "Optional[Dict[str, str]]":
 
 
 def header_of(given: Any) -> "Optional[List[str]]":
-    """Return the columns of a file without a header: a list of texts, or a text with commas."""
+    """Return the given header as a list: from a list of texts, or a text with commas."""
     if given is None:
         return None
     if isinstance(given, str):
@@ -124,7 +123,7 @@ def header_of(given: Any) -> "Optional[List[str]]":
 
 
 def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, Any]":
-    """Return a table as the library takes it; `label` is what a table without a file is called."""
+    """Return a table in the library's form; `label` is the name of a table without a file."""
     table = data if isinstance(data, Table) else Table(data)
     parts: "Dict[str, Any]" = {
         "path": label,
@@ -159,7 +158,7 @@ def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, An
 
 
 def tables_of(method: str, data: Any, word: str = "arrays of Python") -> "List[Dict[str, Any]]":
-    """Return one table, or a list of them, as the library takes them."""
+    """Return one table, or a list of tables, in the library's form."""
     units = _sinew.identify_columns(method)
     if not isinstance(data, (list, tuple)):
         return [parts_of(data, units, word)]
@@ -171,7 +170,7 @@ def tables_of(method: str, data: Any, word: str = "arrays of Python") -> "List[D
 
 
 def like(data: Any, other: Any) -> Any:
-    """Return another table, whose columns mean what those of the first do, unless it says so itself."""
+    """Return another table with the column settings of the first, unless it is a Table itself."""
     first = data[0] if isinstance(data, (list, tuple)) and data else data
     if isinstance(first, Table) and not isinstance(other, Table):
         return dataclasses.replace(first, data=other)

@@ -1,4 +1,4 @@
-"""Parameters from measurements.
+"""Identification of parameters from measurements.
 
     import sinew.identify as identify
 
@@ -12,17 +12,17 @@
     identify.valve("fill.csv", volume="0.5 L").write("my-valve.toml")
     identify.valve({"time": t, "pressure": p}, volume=5e-4)
 
-Each method of `sinew identify` is a function: the same report, the same file. It takes measurements as
-one table, or several where it says so: a CSV file's path; a dict, pandas frame or structured array of
-columns; or a Table, which says what foreign columns mean. Settings are as the program's: a number in the
-SI unit that is told here, or text with a unit, "6 lb".
+Each method of `sinew identify` is a function with the same report and the same file. It takes measurements
+as one table, or several where stated: a CSV file's path; a dict, pandas frame or structured array of
+columns; or a Table, which also describes columns of other programs. Settings are those of the program: a
+number in the SI unit given here, or text with a unit, "6 lb".
 
-Functions raise RefusalError where the data support no answer, sinew.InputError for what is wrong with a
-table or a setting, and TypeError for what is none. What the numbers mean, and what is refused:
-docs/how-to/characterise.md and the pages of docs/theory that it names.
+Functions raise RefusalError if the data do not support a result, sinew.InputError for faults of a table or
+a setting, and TypeError for arguments of the wrong type. docs/how-to/characterise.md and the pages of
+docs/theory that it names explain the results and refusals.
 
-The settings of a method are described in the library alone, which gives the last lines of a docstring and
-the defaults: None, "" and () leave a setting at its own.
+The settings of a method are described only in the library, from which the last lines of a docstring are
+taken; None, "" and () leave a setting at the library's default.
 """
 
 import inspect
@@ -90,14 +90,14 @@ def _of(method: str) -> Callable[[Function], Function]:
 
 
 def _text(value: Any) -> str:
-    """Return text as it is, a number as one in the SI unit of what it is of, a pair with ± between."""
+    """Return text unchanged, a number as text in SI, a pair joined by ±."""
     if isinstance(value, str):
         return value
     return "±".join(map(_text, value)) if isinstance(value, Sequence) else f"{float(value)!r} SI"
 
 
 def _held_out(method: str, data: Any, given: Any) -> "List[Union[str, Dict[str, Any]]]":
-    """Return what is not fitted: texts, which are rules or files, and tables as the library takes them."""
+    """Return the held-out data: texts, which are rules or files, and tables in the library's form."""
     units = _sinew.identify_columns(method)
     every = given if isinstance(given, (list, tuple)) else [] if given is None or given == "" else [given]
     return [
@@ -109,7 +109,7 @@ def _held_out(method: str, data: Any, given: Any) -> "List[Union[str, Dict[str, 
 
 
 def _found(method: str, given: Dict[str, Any]) -> _sinew.Identified:
-    """Return what a method finds; `given` are the arguments of its function, by their names."""
+    """Return the result of a method; `given` are the arguments of its function, by name."""
     settings = {name: value for name, value in given.items() if name != "data"}
     data = given.get("data")
     if data is not None and "hold_out" in settings:
@@ -131,17 +131,16 @@ def static(
 ) -> Static:  # fmt: skip
     """Return the static law of an actuator from forces [N] at lengths [m] and gauge pressures [Pa].
 
-    Arrays with a number for each point, or one number for all. rest_length [m] of the muscle without
-    pressure and load (None: the longest length; several say which points are of which muscle). fitted:
-    False for points that are held out, to score what was not seen; hold_out does that with every second
-    "pressure" or each "length" once. model: that law alone; else the data choose. source: where the data
-    are from, for the file. diameter [m] of the air without pressure: gives its volume, and the force is
-    compared with it. The points are checked
-    first, as by check(): what is red is refused, unless they are to be fitted anyway; then it is among the
-    report's warnings, as suspicions are.
+    Arguments are arrays with a number for each point, or one number for all. rest_length [m]: of the muscle
+    without pressure and load (None: the longest length; an array assigns the points to several muscles).
+    fitted: False for points that are held out and only scored; hold_out holds out every second "pressure",
+    or each "length" in turn. model: only this law; empty: chosen by the data. source: origin of the data,
+    for the file. diameter [m]: of the air without pressure; gives its volume, and the force is compared with
+    it. The points are checked first like in check(): a red check is refused, unless anyway is set; it is
+    then reported as a warning, as suspicions are.
 
-    Raises RefusalError where the data support no law or a check is red, and ValueError for arrays that do
-    not belong together or a model that there is not.
+    Raises RefusalError if the data do not support a law or a check is red, and ValueError for arrays of
+    different shapes or an unknown model.
     """
     report, files = _sinew.identify_static(
         length, pressure, force, rest_length, fitted, model, hold_out, name, source, diameter, anyway
@@ -158,10 +157,10 @@ def static_from(
 ) -> Static:  # fmt: skip
     """Return the static law of an actuator from tables, or recordings with a column of time.
 
-    Columns force [N] or load [kg], pressure [Pa gauge], length [m], or contraction [1] with rest_length; branch,
-    time where there are such. data: a table, or several; of a file without a column sinew.identify.Table states its
-    value, Table("rig.csv", values={"length": "205 mm"}). The files of muscles that `predict` names follow those
-    of the muscles that were measured.
+    Columns: force [N] or load [kg], pressure [Pa gauge], length [m], or contraction [1] with rest_length;
+    optionally branch and time. data: a table, or several; the value of a missing column is given with
+    sinew.identify.Table("rig.csv", values={"length": "205 mm"}). The files of the muscles in `predict` follow
+    those of the measured muscles.
     """
     found = _found("static", locals())
     return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
@@ -173,9 +172,9 @@ def check(
     branch: Optional[str] = None, fit_where: Texts = (), hold_out: Any = "",
     diameter: Optional[Quantity] = None,
 ) -> Checked:  # fmt: skip
-    """Return what static_from() would find in the same tables, and what speaks against it.
+    """Return checks of tables before static_from(): their contents, faults, and the parameters they determine.
 
-    What no method can read is a red check, too.
+    Tables that cannot be read are reported as a red check.
     """
     return Checked(_found("check", locals()).report)
 
@@ -185,10 +184,10 @@ def scale(
     file: Path, rest_length: Quantity, *, reading: Union[str, Sequence[float]] = "", actuator: str = "",
     name: str = "", atmosphere: Optional[str] = None,
 ) -> Found:  # fmt: skip
-    """Return the actuator of a muscle that nobody measured, from the file of one of its make.
+    """Return the actuator of a muscle that was not measured, from the file of one of the same make.
 
-    A reading may also be (length [m], pressure [Pa gauge], force [N]). The report has the largest force, and
-    within what 68 and 95 % of forces are expected; None where no muscle was left out when the file was made.
+    A reading may also be (length [m], pressure [Pa gauge], force [N]). The report has the largest force and
+    the ranges in which 68 and 95 % of forces are expected; None if no muscle was left out for the file.
     """
     given = dict(locals())
     if not isinstance(reading, str):
@@ -198,18 +197,18 @@ def scale(
 
 
 def columns(method: str) -> Dict[str, Any]:
-    """Return which columns a method of `sinew identify` reads, as `--columns --json` prints it.
+    """Return the columns that a method of `sinew identify` reads, like `--columns --json`.
 
-    method: "static", "dynamic", ... For each column its quantity, accepted units, meaning, and whether it is
-    needed; for each kind of table what a row is. Raises sinew.InputError for a method that there is not.
+    method: "static", "dynamic", ... Each column has its quantity, accepted units, meaning, and whether it is
+    required; each kind of table has the meaning of a row. Raises sinew.InputError for an unknown method.
     """
     return dict(_sinew.identify_inputs(method))
 
 
 def template(method: str, kind: str = "") -> str:
-    """Return a table to fill in, as `--template` writes it: CSV that the method reads as it is.
+    """Return a table to fill in, like `--template`: CSV that the method can read.
 
-    kind: of table, where a method takes several, "chart"; else the usual one.
+    kind: kind of table if the method has several, "chart"; empty: the usual one.
     """
     return str(_sinew.identify_template(method, kind))
 
@@ -224,25 +223,25 @@ def plan(
     longest: Optional[Quantity] = None, lowest: Optional[Quantity] = None, criterion: Optional[str] = None,
     most: Optional[int] = None, branch: Optional[str] = None,
 ) -> Plan:  # fmt: skip
-    """Return which lengths and pressures to measure so that a static law is known well enough.
+    """Return the lengths and pressures to measure for a static law of the required accuracy.
 
-    Without data for a muscle that nobody has measured: its rest_length and diameter, or an actuator's file
-    with one like it, and the highest pressure. With data, as of static_from(), what to measure next and what
-    it buys.
+    Without data, for a muscle that was not measured: give its rest_length and diameter, or the file of a
+    similar actuator, and the highest pressure. With data like those of static_from(): returns what to
+    measure next and the expected gain.
     """
     found = _found("plan", locals())
     return Plan(found.report, found.text(0, ""))
 
 
-# --- measurements that move, and runs -----------------------------------------------------------------
+# --- dynamic measurements, and runs -------------------------------------------------------------------
 
 
 @_of("creep")
 def creep(data: Any) -> Found:
-    """Return shares and times of creep from force that goes on growing at one length.
+    """Return shares and time constants of creep from a force that keeps growing at one length.
 
-    Columns time [s], force [N], pressure [Pa gauge]. What was found is in report["creep"]; there is no
-    file: it belongs into an actuator's [creep].
+    Columns: time [s], force [N], pressure [Pa gauge]. The result is report["creep"], for the table [creep]
+    of an actuator's file; no file is made.
     """
     return Found(_found("creep", locals()))
 
@@ -256,8 +255,8 @@ def dynamic(
 ) -> Found:  # fmt: skip
     """Return viscous loss and dry friction of an actuator from a mass that swings on trapped air.
 
-    data: a table for each swing, with columns time [s], length [m], and pressure [Pa abs] where it was
-    measured. What is one for each table may be a list. freeze, prior, tie: of parameters, as pair() has them.
+    data: a table for each swing, with columns time [s], length [m], and optionally pressure [Pa abs].
+    Settings that differ between tables may be lists. freeze, prior, tie: see pair().
     """
     return Found(_found("dynamic", locals()))
 
@@ -276,9 +275,8 @@ def joint(
 ) -> Joint:  # fmt: skip
     """Return force law and moment arm of a joint's muscles from its angle, pressures and a known load.
 
-    Columns angle [rad], flexor_pressure or extensor_pressure [Pa abs], and torque [N m] or load [kg]
-    where there is one. data: a table, or several recordings. freeze, prior, tie: of parameters, as pair()
-    has them.
+    Columns: angle [rad], flexor_pressure or extensor_pressure [Pa abs], and optionally torque [N m] or
+    load [kg]. data: a table, or several recordings. freeze, prior, tie: see pair().
     """
     return Joint(_found("joint", locals()))
 
@@ -292,9 +290,8 @@ def pair(
     """Return stiffness, friction, losses and trapped air of a sealed pair that is moved by hand or motor.
 
     data: a table for each recording, with columns time [s], force [N] and displacement [m], or torque [N m]
-    and angle [rad], and pressure_1, pressure_2 [Pa abs] where they were measured. freeze: {name: value} of
-    parameters that are known; prior: {name: (value, standard deviation)}; tie: {name: other name}; numbers
-    in SI.
+    and angle [rad], and optionally pressure_1, pressure_2 [Pa abs]. freeze: {name: value} of known
+    parameters; prior: {name: (value, standard deviation)}; tie: {name: other name}; numbers are in SI.
     """
     return Found(_found("pair", locals()))
 
@@ -305,23 +302,23 @@ def run(
     freeze: Texts = (), hold_out: Optional[Quantity] = None, begin: Optional[Quantity] = None,
     score: Optional[Path] = None, threads: Optional[int] = None, base: Optional[Path] = None,
 ) -> Found:  # fmt: skip
-    """Return friction, damping, dead times, volumes and leaks of a robot from a run of it.
+    """Return friction, damping, dead times, volumes and leaks of a robot from one of its runs.
 
-    score: another run, which the machine that was found is compared with: see Found.score.
+    score: another run, with which the identified machine is compared, see Found.score.
 
-    The result is the same with any number of threads. A leg that walks has no intervals: "intervals" of the
-    report is False, "no_intervals_because" says why, and "low" and "high" are None.
+    The result is the same with any number of threads. A walking leg has no intervals: "intervals" in the
+    report is False, "no_intervals_because" gives the reason, and "low" and "high" are None.
     """
     return Found(_found("run", locals()))
 
 
-# --- parts one by one ---------------------------------------------------------------------------------
+# --- single parts -------------------------------------------------------------------------------------
 
 
 def geometry(data: Any, *, thread_thickness: Optional[Quantity] = None, name: Optional[str] = None) -> Found:
     """Return thread length and turns of a braid from columns length and diameter [m].
 
-    thread_thickness [m] is taken off diameters that were measured outside the threads.
+    thread_thickness [m] is subtracted from diameters that were measured over the threads.
     """
     return Found(_found("geometry", locals()))
 
@@ -331,7 +328,7 @@ def geometry_from_trapezoids(
 ) -> Found:
     """Return thread length and turns of a braid from trapezoids counted on the opened mesh.
 
-    lengthwise and around: how many; side [m] of one between two threads. The report has no models.
+    lengthwise and around: numbers of trapezoids; side [m]: of one, between two threads. The report has no models.
     """
     return Found(_found("geometry", {"trapezoids": f"{lengthwise},{around}", "side": side, "name": name}))
 
@@ -344,8 +341,8 @@ def sensor(
 ) -> Found:  # fmt: skip
     """Return scale, offset, linearity, hysteresis and noise of calibrated sensors.
 
-    Columns: what was set, and what each sensor made of it, with their units: {"load [kg]": ..., "gage [V]":
-    ...}; volts, or counts. A number for rest is in SI.
+    Columns: the applied quantity and the output of each sensor in volts or counts, with their units:
+    {"load [kg]": ..., "gage [V]": ...}. A number for rest is in SI.
     """
     return Found(_found("sensor", locals()))
 
@@ -360,11 +357,11 @@ def valve(
 ) -> Valve:  # fmt: skip
     """Return flow and delays of a valve from a chart, a filling, pulses, a coil's current or duties.
 
-    By kind: "chart" has columns upstream, downstream [Pa abs] and flow [m3/s] or mass_flow [kg/s]; "fill"
-    time [s] and pressure [Pa abs]; "pulses" command [1] beside; "coil" time and current [A]; "duty" duty [1],
-    delivered [1] or flow, and frequency [Hz]. Of a filling or pulses: the chamber's volume, or the valve's
-    conductance, or per_volume where their ratio is enough; or fillings with known volumes joined to the
-    chamber, a table for each, whose added_volume is given here or in a column of that name.
+    Columns by kind: "chart" has upstream, downstream [Pa abs] and flow [m3/s] or mass_flow [kg/s]; "fill"
+    time [s] and pressure [Pa abs]; "pulses" also command [1]; "coil" time and current [A]; "duty" duty [1],
+    delivered [1] or flow, and frequency [Hz]. For "fill" and "pulses" give the chamber's volume or the
+    valve's conductance, or set per_volume if their ratio is enough; or give fillings with known volumes added
+    to the chamber, a table for each, with added_volume given here or in a column of that name.
     """
     return Valve(_found("valve", locals()))
 
@@ -378,8 +375,8 @@ def force_beam(
     full_scale: Optional[Quantity] = None, bits: Optional[int] = None, load: Optional[Quantity] = None,
     sensitivity: Optional[Quantity] = None,
 ) -> Dict[str, Any]:  # fmt: skip
-    """Return strain, safety and output of a beam with strain gages, as `sinew force-beam --json` prints.
+    """Return strain, safety and output of a beam with strain gages, like `sinew force-beam --json`.
 
-    None: the thesis's.
+    None: the thesis's value.
     """
     return dict(_sinew.force_beam(dict(locals())))

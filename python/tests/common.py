@@ -1,4 +1,4 @@
-"""What the tests share: files that come with Sinew, and the program beside the package."""
+"""Helpers of the tests: files shipped with Sinew, and the installed program."""
 
 import json
 import os
@@ -16,21 +16,21 @@ PROGRAM = os.environ.get("SINEW", "sinew")
 
 
 def program(*words: str) -> str:
-    """Return what the program prints."""
+    """Return the output of the program."""
     done = subprocess.run([PROGRAM, *words], check=True, capture_output=True, text=True)
     return done.stdout
 
 
 def program_json(*words: str) -> Any:
-    """Return what the program prints as JSON."""
+    """Return the JSON output of the program."""
     return json.loads(program(*words))
 
 
 class Refusals(unittest.TestCase):
-    """Wrong inputs, each with its exception and words of its message."""
+    """Invalid inputs, each with its exception and a part of its message."""
 
     def refused(self, cases: "List[Tuple[Callable[[], Any], Type[BaseException], str]]") -> None:
-        """Check that each call raises its exception with these words."""
+        """Check that each call raises its exception with this text."""
         for number, (call, kind, words) in enumerate(cases):
             with self.subTest(number=number, words=words):
                 with self.assertRaises(kind) as raised:

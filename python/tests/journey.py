@@ -1,4 +1,4 @@
-"""What somebody does who has just installed the package. Prints what it found; fails where it is wrong."""
+"""Typical first use of the installed package. Prints its results; fails if one is wrong."""
 
 import os
 import time
@@ -26,7 +26,7 @@ print(
     f"tracks to {numpy.degrees(best[figure]):.2f} deg, the thesis's to {numpy.degrees(plain):.2f} deg"
 )
 
-# The installed package finds the module of the search, which is not beside it.
+# The installed package finds the search module, which is in another folder.
 with open("hip.toml", "w", encoding="utf-8") as file:
     file.write(
         f'format = "sinew.tuning/1"\ntitle = "A hip that tracks"\nexperiment = "{air}"\n'
@@ -51,7 +51,7 @@ while steps < 10_000:
 assert episodes >= 30
 print(f"journey: 10,000 steps in {time.monotonic() - began:.1f} s, {way / episodes:.2f} m in an episode")
 
-# 3. A run is kept, and read back.
+# 3. A run is kept and read back.
 kept = sinew.run(sinew.shipped("experiments/walk-test-1.toml"), folder="run")
 again = sinew.read_run("run")
 for channel in kept.channels:

@@ -1,4 +1,4 @@
-"""Runs on a board: an emulated one gives the simulation's bits; what is not there is told."""
+"""Runs on a board: an emulated one gives the simulation's bits; missing data are reported."""
 
 import os
 import shutil
@@ -23,7 +23,7 @@ class LockStep(unittest.TestCase):
         self.assertEqual(simulated.board, "")
         self.assertIn("lock-step", board.board)
         names = [c.name for c in simulated.channels if not c.name.startswith("/true/")]
-        self.assertGreater(len(names), 10)  # a board does not know the rest
+        self.assertGreater(len(names), 10)  # a board does not have the rest
         for name in names:
             self.assertEqual(simulated[name].tobytes(), board[name].tobytes(), name)
         with tempfile.TemporaryDirectory() as folder:

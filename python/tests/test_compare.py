@@ -1,4 +1,4 @@
-"""Kept runs beside each other, and replayed."""
+"""Comparison and replay of kept runs."""
 
 import os
 import tempfile

@@ -1,4 +1,4 @@
-"""Every public name has its text, and every function of the library says what it takes."""
+"""Every public name has a docstring, and every function of the library has a signature."""
 
 import inspect
 import types
@@ -11,7 +11,7 @@ import sinew.identify
 
 
 def public(module: types.ModuleType) -> Iterator[Tuple[str, Any]]:
-    """Yield the names that a module shows, and those of its classes."""
+    """Yield the public names of a module and of its classes."""
     for name in module.__all__:
         thing = getattr(module, name)
         yield f"{module.__name__}.{name}", thing
@@ -32,7 +32,7 @@ class Documentation(unittest.TestCase):
                     continue
                 count += 1
                 text = inspect.getdoc(thing) or ""
-                # pybind11's first line is the signature alone.
+                # pybind11's first line is only the signature.
                 words = text.split("\n", 1)[-1] if text.startswith(name.split(".")[-1] + "(") else text
                 self.assertGreater(len(words.strip()), 8, f"{name}: {text!r}")
         self.assertGreater(count, 100)

@@ -1,4 +1,4 @@
-"""Experiments: values by key, with where they come from; settings in place of the file's."""
+"""Experiments: values by key with their origins; settings that override the file's."""
 
 import copy
 import os

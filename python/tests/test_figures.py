@@ -1,4 +1,4 @@
-"""Figures for print and films of runs that are kept."""
+"""Printable figures and films of kept runs."""
 
 import os
 import shutil
@@ -13,7 +13,7 @@ from common import Refusals
 
 
 def missing_for_films() -> str:
-    """Return what is missing to make a GIF; nothing where all is there."""
+    """Return what is missing to make a GIF; empty if nothing is missing."""
     if "CHROMIUM" in os.environ:
         return "" if shutil.which(os.environ["CHROMIUM"]) else f"CHROMIUM={os.environ['CHROMIUM']} is not there"
     names = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
@@ -21,14 +21,14 @@ def missing_for_films() -> str:
 
 
 def delays_of(gif: bytes) -> "List[int]":
-    """Return how long each frame of a GIF is shown [ms], by its blocks."""
+    """Return the duration of each frame of a GIF [ms]."""
     delays: "List[int]" = []
     at = 13 + 3 * (2 << (gif[10] & 7))
     while gif[at] != 0x3B:
         image = gif[at] == 0x2C
         if not image and gif[at + 1] == 0xF9:
             delays.append(10 * struct.unpack_from("<H", gif, at + 4)[0])
-        at += 11 if image else 2  # no table of its own
+        at += 11 if image else 2  # without its own colour table
         while gif[at]:
             at += gif[at] + 1
         at += 1

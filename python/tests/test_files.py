@@ -1,4 +1,4 @@
-"""Files: which there are, and new ones to begin with, as the program has them."""
+"""Listing of files and creation of new ones, like the program."""
 
 import os
 import tempfile

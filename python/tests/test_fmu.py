@@ -1,4 +1,4 @@
-"""FMUs from Python: the program's bytes, and what is refused. What is in them, fmu/tests looks at."""
+"""Export of FMUs from Python: the program's bytes, and refusals. fmu/tests tests the contents."""
 
 import os
 import tempfile

@@ -1,4 +1,4 @@
-"""Environments: what Gymnasium's own checker asks, and that they are the runs that they stand for."""
+"""Environments: they pass Gymnasium's checker and give the results of the simulated runs."""
 
 import copy
 import dataclasses
@@ -17,7 +17,7 @@ from common import WALK, Refusals
 
 
 def episode(env: sinew.gym.Env, actions: Any, seed: int) -> Tuple[List[Any], float]:
-    """Return what is seen in an episode, and its rewards' sum."""
+    """Return the observations of an episode, and the sum of its rewards."""
     seen, _ = env.reset(seed=seed)
     out, rewards, over = [seen], 0.0, False
     while not over:
@@ -73,7 +73,7 @@ class Env(unittest.TestCase):
         self.assertEqual(a[1], b[1])
         c = episode(again, actions, 8)
         self.assertNotEqual(numpy.array(a[0]).tobytes(), numpy.array(c[0]).tobytes())
-        # Without a seed: others than before, that follow from the last one given.
+        # Without a seed: new ones, derived from the last one given.
         seeds = [first.reset()[1]["seed"] for _ in range(3)]
         again.reset(seed=7)
         self.assertEqual(seeds, [again.reset()[1]["seed"] for _ in range(3)])
@@ -227,7 +227,7 @@ assert env.step(numpy.zeros(4))[0].shape == env.observation_space.shape == seen.
 
 class Gymnasium(unittest.TestCase):
     def test_where_it_is_an_environment_is_one_of_its(self) -> None:
-        # Debian 12 has no Gymnasium: a stand-in with the two names that are used.
+        # Debian 12 has no Gymnasium: a stub with the two names that are used.
         with tempfile.TemporaryDirectory() as folder:
             os.mkdir(folder + "/gymnasium")
             for name, text in (("__init__", STAND_IN), ("spaces", STAND_IN_SPACES)):
@@ -240,7 +240,7 @@ class Gymnasium(unittest.TestCase):
 
 
 def memory() -> int:
-    """Return what of this process is in memory [bytes]."""
+    """Return the resident memory of this process [bytes]."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
 
@@ -336,7 +336,7 @@ class Wrong(Refusals):
                 (lambda: sinew.gym.Box([0, 1], [1]), ValueError, "expected one shape"),
             ]
         )
-        env.step(numpy.zeros(4))  # and goes on
+        env.step(numpy.zeros(4))  # and continues
 
 
 if __name__ == "__main__":

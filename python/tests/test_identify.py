@@ -1,4 +1,4 @@
-"""Identification from arrays: the program's law, its file, and what is refused."""
+"""Identification from arrays: the program's law, its file, and refusals."""
 
 import csv
 import os
@@ -31,8 +31,8 @@ def measured() -> Tuple[Any, Any, Any]:
 
 class Interrupted(unittest.TestCase):
     def seconds_to_stop(self, work: Callable[[], object]) -> float:
-        """Return how long the work still takes after a Ctrl-C in its first second."""
-        # What is started in the background by a shell ignores Ctrl-C.
+        """Return the time until the work ends after a Ctrl-C in its first second."""
+        # A process started in the background by a shell ignores Ctrl-C.
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.addCleanup(signal.signal, signal.SIGINT, before)
         sent = []
@@ -47,7 +47,7 @@ class Interrupted(unittest.TestCase):
         return time.monotonic() - sent[0]
 
     def test_ctrl_c_ends_a_static_law_at_once(self) -> None:
-        # Some seconds of work: six muscles of a law that none of the models is.
+        # Some seconds of work: six muscles with a law that no model has.
         random = numpy.random.default_rng(1)
         rest = random.choice(numpy.arange(0.1, 0.4, 0.05), 3000)
         length = rest * random.uniform(0.8, 1, 3000)
@@ -77,7 +77,7 @@ class Static(unittest.TestCase):
         masked: Any = numpy.ma.MaskedArray(held, mask=held < 10)  # type: ignore[no-untyped-call]
         with self.assertRaisesRegex(ValueError, "force: found a masked array"):
             sinew.identify.static(length, pressure, masked)
-        # In a table a masked place is a cell without a number, which may be left out.
+        # In a table a masked element is a cell without a number, which may be left out.
         columns = {"length [m]": length, "pressure [Pa gauge]": pressure, "force [N]": masked}
         table = sinew.identify.Table(columns, drop_incomplete=True)
         with self.assertRaisesRegex(ValueError, "nan"):

@@ -1,4 +1,4 @@
-"""What a table of measurements may leave open, and who may hold its columns."""
+"""Format settings of tables of measurements, and the types that may hold their columns."""
 
 import importlib
 import os
@@ -15,7 +15,7 @@ from test_identify_tables import hold, mesh, swings, written
 
 
 def settling() -> "Dict[str, Any]":
-    """Return a step of pressure at one length, of which a part of the force comes a minute late."""
+    """Return a step of pressure at one length; a part of the force follows a minute later."""
     time = numpy.arange(0, 600.0, 5.0)
     gauge = numpy.where(time < 15, 1e5, 4e5)
     late = numpy.where(time < 15, 1e5, 4e5 - 3e5 * numpy.exp(-(time - 12.5) / 60))
@@ -24,7 +24,7 @@ def settling() -> "Dict[str, Any]":
 
 
 def same_creep(found: "Dict[str, Any]", expected: "Dict[str, Any]", apart: float) -> None:
-    """Check that the shares and times of two creeps are the same but for a share of them."""
+    """Check that the shares and times of two creeps differ at most by a fraction."""
     for key in ("share", "time_s"):
         numpy.testing.assert_allclose(found[key], expected[key], rtol=apart)
 
@@ -50,7 +50,7 @@ class Columns(unittest.TestCase):
         self.assertAlmostEqual(value, plain[0]["value"], 9)
 
     def test_values_and_offsets_stand_for_what_a_table_lacks(self) -> None:
-        """A machine writes extensions, one file per pressure: what it leaves out is stated."""
+        """A testing machine writes extensions, one file per pressure; missing columns are given."""
         length, diameter = mesh().values()
         extension = {"length": length - 0.06, "diameter": diameter}
         found = identify.geometry(identify.Table(extension, offsets={"length": "60 mm"})).report["parameters"]
@@ -90,7 +90,7 @@ class Columns(unittest.TestCase):
                 self.assertAlmostEqual(identify.geometry(table).report["thread_length_m"], 0.1, 3)
 
     def test_what_a_file_leaves_open_is_said(self) -> None:
-        """Each way in which laboratories write numbers gives the braid of the plain table."""
+        """Each usual number format gives the braid of the plain table."""
         plain = identify.geometry(mesh()).report["parameters"]
         length, diameter = mesh().values()
         heads = ("L [µm]", "D [µm]")

@@ -1,4 +1,4 @@
-"""Before anything is measured: columns, tables to fill in, and what is worth the time."""
+"""Preparation of measurements: columns, tables to fill in, and plans."""
 
 import os
 import tempfile

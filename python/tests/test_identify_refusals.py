@@ -1,4 +1,4 @@
-"""What `sinew identify` cannot take from Python is refused in words that name it."""
+"""Invalid arguments of identification are refused with messages that name them."""
 
 import unittest
 from typing import Any

@@ -1,4 +1,4 @@
-"""What a run of a robot tells of its machine: identify.run."""
+"""Identification of a machine from a run: identify.run."""
 
 import pathlib
 import tempfile

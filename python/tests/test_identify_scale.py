@@ -1,4 +1,4 @@
-"""Muscles that nobody measured: identify.scale and static_from(predict=...)."""
+"""Muscles that were not measured: identify.scale and static_from(predict=...)."""
 
 import pathlib
 import tempfile

@@ -17,21 +17,21 @@ VALVES = sinew.shipped("robots/leg/valves.toml")
 
 
 def mesh() -> "Dict[str, Any]":
-    """Return lengths and diameters of a braid, as a caliper would have them."""
+    """Return lengths and diameters of a braid, rounded like a caliper's readings."""
     length = numpy.linspace(0.06, 0.09, 9)
     diameter = numpy.sqrt(0.1**2 - length**2) / numpy.pi
     return {"length": length, "diameter": numpy.round(diameter, 5)}
 
 
 def hold() -> "Dict[str, Any]":
-    """Return a hold at one length, in which the force goes on growing."""
+    """Return a hold at one length, during which the force keeps growing."""
     time = numpy.arange(0, 600.0, 5.0)
     force = 100 + 3 * (1 - numpy.exp(-time / 90)) + 0.01 * numpy.sin(7 * time)
     return {"time": time, "force": force, "pressure": 4e5}
 
 
 def swings() -> "List[Dict[str, Any]]":
-    """Return free decays of two masses, as a potentiometer would have them."""
+    """Return free decays of two masses, measured by a potentiometer."""
     out = []
     for name in ("trapped-60-6", "trapped-80-11"):
         run = sinew.run(sinew.shipped(f"experiments/rig/{name}.toml"))
@@ -100,14 +100,14 @@ def filling() -> "Dict[str, Any]":
 
 
 def duties() -> "Dict[str, Any]":
-    """Return what a valve of 40 ms periods delivers, which opens 4 ms and shuts 1.2 ms late."""
+    """Return the delivery of a valve with 40 ms periods that opens 4 ms and shuts 1.2 ms late."""
     duty = numpy.arange(0, 1.0, 0.005)
     delivered = numpy.clip(duty - (4e-3 - 1.2e-3) / 0.04, 0, 1)
     return {"duty [1]": duty, "delivered [1]": delivered}
 
 
 def written(folder: str, name: str, columns: "Dict[str, Any]", units: "Dict[str, str]") -> str:
-    """Write columns as a CSV file, by another way than the package's."""
+    """Write columns as a CSV file, independently of the package."""
     names = list(columns)
     full = numpy.broadcast_arrays(*columns.values())
     path = os.path.join(folder, name)
@@ -148,7 +148,7 @@ class SameAsTheProgram(unittest.TestCase):
         *options: str,
         file: str = "checked",
     ) -> Any:
-        """Ask the program, Python with the files, and Python with the columns."""
+        """Compare the program, Python with the files, and Python with the columns."""
         files = [
             written(self.folder, f"{method}-{n}.csv", table, UNITS) for n, table in enumerate(tables)
         ]
@@ -281,7 +281,7 @@ class SameAsTheProgram(unittest.TestCase):
         self.compare(
             "valve", [filling()], ask, "--volume", "0.0005 m3", "--port", "7 bar abs", "--exponent", "1"
         )
-        alone = identify.valve(filling())  # tells C/V only
+        alone = identify.valve(filling())  # determines only C/V
         self.assertIn("one curve does not tell C from V", alone.refused)
         self.assertEqual(alone.report["refused"], alone.refused)
         with self.assertRaises(identify.RefusalError) as raised:

@@ -1,4 +1,4 @@
-"""Recordings of a laboratory as runs."""
+"""Import of laboratory recordings as runs."""
 
 import os
 import tempfile

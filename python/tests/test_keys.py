@@ -1,4 +1,4 @@
-"""Keys of files: what `sinew.keys` finds is what `sinew keys` finds."""
+"""Keys of files: `sinew.keys` finds the same keys as `sinew keys`."""
 
 import json
 import os

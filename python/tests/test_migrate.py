@@ -1,4 +1,4 @@
-"""Files of older formats: what `sinew.migrate` does is what `sinew migrate` does."""
+"""Migration of older files: `sinew.migrate` does the same as `sinew migrate`."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""A muscle in a loop of one's own: the lesson's numbers, saves, and what is refused."""
+"""A muscle in a user's loop: the lesson's numbers, saved states, and refusals."""
 
 import copy
 import gc
@@ -79,7 +79,7 @@ class Muscle(unittest.TestCase):
         self.assertAlmostEqual(three.tension / hip.tension, 1.5, 2)
         law = sinew.Actuator(sinew.shipped("robots/leg/actuator.toml"))
         at_rest = 2 * law.tension(hip.length, hip.pressure - hip.atmosphere)
-        self.assertLess(abs(hip.tension / at_rest - 1), 0.1)  # the bladder is the muscle's own
+        self.assertLess(abs(hip.tension / at_rest - 1), 0.1)  # each muscle has its own bladder
         walking = sinew.DrivenMuscle(WALK, "knee_flexor", pressure=3e5)
         self.assertAlmostEqual(walking.pressure, 3e5, 3)
 
@@ -103,14 +103,14 @@ class Muscle(unittest.TestCase):
             muscle.inlet(True)
         muscle.set_point(0.6)
         muscle.advance(2.0, muscle.length)
-        expected = 0.6 * sinew.quantity("100 psi diff", "Pa diff")  # of its range
+        expected = 0.6 * sinew.quantity("100 psi diff", "Pa diff")  # share of its range
         self.assertAlmostEqual((muscle.pressure - muscle.atmosphere) / expected, 1, 3)
 
 
 class Save(unittest.TestCase):
     def test_goes_on_with_the_same_bits(self) -> None:
         for muscle in (sinew.DrivenMuscle(RIG), sinew.DrivenMuscle(ROBOT, "knee_extensor", 0.0864)):
-            pulsed(muscle, 0, 123)  # a valve is on its way
+            pulsed(muscle, 0, 123)  # while a valve is moving
             saved = muscle.save()
             others = [
                 copy.copy(muscle),

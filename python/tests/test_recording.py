@@ -1,4 +1,4 @@
-"""What a run recorded: arrays of its own memory, figures, tables."""
+"""Recorded runs: arrays in their own memory, figures, tables."""
 
 import gc
 import html
@@ -38,7 +38,7 @@ class Recording(unittest.TestCase):
             self.assertEqual(values.shape, times.shape, channel.name)
             self.assertTrue(bool((numpy.diff(times) >= 0).all()), channel.name)
             self.assertTrue(channel.unit and channel.description, channel.name)
-        # The gait controller's period.
+        # Period of the gait controller.
         steps = numpy.diff(self.walk.time("/joint/hip/angle"))
         self.assertTrue(bool(numpy.allclose(steps, 0.01)))
 
@@ -102,7 +102,7 @@ class Recording(unittest.TestCase):
 
 
 def program_listing(folder: str) -> "list[str]":
-    """Return the names that the program leaves, without a page."""
+    """Return the names of the files that the program writes, without a page."""
     with tempfile.TemporaryDirectory() as other:
         program("run", WALK, "-o", other + "/run", "--quiet", "--no-report")
         return sorted(os.listdir(other + "/run"))

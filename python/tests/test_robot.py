@@ -60,7 +60,7 @@ class Wrong(Refusals):
                 (lambda: hip.__setitem__("x", 1.0), KeyError, "expected one of"),
             ]
         )
-        self.assertEqual(leg.changes, {})  # what was refused is not kept
+        self.assertEqual(leg.changes, {})  # refused changes are not kept
 
 
 if __name__ == "__main__":

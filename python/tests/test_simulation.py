@@ -1,4 +1,4 @@
-"""A run that is held: the same bits however it is cut, copied, pickled, forked or watched."""
+"""A simulation gives the same bits if it is split, copied, pickled, forked or observed."""
 
 import copy
 import multiprocessing
@@ -25,7 +25,7 @@ def values(simulation: sinew.Simulation) -> List[float]:
 
 
 def end_of(saved: bytes) -> List[float]:
-    """In another process."""
+    """Continue a saved simulation in another process."""
     simulation = pickle.loads(saved)
     simulation.advance(1.0)
     return values(simulation)
@@ -165,7 +165,7 @@ class Threads(unittest.TestCase):
         while worker.is_alive():
             try:
                 leg.read("/joint/hip/angle")
-            except RuntimeError:  # it is at it, and this thread goes on
+            except RuntimeError:  # the other thread uses it, and this one continues
                 seen_at_it += 1
         worker.join()
         self.assertGreater(seen_at_it, 10)

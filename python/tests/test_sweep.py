@@ -51,7 +51,7 @@ class Sweep(unittest.TestCase):
             sinew.sweep(WALK, {"seed": range(1, 2000)}, report="trolley.distance_m", progress=tired)
 
     def test_ctrl_c_ends_it(self) -> None:
-        # What is started in the background by a shell ignores Ctrl-C.
+        # A process started in the background by a shell ignores Ctrl-C.
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.addCleanup(signal.signal, signal.SIGINT, before)
         threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()

@@ -1,4 +1,4 @@
-"""The units in which people see numbers."""
+"""Units in which numbers are shown."""
 
 import os
 import unittest
@@ -11,7 +11,7 @@ from common import Refusals
 
 class ShownUnits(Refusals):
     def setUp(self) -> None:
-        # Nobody's own settings are read.
+        # No user's own settings are read.
         patch = mock.patch.dict(os.environ, {"XDG_CONFIG_HOME": os.path.join(os.sep, "nowhere")})
         patch.start()
         self.addCleanup(patch.stop)

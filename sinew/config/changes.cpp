@@ -9,7 +9,7 @@ namespace sinew::config {
 
 namespace {
 
-// Without the indices behind names of lists.
+// Returns the segments of a path without the indices of lists.
 std::vector<std::string> segments(std::string_view path) {
   std::vector<std::string> out(1);
   bool index = false;
@@ -45,8 +45,8 @@ const Kind* Changes::find(std::string_view kind) const {
   return it == kinds.end() ? nullptr : &*it;
 }
 
-// Every format has its first number: no key has been taken away since. A test stand was a kind of
-// its own, before it became a machine of an experiment.
+// All formats are at their first number: no key has been removed yet. A test stand had its own kind
+// before it became part of an experiment.
 const Changes& changes() {
   static const Changes all{.kinds = {{"robot"},
                                      {"actuator"},
@@ -107,7 +107,7 @@ bool matches(std::string_view path, std::string_view pattern) {
 
 const KeyChange* taken_away(std::string_view path, const Changes& changes) {
   for (const KeyChange& change : changes.keys) {
-    // An actuator's file stands below its name.
+    // The keys of an actuator's file are below its name.
     const bool below = change.kind == "actuator";
     const std::string pattern = fmt::format("{}{}", below ? "actuator.*." : "", change.from);
     if (matches(path, pattern)) return &change;
@@ -122,7 +122,7 @@ std::string in_words(const KeyChange& change) {
 }
 
 std::string_view likely_kind(const Node& root) {
-  // The first of these keys that the file has decides: an experiment may have any table of a robot.
+  // The first of these keys in the file decides, as an experiment may have any table of a robot.
   struct Sign {
     std::string_view key, kind;
   };

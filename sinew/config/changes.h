@@ -1,10 +1,9 @@
-// config/changes.h - how the formats of files have changed: which keys were taken away, from which
-// number on, and what stands in their place.
+// config/changes.h - history of the file formats: the keys that were removed, the format that
+// removed them, and their replacements.
 //
-// A file says its format, `format = "sinew.robot/1"`. The number goes up where a file of the old
-// one would mean something else, or nothing any more. What changed is a row here, and this one
-// table is what a reader knows of older files (older ones are read as if they were migrated), what
-// it says of a key that is gone, and what `migrate` does.
+// A file states its format, `format = "sinew.robot/1"`. The number increases if a file of the old
+// format would mean something else or nothing. Each change is a row in this table, which is used to
+// read older files (as if they were migrated), to report removed keys, and by `migrate`.
 #pragma once
 
 #include <string>
@@ -15,62 +14,61 @@
 
 namespace sinew::config {
 
-// A key that is no longer there.
+// Removed key.
 struct KeyChange {
-  std::string_view kind;  // of the file in which it stood: "robot"
-  int format = 2;         // the first number without it
-  std::string_view from;  // dotted, * for any name: "muscle.*.delay"
-  std::string_view
-      to;  // in its table: "opening_delay", "opening.delay"; empty: nothing stands there
-  std::string_view why;  // where nothing does: what to do by hand
+  std::string_view kind;  // kind of file that had it: "robot"
+  int format = 2;         // first format number without it
+  std::string_view from;  // dotted, * is any name: "muscle.*.delay"
+  std::string_view to;    // replacement in its table: "opening_delay", "opening.delay"; empty: none
+  std::string_view why;   // without a replacement: what to do by hand
 };
 
-// A kind of file, and the number of its newest format.
+// Kind of file and the number of its newest format.
 struct Kind {
   std::string_view name;
-  int newest = 1;             // number
-  std::string_view now = {};  // the kind that took its place, at its first number; empty: none
+  int newest = 1;             // newest format number
+  std::string_view now = {};  // kind that replaced it, at that kind's first format; empty: none
 };
 
 struct Changes {
   std::vector<Kind> kinds;
   std::vector<KeyChange> keys;
 
-  // nullptr where there is no such kind.
+  // Returns the kind, or nullptr if it is unknown.
   const Kind* find(std::string_view kind) const;
 };
 
-// Those of this version.
+// Returns the changes of this version.
 const Changes& changes();
 
-// `format = "sinew.robot/1"` in two parts; empty and 0 where it is none.
+// Parts of `format = "sinew.robot/1"`; empty and 0 for another text.
 struct Format {
   std::string_view kind;
   int number = 0;
 };
 Format format_of(std::string_view text);
 
-// The format that a file says. Throws Error where it says none, one that does not exist, or one of
+// Returns the format that a file states. Throws Error if it states none, an unknown one, or one of
 // a newer version.
 Format check_format(const Node& root, const Changes& changes = config::changes());
 
-// Throws Error: the file cannot be read, is not TOML, or is an older one that cannot be migrated.
-// An older one that can be is read as if it were.
+// Parses a file; an older file is read as if it were migrated. Throws Error if the file cannot be
+// read, is not TOML, or cannot be migrated.
 Node parse_file(const std::string& path, const Changes& changes);
 
-// The change that took a key away, as a message of the resolved namespace names it
+// Returns the change that removed a key, given by its path in the resolved namespace
 // ("actuator.bpa.braid.turns", "reported[0].value"); nullptr if none did.
 const KeyChange* taken_away(std::string_view path, const Changes& changes);
 
-// "opening_delay, in its place since sinew.robot/2"; for Problem::try_this.
+// Returns "opening_delay, in its place since sinew.robot/2", for Problem::try_this.
 std::string in_words(const KeyChange& change);
 
-// The kind that a file without a format seems to be, by the keys that only this kind has; empty
-// where they do not tell.
+// Returns the likely kind of a file without a format, found from keys that only this kind has;
+// empty if there are none.
 std::string_view likely_kind(const Node& root);
 
-// Do the segments of a dotted path match those of a pattern? [0] behind a list's name does not
-// count.
+// Returns whether the segments of a dotted path match a pattern. The index after a list's name is
+// ignored.
 bool matches(std::string_view path, std::string_view pattern);
 
 }  // namespace sinew::config

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 const char* const set_origin = "--set";
 
-// --- names of other files ---
+// --- paths of other files ---
 
-// A file named in `entry` is relative to the file in which the entry stands.
+// Returns the path of a file named in `entry`, relative to the file that contains the entry.
 std::string resolved_path(const Node& entry) {
   const fs::path named = entry.text;
   if (named.is_absolute()) return named.lexically_normal().string();
@@ -50,7 +50,7 @@ void check_kind(const Node& root, const Node& entry, const std::string& key,
 
 // --- base ---
 
-// One file with its base merged under it.
+// Returns a file merged over its base.
 Node load(const std::string& path) {
   Node own = parse_file(path);
   check_format(own);
@@ -83,7 +83,7 @@ Node load_named(const Node& entry, const std::string& key, std::string_view kind
 
 // --- the parts of a robot ---
 
-// The table `key` of the root, made where it is missing.
+// Returns the table `key` of the root; creates it if it is missing.
 Node& root_table(Node& root, std::string_view key, const Location& where) {
   if (Node* there = root.find(key)) {
     if (!there->is_table()) fail(there->where, std::string(key), shown(*there), "a table");
@@ -92,7 +92,7 @@ Node& root_table(Node& root, std::string_view key, const Location& where) {
   return root.put(make_table(key, where));
 }
 
-// An actuator file becomes actuator.<name>.
+// Adds an actuator's file as actuator.<name>.
 void put_actuator(Node& root, Node actuator) {
   const Node* name = actuator.find("name");
   actuator.key = name ? name->text : fs::path(actuator.where.file).stem().string();
@@ -106,8 +106,8 @@ void put_actuator(Node& root, Node actuator) {
   all.put(std::move(actuator));
 }
 
-// Valves and wiring have the tables that the namespace has. What the robot says there itself, or a
-// robot that has it for its base, is the last word.
+// Adds the tables of a valves or wiring file. Keys in the robot's own file, or in one with that
+// robot as its base, take precedence.
 void put_tables(Node& root, Node tables) {
   tables.erase("format");
   tables.erase("name");
@@ -134,13 +134,13 @@ void add_valve_timing(Node& root, const Node& entry) {
   low_level.put(make_text("valve_timing", path, entry.where));
 }
 
-// An experiment's also says which stiffness the first joint is asked for.
+// Adds the gains; those of an experiment also set the desired stiffness of the first joint.
 void add_gains(Node& root, const Node& entry) {
   check_file_entry(entry, "files.gains");
   put_gains(root, entry, resolved_path(entry), format_kind(root) == "experiment");
 }
 
-// Takes `files` out of the tree and puts in what it names.
+// Removes `files` from the tree and adds the contents of the files.
 void resolve_files(Node& root) {
   const Node* there = root.find("files");
   if (!there) return;
@@ -167,7 +167,7 @@ void resolve_files(Node& root) {
   }
 }
 
-// A robot calls itself `name`; beside an experiment that is robot_name.
+// Renames the robot's `name` to robot_name, its key in an experiment.
 void rename_robot(Node& robot) {
   if (Node* name = robot.find("name")) name->key = "robot_name";
 }
@@ -185,7 +185,7 @@ Node with_robot(Node root) {
   return robot;
 }
 
-// A file alone takes the place that it has in an experiment.
+// Moves a single file's contents to their place in an experiment.
 Node placed(Node root) {
   const std::string_view kind = format_kind(root);
   if (kind == "robot") rename_robot(root);
@@ -209,7 +209,7 @@ Node set_value(std::string_view key, std::string_view text) {
   if (integer.ptr == last && integer.ec == std::errc{} && number_like) {
     return make_integer(key, whole, set_location());
   }
-  // Whole ones that no integer holds too: a reader says which it takes.
+  // Whole numbers beyond the range of integers as well: the reader checks its type.
   double real = 0;
   const auto number = std::from_chars(text.data(), last, real);
   if (number.ptr == last && number.ec == std::errc{} && number_like) {
@@ -218,7 +218,7 @@ Node set_value(std::string_view key, std::string_view text) {
   return make_text(key, std::string(text), set_location());
 }
 
-// Everything that came with --set says so.
+// Sets the origin of all nodes to --set.
 void mark_as_set(Node& node) {
   node.where = set_location();
   for (Node& child : node.children) mark_as_set(child);
@@ -233,7 +233,7 @@ Node set_node(std::string_view key, std::string_view text) {
   return value;
 }
 
-// The table for the next segment. It may be new, unless its name looks like a slip.
+// Returns the table of the next segment. Creates it unless its name looks like a typing error.
 Node& set_step(Node& table, std::string_view segment, const std::string& key) {
   if (Node* there = table.find(segment)) {
     if (there->is_table()) return *there;
@@ -248,7 +248,7 @@ Node& set_step(Node& table, std::string_view segment, const std::string& key) {
   return table.put(make_table(segment, set_location()));
 }
 
-// "polynomial[1]": one element of a list that is there, in the place of the old one.
+// Replaces an element of an existing list, "polynomial[1]".
 void set_element(Node& table, std::string_view segment, std::string_view text,
                  const std::string& key) {
   const std::size_t bracket = segment.find('[');
@@ -310,7 +310,7 @@ void apply_set(Node& root, std::string_view set) {
 
 Node compose(const std::string& path, const std::vector<std::string>& sets) {
   Node root = load(path);
-  // Another robot must be known before its tables can be set.
+  // Another robot must be loaded before keys in its tables can be set.
   const auto names_robot = [](std::string_view set) {
     return trimmed(set.substr(0, set.find('='))) == "robot";
   };

@@ -1,4 +1,4 @@
-// config/compose.h - several files become the one resolved namespace.
+// config/compose.h - composition of several files into one resolved namespace.
 //
 //   experiment ── base = "other.toml"      merged under the file, one level deep,
 //                                                without its `reported` figures
@@ -8,14 +8,14 @@
 //                   ── files.wiring        wiring.…
 //                   ── files.valve_timing  low_level.valve_timing, an absolute path
 //                   ── files.gains         joint.<name>.angle_gain … (gains.h); an experiment's too
-//              ── --set key=value          last word
+//              ── --set key=value          overrides all others
 //
-// A robot that writes keys of its valves or its wiring itself has them in place of the file's: a
-// robot with a `base` may so change a delay alone.
+// Keys of valves or wiring in the robot's own file override those in the valves or wiring file, so
+// a robot with a `base` may change a single delay.
 //
-// The result holds what `--set` and messages call a key: joint.hip.damping, valve.inlet.area,
-// phase.swing.duration. A name in a file is relative to the file in which it is written. Robot,
-// actuator and valves files compose alone too, and so does a resolved.toml.
+// The result has the keys that `--set` and messages use: joint.hip.damping, valve.inlet.area,
+// phase.swing.duration. A file name is relative to the file that contains it. Robot, actuator and
+// valves files can also be composed alone, as can a resolved.toml.
 #pragma once
 
 #include <string>
@@ -26,21 +26,23 @@
 
 namespace sinew::config {
 
-// Throws Error. Every node keeps the file in which it was written.
+// Composes a file with its base, robot and settings. Every node keeps the file in which it was
+// written. Throws Error.
 Node compose(const std::string& path, const std::vector<std::string>& sets = {});
 
-// "experiment" of format = "sinew.experiment/1"; empty where there is no such key.
+// Returns "experiment" for format = "sinew.experiment/1"; empty if there is no such key.
 std::string_view format_kind(const Node& root);
 
-// Returns whether an experiment describes a test stand: it has an [element], or the older format
+// Returns whether an experiment describes a test stand: it has an [element] or the older format
 // sinew.rig/1.
 bool is_on_stand(const Node& root);
 
-// Returns the kind by its tables: as format_kind(), and "rig" of an experiment on a test stand.
+// Returns the kind found from the tables: format_kind(), or "rig" for an experiment on a test
+// stand.
 std::string_view tables_kind(const Node& root);
 
-// Puts "key=value" into the tree: true, false, numbers, TOML lists and tables, else text. A key
-// that ends with an index, as "phase.swing.y.polynomial[1]", is an element of a list that is there.
+// Sets "key=value" in the tree: true, false, a number, a TOML list or table, else a text. A key
+// with an index at its end, "phase.swing.y.polynomial[1]", sets an element of an existing list.
 void apply_set(Node& root, std::string_view set);
 
 }  // namespace sinew::config

@@ -55,7 +55,7 @@ class Compose : public ::testing::Test {
   fs::path folder_;
 };
 
-// "a.b.c" in a tree.
+// Returns the node "a.b.c" of a tree.
 const Node* at(const Node& root, std::string_view dotted) {
   const std::size_t dot = dotted.find('.');
   const Node* child = root.find(dotted.substr(0, dot));
@@ -66,7 +66,7 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
-// A robot over another one changes a key of a valve, and nothing else of the valves' file.
+// A robot based on another one changes a key of a valve and nothing else in the valves' file.
 TEST_F(Compose, ARobotsOwnKeyOfAValveIsTheLastWord) {
   write("leg/slow.toml",
         "format = \"sinew.robot/1\"\nbase = \"robot.toml\"\n"
@@ -105,7 +105,7 @@ TEST_F(Compose, SeveralActuatorsStandSideBySide) {
   write("leg/two.toml",
         "format = \"sinew.robot/1\"\nfiles = { actuator = [\"actuator.toml\", \"thin.toml\"] }\n");
   const Node root = compose(path("leg/two.toml"));
-  EXPECT_EQ(at(root, "actuator.thin.braid.turns")->integer, 3);  // no name: the file's
+  EXPECT_EQ(at(root, "actuator.thin.braid.turns")->integer, 3);  // named after the file
   write("leg/two.toml",
         "format = \"sinew.robot/1\"\nfiles = { actuator = [\"actuator.toml\", \"actuator.toml\"] "
         "}\n");

@@ -13,9 +13,9 @@ namespace sinew::config {
 namespace {
 
 constexpr std::size_t longest_quote = 60;
-constexpr std::string_view nothing = "nothing";  // is found of a key that is not there
+constexpr std::string_view nothing = "nothing";  // found text for a missing key
 
-// Letters to change, add, drop or swap with their neighbour to get from a to b.
+// Returns the number of letters to change, add, drop or swap with their neighbour to turn a into b.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
   std::iota(last.begin(), last.end(), 0);
@@ -45,7 +45,7 @@ std::string to_text(const Problem& problem) {
   text += missing ? "missing" : "found " + problem.found;
   text += "; expected " + problem.expected;
   if (!problem.try_this.empty()) text += "; try " + problem.try_this;
-  return printable(text, "");  // one line
+  return printable(text, "");  // on one line
 }
 
 std::string to_text(const std::vector<Problem>& problems) {
@@ -74,7 +74,7 @@ void fail(Location where, std::string key, std::string found, std::string expect
 }
 
 std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates) {
-  // A third of the letters may be wrong, but not all of a short word.
+  // Up to a third of the letters may be wrong, but not all letters of a short word.
   const std::size_t limit = std::max<std::size_t>(word.size() / 3, word.size() > 2 ? 1 : 0);
   std::string_view best;
   std::size_t best_distance = limit + 1;
@@ -105,7 +105,7 @@ std::string either(const std::vector<std::string_view>& words) {
 
 std::string in_quotes(std::string_view text) {
   if (text.size() <= longest_quote) return fmt::format("\"{}\"", text);
-  // Do not cut a UTF-8 letter in two.
+  // Does not split a UTF-8 character.
   std::size_t end = longest_quote;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return fmt::format("\"{}…\"", text.substr(0, end));

@@ -1,7 +1,7 @@
-// config/diagnostics.h - all faults of a file, reported at once; and one item of a list by its
+// config/diagnostics.h - faults of a file, reported all at once; and lookup of a list's item by
 // name.
 //
-// A problem reads `file:line:col: key: found …; expected …; try …`, one line each.
+// A problem is printed as `file:line:col: key: found …; expected …; try …`, one line each.
 #pragma once
 
 #include <exception>
@@ -11,34 +11,34 @@
 
 namespace sinew::config {
 
-// Where something stands. line = 0: the place has no lines (a file that is missing, "--set").
+// Place in a file. line = 0: there is no line (a missing file, "--set").
 struct Location {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-// One thing that is wrong with a file or a setting: where, what, and what to do.
+// Fault of a file or a setting: place, description and advice.
 struct Problem {
   Location where;
-  std::string key;  // dotted path in the resolved namespace; empty where there is none
+  std::string key;  // dotted path in the resolved namespace; may be empty
   std::string found;
   std::string expected;
-  std::string try_this;  // empty: nothing to suggest
+  std::string try_this;  // empty: no suggestion
 };
 
 // Returns "file:line:column: key: found …; expected …; try …".
 std::string to_text(const Problem& problem);
 std::string to_text(const std::vector<Problem>& problems);  // one line each
 
-// All problems of one file. what() is their text.
+// Exception with all problems of a file; what() is their text.
 class Error : public std::exception {
  public:
-  // Makes the words of all problems, or of one.
+  // Formats the text of all problems, or of one.
   explicit Error(std::vector<Problem> problems);
   explicit Error(const Problem& problem);
 
-  // Returns each of them; and all of them as one text.
+  // Return the problems as a list, and as one text.
   const std::vector<Problem>& problems() const { return problems_; }
   const char* what() const noexcept override { return text_.c_str(); }
 
@@ -51,14 +51,15 @@ class Error : public std::exception {
 [[noreturn]] void fail(Location where, std::string key, std::string found, std::string expected,
                        std::string try_this = "");
 
-// The candidate most like `word`, empty where none is near enough to be a typing error.
+// Returns the candidate most similar to `word`; empty if no candidate is close enough for a typing
+// error.
 std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates);
 
-// The same in quotes, for Problem::try_this.
+// Returns the result of closest() in quotes, for Problem::try_this.
 std::string closest_in_quotes(std::string_view word,
                               const std::vector<std::string_view>& candidates);
 
-// Of things that have one, for the two above and below.
+// Returns the names of items, for closest() and either().
 template <class Items>
 std::vector<std::string_view> names_of(const Items& items) {
   std::vector<std::string_view> names;
@@ -66,16 +67,16 @@ std::vector<std::string_view> names_of(const Items& items) {
   return names;
 }
 
-// "hip, knee or ankle"
+// Returns "hip, knee or ankle".
 std::string either(const std::vector<std::string_view>& words);
 
-// In double quotes; what is too long for a message is cut.
+// Returns the text in double quotes, shortened if it is too long for a message.
 std::string in_quotes(std::string_view text);
 
-// One of a list by its name; the only one needs no name.
+// Lookup of a list's item by name; a single item needs no name.
 
-// Returns the item of that name, or the only one where the name is "". Throws Error that begins
-// with `where`: a file, a key or an option; `what` is what the items are, "valve".
+// Returns the item with that name, or the only item if the name is "". Throws Error that begins
+// with `where`: a file, a key or an option; `what` is the kind of items, "valve".
 template <class Item>
 const Item& named(const std::vector<Item>& items, const std::string& name, std::string_view where,
                   std::string_view what) {

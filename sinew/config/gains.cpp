@@ -36,7 +36,7 @@ bool parse_row(std::string_view text, GainRow& row, RowProblems& problems) {
   return true;
 }
 
-// "0.035 %/count" with where it stands, as a robot's file would say it.
+// Returns "0.035 %/count" with its place, as in a robot's file.
 Node gain(std::string_view key, double value, std::string_view unit, const Location& where) {
   Node node = make_table(key, where);
   node.put(make_text("value", fmt::format("{} {}", format_number(value), unit), where));

@@ -1,4 +1,4 @@
-// gain.dat: as B.5 prints it, as keys of a robot, and what can be wrong with one.
+// gain.dat as B.5 prints it, as keys of a robot, and with faults.
 #include "sinew/config/gains.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(Gains, SayWhereTheyAreWrong) {
   EXPECT_EQ(message("1,2\n\n1,nan\n").find("gain.dat:3:3: found \"nan\""), 0U);
 }
 
-// A folder with a robot of two joints and an experiment.
+// Folder with a robot of two joints and an experiment.
 class GainFile : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -81,7 +81,7 @@ TEST_F(GainFile, BecomesTheGainsOfTheJointsWithMuscles) {
   EXPECT_EQ(root.find("joint")->find("knee")->find("angle_gain")->where.line, 3);
 }
 
-// What the experiment names replaces what the robot says, with B.1's desired stiffness of joint 1.
+// The experiment's file replaces the robot's, with B.1's desired stiffness of joint 1.
 TEST_F(GainFile, OfAnExperimentGoesBeforeTheRobots) {
   robot("angle_gain = \"1 %/count\"\n", "");
   const std::string path = write(

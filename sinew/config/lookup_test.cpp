@@ -1,4 +1,4 @@
-// A value is found by the key that an error or an origin names it by; items by their names.
+// Lookup of values by the key in an error or an origin, and of items by name.
 #include "sinew/config/node.h"
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@ namespace {
 
 using Path = std::vector<std::string>;
 
-// Reads from left to right, and remembers the table it is in.
+// Scans a TOML text from left to right and keeps track of the current table.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {
@@ -29,7 +29,7 @@ class Scanner {
       } else {
         pair(table);
       }
-      if (at_ == before) ++at_;  // this is no TOML
+      if (at_ == before) ++at_;  // not valid TOML
     }
     return std::move(places_);
   }
@@ -43,7 +43,7 @@ class Scanner {
     return true;
   }
 
-  // Blanks; with `lines` ends of lines and comments too.
+  // Skips blanks, and with `lines` also line ends and comments.
   void skip_blank(bool lines) {
     for (; !over(); ++at_) {
       const char c = text_[at_];
@@ -79,7 +79,7 @@ class Scanner {
     value(path);
   }
 
-  // The segments of a dotted key; each is a place.
+  // Scans a dotted key and adds a place for each segment.
   void keys(Path& path) {
     do {
       skip_blank(false);
@@ -126,7 +126,7 @@ class Scanner {
     while (!over() && text_.substr(at_, 1).find_first_of(",]}#\r\n") == text_.npos) ++at_;
   }
 
-  // "…", '…', and those of several lines.
+  // Skips a string: "…", '…' or a multi-line one.
   void string() {
     const char quote = peek();
     const std::string three(3, quote);
@@ -137,7 +137,7 @@ class Scanner {
         ++at_;
       } else if (many ? text_.substr(at_, 3) == three : text_[at_] == quote) {
         at_ += many ? 3 : 1;
-        while (many && peek() == quote) ++at_;  // """a"""" ends with a quote of its own
+        while (many && peek() == quote) ++at_;  // """a"""" ends with a quote of its text
         return;
       }
     }
@@ -169,9 +169,9 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-// --- a file that does not say its format ---
+// --- file without a format ---
 
-// Its base is of its kind; else its keys tell.
+// Returns the kind of the file's base, or else the one that its keys suggest.
 std::string kind_without_format(const Node& root) {
   const Node* base = root.find("base");
   if (base && base->kind == Node::Kind::text) {
@@ -188,7 +188,7 @@ std::string kind_without_format(const Node& root) {
   return std::string(likely_kind(root));
 }
 
-// Behind the comments with which a file begins, as files of ours have it.
+// Returns the position after the comments at the start of the file, as in Sinew's own files.
 std::size_t place_of_format(std::string_view text) {
   std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   while (at < text.size()) {
@@ -208,7 +208,7 @@ void add_format(const std::string& kind, Migrated& out) {
   out.text.insert(at, line + (dos ? "\r\n" : "\n"));
 }
 
-// --- from a number to the next ---
+// --- from one format number to the next ---
 
 std::vector<const KeyChange*> changes_to(int number, std::string_view kind, const Changes& all) {
   std::vector<const KeyChange*> out;
@@ -217,7 +217,7 @@ std::vector<const KeyChange*> changes_to(int number, std::string_view kind, cons
   return out;
 }
 
-// The path with `to` in the place of its last segment.
+// Returns the path with its last segment replaced by `to`.
 std::string beside(const std::vector<std::string>& path, std::string_view to) {
   const std::string table = dotted({path.begin(), path.end() - 1});
   return fmt::format("{}{}{}", table, table.empty() ? "" : ".", to);
@@ -234,12 +234,12 @@ void complain(const KeyPlace& place, std::string_view text, const std::string& n
                       std::move(try_this)});
 }
 
-// Puts what one change says into the text. Lines stay as many as they were.
+// Applies a change to the text. The number of lines stays the same.
 void apply(const KeyChange& change, const std::string& name, Migrated& out, Problems& problems) {
   const std::vector<KeyPlace> places = key_places(out.text);
   std::set<std::string> mentioned;
   for (const KeyPlace& place : places) mentioned.insert(dotted(place.path));
-  // From the end on, so that places stay true.
+  // Edits from the end, so that earlier positions remain valid.
   std::vector<Migrated::Edit> edits;
   for (std::size_t i = places.size(); i-- > 0;) {
     const KeyPlace& place = places[i];
@@ -261,7 +261,7 @@ void apply(const KeyChange& change, const std::string& name, Migrated& out, Prob
   out.edits.insert(out.edits.end(), edits.rbegin(), edits.rend());
 }
 
-// Writes the format that `out` has by its kind and number.
+// Writes the format given by the kind and number in `out`.
 void set_format(Migrated& out) {
   for (const KeyPlace& place : key_places(out.text)) {
     if (dotted(place.path) != "format") continue;
@@ -274,9 +274,9 @@ void set_format(Migrated& out) {
   }
 }
 
-// --- is it the same file? ---
+// --- check of the result ---
 
-// All values by their keys, and how they are written. What is in a list has the list's key.
+// Lists all values with their keys, as written. Elements of a list have the list's key.
 void list_values(const Node& node, const std::string& path,
                  std::vector<std::pair<std::string, std::string>>& out) {
   if (node.kind != Node::Kind::table && node.kind != Node::Kind::array)
@@ -304,7 +304,7 @@ std::string under_new_name(std::string path, const std::vector<Migrated::Edit>& 
   return path;
 }
 
-// Throws Error where a value was lost or changed: better no file than another one.
+// Throws Error if a value was lost or changed: no file is better than a wrong one.
 void require_same_values(std::string_view old_text, const std::string& name, const Migrated& out) {
   auto expected = values_of(old_text, name);
   for (auto& [path, value] : expected) path = under_new_name(std::move(path), out.edits);

@@ -1,5 +1,5 @@
-// config/migrate.h - the text of an older file in the format of today. What is not said otherwise
-// today stays as it is, to the byte: comments, blanks, order, ends of lines.
+// config/migrate.h - conversion of a file's text to the current format. Everything that the format
+// does not change is kept to the byte: comments, blanks, order, line ends.
 #pragma once
 
 #include <cstddef>
@@ -11,43 +11,44 @@
 
 namespace sinew::config {
 
-// A file in today's format, and what became of its lines.
+// Text in the current format, and the changed lines.
 struct Migrated {
   std::string text;
-  std::string was_kind;  // "robot", by the old format
-  std::string kind;      // by the new one
-  int from = 0, to = 0;  // number of its format; from 0: it did not say one
-  // One line that reads otherwise.
+  std::string was_kind;  // kind in the old format: "robot"
+  std::string kind;      // kind in the new format
+  int from = 0, to = 0;  // old and new format number; from 0: none was stated
+  // Changed line.
   struct Edit {
-    int line = 0;  // of the old text
+    int line = 0;  // in the old text
     std::string was, is;
   };
-  std::vector<Edit> edits;  // none: the text is what it was
+  std::vector<Edit> edits;  // empty: the text is unchanged
 };
 
-// `name` is the file's, for messages and for the `base` that tells the kind of a file which does
-// not. Throws Error: no TOML, an unknown format or one that is newer than this version, a file that
-// does not tell what it is, and all that only a person can decide.
+// Migrates a text. `name` is the file's, used in messages and to find its `base`, which determines
+// the kind of a file without a format. Throws Error if the text is not TOML, if its format is
+// unknown or newer than this version, if its kind cannot be found, and for changes to be decided by
+// the user.
 Migrated migrated(std::string_view text, const std::string& name,
                   const Changes& changes = config::changes());
 
-// Where the keys of a TOML text stand in it, to the byte, so that one can be
-// written otherwise and all else stays: comments, blanks, order, ends of lines.
+// Positions of keys in a TOML text, in bytes, so that one key can be changed and everything else is
+// kept: comments, blanks, order, line ends.
 
-// One mention of a key: in `key = value`, in a dotted key, in the header of a table. A table that
-// is mentioned in three headers has three.
+// Occurrence of a key: in `key = value`, in a dotted key, or in the header of a table. A table in
+// three headers has three.
 struct KeyPlace {
-  std::vector<std::string> path;   // from the root; lists have no index
-  std::size_t begin = 0, end = 0;  // of its own segment, quotes included  [bytes]
+  std::vector<std::string> path;   // segments from the root; without indices of lists
+  std::size_t begin = 0, end = 0;  // range of its own segment, with quotes  [bytes]
   int line = 1;
-  std::size_t value = 0;  // where its value begins; 0: it is a header's or a table's
+  std::size_t value = 0;  // start of its value; 0: it is in a header or a table's name
 };
 
-// In order of appearance. The text is TOML that the parser took: of another one the places mean
-// nothing.
+// Returns the occurrences in their order. The text must be valid TOML, else the positions have no
+// meaning.
 std::vector<KeyPlace> key_places(std::string_view text);
 
-// "joint.hip.damping".
+// Returns the path as "joint.hip.damping".
 std::string dotted(const std::vector<std::string>& path);
 
 }  // namespace sinew::config

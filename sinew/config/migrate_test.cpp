@@ -1,5 +1,5 @@
-// Older files in today's format. The product's formats stand at their first numbers, so the tests
-// have a history of their own: robots that came to number 3.
+// Migration of older files. The product's formats are at their first numbers, so the tests have a
+// history of their own, in which robots have number 3.
 #include "sinew/config/migrate.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +122,7 @@ TEST(Migrate, EndsOfLinesAndAMarkAtTheBeginningStay) {
       mark + "# one\r\n# two\r\nformat = \"sinew.valves/1\"\r\n[valve.a]\r\nkind = \"2-way\"");
 }
 
-// Whoever reads an older file reads what it would have been migrated to.
+// An older file is read like the migrated one.
 TEST(Migrate, AnOlderFileIsReadAsIfItWere) {
   const fs::path file = fs::temp_directory_path() / "sinew-migrate-test.toml";
   std::ofstream(file, std::ios::binary) << old_robot;
@@ -134,7 +134,7 @@ TEST(Migrate, AnOlderFileIsReadAsIfItWere) {
   EXPECT_EQ(flexor.find("opening")->where.line, 5);
 }
 
-// Who writes an old key into a file of today is told the one in its place.
+// An old key in a file of the current format is refused, and its replacement is suggested.
 TEST(Migrate, AReaderNamesTheKeyInPlaceOfOneThatIsGone) {
   const Node root = parse_text(
       "format = \"sinew.robot/3\"\ngravity = 3\n[muscle.a]\ndelay = 1\n[actuator.bpa]\nbraid.angle "
@@ -198,7 +198,7 @@ TEST(Migrate, SaysWhatItCannotDo) {
         << text << "\nsaid: " << message(text);
 }
 
-// --- every file that is shipped ---
+// --- all shipped files ---
 
 std::vector<fs::path> shipped() {
   std::vector<fs::path> files;
@@ -245,7 +245,7 @@ TEST(Migrate, EveryShippedFileIsOfToday) {
   }
 }
 
-// Its keys, or its base, tell the kind of a file that does not say it.
+// Keys or the base determine the kind of a file without a format.
 TEST(Migrate, FindsTheFormatOfEveryShippedFile) {
   for (const fs::path& file : shipped()) {
     const std::string text = read_text_file(file.string(), "TOML");

@@ -35,13 +35,13 @@ Node make(Node::Kind kind, std::string_view key, Location where) {
   return node;
 }
 
-// The value itself, of { value = …, source = … }.
+// Returns the value itself of { value = …, source = … }.
 const Node& value_of(const Node& node) {
   return node.is_value_table() ? *node.find("value") : node;
 }
 Node& value_of(Node& node) { return const_cast<Node&>(value_of(std::as_const(node))); }
 
-// Keeps the text that a new value replaces, item by item: a message may ask in which unit it was.
+// Keeps the replaced text for each item, as messages may suggest its unit.
 void remember(Node& now, const Node& before) {
   if (before.is_table()) return;
   if (now.kind == Node::Kind::array && before.kind == Node::Kind::array && !before.children.empty())

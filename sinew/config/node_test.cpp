@@ -1,4 +1,4 @@
-// TOML text to our tree, and the text of messages.
+// Conversion of TOML text to the tree, and texts of messages.
 #include "sinew/config/node.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(Node, MergingGoesIntoTablesAndReplacesValues) {
   merge(base, parse_text("[t]\nb = { value = \"2 m\" }\nc = 3\n", "own.toml"));
   const Node& t = *base.find("t");
   EXPECT_EQ(keys_of(t), (std::vector<std::string_view>{"a", "b", "c"}));
-  EXPECT_EQ(t.find("b")->find("source"), nullptr);  // the old source does not vouch for 2 m
+  EXPECT_EQ(t.find("b")->find("source"), nullptr);  // the old source does not apply to 2 m
   EXPECT_EQ(t.find("b")->where.file, "own.toml");
 }
 
@@ -95,8 +95,8 @@ TEST(Diagnostics, AProblemIsOneLine) {
   EXPECT_EQ(to_text(std::vector{problem, problem}), to_text(problem) + "\n" + to_text(problem));
 }
 
-// A file, or its name, may hold what moves a terminal's cursor, turns the direction of writing or
-// is not UTF-8.
+// A file or its name may contain control characters of a terminal, bidirectional characters
+// or bytes that are not UTF-8.
 TEST(Diagnostics, BytesThatAreNoTextAreShownAsNumbers) {
   const Problem problem{{"a.toml", 1, 1}, "x", in_quotes("1\n2\x1b[31m\x7f"), "a number"};
   EXPECT_EQ(to_text(problem), "a.toml:1:1: x: found \"1\\x0A2\\x1B[31m\\x7F\"; expected a number");

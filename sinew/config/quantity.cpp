@@ -21,13 +21,12 @@ namespace sinew::config {
 
 namespace {
 
-constexpr int people_digits = 15;  // what a double keeps of any decimal number
+constexpr int people_digits = 15;  // precision that a double keeps of any decimal number
 
-// Any double has a text of 14 digits in one of a hundred units; a text that somebody wrote has
-// fewer.
+// Any double has a text of 14 digits in one of a hundred units; a text that a user wrote has fewer.
 constexpr int digits_somebody_wrote = 10;
 
-// A word of SI, and what people write in its place.
+// SI unit and its usual alternatives.
 struct Words {
   std::string_view si;
   std::initializer_list<std::string_view> others;
@@ -41,14 +40,14 @@ int digits_of_text(std::string_view number) {
       std::ranges::count_if(mantissa.substr(first), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-// The units in which a quantity of that one is written, shown, or both.
+// Returns other units in which the quantity is usually written or shown.
 std::vector<std::string> other_units(std::string_view unit) {
   if (unit == "1") return {"%"};
   std::vector<std::string> out = usual_units(unit);
   const std::string_view held = unit == "Pa abs" ? "Pa" : unit;
   for (const units::UnitSet set : {units::UnitSet::thesis, units::UnitSet::metric}) {
     std::string shown = units::ShownUnits(set).of(held).name;
-    // A gauge's number depends on the room.
+    // A gauge pressure depends on the atmosphere.
     if (shown.ends_with(" gauge")) shown.replace(shown.size() - 5, 5, "abs");
     out.push_back(std::move(shown));
   }
@@ -57,7 +56,7 @@ std::vector<std::string> other_units(std::string_view unit) {
   return out;
 }
 
-// The words for one of a unit's, "m2": itself first, then "mm2", "cm2" and so on.
+// Returns alternatives for one word of a unit: for "m2" itself first, then "mm2", "cm2" and so on.
 std::vector<std::string> words_for(std::string_view word) {
   static const std::initializer_list<Words> all = {{"m", {"mm", "cm", "in", "ft"}},
                                                    {"kg", {"g", "mg", "lb"}},
@@ -79,7 +78,7 @@ std::vector<std::string> words_for(std::string_view word) {
   return out;
 }
 
-// Every unit that differs from that one in some of its words: "kg mm2", "g m2", "g mm2" and so on.
+// Returns all units with some words replaced by alternatives: "kg mm2", "g m2", "g mm2" and so on.
 std::vector<std::string> mixed_units(std::string_view unit) {
   std::vector<std::string> out{""};
   for (std::size_t at = 0; at < unit.size();) {
@@ -97,13 +96,13 @@ std::vector<std::string> mixed_units(std::string_view unit) {
   return out;
 }
 
-// The shortest text so far, and how many digits it has.
+// Shortest text so far, and its number of digits.
 struct Shortest {
   std::string text;
   int digits;
 };
 
-// Takes the text in another unit where it is shorter and reads back to the same bits.
+// Takes the text in another unit if it is shorter and reads back to the same bits.
 void try_unit(double si, std::string_view unit, const std::string& other, Shortest& best) {
   const std::string number = fmt::format("{:.{}g}", convert(si, unit, other), people_digits);
   const int digits = digits_of_text(number);
@@ -161,7 +160,7 @@ namespace {
 
 using units::Dimension;
 
-// What a pressure is measured against.
+// Reference of a pressure.
 enum class Reference { none, absolute, gauge, difference };
 
 struct FullUnit {
@@ -181,12 +180,13 @@ FullUnit split_unit(std::string_view text) {
   if (full.reference != Reference::none) {
     full.text = trimmed(space == text.npos ? std::string_view{} : text.substr(0, space));
   }
-  // An empty text is a plain number.
+  // Empty text is a plain number.
   full.reading = units::read_unit(full.text.empty() ? "1" : full.text);
   return full;
 }
 
-// A field's own unit comes from our source code: a wrong one is a bug, not a user's mistake.
+// Parses a field's own unit, which is in the source code: a wrong one is a bug, not a user's
+// mistake.
 FullUnit field_unit(std::string_view text) {
   const FullUnit full = split_unit(text);
   if (!full.reading.ok) throw std::logic_error(fmt::format("a field has the unit \"{}\"", text));
@@ -225,8 +225,8 @@ std::string describe_dimension(Dimension dimension) {
   return fmt::format("{} ({})", name->unit, name->word);
 }
 
-// The units in which a quantity of that SI unit is usually written, and which sizes it has in
-// robots such as these, in SI: of a bare 164 for a length only 164 mm is meant.
+// Usual units of a quantity, and its plausible range in a robot, in SI: a bare 164 for a length can
+// only be 164 mm.
 struct UsualUnits {
   std::string_view si;
   std::initializer_list<std::string_view> units;
@@ -247,7 +247,7 @@ std::span<const UsualUnits> kinds_of_units() {
   return kinds;
 }
 
-// " gauge" of "Pa gauge"; empty for most units.
+// Returns " gauge" of "Pa gauge"; empty for most units.
 std::string_view reference_of(std::string_view unit) {
   for (const std::string_view word : {" gauge", " abs", " diff"})
     if (unit.ends_with(word)) return unit.substr(unit.size() - word.size());
@@ -260,7 +260,7 @@ const UsualUnits* kind_of_unit(std::string_view unit) {
   return at == kinds_of_units().end() ? nullptr : &*at;
 }
 
-// The unit of the thesis for a word of a longer unit's; per radian stays per radian.
+// Returns the thesis's unit for one word of a longer unit; per radian stays per radian.
 std::string_view usual_word(std::string_view word) {
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"m", "in"}, {"m2", "in2"}, {"m3", "in3"}, {"kg", "lb"}, {"N", "lbf"}, {"Pa", "psi"}};
@@ -307,7 +307,7 @@ const char* const number_range = "a number from 1e-307 to 1e308, or 0";
 
 struct NumberAndRest {
   double number = 0;
-  std::string_view rest;  // the unit's text
+  std::string_view rest;  // text of the unit
   std::errc error{};
 };
 
@@ -322,7 +322,7 @@ NumberAndRest split_number(std::string_view text) {
   return result;
 }
 
-// "3,15 in": the comma stands where the number ended.
+// Returns advice for "3,15 in", a comma at the end of the number.
 std::string comma_hint(std::string_view text, std::string_view rest) {
   const bool comma = rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9';
   if (!comma) return {};
@@ -336,7 +336,7 @@ std::string comma_hint(std::string_view text, std::string_view rest) {
   return fmt::format("{}; or \"{}\", if it parts the thousands", point, without);
 }
 
-// "psi gauge" for "psig": a unit that is one in other people's spelling.
+// Returns "psi gauge" for "psig", a unit in another spelling.
 std::string spelling_hint(const FullUnit& found) {
   const std::vector<Spelling> meant = spellings(found.text);
   if (meant.empty()) return {};
@@ -425,8 +425,8 @@ std::vector<std::string> usual_units(std::string_view unit) {
 
 namespace {
 
-// Usual units in which the number has a size that is plausible; all where it has none in any. A
-// pressure without its reference may be either.
+// Returns the usual units in which the number is plausible; all of them if it is plausible in none.
+// A pressure without a reference may be gauge or absolute.
 std::vector<std::string> plausible_units(double number, std::string_view unit) {
   std::vector<std::string> all;
   for (const std::string& one : usual_units(unit)) {
@@ -495,7 +495,7 @@ double quantity(std::string_view text, std::string_view unit, std::string_view k
 
 std::string format_number(double value) {
   char buffer[64];
-  // 100000 rather than 1e+05, as long as the zeros can be counted.
+  // Writes 100000 rather than 1e+05, as long as the zeros can be counted.
   const double size = std::abs(value);
   const bool plain = size == 0 || (size >= 1e-5 && size < 1e9);
   const auto result =

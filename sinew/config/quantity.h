@@ -1,8 +1,8 @@
-// config/quantity.h - "62 psi gauge": a number with its unit, between text and SI.
+// config/quantity.h - conversion of quantities, "62 psi gauge", between text and SI.
 //
-// A field says what it wants in SI: "m", "N m/rad", "1" for a plain number, and for a pressure
-// "Pa abs", "Pa gauge" or "Pa diff". Text for a pressure must say the same word; gauge and absolute
-// are converted into each other with the atmosphere, a difference stands alone.
+// A field's unit is in SI: "m", "N m/rad", "1" for a plain number, and for a pressure "Pa abs", "Pa
+// gauge" or "Pa diff". A pressure's text must have a reference as well; gauge and absolute
+// pressures are converted into each other with the atmosphere, a difference is not.
 #pragma once
 
 #include <optional>
@@ -15,81 +15,83 @@
 
 namespace sinew::config {
 
-// The text without blanks and tabs at its ends.
+// Returns the text without blanks and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
-// Why a text is not the wanted quantity; the parts of a Problem that the text decides.
+// Reason why a text is not the expected quantity; becomes part of a Problem.
 struct Mistake {
   std::string found;
   std::string expected;
   std::string try_this;
 };
 
-// A quantity in SI, or why the text is none.
+// Quantity in SI, or the reason why the text is not a quantity.
 struct Parsed {
   double si = 0;
   std::optional<Mistake> mistake;
 };
 
-// `unit` is a field's unit. A bare number is right for "1" only. `before` is the text that stood in
-// its place, where there was one: what lacks a unit was likely meant in that one's.
+// Parses a quantity in a field's unit. A number without a unit is valid only for "1". `before` is
+// the text that was replaced, if any: its unit is suggested if the new text lacks one.
 Parsed parse_quantity(std::string_view text, std::string_view unit,
                       double atmosphere = units::atmosphere, std::string_view before = {});
 
-// The same for callers without a file: throws Error, which calls the text `key`.
+// Parses a quantity without a file; throws Error, in which the text is called `key`.
 double quantity(std::string_view text, std::string_view unit, std::string_view key = "",
                 double atmosphere = units::atmosphere);
 
-// The mistake of a bare number where a unit is needed: "3.15" for "m". Proposes the unit of
-// `before`, or else those usual ones in which such a robot may have the number: "164 mm" for 164.
+// Returns the mistake of a number without a unit: "3.15" for "m". Suggests the unit of `before`, or
+// else the usual units in which the number is plausible for a robot: "164 mm" for 164.
 Mistake missing_unit(std::string_view number, std::string_view unit, std::string_view before = {});
 
-// Units in which people write a quantity of the field's unit, that one included: {"m", "mm", "in"}
-// for "m", {"%/count", "1/count"} for "1/count".
+// Returns the usual units of a quantity, including the field's own: {"m", "mm", "in"} for "m",
+// {"%/count", "1/count"} for "1/count".
 std::vector<std::string> usual_units(std::string_view unit);
 
-// Shortest text that reads back to the same double: "0.08001 m", "0.55" for unit "1".
+// Returns the shortest text that reads back to the same double: "0.08001 m", "0.55" for unit "1".
 std::string format_quantity(double si, std::string_view unit);
 
-// For people: in another unit of the same dimension, rounded: "3.15 in", "62 psi gauge".
+// Formats a quantity rounded, in another unit of the same dimension: "3.15 in", "62 psi gauge".
 std::string format_quantity(double si, std::string_view unit, std::string_view display,
                             int significant_digits = 6, double atmosphere = units::atmosphere);
 
-// The number alone, in `display`.
+// Returns the number in the unit `display`.
 double convert(double si, std::string_view unit, std::string_view display,
                double atmosphere = units::atmosphere);
 
-std::string format_number(double value);  // shortest that brings back the same bits
+std::string format_number(double value);  // shortest with the same bits
 
-// Unit of the k-th coefficient of a polynomial: ("1", "Pa", 2) -> "1/Pa2", ("m", "m", 2) -> "1/m".
+// Returns the unit of a polynomial's coefficient k: ("1", "Pa", 2) -> "1/Pa2", ("m", "m", 2) ->
+// "1/m".
 std::string coefficient_unit(std::string_view unit, std::string_view per, int k);
 
-// Unit of a difference between two such quantities: "Pa abs" -> "Pa diff".
+// Returns the unit of a difference of two such quantities: "Pa abs" -> "Pa diff".
 std::string_view difference_unit(std::string_view unit);
 
-// "Pa abs" -> "Pa abs (pressure)", "N m/rad" -> "N m/rad (joint stiffness)", "1" -> "a number".
+// Returns the unit with its dimension: "Pa abs" -> "Pa abs (pressure)", "N m/rad" -> "N m/rad
+// (joint stiffness)", "1" -> "a number".
 std::string describe_unit(std::string_view unit);
 std::string describe_finite(std::string_view unit);  // "a finite number of m (length)"
 
-// Quantities without the digits that reading left behind.
+// Quantities without digits that are caused by conversion.
 //
 //   "0.035 %/count" is 0.00035000000000000005 1/count: the nearest double to 0.035, divided by 100,
-//   is not the nearest one to 0.00035. Nobody wrote those digits, yet they are the bits.
+//   is not the nearest one to 0.00035. These digits were never written, but the bits have them.
 
-// Returns the shortest text that reads back to the same bits: in SI, or where that takes sixteen
-// digits or more in one of the units in which people write such a quantity: "0.035 %/count". It
-// follows from the bits alone, so equal values have equal texts.
+// Returns the shortest text that reads back to the same bits: in SI or, if that takes sixteen
+// digits or more, in a usual unit of such a quantity: "0.035 %/count". It depends only on the bits,
+// so equal values have equal texts.
 std::string short_quantity(double si, std::string_view unit);
 
-// Returns SI for people, with fifteen digits at most: "0.00035 1/count".
+// Returns the quantity in SI for display, with at most fifteen digits: "0.00035 1/count".
 std::string rounded_quantity(double si, std::string_view unit);
 
-// Returns a quantity for a message, in the unit that somebody wrote: of `written`, "80 mm", or
-// where that is none of the kind, in `otherwise`. Gauges count from the `room` [Pa].
+// Returns a quantity for a message, in the unit of the text `written`, "80 mm", or in `otherwise`
+// if that is a unit of another kind. Gauge pressures refer to `room` [Pa].
 std::string quantity_like(std::string_view written, double si, std::string_view unit,
                           std::string_view otherwise, double room = units::atmosphere);
 
-// The same, in the unit of the value at that path.
+// Returns a quantity for a message, in the unit of the value at that path.
 std::string quantity_like(const Origins& origins, std::string_view path, double si,
                           std::string_view unit, std::string_view otherwise,
                           double room = units::atmosphere);

@@ -1,4 +1,4 @@
-// Text to SI and back, and what the messages say when it does not work.
+// Conversion from text to SI and back, and the messages if it fails.
 #include "sinew/config/quantity.h"
 
 #include <gtest/gtest.h>
@@ -94,8 +94,8 @@ TEST(Quantity, OtherMistakesSayWhatToDo) {
   EXPECT_NE(message("3 s", "1").find("expected a number"), std::string::npos);
 }
 
-// What a hint proposes is read, and what stood there decides its unit: 0.07 behind 0.035 %/count is
-// no 0.07 1/count, which is a hundred times as much.
+// A suggestion is valid, and the replaced text decides its unit: 0.07 in place of 0.035 %/count is
+// not 0.07 1/count, which is a hundred times as much.
 TEST(Quantity, TheUnitThatIsProposedIsTheOneThatWasMeant) {
   const auto hint = [](const char* unit, const char* before) {
     return parse_quantity("0.07", unit, units::atmosphere, before).mistake->try_this;
@@ -108,7 +108,7 @@ TEST(Quantity, TheUnitThatIsProposedIsTheOneThatWasMeant) {
   EXPECT_EQ(hint("m", "not set"), "\"0.07 m\"");
 }
 
-// A robot with muscles has no part of 164 m, nor of 164 in.
+// A robot with muscles has no part of 164 m or 164 in.
 TEST(Quantity, UnitsAreProposedInWhichTheNumberIsPlausible) {
   const auto hint = [](const char* number, const char* unit) {
     return parse_quantity(number, unit).mistake->try_this;
@@ -125,7 +125,7 @@ TEST(Quantity, UnitsAreProposedInWhichTheNumberIsPlausible) {
   EXPECT_EQ(hint("110", "m3"), "\"110 mL\" or \"110 in3\"");
   EXPECT_EQ(hint("90", "rad"), "\"90 deg\"");
   EXPECT_EQ(hint("300", "s"), "\"300 s\" or \"300 ms\"");
-  // No unit is plausible: all are proposed.
+  // No unit is plausible: all are suggested.
   EXPECT_EQ(hint("1e5", "m"), "\"1e5 m\" or \"1e5 mm\" or \"1e5 in\"");
 }
 

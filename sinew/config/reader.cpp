@@ -18,7 +18,7 @@ namespace sinew::config {
 
 namespace {
 
-// --- the words of a field in messages: its default, and the values that it may have ---
+// --- texts for messages: defaults and allowed values ---
 
 std::string bounds_text(const units::Field& field) {
   const std::string low = format_quantity(field.min, field.unit);
@@ -28,8 +28,7 @@ std::string bounds_text(const units::Field& field) {
   return fmt::format("{} to {}", low, high);
 }
 
-// A default as it would be written. A number that is none stands for a key without a value of its
-// own: "not set".
+// Returns a default as it would be written. A default that is not finite is "not set".
 std::string default_text(double value, std::string_view unit) {
   return std::isfinite(value) ? format_quantity(value, unit) : "not set";
 }
@@ -40,8 +39,7 @@ std::string joined(const std::vector<double>& values, std::string_view unit) {
   return text;
 }
 
-// Says what a number has to be, with the ends that the field itself has: "m (length), at least 0
-// m".
+// Returns the description of a number with the field's limits: "m (length), at least 0 m".
 std::string number_text(const units::Field& field) {
   std::string text = describe_unit(field.unit);
   if (field.min != -units::unbounded || field.max != units::unbounded)
@@ -49,7 +47,7 @@ std::string number_text(const units::Field& field) {
   return text;
 }
 
-// Says it for a whole number: "a whole number, 1 to 8".
+// Returns the description of a whole number: "a whole number, 1 to 8".
 std::string whole_text(const units::Field& field) {
   const bool low = field.min != -units::unbounded, high = field.max != units::unbounded;
   if (low && high) return fmt::format("a whole number, {:.0f} to {:.0f}", field.min, field.max);
@@ -57,20 +55,19 @@ std::string whole_text(const units::Field& field) {
   return high ? fmt::format("a whole number, at most {:.0f}", field.max) : "a whole number";
 }
 
-// The words of a choice: `"raises angle" or "lowers angle"`.
+// Returns the words of a choice: `"raises angle" or "lowers angle"`.
 std::string words_text(const std::vector<std::string_view>& words) {
   std::vector<std::string> quoted;
   for (const std::string_view word : words) quoted.push_back(in_quotes(word));
   return either({quoted.begin(), quoted.end()});
 }
 
-// "0 m to 1 m: a foot is no longer"; the text alone where there is no reason.
+// Returns "0 m to 1 m: a foot is no longer"; only the text if there is no reason.
 std::string with_reason(std::string text, std::string_view why) {
   return why.empty() ? text : fmt::format("{}: {}", text, why);
 }
 
-// Returns the range that the value breaks, the field's own or else its unit's; empty if it breaks
-// none.
+// Returns the range that the value violates, the field's own or its unit's; empty if none.
 std::string out_of_bounds(const units::Field& field, double value) {
   if (!(value >= field.min && value <= field.max)) {
     return with_reason(bounds_text(field), field.why);
@@ -161,7 +158,7 @@ void Reader::integer(const Field& field, int& value) {
   const double high = std::min<double>(field.max, Limits::max());
   const bool whole = node.kind == Node::Kind::integer;
   const double found = whole ? static_cast<double>(node.integer) : node.real;
-  // The parser gives a whole number that no integer holds as a real number.
+  // The parser returns a whole number beyond the range of integers as a real number.
   const bool inside = found >= low && found <= high;
   const bool beyond = node.kind == Node::Kind::real && found == std::floor(found) && !inside;
   if (beyond || (whole && !inside)) {
@@ -231,7 +228,7 @@ std::optional<std::size_t> Reader::pick(const Field& field,
   return index;
 }
 
-// --- what a value must be ---
+// --- checks of a value ---
 
 bool Reader::expect_kind(const Node& node, Node::Kind kind, const std::string& path) {
   if (node.kind == kind) return true;
@@ -279,7 +276,7 @@ bool Reader::in_bounds(const Field& field, double value, const Node& node,
   return false;
 }
 
-// --- from a field to its node, and what is known about it ---
+// --- node and provenance of a field ---
 
 std::string Reader::path_of(std::string_view key) const {
   const std::string& path = scopes_.back().path;
@@ -344,7 +341,7 @@ void Reader::enter(const Node& table, const std::string& path) {
   scopes_.push_back(std::move(scope));
 }
 
-// The tables in a table of named tables, or in a list.
+// Returns the tables in a table of named tables, or in a list.
 std::vector<const Node*> Reader::tables_in(const Node& container) {
   std::vector<const Node*> tables;
   for (const Node& child : container.children) {
@@ -358,7 +355,7 @@ std::vector<const Node*> Reader::tables_in(const Node& container) {
   return tables;
 }
 
-// --- the end ---
+// --- unused keys ---
 
 void Reader::refuse_unused(const Node& child, const std::string& path,
                            const std::vector<std::string_view>& known) {
@@ -419,7 +416,7 @@ void Reader::add_problem(const Node& at, std::string path, std::string found, st
       {at.where, std::move(path), std::move(found), std::move(expected), std::move(try_this)});
 }
 
-// --- what a reader finds with a value: source, fit, guess, range, uncertainty ---
+// --- provenance of a value: source, fit, guess, range, uncertainty ---
 
 const Origin* find_origin(const Origins& origins, std::string_view path) {
   const auto it = std::find_if(origins.begin(), origins.end(),
@@ -456,7 +453,7 @@ void Reader::read_value_table(const Node& table, Entry& entry) {
   }
 }
 
-// The value's own words first, then those of the tables around it.
+// The value's own provenance takes precedence over that of the enclosing tables.
 void Reader::add_provenance(const Node& table, Entry& entry) {
   const Scope& scope = scopes_.back();
   Origin& origin = entry.origin;
@@ -466,7 +463,8 @@ void Reader::add_provenance(const Node& table, Entry& entry) {
   const Node* guess = own_table ? described(table, "guess") : nullptr;
   const bool silent = !source && !fit && !guess;
 
-  // The tables around speak for their own file only: --set and a derived file speak for themselves.
+  // Enclosing tables apply only to values of the same file, not to those of --set or a derived
+  // file.
   const auto covering = [&table](const Node* node) {
     return node && node->where.file == table.where.file ? node : nullptr;
   };
@@ -498,13 +496,14 @@ void Reader::check_source(const Origin& origin) {
                   fmt::format("{{ value = {}, source = \"…\" }}", in_quotes(origin.text))});
 }
 
-// The range the file itself gives: information for fitting, and a warning where the value left it.
+// Reads the range given in the file: information for fitting, and a warning if the value is
+// outside.
 void Reader::read_range(const Field& field, Entry& entry, double value) {
   if (!entry.range) return;
   const auto& ends = entry.range->children;
   std::array<double, 2> range{};
   for (std::size_t i = 0; i < 2 && ends.size() == 2; ++i) {
-    // A table's range covers only what has its unit.
+    // A table's range applies only to quantities with its unit.
     const Parsed quiet = parse_quantity(written(ends[i]), field.unit, options_.atmosphere);
     if (quiet.mistake && !entry.own_range) return;
     const auto end = si_of(ends[i], field.unit, entry.origin.path + ".range");

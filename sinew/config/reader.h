@@ -1,15 +1,15 @@
-// config/reader.h - the visitor that fills structs from a tree.
+// config/reader.h - visitor that reads structs from a tree.
 //
 //   config::Node root = config::compose(path, sets);
 //   config::Reader reader(root);
-//   fields(reader, robot);       // any number of structs read from the one namespace
+//   fields(reader, robot);       // any number of structs from one namespace
 //   fields(reader, experiment);
-//   reader.finish();             // throws Error with everything that is wrong
+//   reader.finish();             // throws Error with all problems
 //
 // A value is "number unit", or { value, source, fit | guess, range, uncertainty }. A table's own
-// source, fit and guess cover its keys that have none, and its range those quantities that have
-// the range's unit; a source never reaches into keys that another file or --set wrote.
-// Reading goes on after a problem, so one run reports them all.
+// source, fit and guess apply to its keys that have none, and its range to quantities with the
+// range's unit; a source never applies to keys of another file or --set. Reading continues after a
+// problem, so that all problems are reported.
 #pragma once
 
 #include <functional>
@@ -30,25 +30,25 @@ namespace sinew::config {
 
 struct ReaderOptions {
   double atmosphere = units::atmosphere;  // [Pa], between gauge and absolute
-  // Is a number without a source in this file a problem? Absent: in none.
+  // Returns whether a number without a source in this file is a problem. Absent: never.
   std::function<bool(const std::string& file)> needs_source = {};
-  const Changes* changes = &config::changes();  // what became of keys that are gone
-  // True where keys may be missing, and those that do not go together are no problem.
+  const Changes* changes = &config::changes();  // removed keys
+  // true: keys may be missing, and keys that exclude each other are allowed.
   bool of_a_log = false;
 };
 
-// What the file's own gauge pressures stand on: its air.atmosphere, or else the standard one. To be
-// known before the rest is read  [Pa].
+// Returns the reference of the file's gauge pressures: its air.atmosphere, or the standard
+// atmosphere [Pa]. It must be known before other values are read.
 double atmosphere_of(const Node& root);
 
 class Reader {
  public:
   using Field = units::Field;
 
-  // `root` outlives the reader.
+  // Keeps a reference to `root`, which must outlive the reader.
   explicit Reader(const Node& root, ReaderOptions options = {});
 
-  // The visitor of units/field.h.
+  // Functions of a visitor, see units/field.h.
   void number(const Field& field, double& value);
   void numbers(const Field& field, std::vector<double>& values);
   void polynomial(const Field& field, std::vector<double>& coefficients, std::string_view per);
@@ -67,26 +67,25 @@ class Reader {
   template <class T, class Visit>
   void list(const Field& field, std::vector<T>& items, Visit visit);
 
-  // For a visitor with a wish of its own, such as "these two differ". The key is in the table that
-  // is being visited.
+  // Adds a problem that a visitor finds itself, such as "these two differ". The key is in the
+  // current table.
   void complain(std::string_view key, std::string found, std::string expected,
                 std::string try_this = "");
 
-  // Every key that nobody asked for is a problem too. Throws Error if there is any problem.
+  // Adds a problem for every key that was not read. Throws Error if there is any problem.
   void finish();
-  // The same for a reader that wants only a part of the file.
+  // Throws Error if there is any problem; used if only a part of the file is read.
   void finish_part();
 
-  // Returns where each value came from; what is wrong, for which there is an Error to throw; and
-  // what is doubtful.
+  // Return the origins of all values, the problems, for which finish() throws, and the warnings.
   const Origins& origins() const { return origins_; }
   const std::vector<Problem>& problems() const { return problems_; }
   const std::vector<Problem>& warnings() const { return warnings_; }
-  // Numbers without a source, where none is needed.
+  // Returns numbers without a source where a source is not required.
   const std::vector<Problem>& unsourced() const { return unsourced_; }
 
  private:
-  // The table being visited, and what it says about keys that say nothing themselves.
+  // Table being visited, and its defaults for keys without their own source, fit, guess or range.
   struct Scope {
     const Node* table;
     std::string path;
@@ -95,7 +94,7 @@ class Reader {
     const Node* guess = nullptr;
     const Node* range = nullptr;
   };
-  // One value: where it stands, and what is known about it.
+  // Value: its node and its provenance.
   struct Entry {
     const Node* value;
     Origin origin;
@@ -103,13 +102,13 @@ class Reader {
     bool own_range = false;
   };
 
-  // Keys that describe the values beside them. A struct may still ask for one as its own field.
+  // Keys that describe values in the same table. A struct may still have one as its own field.
   static bool describes_values(const Node& node);
   static const Node* described(const Node& table, std::string_view key);
 
   std::string path_of(std::string_view key) const;
   const Node* ask(const Field& field);
-  // `expected` is what a message says of a key that is missing, before the field's own words.
+  // `expected` describes a missing key in a message, before the field's own description.
   std::optional<Entry> open(const Field& field, std::string default_text, std::string_view unit,
                             const std::string& expected);
   void read_value_table(const Node& table, Entry& entry);
@@ -139,7 +138,7 @@ class Reader {
   ReaderOptions options_;
   const Node* root_;
   std::vector<Scope> scopes_;
-  std::map<const Node*, std::vector<std::string>> asked_;  // by table
+  std::map<const Node*, std::vector<std::string>> asked_;  // keyed by table
   Origins origins_;
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;

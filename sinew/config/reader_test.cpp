@@ -1,4 +1,4 @@
-// The reader over small structs of our own: values, provenance, and every kind of message.
+// Reader with small structs: values, provenance, and every kind of message.
 #include "sinew/config/reader.h"
 
 #include <gtest/gtest.h>
@@ -138,7 +138,7 @@ TEST(Reader, AMissingKeyIsReportedWithItsMeaning) {
             "a.toml:1:1: length: missing; expected m (length), 0 m to 1 m: at rest");
 }
 
-// A key that is missing says what a wrong one would.
+// A missing key has the same description as a wrong one.
 TEST(Reader, AMissingKeySaysItsWordsAndItsKind) {
   const Node root = parse_text("x = 1\n", "a.toml");
   Reader reader(root);
@@ -202,7 +202,7 @@ TEST(Reader, AWholeNumberThatNoIntegerHoldsIsOutOfBounds) {
   EXPECT_TRUE(contains(of(make_number("count", 2)), "expected a whole number"));
 }
 
-// A default that is no number stands for "nothing was said".
+// A default that is not finite means "not set".
 TEST(Reader, ADefaultThatIsNoneIsNotSet) {
   const Node root = parse_text("", "a.toml");
   Reader reader(root);
@@ -212,7 +212,7 @@ TEST(Reader, ADefaultThatIsNoneIsNotSet) {
   EXPECT_EQ(reader.origins()[0].text, "not set");
 }
 
-// No field says it: its unit does.
+// The limits are the unit's, not the field's.
 TEST(Reader, NoMachineIsAsLargeAsThat) {
   EXPECT_EQ(Reading("length = \"1 m\"\nstiffness = \"1e300 N/m\"").message,
             "a.toml:2:1: stiffness: found \"1e300 N/m\", which is 1e+300 N/m; expected at most "
@@ -236,7 +236,7 @@ TEST(Reader, TheReasonOfARangeIsTold) {
             "0.0001 s: a tick");
 }
 
-// A unit without a row would have the widest range of all.
+// A unit without a row would have the widest range.
 TEST(Reader, EveryRangeIsOfAUnit) {
   for (const units::Range& range : units::ranges) {
     EXPECT_FALSE(parse_quantity("1 " + std::string(range.unit), range.unit).mistake) << range.unit;

@@ -1,6 +1,6 @@
-// config/reported.h - a figure that a source reports, as an experiment's [[reported]] says it.
-// Experiments carry it, the analysis judges by it (analysis/verdict/reported.h).
-// docs/evidence/evidence.md defines classes, wordings and verdicts.
+// config/reported.h - figure that a source reports, [[reported]] in an experiment. The analysis
+// compares the result with it (analysis/verdict/reported.h). docs/evidence/evidence.md defines
+// classes, wordings and verdicts.
 #pragma once
 
 #include <initializer_list>
@@ -13,14 +13,14 @@
 
 namespace sinew::config {
 
-// The class of a statement says what agreement with it is worth.
+// Class of a statement: the evidence that agreement provides.
 enum class StatementClass {
-  none,               // not given: nothing is judged, or the file is older than classes
-  predicted,          // nothing of it was fitted or put in
-  fitted,             // a parameter of ours was chosen so that it agrees
-  put_in,             // ours was made with what it says
-  by_construction,    // true of any numbers: an identity, a definition, a bound of the range
-  code_against_code,  // the same equations computed twice
+  none,               // not given: not judged, or the file is older than classes
+  predicted,          // no part was fitted or put in
+  fitted,             // one of our parameters was chosen so that it agrees
+  put_in,             // our model was built with it
+  by_construction,    // true for any numbers: an identity, a definition, a bound of the range
+  code_against_code,  // identical equations computed twice
 };
 
 inline const std::initializer_list<units::Choice<StatementClass>> statement_classes = {
@@ -30,7 +30,7 @@ inline const std::initializer_list<units::Choice<StatementClass>> statement_clas
     {"by construction", StatementClass::by_construction},
     {"code against code", StatementClass::code_against_code}};
 
-// How the source speaks of a figure: its band follows from that alone (analysis/verdict/band.h).
+// Wording of the source, which determines the figure's band (analysis/verdict/band.h).
 enum class Wording {
   another,  // a band of our own, with its reason
   measured,
@@ -59,7 +59,7 @@ inline const std::initializer_list<units::Choice<Wording>> wordings = {
     {"range", Wording::range},
     {"computed", Wording::computed}};
 
-// "another band" and "-" where no word stands for it.
+// Returns the word of a value; `otherwise`, "another band" or "-", if it has none.
 template <class Enum>
 std::string_view word_of(Enum value, std::initializer_list<units::Choice<Enum>> words,
                          std::string_view otherwise) {
@@ -71,20 +71,20 @@ inline std::string_view to_text(StatementClass c) { return word_of(c, statement_
 inline std::string_view to_text(Wording w) { return word_of(w, wordings, "another band"); }
 
 struct Reported {
-  std::string key;                  // of summary.json, "trolley.distance_m"
+  std::string key;                  // key in summary.json, "trolley.distance_m"
   std::string value;                // as reported, free text that ends with the unit
-  std::vector<std::string> accept;  // lowest and highest that agrees; empty: see `wording`
+  std::vector<std::string> accept;  // lowest and highest that agree; empty: see `wording`
   std::string source;
-  std::string because;  // why ours is known to differ; empty: it should agree
+  std::string because;  // why a deviation is expected; empty: it should agree
   StatementClass statement_class = StatementClass::none;
   Wording wording = Wording::another;  // without an `accept`: not judged
-  std::string of;                      // what a negligible, a substantial, … figure is a share of
-  std::string reading_error;           // of the source's figure; empty: none
-  std::string band_reason;             // why `accept` is as it is
-  bool changed = false;                // with --set: the source describes the unchanged run
+  std::string of;                      // reference of a negligible, a substantial, … figure
+  std::string reading_error;           // error of the source's figure; empty: none
+  std::string band_reason;             // reason for `accept`
+  bool changed = false;                // changed by --set: the source describes the unchanged run
 };
 
-// Is there a band by which the figure agrees or differs?
+// Returns whether the figure has a band to be judged by.
 inline bool is_judged(const Reported& r) {
   return !r.accept.empty() || r.wording != Wording::another;
 }
@@ -110,7 +110,7 @@ void fields(Visitor& v, Reported& r) {
   v.text({.name = "because", .optional = true, .doc = "why ours is known to differ"}, r.because);
 }
 
-// Complains of a judged figure without a class. Older logs hold experiments that have none.
+// Adds a problem for a judged figure without a class. Experiments in older logs have none.
 template <class Visitor>
 void check_class(Visitor& v, const Reported& r) {
   if (!is_judged(r)) return;

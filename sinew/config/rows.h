@@ -1,4 +1,4 @@
-// config/rows.h - the thesis's tables: lines of numbers with commas, without a heading.
+// config/rows.h - reader of the thesis's tables: lines of numbers with commas, without a heading.
 #pragma once
 
 #include <string>
@@ -11,23 +11,23 @@ namespace sinew::config {
 
 std::string_view trimmed_row(std::string_view text);  // without blanks and carriage return
 
-// A number's text, and where it stands.
+// Text of a number, and its place.
 struct Cell {
   std::string_view text;
-  int column = 1;  // of the line
+  int column = 1;  // in the line
 };
-std::vector<Cell> cells_of(std::string_view line);  // at the commas
+std::vector<Cell> cells_of(std::string_view line);  // split at the commas
 
-// Collects what is wrong, row by row; stops talking after a handful.
+// Collects the faults of rows; keeps only the first few.
 class RowProblems {
  public:
-  // `name` is the file's, for the words.
+  // `name` is the file's, for messages.
   explicit RowProblems(std::string name) : name_(std::move(name)) {}
 
-  // Keeps one thing that is wrong.
+  // Adds a fault.
   void add(int line, int column, std::string_view key, std::string found, std::string expected,
            std::string try_this = "");
-  // Throws Error if there is any.
+  // Throws Error if there are any faults.
   void finish() const {
     if (!problems_.empty()) throw Error(problems_);
   }

@@ -1,5 +1,5 @@
-// config/setting.h - a quantity that somebody sets by its name: "60 psi gauge" for the setting
-// `pressure`, within the range that such a quantity can have.
+// config/setting.h - quantity that is set by its name: "60 psi gauge" for the setting `pressure`,
+// within the range of such a quantity.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace sinew::config {
 
-// Range says how small and how large a quantity may be, in the SI unit that is asked for, and why.
-// Both ends belong to it, except a `low` that the quantity must be above.
+// Range of a quantity in the requested SI unit, with its reason. Both ends are included, except
+// `low` if `above` is set.
 struct Range {
   double low = -units::unbounded;
   double high = units::unbounded;
@@ -20,11 +20,11 @@ struct Range {
   bool above = false;
 };
 
-// A range up to `high`, without zero or with it; `why` says what the bound means.
+// Return a range up to `high` without and with zero; `why` is the reason for the bound.
 constexpr Range above_zero(double high, std::string_view why) { return {0, high, why, true}; }
 constexpr Range from_zero(double high, std::string_view why) { return {0, high, why}; }
 
-// Up to here air is the ideal gas of the laws within about 5 %.
+// Up to this pressure air is an ideal gas within about 5 %.
 inline constexpr double greatest_pressure = 2e7;  // absolute [Pa]
 inline constexpr Range air_pressure = above_zero(
     greatest_pressure, "absolute pressures are positive, and above it air is no ideal gas");
@@ -32,15 +32,15 @@ inline constexpr Range air_volume = from_zero(1000, "room for air in a laborator
 inline constexpr Range polytropic = {1, 5.0 / 3, "from isothermal to adiabatic"};
 inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 0.1 ms");
 
-// Returns the quantity in SI; gauges read against `atmosphere` [Pa]. Throws Error that begins with
-// the setting's name.
+// Returns the quantity in SI; gauge pressures refer to `atmosphere` [Pa]. Throws Error that begins
+// with the setting's name.
 double quantity_setting(std::string_view name, std::string_view text, std::string_view unit,
                         double atmosphere = units::atmosphere, const Range& range = {});
 
-// Returns the number; throws Error as above where it is out of range.
+// Returns the number; throws Error like quantity_setting() if it is out of range.
 double number_setting(std::string_view name, double value, const Range& range);
 
-// "6 lb, 11 lb": the pieces between commas, without blanks before them.
+// Splits a text at its commas, without the blanks after them: "6 lb, 11 lb".
 std::vector<std::string> at_commas(const std::string& text);
 
 }  // namespace sinew::config

@@ -1,4 +1,4 @@
-// A quantity by its setting's name: read in its unit, refused in words outside its range.
+// Quantity of a named setting: read in its unit, refused outside its range.
 #include "sinew/config/setting.h"
 
 #include <gtest/gtest.h>

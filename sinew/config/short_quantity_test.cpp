@@ -1,4 +1,4 @@
-// config/short_quantity_test.cpp - what nobody wrote is not shown, and no bit is lost.
+// config/short_quantity_test.cpp - digits caused by conversion are not shown, and no bit is lost.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(ShortQuantity, ReadsBackToTheSameBits) {
                          "Pa abs", "Pa diff", "rad", "N m/rad", "kg m2"};
   for (const char* unit : units)
     for (int i = 0; i < 2000; ++i) {
-      // As people write it, and any double.
+      // Usual values, and any double.
       const double short_one = std::round(number(random) * 100) / 100;
       for (const std::string& other : usual_units(unit)) {
         const double si = read(format_number(short_one) + (other == "1" ? "" : " " + other), unit);

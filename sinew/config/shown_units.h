@@ -1,13 +1,13 @@
-// config/shown_units.h - in whose units numbers are shown, by what people said about it.
+// config/shown_units.h - choice of the units in which numbers are shown, by precedence.
 //
-//   strongest   what is asked for now: an option of the program, an argument of Python
-//               SINEW_UNITS          of the environment, for a session or a script
-//               page.units           of the run, as its experiment has it
-//               settings.toml        of the person (config/user_settings.h)
-//   weakest     what the caller shows where nobody said anything
+//   strongest   an option of the program, an argument of Python
+//               SINEW_UNITS          environment variable, for a session or a script
+//               page.units           of the run's experiment
+//               settings.toml        of the user (config/user_settings.h)
+//   weakest     the caller's default
 //
-// Each of them is a set, "metric", with choices for single quantities on top of it, or such choices
-// alone, "pressure=kPa gauge", which change nothing else of what a weaker one says.
+// Each is a set of units, "metric", optionally with choices for single quantities, or only such
+// choices, "pressure=kPa gauge", which leave other quantities to the weaker levels.
 #pragma once
 
 #include <string>
@@ -21,36 +21,35 @@
 
 namespace sinew::config {
 
-// The variable of the environment.
+// Name of the environment variable.
 inline constexpr const char* units_variable = "SINEW_UNITS";
 
-// Holds what is said about units beside the environment and the person's settings.
+// Requested units besides the environment and the user's settings.
 struct UnitsAsked {
-  std::string now;               // empty: nothing
-  std::string now_is = "units";  // what messages call it
+  std::string now;               // strongest level; empty: not given
+  std::string now_is = "units";  // its name in messages
   const Node* run = nullptr;     // an experiment's tree, or a run's resolved.toml; null: none
 };
 
-// The units that come of it.
+// Resulting units.
 struct UnitsToShow {
   units::ShownUnits units;
-  bool asked = false;  // somebody said so: `units` is not just what the caller has
+  bool asked = false;  // whether any level gave units, so that `units` is not the default
 };
 
-// Returns the units to show numbers in. Throws Error, which says where a text that is no units
-// stands.
+// Returns the units in which to show numbers. Throws Error with the place of an invalid text.
 UnitsToShow units_to_show(const UnitsAsked& asked, const units::ShownUnits& otherwise = {});
 
 // Reads a text as units::read_shown_units does; throws Error that begins with `where` and `key`.
 units::ShownUnits parse_shown_units(std::string_view text, const Location& where,
                                     const std::string& key, const units::ShownUnits& below = {});
 
-// How people see a run: the table [page] of an experiment.
+// Display settings of a run: the table [page] of an experiment.
 struct PageTable {
-  std::string units;  // empty: as the person who looks has it
+  std::string units;  // empty: the user's own
 };
 
-// Tells a reader what is wrong with the key `units` of its table.
+// Adds a problem to the visitor if `text`, the key `units` of its table, is invalid.
 template <class Visitor>
 void complain_of_units(Visitor& v, const std::string& text) {
   if (text.empty()) return;
@@ -58,7 +57,7 @@ void complain_of_units(Visitor& v, const std::string& text) {
   if (!read.ok()) units::complain(v, "units", read.found, read.expected, read.try_this);
 }
 
-// The keys of [page].
+// Visits the keys of [page].
 template <class Visitor>
 void fields(Visitor& v, PageTable& page) {
   v.text({.name = "units",

@@ -1,5 +1,4 @@
-// config/shown_units_test.cpp - who says in which units numbers are shown, and whom it is taken
-// from.
+// config/shown_units_test.cpp - precedence of the sources of shown units.
 #include "sinew/config/shown_units.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using units::UnitSet;
 
-// A person's folder with or without settings; the environment is as it was afterwards.
+// Creates a user's folder with or without settings; restores the environment.
 class UnitsAskedOf : public testing::Test {
  protected:
   UnitsAskedOf() {
@@ -39,7 +38,7 @@ class UnitsAskedOf : public testing::Test {
   static std::string shown(const UnitsAsked& asked) {
     return units_to_show(asked, UnitSet::thesis).units.text();
   }
-  // Returns what is wrong, as one text.
+  // Returns the faults as one text.
   static std::string wrong(const UnitsAsked& asked) {
     try {
       units_to_show(asked);

@@ -26,7 +26,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// Signs that are no ASCII, and powers, as Sinew writes them.
+// Characters outside ASCII, and powers, in Sinew's spelling.
 constexpr std::pair<std::string_view, std::string_view> signs[] = {
     {"\u00B0C", "degC"},   {"\u2103", "degC"}, {"\u00B0", "deg"},
     {"\u00BA", "deg"},     {"\u00B2", "2"},    {"\u00B3", "3"},
@@ -50,8 +50,8 @@ std::string with_plain_signs(std::string_view text) {
   return out;
 }
 
-// Whole units that are written together or have no name in Sinew, in small letters; and what one
-// of them is.
+// Whole units in lower case that are written as one word or that Sinew lacks, and their value in a
+// unit of Sinew.
 struct Whole {
   std::string_view theirs, ours;
   double factor = 1;
@@ -131,7 +131,8 @@ constexpr Whole wholes[] = {
     {"nl", "mL", 1e-6},
 };
 
-// Capital letters that decide: milli and mega in "mN" and "MN", nano and newton in "nm" and "Nm".
+// Units distinguished by capitals: milli and mega in "mN" and "MN", nano and newton in "nm" and
+// "Nm".
 constexpr std::pair<std::string_view, Whole> by_capitals[] = {
     {"mN", {"", "N", 1e-3}},    {"MN", {"", "kN", 1e3}},     {"nN", {"", "N", 1e-9}},
     {"nm", {"", "mm", 1e-6}},   {"mNm", {"", "N m", 1e-3}},  {"MNm", {"", "kN m", 1e3}},
@@ -141,7 +142,7 @@ constexpr std::pair<std::string_view, Whole> by_capitals[] = {
     {"mpa", {"", ""}},          {"Ns", {"", "N s"}},
 };
 
-// Words for one unit within a longer one, in small letters.
+// Names of a unit within a longer one, in lower case.
 using Word = std::pair<std::string_view, std::string_view>;
 constexpr Word known_words[] = {{"sec", "s"},
                                 {"secs", "s"},
@@ -246,7 +247,7 @@ constexpr Word known_words[] = {{"sec", "s"},
                                 {"lbsf", "lbf"},
                                 {"poundforce", "lbf"}};
 
-// Endings that say against what a pressure is measured.
+// Endings that give the reference of a pressure.
 constexpr std::pair<std::string_view, std::string_view> reference_words[] = {
     {" gauge", "gauge"},   {" abs", "abs"},      {" diff", "diff"},   {"(g)", "gauge"},
     {"(a)", "abs"},        {"(d)", "diff"},      {" g", "gauge"},     {" a", "abs"},
@@ -262,7 +263,7 @@ bool is_pressure(std::string_view unit) {
 
 bool reads(std::string_view unit) { return !unit.empty() && units::read_unit(unit).ok; }
 
-// "lbf/sec" -> "lbf/s": each name between signs by the table. A hyphen between names multiplies.
+// Replaces each name between signs: "lbf/sec" -> "lbf/s". A hyphen between names multiplies.
 std::string with_our_words(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -270,7 +271,7 @@ std::string with_our_words(std::string_view text) {
     const std::string_view piece = text.substr(at, end - at);
     const std::string small = lower(piece);
     const auto* word = std::ranges::find(known_words, small, &Word::first);
-    // Sinew's own names stay: "MPa" and "mm" say more by their capitals than a table can.
+    // Sinew's own names are kept: the capitals in "MPa" and "mm" matter.
     const bool ours = units::find_unit(piece) != units::known_units.end();
     if (!ours && word != std::end(known_words))
       out += word->second;
@@ -282,13 +283,13 @@ std::string with_our_words(std::string_view text) {
   return out;
 }
 
-// "1/min" is a frequency, and what turns in a minute.
+// "1/min" is a frequency or a rotational speed.
 void add_turns(std::vector<Spelling>& out) {
   if (out.size() == 1 && out[0].unit == "1/min") out.push_back({"rpm"});
   if (out.size() == 1 && out[0].unit == "1/s") out.push_back({"rpm", 60});
 }
 
-// A unit without a reference.
+// Returns the spellings of a unit without a reference.
 std::vector<Spelling> bare_spellings(std::string_view text) {
   std::vector<Spelling> out;
   if (reads(text)) {
@@ -334,7 +335,7 @@ std::vector<Spelling> spellings(std::string_view unit) {
     text = without_blanks(text.substr(1, text.size() - 2));
   if (text.empty()) return {};
 
-  // A pressure with its reference: "psig", "bar abs", and "bar g", which is no bar times a gram.
+  // Pressures with a reference: "psig", "bar abs", and "bar g", which is not a bar times a gram.
   for (const auto& [ending, reference] : reference_words) {
     const std::string small = lower(text);
     if (!small.ends_with(ending) || small.size() == ending.size()) continue;

@@ -1,4 +1,4 @@
-// A laboratory's word for a unit means the same as Sinew's own spelling, or nothing at all.
+// A spelling of a unit has the same meaning as Sinew's own, or is refused.
 #include "sinew/config/spelling.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// TOML text to our tree. The only file that knows the TOML library.
+// Conversion of TOML text to the tree. Only this file uses the TOML library.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 #include "sinew/config/node.h"
 #include "sinew/config/text_file.h"
 
-// In debug builds toml++ asserts what it refuses itself in others.
+// In debug builds toml++ asserts conditions that it reports as errors in release builds.
 #ifndef NDEBUG
 #define NDEBUG
 #endif
 #define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
-// Asked whether one of U+FB26 to U+FEFE is a blank, toml++ 3.3 runs into what it calls unreachable,
-// and anything may follow. None of them is one.
+// To check whether one of U+FB26 to U+FEFE is a blank, toml++ 3.3 reaches code that it marks as
+// unreachable, which is undefined behaviour. None of them is a blank.
 // clang-format off
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
@@ -40,7 +40,7 @@ bool before(const Node& a, const Node& b) {
 
 Node node_from(const toml::node& value, std::string_view key, Location where);
 
-// The library sorts keys by name; the order of the file tells a better story.
+// The library sorts keys by name; this restores the order of the file.
 void add_table(Node& node, const toml::table& table) {
   for (const auto& [key, value] : table) {
     node.children.push_back(node_from(value, key.str(), location(key.source(), node.where.file)));
@@ -79,7 +79,7 @@ std::string line_of(std::string_view text, int line) {
   return result;
 }
 
-// The slip everybody makes: mount_length = 3.15 in
+// Returns advice for numbers out of range and for the common mistake mount_length = 3.15 in
 std::string syntax_hint(std::string_view line, std::string_view error) {
   const bool size = error.find("not representable") != error.npos ||
                     error.find("could not be interpreted") != error.npos;

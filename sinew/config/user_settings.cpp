@@ -11,7 +11,7 @@ namespace sinew::config {
 namespace fs = std::filesystem;
 
 std::string user_settings_path() {
-  // An empty or relative folder counts as none, by the XDG base directory specification.
+  // The XDG base directory specification ignores an empty or relative folder.
   fs::path folder;
   if (const char* named = std::getenv("XDG_CONFIG_HOME"); named && fs::path(named).is_absolute())
     folder = named;

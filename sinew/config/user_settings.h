@@ -1,9 +1,9 @@
-// config/user_settings.h - what a person wants everywhere: ~/.config/sinew/settings.toml.
+// config/user_settings.h - settings of the user for all commands: ~/.config/sinew/settings.toml.
 //
 //   format = "sinew.settings/1"
-//   units  = "metric,pressure=kPa gauge"     in which numbers are shown
+//   units  = "metric,pressure=kPa gauge"     units in which numbers are shown
 //
-// The file needs not be there. Nothing of it changes what is computed or written to a log.
+// The file is optional. It never affects what is computed or written to a log.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@
 namespace sinew::config {
 
 struct UserSettings {
-  std::string units;  // as units/shown.h reads it; empty: not said
-  Location units_at;  // of that key
+  std::string units;  // in the syntax of units/shown.h; empty: not given
+  Location units_at;  // place of that key
 };
 
-// The keys of settings.toml.
+// Visits the keys of settings.toml.
 template <class Visitor>
 void fields(Visitor& v, UserSettings& settings) {
   v.text({.name = "units",
@@ -28,14 +28,14 @@ void fields(Visitor& v, UserSettings& settings) {
   complain_of_units(v, settings.units);
 }
 
-// Returns the place of the file: below XDG_CONFIG_HOME, or else below .config in the home folder.
-// Empty where there is neither.
+// Returns the path of the file, in XDG_CONFIG_HOME or else in .config of the home folder. Empty if
+// neither exists.
 std::string user_settings_path();
 
-// Reads a file of that kind. Throws Error with all that is wrong.
+// Reads such a file. Throws Error with all faults.
 UserSettings read_user_settings(const std::string& path);
 
-// Reads the person's own file; a file that is not there says nothing.
+// Reads the user's own file; returns empty settings if it does not exist.
 UserSettings user_settings();
 
 }  // namespace sinew::config

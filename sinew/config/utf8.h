@@ -1,4 +1,5 @@
-// config/utf8.h - is a text UTF-8? Names of files and foreign tables may be any bytes.
+// config/utf8.h - check and repair of UTF-8, as file names and other programs' tables may hold
+// any bytes.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 namespace sinew::config {
 
-// Bytes of the letter that begins there; 0 where none does.
+// Returns the number of bytes of the character at that position; 0 if it is not valid UTF-8.
 inline std::size_t letter_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(at);
@@ -20,7 +21,7 @@ inline std::size_t letter_at(std::string_view text, std::size_t at) {
   for (std::size_t i = at + 1; i < at + length; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
 
-  // Longer than need be, halves of a pair, beyond the last one.
+  // Overlong forms, surrogates, and codes beyond the last character.
   if (first == 0xE0 && byte(at + 1) < 0xA0) return 0;
   if (first == 0xED && byte(at + 1) >= 0xA0) return 0;
   if (first == 0xF0 && byte(at + 1) < 0x90) return 0;
@@ -28,7 +29,7 @@ inline std::size_t letter_at(std::string_view text, std::size_t at) {
   return length;
 }
 
-// Bytes of the sign that begins there and turns the direction of writing; 0 where none does.
+// Returns the number of bytes of a bidirectional control character at that position, or 0.
 inline std::size_t turn_at(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   const auto begins = [&](std::string_view two, unsigned from, unsigned to) {
@@ -40,8 +41,8 @@ inline std::size_t turn_at(std::string_view text, std::size_t at) {
   return turns ? 3 : 0;
 }
 
-// Bytes of the control that begins there, U+0000 to U+001F or U+007F to U+009F; 0 where none does,
-// or it is one of `kept`.
+// Returns the number of bytes of a control character at that position, U+0000 to U+001F or U+007F
+// to U+009F; 0 if there is none, or if it is in `kept`.
 inline std::size_t control_at(std::string_view text, std::size_t at, std::string_view kept) {
   const auto byte = static_cast<unsigned char>(text[at]);
   if (byte < 0x20) return kept.find(text[at]) == kept.npos ? 1 : 0;
@@ -50,8 +51,8 @@ inline std::size_t control_at(std::string_view text, std::size_t at, std::string
   return byte == 0x7F ? 1 : 0;
 }
 
-// Returns the text without signs that turn the direction of writing, and without controls: names of
-// foreign files are printed on terminals.
+// Returns the text without bidirectional and other control characters, as names of files are
+// printed on terminals.
 inline std::string without_controls(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -62,7 +63,7 @@ inline std::string without_controls(std::string_view text) {
   return out;
 }
 
-// Each byte that is none becomes U+FFFD.
+// Replaces each byte that is not UTF-8 by U+FFFD.
 inline std::string in_utf8(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -73,9 +74,9 @@ inline std::string in_utf8(std::string_view text) {
   return out;
 }
 
-// Returns the text for a terminal, whatever bytes of a file or of its name are quoted in it: a byte
-// that is not UTF-8 is shown as \xE9, a control as \x1B, and a sign that turns the direction of
-// writing by its three bytes. Those of `kept` remain.
+// Returns a text that is safe to print on a terminal, whatever bytes it quotes: bytes that are not
+// UTF-8 become \xE9, control characters \x1B, and bidirectional ones their three bytes. Characters
+// in `kept` remain.
 inline std::string printable(std::string_view text, std::string_view kept = "\n\t") {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string out;

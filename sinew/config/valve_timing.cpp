@@ -37,7 +37,7 @@ bool parse_row(std::string_view text, int line, Row& row, RowProblems& problems)
   return true;
 }
 
-// Against the row above: the duty counts up, a larger duty never closes earlier.
+// Compares a row with the one above: the duty counts up, and a larger duty never closes earlier.
 void check_row(const Row& row, int line, int duty, const Row& last, RowProblems& problems) {
   if (row[0] != duty) {
     problems.add(line, 1, "duty", std::to_string(row[0]), std::to_string(duty),
@@ -49,7 +49,7 @@ void check_row(const Row& row, int line, int duty, const Row& last, RowProblems&
                  fmt::format("0 to {} ticks", ValveTiming::never),
                  fmt::format("{} for never", ValveTiming::never));
   }
-  // Inlet and exhaust of one muscle could else be open together.
+  // Otherwise inlet and exhaust of one muscle could be open at the same time.
   if (duty == 0 && (row[1] > 1 || row[2] < ValveTiming::never)) {
     problems.add(line, 1, row[1] > 1 ? "close" : "open",
                  fmt::format("{} at duty 0, which does not shut at once and stay shut",

@@ -51,7 +51,7 @@ void check_run(const std::filesystem::path& folder, Finding& out) {
   add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings, out.warnings);
 }
 
-// One sentence per file, and the values as rows of a table.
+// Adds a warning per file, and the values as rows of the table.
 void tell_of_sources(const Problems& unsourced, Finding& out) {
   std::map<std::string, int> counts;
   for (const config::Problem& p : unsourced) {
@@ -64,7 +64,7 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
         fmt::format("{}: {} value{} without a source", file, count, count == 1 ? "" : "s"));
 }
 
-// "  key  value  file:line", in columns.
+// Returns the values in columns, " key value file:line".
 std::string table_of(const std::vector<Unsourced>& values) {
   if (values.empty()) return "";
   std::size_t key = std::string_view("key").size(), value = std::string_view("value").size();
@@ -79,7 +79,8 @@ std::string table_of(const std::vector<Unsourced>& values) {
   return out;
 }
 
-// Tells what breaks and when, and warns of what changes nothing: why(fault).
+// Reports each fault and its time, and warns of faults without effect; why(fault) returns the
+// reason.
 template <class Why>
 void tell_of_faults(const std::string& path, const std::vector<experiment::Fault>& faults, Why why,
                     Finding& out) {
@@ -90,9 +91,9 @@ void tell_of_faults(const std::string& path, const std::vector<experiment::Fault
   }
 }
 
-// Warns of valves that need so much of a period to open that small duties deliver nothing.
+// Warns of valves that need much of a period to open, so that small duties deliver nothing.
 void warn_of_slow_valves(const experiment::Experiment& e, Finding& out) {
-  constexpr double much = 0.25;  // of the period
+  constexpr double much = 0.25;  // share of the period
   const double period = 1e-4 * e.robot.low_level.pwm_ticks;
   for (const gas::Valve& valve : e.valves) {
     const double opens = gas::delays(valve).opening;

@@ -1,5 +1,5 @@
-// files/check.h - what is wrong with a file, or a run's folder, of any kind that Sinew reads,
-// without running anything.
+// files/check.h - check of any file that Sinew reads, or of a run's folder, without running
+// anything.
 #pragma once
 
 #include <string>
@@ -7,27 +7,26 @@
 
 namespace sinew::files {
 
-// A value of which nobody says where it comes from.
+// Value without a source.
 struct Unsourced {
   std::string key, value, file;
   int line = 0;
 };
 
-// Sentences as they are printed, each with its place.
+// Result of a check, as printable sentences, each with its place.
 struct Finding {
   std::string file;
   std::vector<std::string> problems, warnings;
-  std::vector<std::string> faults;   // what the experiment breaks, and when
-  std::vector<Unsourced> unsourced;  // a warning tells how many, the text has them as a table
+  std::vector<std::string> faults;   // effects of the experiment's faults, with their times
+  std::vector<Unsourced> unsourced;  // a warning gives their number, text_of() lists them
 };
 
-// Looks at an experiment, rig, plan, tuning, robot, actuator, valves or wiring file, predict.dat,
-// gain*.dat, a run's folder or log; which of them the file says. Never throws for what is wrong
-// with it: that is what it returns.
+// Checks an experiment, rig, plan, tuning, robot, actuator, valves or wiring file, predict.dat,
+// gain*.dat, a run's folder or a log; the kind is found from the file. Returns all faults of the
+// file and never throws for them.
 Finding check(const std::string& path);
 
-// Returns lines of text: its sentences, a table of the values without a source, then how many
-// there are.
+// Returns lines of text: the sentences, a table of the values without a source, then the counts.
 std::string text_of(const Finding& finding);
 
 }  // namespace sinew::files

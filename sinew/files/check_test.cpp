@@ -1,4 +1,4 @@
-// What is wrong with files, by all their kinds.
+// Check of files of each kind.
 #include "sinew/files/check.h"
 #include "tests/places.h"
 

@@ -13,7 +13,7 @@ namespace sinew::files {
 
 namespace {
 
-// Keys by their place: what stands in a table, and the rows of a key that is several.
+// Tree of the keys: the keys in a table, and the rows of a key with several variants.
 struct Place {
   std::string name;
   std::vector<Key> rows;
@@ -53,7 +53,7 @@ std::string describe(const Key& key) {
 
 Json reference(const char* name) { return {{"$ref", fmt::format("#/$defs/{}", name)}}; }
 
-// One quantity: with its unit a text; a plain number stands as it is too.
+// Returns the schema of a quantity: a text with a unit, or also a number if `plain`.
 Json quantity(const Key& key, bool plain) {
   if (!plain) return reference("quantity");
   Json number{{"type", "number"}};
@@ -97,7 +97,7 @@ void add_provenance(Json& properties) {
     if (!properties.contains(key)) properties[key] = reference(key);
 }
 
-// The value alone, or { value, source, … }.
+// Returns the schema of a value alone or as { value, source, … }.
 Json value(const Key& key) {
   const Json plain = plain_value(key);
   Json with{{"value", plain}};
@@ -171,7 +171,7 @@ Json definitions() {
           {"uncertainty", {{"anyOf", {text, number}}}}};
 }
 
-// The path of a key in a file of that kind; empty where it cannot stand there.
+// Returns the path of a key in a file of that kind; empty if the file cannot contain it.
 std::string path_in_file(const Key& key, std::string_view kind) {
   if (key.path == "name" && key.kind != kind) return "";
   if (kind != "actuator" || key.path == "name") return key.path;
@@ -181,7 +181,7 @@ std::string path_in_file(const Key& key, std::string_view kind) {
 
 void refuse_unknown(std::string_view kind) {
   std::vector<std::string_view> kinds(key_kinds().begin(), key_kinds().end());
-  kinds.pop_back();  // "any" is no file
+  kinds.pop_back();  // "any" is not a file
   if (std::ranges::find(kinds, kind) == kinds.end())
     config::fail({"schema", 0, 0}, "", config::in_quotes(kind), config::either(kinds),
                  std::string(config::closest(kind, kinds)));

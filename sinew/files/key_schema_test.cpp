@@ -1,4 +1,4 @@
-// The schema that an editor gets takes the files that are shipped, and not what is no file of ours.
+// Editors' schema accepts the shipped files and rejects files of other formats.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -40,7 +40,7 @@ Json json_of(const config::Node& node) {
   return out;
 }
 
-// As much of draft 2020-12 as our schemas use. Returns where and what is wrong, "" for nothing.
+// Implements the part of draft 2020-12 that the schemas use. Returns place and fault, or "".
 class Validator {
  public:
   explicit Validator(const Json& root) : root_(root) {}
@@ -57,7 +57,7 @@ class Validator {
     return type == "number" && value.is_number();
   }
 
-  // A pattern is made once: that takes longer than all that it is asked.
+  // Each pattern is compiled once, as compiling takes longer than all matches.
   static bool matches(const std::string& text, const std::string& pattern) {
     static std::map<std::string, std::regex> made;
     return std::regex_search(text, made.try_emplace(pattern, pattern).first->second);

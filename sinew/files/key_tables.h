@@ -1,4 +1,4 @@
-// files/key_tables.h - the field tables that a file of each kind is read by.
+// files/key_tables.h - visits the field tables of each kind of file.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace sinew::files {
 
-// Visits the robot's own tables: without actuators, valves and wiring, which have files.
+// Visits the robot's own tables, without those of actuators, valves and wiring, which have files.
 template <class Visitor>
 void robot_tables(Visitor& v) {
   experiment::Experiment e;
@@ -28,15 +28,15 @@ void robot_tables(Visitor& v) {
           [&](auto& g) { experiment::fields(g, e.pulses); });
 }
 
-// Visits what a resolved file says of a run that was recorded elsewhere.
+// Visits the tables of a resolved file about a run that was recorded elsewhere.
 template <class Visitor>
 void imported_tables(Visitor& v) {
   std::vector<experiment::ImportedFile> imported;
   experiment::fields(v, imported);
 }
 
-// Visits the keys of an experiment that describe its run, on a test stand or with a robot. Where
-// names of joints are keys, there is one joint, <name>.
+// Visits the keys of an experiment that describe its run, on a test stand or with a robot. Names of
+// joints that are keys are represented by one joint, <name>.
 template <class Visitor>
 void experiment_tables(Visitor& v, bool on_stand) {
   experiment::Experiment e;
@@ -49,7 +49,7 @@ void experiment_tables(Visitor& v, bool on_stand) {
   imported_tables(v);
 }
 
-// Visits what belongs to that kind of file alone.
+// Visits the tables that only this kind of file has.
 template <class Visitor>
 void visit_tables(Visitor& v, std::string_view kind) {
   if (kind == "robot") return robot_tables(v);

@@ -15,7 +15,7 @@ namespace sinew::files {
 
 namespace {
 
-// A kind in words, and where its files stand; no place for what all of them have.
+// Title of a kind, and the usual path of its files; empty for the keys of all files.
 struct Title {
   std::string_view words, files;
 };
@@ -34,7 +34,7 @@ Title title_of(std::string_view kind) {
   return {"Tuning", "studies/*.toml"};
 }
 
-// What a person has to know about keys that a file of that kind has elsewhere.
+// Returns a note about keys that a file of that kind has in other files.
 std::string note_of(std::string_view kind) {
   if (kind == "actuator")
     return "In the actuator's own file they stand without actuator.<name>: [braid], not "
@@ -52,7 +52,7 @@ bool is_container(const Key& key) {
   return key.type == KeyType::table || key.type == KeyType::tables || key.type == KeyType::list;
 }
 
-// The range says the unit too; "number" where there is none.
+// Returns the range, which includes the unit; "number" if there is no unit.
 std::string quantity_text(const Key& key) {
   const std::string range = range_of(key);
   if (key.unit == "1") return range.empty() ? "number" : "number, " + range;
@@ -104,7 +104,7 @@ std::vector<std::string> quoted(const std::vector<std::string>& words) {
   return out;
 }
 
-// The line of a key, with its words and where it is so.
+// Returns the description of a key, with its choices and condition.
 std::string line_of(const Key& key) {
   std::string out = key.doc;
   if (!key.choices.empty()) {
@@ -135,7 +135,7 @@ Json to_json(const Key& key) {
   return out;
 }
 
-// A cell of Markdown: a bar would end it, and names in brackets would be HTML.
+// Returns a Markdown cell, with escapes for bars and for names in angle brackets.
 std::string cell(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -20,25 +20,25 @@
 
 namespace sinew::files {
 
-// The visitor of units/field.h that notes which fields there are.
+// Visitor (units/field.h) that lists fields.
 //
-// Which fields a table has, and with which unit, can follow from the words beside them. So a lister
-// can be told what to find at a place, and another one sees another table.
+// The fields of a table and their units can depend on other values in the table. A lister is
+// therefore given values for certain paths, so that different values show different tables.
 
-// What a lister finds at places: a word of a choice, a text, a number.
+// Values given to a lister by path: the word of a choice, a text, a number.
 using Found = std::map<std::string, std::string>;
 
 class KeyLister {
  public:
   using Field = units::Field;
 
-  // `kind` is that of the keys that it lists.
+  // `kind` is the kind of the keys.
   KeyLister(std::string_view kind, Found found) : kind_(kind), found_(std::move(found)) {}
 
-  // What was visited, in its order.
+  // Keys in the order of the visits.
   std::vector<Key> keys;
 
-  // The functions of a visitor, units/field.h.
+  // Functions of a visitor, see units/field.h.
   void number(const Field& f, double& value) {
     quantity(f, KeyType::number, text_of(f, value));
     if (const auto at = found_.find(keys.back().path); at != found_.end())
@@ -48,7 +48,7 @@ class KeyLister {
     quantity(f, KeyType::numbers, joined(f, values));
   }
   void polynomial(const Field& f, std::vector<double>&, std::string_view per) {
-    // Their ends are those of their units alone.
+    // A polynomial has only the limits of its units.
     Key& key = add(f, KeyType::polynomial);
     key.unit = f.unit;
     key.per = per;
@@ -158,9 +158,9 @@ class KeyLister {
 
 namespace {
 
-// --- keys that change with what stands beside them ---
+// --- keys that depend on other values ---
 
-// A place whose value decides about other keys: each value, and how a person says that it is there.
+// Path whose value affects other keys: each value, and its description for the user.
 struct Deciding {
   struct Value {
     std::string text, said;
@@ -169,7 +169,7 @@ struct Deciding {
   std::vector<Value> values;
 };
 
-using Seen = std::map<std::string, Key>;  // by path
+using Seen = std::map<std::string, Key>;  // keyed by path
 Seen by_path(const std::vector<Key>& keys) {
   Seen out;
   for (const Key& key : keys) out.emplace(key.path, key);
@@ -186,7 +186,7 @@ std::string last_of(std::string_view path) {
   return std::string(path.substr(path.rfind('.') == path.npos ? 0 : path.rfind('.') + 1));
 }
 
-// Values that no list of words names, and that decide about a unit or whether a key is needed.
+// Returns paths with free values that affect a unit or whether a key is required.
 std::vector<Deciding> other_deciding(std::string_view kind) {
   if (kind == "robot")
     return {{"joint.<name>.spring", {{"0", "without a spring"}, {"1", "with a spring"}}}};
@@ -205,7 +205,7 @@ std::vector<Deciding> other_deciding(std::string_view kind) {
         said("key", "control.gains.<name>.velocity")}}};
 }
 
-// Every choice, with the word that is the struct's own first.
+// Returns every choice; the default of its struct comes first.
 std::vector<Deciding> choices_among(const std::vector<Key>& keys, std::string_view kind) {
   std::vector<Deciding> out = other_deciding(kind);
   for (const Key& key : keys) {
@@ -218,7 +218,7 @@ std::vector<Deciding> choices_among(const std::vector<Key>& keys, std::string_vi
   return out;
 }
 
-// What a person would notice; the default does not follow from the words beside it.
+// Returns whether two keys look alike to a user; the default does not depend on other values.
 bool same(const Key* a, const Key* b) {
   if (!a || !b) return a == b;
   return a->type == b->type && a->unit == b->unit && a->per == b->per && a->min == b->min &&
@@ -226,7 +226,7 @@ bool same(const Key* a, const Key* b) {
          a->required == b->required && a->doc == b->doc && a->choices == b->choices;
 }
 
-// What was seen with each value of a place.
+// Keys listed with each value of a deciding path.
 struct Looks {
   Deciding of;
   std::vector<Seen> seen;
@@ -240,7 +240,7 @@ struct Looks {
       if (!same(at(k, path), at(0, path))) return true;
     return false;
   }
-  // `kind = "angle" or "velocity"`: the values with which the key is that one.
+  // Returns the values with which the path has this key: `kind = "angle" or "velocity"`.
   std::string said_of(const std::string& path, const Key* key) const {
     std::string out;
     for (std::size_t k = 0; k < seen.size(); ++k) {
@@ -251,7 +251,7 @@ struct Looks {
     }
     return out;
   }
-  // The values with which there is such a key at all; empty: all of them.
+  // Returns the values with which the path exists; empty: all of them.
   std::string said_where_it_is(const std::string& path) const {
     std::string out;
     bool always = true;
@@ -272,7 +272,7 @@ std::string joined(const std::string& a, const std::string& b) {
   return a.empty() || b.empty() ? a + b : a + " and " + b;
 }
 
-// The rows of one path: one for each of the keys that it is.
+// Adds the rows of a path: one for each variant of the key.
 void add_rows(const std::string& path, const std::vector<Looks>& looks, std::vector<Key>& out) {
   std::vector<const Looks*> deciding;
   for (const Looks& one : looks)
@@ -301,7 +301,7 @@ void add_rows(const std::string& path, const std::vector<Looks>& looks, std::vec
   }
 }
 
-// The paths of all looks: one that the first did not see stands behind its neighbour.
+// Merged order of all paths: one that the first listing lacks comes after its neighbour.
 struct Order {
   std::vector<std::string> paths;
   std::set<std::string, std::less<>> known;
@@ -341,7 +341,7 @@ std::vector<Key> list_tables(std::string_view kind) {
   return out;
 }
 
-// --- keys that config/compose.h takes, before the tables are read ---
+// --- keys that config/compose.h reads before the tables ---
 
 Key text_key(std::string_view kind, std::string path, std::string doc, bool required = false) {
   return {.kind = std::string(kind),
@@ -379,7 +379,7 @@ std::vector<Key> composed(std::string_view kind) {
   return {};
 }
 
-// What every file can say, and every table of values.
+// Returns the keys of every file and every table of values.
 std::vector<Key> any_keys() {
   const Key flag{.kind = "any", .type = KeyType::flag, .default_text = "false"};
   Key fit = flag, guess = flag, range = text_key("any", "range", "");
@@ -404,7 +404,7 @@ std::vector<Key> list_keys(std::string_view kind) {
   if (kind == "any") return any_keys();
   std::vector<Key> out = composed(kind);
   for (Key& key : list_tables(kind)) {
-    // A robot's file says `name`, which becomes it.
+    // A robot's file has `name`, which becomes this key.
     if (kind == "robot" && key.path == "robot_name") key.required = false;
     if (key.path.starts_with("control.gains.<name>.")) key.default_text = "the robot's";
     out.push_back(std::move(key));
@@ -500,13 +500,13 @@ std::string_view to_text(KeyType type) {
   return "";
 }
 
-// A key by a real name or by words.
+// Search for keys by a name or by words.
 
 namespace {
 
 using Parts = std::vector<std::string>;
 
-// "fault[0].at" as fault[] and at.
+// Splits a path into parts: "fault[0].at" into fault[] and at.
 Parts parts_of(std::string_view path) {
   Parts out;
   for (std::size_t from = 0; from <= path.size();) {
@@ -527,7 +527,7 @@ std::string without_brackets(std::string_view part) {
   return std::string(part.ends_with("[]") ? part.substr(0, part.size() - 2) : part);
 }
 
-// Does the key begin with these parts? A list's brackets may be left out.
+// Returns whether the key begins with these parts; brackets of a list may be left out.
 bool begins_as(const Parts& key, const Parts& path) {
   if (path.size() > key.size()) return false;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -553,7 +553,7 @@ bool has_word(const Key& key, const std::string& word) {
   });
 }
 
-// The keys that a word with a dot names, or those below it; none, where it names none.
+// Returns the keys that a word with a dot names, or else those below it; may be empty.
 std::vector<Key> named(const std::vector<Key>& among, std::string_view word) {
   std::vector<Key> exact, below;
   const Parts path = parts_of(word);
@@ -566,7 +566,7 @@ std::vector<Key> named(const std::vector<Key>& among, std::string_view word) {
   return exact.empty() ? below : exact;
 }
 
-// The keys under the names that the word has: joint.hip.damping beside "joint.hip.dampnig".
+// Returns the key's path with the names in the word: joint.hip.damping for "joint.hip.dampnig".
 std::string in_names_of(const Key& key, const Parts& word) {
   Parts path = parts_of(key.path);
   std::string out;
@@ -577,7 +577,7 @@ std::string in_names_of(const Key& key, const Parts& word) {
   return out;
 }
 
-// The nearest key to a word that no key has; without a dot, the nearest part of one.
+// Returns the key nearest to an unknown word; for a word without a dot, the nearest part of a key.
 std::string nearest(const std::vector<Key>& among, std::string_view word) {
   const bool path = word.find('.') != word.npos;
   const Parts names = parts_of(word);

@@ -1,10 +1,9 @@
-// files/keys.h - every key that a TOML file of ours can have: what it holds, between which ends,
-// what stands in its place where it is left out, and what it is for.
+// files/keys.h - list of all keys of Sinew's TOML files: type, range, default and description.
 //
 //   for (const files::Key& key : files::find_keys({"damping"}))
 //     fmt::print("{} [{}]: {}\n", key.path, key.unit, key.doc);
 //
-// The field tables (*.fields.h) say all of it, the same ones from which files are read.
+// The list is made from the field tables (*.fields.h), with which files are read as well.
 #pragma once
 
 #include <string>
@@ -15,65 +14,65 @@
 
 namespace sinew::files {
 
-// What a key holds.
+// Type of a key's value.
 enum class KeyType {
   number,      // a quantity, "3.2 in"
   numbers,     // a list of quantities
-  polynomial,  // a list: c0, c1, … each in a unit of its own
+  polynomial,  // a list: c0, c1, … each with its own unit
   whole,       // a whole number
   flag,        // true or false
   text,
   texts,   // a list of texts
   choice,  // one of the words in `choices`
-  table,   // keys below it
-  tables,  // a table for each name
-  list,    // [[…]]: tables one after the other
+  table,   // a table of keys
+  tables,  // a table of named tables
+  list,    // [[…]]: a list of tables
 };
 
-// One key as a file of one kind can have it.
+// Key in a file of one kind.
 struct Key {
-  std::string kind;  // of the file that it belongs to: "robot"; "any" for what all kinds have
-  std::string path;  // "joint.<name>.damping", "fault[].at": <name> is yours
+  std::string kind;  // kind of file: "robot"; "any" for keys of all kinds
+  std::string path;  // "joint.<name>.damping", "fault[].at": <name> is chosen by the user
   KeyType type = KeyType::text;
   std::string unit;                // SI, of numbers; empty for the others
-  std::string per;                 // polynomial: each next coefficient is in `unit` per this
-  double min = -units::unbounded;  // the field's own ends, in `unit`
+  std::string per;                 // polynomial: c0 is in `unit`, c1 in `unit` per this
+  double min = -units::unbounded;  // limits of the field, in `unit`
   double max = units::unbounded;
-  double least = 0;                  // of what is not 0
-  double most = units::unbounded;    // of the magnitude: no quantity of that unit is larger
-  std::string why;                   // of these ends
-  bool required = false;             // in its table, where that is there
-  std::string default_text;          // what stands in its place, as it would be written
+  double least = 0;                  // smallest magnitude other than 0
+  double most = units::unbounded;    // largest magnitude of quantities with this unit
+  std::string why;                   // reason for the limits
+  bool required = false;             // whether its table must have it
+  std::string default_text;          // default, as it would be written
   std::vector<std::string> choices;  // words
-  std::string when;                  // `kind = "tension"`: it is so only there; empty: always
-  std::string doc;                   // one line
+  std::string when;                  // `kind = "tension"`: condition for this row; empty: always
+  std::string doc;                   // description in one line
 };
 
-// Returns the kinds of files, in the order in which a newcomer meets them, "any" last.
+// Returns the kinds of files in the order of the documentation, "any" last.
 const std::vector<std::string>& key_kinds();
 
-// Returns the keys of all kinds of files, or of one, in the order of their tables. A key that is
-// another one under another choice, as a sensor's scale, has a row for each. Throws config::Error
-// for a kind that there is not.
+// Return the keys of all kinds of files, or of one, in the order of their tables. A key that
+// depends on a choice, such as a sensor's scale, has a row for each variant. Throw config::Error
+// for an unknown kind.
 const std::vector<Key>& keys();
 std::vector<Key> keys_of(std::string_view kind);
 
-// Returns the kinds whose keys a file of that kind can hold, its own first: an experiment may
-// change anything of its robot.
+// Returns the kinds whose keys a file of that kind may contain, its own first: an experiment may
+// change any key of its robot.
 std::vector<std::string> kinds_within(std::string_view kind);
 
-// Is it that key, with a name of somebody in the place of <name>, and [0] in that of []?
+// Returns whether the path is that key, with any name for <name> and an index in [].
 bool is_key(const Key& key, std::string_view path);
 
-// Returns the keys that have all of the words in their path, line or choices, in letters of either
-// case. A word with a dot is a key or how one begins: joint.hip.damping. An empty `kind` is any.
-// Throws config::Error where there is none, with the nearest.
+// Returns the keys that have all words in their path, description or choices, ignoring case. A word
+// with a dot is a key or the beginning of one: joint.hip.damping. An empty `kind` means all. Throws
+// config::Error with the nearest key if no key matches.
 std::vector<Key> find_keys(const std::vector<std::string>& words, std::string_view kind = "");
 
-// Returns the range as the reader's messages say it, "0 m to 10 m"; empty where the key has none.
+// Returns the range as in the reader's messages, "0 m to 10 m"; empty if the key has no range.
 std::string range_of(const Key& key);
 
-// Returns the name of a type as JSON has it, "number".
+// Returns the name of a type in json_of(), "number".
 std::string_view to_text(KeyType type);
 
 }  // namespace sinew::files

@@ -1,4 +1,4 @@
-// What is told of keys is what the reader does with them.
+// The listed keys agree with what the reader does.
 #include "sinew/files/keys.h"
 
 #include <fmt/format.h>
@@ -30,13 +30,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// --- a file with one table of each ---
+// --- a file with one table of each kind ---
 
 bool is_container(const Key& key) {
   return key.type == KeyType::table || key.type == KeyType::tables || key.type == KeyType::list;
 }
 
-// The table in which the key stands, made where it is missing; and the key's own name.
+// Returns the table of the key, created if it is missing, and the key's own name.
 std::pair<config::Node*, std::string> place_of(config::Node& root, std::string path) {
   config::Node* table = &root;
   for (std::size_t dot; (dot = path.find('.')) != path.npos; path = path.substr(dot + 1)) {
@@ -64,7 +64,7 @@ config::Node with_all_tables(const std::vector<Key>& keys) {
 const std::vector<std::string> read_kinds = {"robot",      "actuator", "valves", "wiring",
                                              "experiment", "rig",      "plan",   "tuning"};
 
-// Keys that config/compose.h takes before a table is read.
+// Keys that config/compose.h reads before the tables.
 bool is_composed(const Key& key) {
   return key.path == "name" || key.path.starts_with("files") || key.path == "sinew_version" ||
          (key.path == "robot" && key.kind == "experiment");
@@ -88,7 +88,7 @@ TEST(Keys, DefaultsAndNeedsAreThoseOfAnEmptyTable) {
       bool found = false;
       for (const Key* key : rows_of(keys, origin.path)) {
         met.insert(key->path);
-        // A text beside it says the unit, or another file the value.
+        // Another text gives the unit, or another file the value.
         found = found || key->path == "robot_name" || key->default_text == "the robot's" ||
                 key->when.starts_with("measure = ") || key->when.starts_with("key = ");
         found = found || (!key->required && key->default_text == origin.text);
@@ -113,7 +113,7 @@ TEST(Keys, DefaultsAndNeedsAreThoseOfAnEmptyTable) {
   }
 }
 
-// Every quantity at once beyond an end; returns what the reader expects of each.
+// Sets every quantity beyond a limit at once; returns the reader's expectation for each.
 std::map<std::string, std::string> expected_beyond(const std::string& kind, auto beyond) {
   const std::vector<Key> keys = keys_of(kind);
   config::Node root = with_all_tables(keys);
@@ -189,7 +189,7 @@ config::Origins origins_of(const std::string& file, const std::string& kind) {
   return values(file).origins;
 }
 
-// The rows of each path that was asked for, of one kind of file: most files share theirs.
+// Returns the rows of each requested path for a kind of file, as most files share theirs.
 class Known {
  public:
   explicit Known(const std::string& kind) : keys_(keys_within(kind)) {}
@@ -209,7 +209,7 @@ TEST(Keys, KnowEveryValueOfEveryShippedFile) {
   std::size_t seen = 0;
   std::map<std::string, Known> known;
   for (const auto& [file, kind] : shipped_files()) {
-    if (kind == "plan") continue;  // whose keys the schema's test reads
+    if (kind == "plan") continue;  // its keys are covered by the schema's test
     Known& keys = known.try_emplace(kind, kind).first->second;
     for (const config::Origin& origin : origins_of(file, kind)) {
       if (origin.path == "format" || origin.path == "sinew_version") continue;
@@ -280,7 +280,7 @@ std::string text_of_page(const std::string& path) {
   return out;
 }
 
-// Pages state the limits in words; these are the sizes of the code.
+// Documentation states the limits in words; these are the sizes in the code.
 TEST(Keys, LimitsOfTheDocsAreThoseOfTheCode) {
   using namespace robot;
   const std::map<std::string, std::vector<std::string>> stated{

@@ -1,4 +1,4 @@
-// files/keys_test.h - the TOML files that are shipped, for tests.
+// files/keys_test.h - shipped TOML files, for tests.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace sinew::files {
 
-// Returns each file with its kind.
+// Returns the path of each file and its kind.
 inline std::map<std::string, std::string> shipped_files() {
   std::map<std::string, std::string> out;
   for (const char* folder : {"robots", "experiments", "studies"}) {

@@ -23,14 +23,14 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 5> kinds{"robots", "experiments", "rigs", "studies",
                                                 "examples"};
 
-// A folder of somebody's whole home is looked at so far: folders deep, entries, bytes of a file.
+// Limits of the search, as the folder may be a home directory: depth, entries, size of a file [B].
 constexpr int deepest = 6;
 constexpr int most_entries = 20'000;
 constexpr std::uintmax_t largest = 1'000'000;
 
 constexpr std::size_t longest_title = 100;
 
-// The kind of `format = "sinew.robot/1"`, which stands before the first table.
+// Returns the kind in `format = "sinew.robot/1"`, which precedes the first table.
 std::string_view kind_of_format(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = config::trimmed(text.substr(0, text.find('\n')));
@@ -51,7 +51,7 @@ std::string_view kind_of_format(std::string_view text) {
   return "";
 }
 
-// The comment that a file begins with, as one line.
+// Returns the comment at the start of a file as one line.
 std::string leading_comment(std::string_view text) {
   std::string out;
   while (text.starts_with('#')) {
@@ -66,8 +66,8 @@ std::string leading_comment(std::string_view text) {
   return out;
 }
 
-// "# robots/leg/robot.toml – the walking leg. More …" says "the walking leg": a first sentence
-// without the file's own name.
+// Returns the first sentence without the file's name: "the walking leg" of "# robots/leg/robot.toml
+// – the walking leg. More …".
 std::string first_sentence(std::string_view text) {
   std::string out = leading_comment(text);
   constexpr std::string_view dash = " – ";
@@ -107,7 +107,7 @@ void read_title(const fs::path& file, std::string_view text, Listed& out) {
   }
 }
 
-// A file of a kind that is listed; nothing for any other.
+// Returns the listed file; nothing for a file of another kind.
 std::optional<Listed> listed(const fs::path& file) {
   std::error_code none;
   if (file.extension() != ".toml" || !fs::is_regular_file(file, none)) return {};
@@ -123,7 +123,7 @@ std::optional<Listed> listed(const fs::path& file) {
   }
 }
 
-// Runs keep the file that they ran, builds keep copies; neither is what somebody wrote.
+// Returns whether a folder is skipped: runs and builds hold copies of files.
 bool is_passed_over(const fs::path& folder) {
   std::error_code none;
   const std::string name = folder.filename().string();
@@ -131,7 +131,7 @@ bool is_passed_over(const fs::path& folder) {
          fs::exists(folder / "resolved.toml", none) || fs::exists(folder / "CMakeCache.txt", none);
 }
 
-// All that is listed below the folder. Returns whether it was too much to look at everything.
+// Collects the listed files below the folder. Returns whether the limit was reached.
 bool gather(const fs::path& top, std::vector<Listed>& out) {
   std::error_code bad;
   int count = 0;
@@ -149,7 +149,7 @@ bool gather(const fs::path& top, std::vector<Listed>& out) {
   return false;
 }
 
-// An example is a folder whose README.md begins with its title.
+// Collects examples: folders whose README.md begins with a title.
 void gather_examples(const fs::path& top, std::vector<Listed>& out) {
   std::error_code bad;
   for (fs::directory_iterator at(top, bad), end; !bad && at != end; at.increment(bad)) {
@@ -162,12 +162,12 @@ void gather_examples(const fs::path& top, std::vector<Listed>& out) {
                      .path = at->path().string(),
                      .title = std::string(begin == line.npos ? "" : line.substr(begin))});
     } catch (const config::Error&) {
-      continue;  // a folder of something else
+      continue;  // not an example
     }
   }
 }
 
-// As a command takes it in the folder: relative where it is below that.
+// Returns the path as a command takes it in `here`: relative if it is below.
 std::string from_here(const fs::path& file, const fs::path& here) {
   const fs::path relative = file.lexically_relative(here);
   return relative.empty() || relative.begin()->string() == ".." ? file.string() : relative.string();
@@ -180,7 +180,7 @@ void require_kind(const std::string& kind) {
                config::closest_in_quotes(kind, words));
 }
 
-// Those that come with Sinew, where they are found.
+// Collects the files shipped with Sinew, if they are found.
 std::vector<Listed> gather_shipped(std::string& folder) {
   std::vector<Listed> out;
   try {
@@ -215,7 +215,7 @@ Listing list(const std::string& kind, const fs::path& here) {
 
   std::vector<Listed> found;
   out.cut = gather(top, found);
-  const fs::path kept = fs::path(out.shipped_from) / "data/templates";  // of `new`: not for use
+  const fs::path kept = fs::path(out.shipped_from) / "data/templates";  // templates of `new`
   for (Listed& one : found)
     if (!known.contains(one.path) &&
         (out.shipped_from.empty() || !one.path.starts_with(kept.string() + "/")))

@@ -1,5 +1,5 @@
-// files/list.h - robots, experiments, rigs, studies and examples: those that come with Sinew, and
-// those in a folder.
+// files/list.h - listing of robots, experiments, rigs, studies and examples, both those shipped
+// with Sinew and those in a folder.
 //
 //   for (const files::Listed& one : files::list("robots").files) …one.path, one.title…
 #pragma once
@@ -15,28 +15,28 @@ namespace sinew::files {
 // Returns the kinds: robots, experiments, rigs, studies, examples.
 std::span<const std::string_view> listed_kinds();
 
-// One file, or the folder of an example.
+// Listed file, or the folder of an example.
 struct Listed {
-  std::string kind;   // one of listed_kinds()
-  std::string path;   // as a command takes it here: relative where it is below this folder
-  std::string title;  // the file's own: its title, else what its first comment says, else its name
-  std::string problem;   // why it has no title; empty: it can be read
-  bool shipped = false;  // comes with Sinew
+  std::string kind;      // one of listed_kinds()
+  std::string path;      // as a command takes it: relative if it is below the folder
+  std::string title;     // its title, else its first comment, else its name
+  std::string problem;   // reason for a missing title; empty: the file can be read
+  bool shipped = false;  // shipped with Sinew
 };
 
-// What there is, and where it was looked for.
+// Result of a listing.
 struct Listing {
-  std::string shipped_from;   // the folder of those that come with Sinew; empty: it was not found
-  std::vector<Listed> files;  // by kind, those that come with Sinew first, by path
-  bool cut = false;           // the folder has more than was looked at
+  std::string shipped_from;   // folder of the shipped files; empty: not found
+  std::vector<Listed> files;  // sorted by kind, shipped ones first, then by path
+  bool cut = false;           // whether the search stopped at its limit
 };
 
-// What there is of one kind, or of all where it is empty. `here` is searched with the folders below
-// it, but for hidden ones, runs and builds. Throws config::Error for a kind that there is not, and
-// for a folder that cannot be read.
+// Lists the files of a kind, or of all kinds if it is empty. Searches `here` and the folders below
+// it, except hidden ones, runs and builds. Throws config::Error for an unknown kind and for a
+// folder that cannot be read.
 Listing list(const std::string& kind = "", const std::filesystem::path& here = ".");
 
-// Returns lines of text: a heading per kind and place, then path and title of each.
+// Returns lines of text: a heading for each kind and place, then the path and title of each file.
 std::string text_of(const Listing& listing, const std::string& kind = "");
 
 }  // namespace sinew::files

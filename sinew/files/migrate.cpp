@@ -25,7 +25,7 @@ std::string in_words(const config::Migrated::Edit& edit) {
   return fmt::format("line {}: {} becomes {}", edit.line, edit.was, edit.is);
 }
 
-// The thesis's own tables are read as they are. Throws config::Error for one that cannot be.
+// Leaves the thesis's own tables as they are. Throws config::Error for one that cannot be read.
 void leave_alone(const fs::path& file, Migration& out) {
   if (file.filename().string().starts_with("gain")) {
     config::read_gains(file.string());
@@ -41,7 +41,7 @@ void leave_alone(const fs::path& file, Migration& out) {
                try_this);
 }
 
-// A place that is free for the new file, and for the old one if it stays in its folder.
+// Chooses an unused path for the new file, and for the old one if it stays in its folder.
 void choose_places(const fs::path& file, const MigrateOptions& options, Migration& out) {
   if (!options.folder.empty()) {
     if (fs::exists(options.folder) && !fs::is_directory(options.folder))
@@ -64,7 +64,7 @@ void write_file(const fs::path& file, std::string_view text) {
   whole.commit();
 }
 
-// The old file is safe before the new one takes its place.
+// Saves the old file before the new one replaces it.
 void write(const std::string& old_text, const std::string& text, const Migration& m) {
   if (m.kept.empty()) {
     fs::create_directories(fs::path(m.written).parent_path());

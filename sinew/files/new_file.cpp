@@ -27,7 +27,7 @@ namespace sinew::files {
 
 namespace {
 
-// Holds what the rest of the robot has to know of the muscle.
+// Properties of the muscle that the rest of the robot depends on.
 struct Muscle {
   std::string name;
   double mount = 0;     // [m]
@@ -36,8 +36,8 @@ struct Muscle {
   double pressure = 0;  // the highest, gauge  [Pa]
 };
 
-// As far as the plan of a new experiment goes from the rest angle: it takes half of the way that
-// the muscle has to either side.
+// Largest angle from rest in the plan of a new experiment; it takes half of the muscle's way to
+// either end.
 constexpr double planned = 20 * std::numbers::pi / 180;  // [rad]
 constexpr double share_of_way = 0.5;
 constexpr double template_supply = 100 * units::psi;  // gauge [Pa]
@@ -63,7 +63,7 @@ Muscle muscle_of(const std::string& file) {
   return m;
 }
 
-// The line on which `key` stands alone, from `from` on; npos: there is none.
+// Returns the position of the line that begins with `key`, searched from `from`; npos if none does.
 std::size_t line_of(const std::string& text, std::string_view key, std::size_t from = 0) {
   for (std::size_t at = text.find(key, from); at != text.npos; at = text.find(key, at + 1)) {
     const bool begins = at == 0 || text[at - 1] == '\n';
@@ -73,7 +73,7 @@ std::size_t line_of(const std::string& text, std::string_view key, std::size_t f
   return text.npos;
 }
 
-// Every line of `key` gets `value`; what is aligned stays so.
+// Sets the value in every line of `key`; keeps the alignment.
 void set(std::string& text, std::string_view key, const std::string& value) {
   for (std::size_t at = line_of(text, key); at != text.npos; at = line_of(text, key, at + 1)) {
     const std::size_t equals = text.find("= ", at) + 2, end = text.find('\n', at);
@@ -90,7 +90,7 @@ std::string guessed(const std::string& value, std::string_view source) {
   return fmt::format("{{ value = \"{}\", guess = true, source = \"{}\" }}", value, source);
 }
 
-// Three digits are as much as a guess is worth.
+// Rounds to three digits, enough for a guess.
 std::string rounded(double value, std::string_view unit) {
   const double digit = std::pow(10, std::floor(std::log10(std::max(value, 1e-9))) - 2);
   return fmt::format("{:g} {}", std::round(value / digit) * digit, unit);
@@ -144,18 +144,18 @@ constexpr std::array<std::string_view, 9> kinds_of_files{
     "robot", "actuator", "valves", "wiring", "experiment", "plan", "tuning", "rig", "mapping"};
 constexpr std::size_t longest_name = 64;
 
-// The joint of the templates, and the angle about which it moves there.
+// Joint of the templates, and its rest angle there.
 constexpr std::string_view template_joint = "lever";
 constexpr double template_rest_deg = 270;
 
 struct Joint {
   std::string name;
-  std::string in_plan;  // without its leg: what drives one leg drives them all
+  std::string in_plan;  // without its leg: a plan drives all legs alike
   double rest_deg = template_rest_deg;
-  bool driven = true;  // by muscles
+  bool driven = true;  // whether muscles drive it
 };
 
-// What the new file is about: a robot's file or an experiment's, and the joints that it drives.
+// Base of the new file: a robot or an experiment, and the joints that it drives.
 struct Subject {
   fs::path file;
   std::vector<Joint> joints{{std::string(template_joint), std::string(template_joint)}};
@@ -168,7 +168,7 @@ void require_new_kind(const std::string& kind) {
                config::closest_in_quotes(kind, words));
 }
 
-// A name is a folder's or a file's, and stands in keys and comments.
+// Checks a name, which becomes the name of a folder or file and occurs in keys and comments.
 void require_name(const std::string& name) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -196,7 +196,7 @@ void replace_all(std::string& text, std::string_view from, const std::string& to
     text.replace(at, from.size(), to);
 }
 
-// "3.15 in | 80 mm" stands in a template for either.
+// Chooses from "3.15 in | 80 mm" in a template.
 void choose_units(std::string& text, bool metric) {
   constexpr std::string_view between = " | ";
   for (std::size_t at = text.find(between); at != text.npos; at = text.find(between, at)) {
@@ -208,7 +208,7 @@ void choose_units(std::string& text, bool metric) {
   }
 }
 
-// NEW is the name as a value, `name = "NEW"`, and the file everywhere else, which is in comments.
+// Replaces NEW by the name in a value, `name = "NEW"`, and by the file elsewhere, in comments.
 void put_name(std::string& text, const std::string& name, const std::string& file) {
   constexpr std::string_view mark = "NEW", before_value = "= \"";
   for (std::size_t at = text.find(mark); at != text.npos;) {
@@ -219,7 +219,7 @@ void put_name(std::string& text, const std::string& name, const std::string& fil
   }
 }
 
-// A file's name in a comment, as a shell takes it.
+// Returns a file's name for a shell command in a comment.
 std::string in_comment(const fs::path& file) {
   const std::string name = file.string();
   const auto is_control = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7F; };
@@ -227,7 +227,7 @@ std::string in_comment(const fs::path& file) {
   return name.find(' ') == name.npos ? name : "\"" + name + "\"";
 }
 
-// "290 deg" of the template is 20 deg beyond the rest angle, at any joint.
+// Shifts angles to the joint's rest angle: "290 deg" in the template is 20 deg beyond it.
 std::string about(const Joint& joint, std::string text) {
   for (std::size_t end = text.find(" deg\""); end != text.npos;
        end = text.find(" deg\"", end + 5)) {
@@ -240,7 +240,8 @@ std::string about(const Joint& joint, std::string text) {
   return text;
 }
 
-// "{ lever = X }" is said of each joint: of all at the start, of one leg's in a plan.
+// Repeats "{ lever = X }" for each joint: for all joints at the start, for those of one leg in a
+// plan.
 void name_joints(std::string& text, const std::vector<Joint>& joints) {
   const std::string opening = fmt::format("{{ {} = ", template_joint);
   for (std::size_t at = text.find(opening); at != text.npos; at = text.find(opening, at + 1)) {
@@ -255,7 +256,7 @@ void name_joints(std::string& text, const std::vector<Joint>& joints) {
         all += fmt::format("{}{} = {}", all.empty() ? "{ " : ", ", name, about(joint, value));
     text.replace(at, end - at, all);
   }
-  // A plan's keys name one joint.
+  // Keys of a plan name one joint.
   const Joint& first = *std::ranges::find_if(joints, &Joint::driven);
   for (const char* before : {"joint.", "joints."})
     replace_all(text, fmt::format("{}{}.", before, template_joint), before + first.name + ".");
@@ -268,7 +269,7 @@ const config::Node* value_of(const config::Node& table, const char* key) {
   return node && node->is_value_table() ? node->find("value") : node;
 }
 
-// "hip" of left_hip, where the robot has a leg of that name.
+// Returns "hip" for left_hip if the robot has a leg of that name.
 std::string without_leg(const std::string& joint, const config::Node& root) {
   if (const config::Node* legs = root.find("leg"))
     for (const config::Node& leg : legs->children)
@@ -276,7 +277,7 @@ std::string without_leg(const std::string& joint, const config::Node& root) {
   return joint;
 }
 
-// The joints, with their rest angles.
+// Returns the joints with their rest angles.
 std::vector<Joint> joints_of(const config::Node& root) {
   std::vector<Joint> out;
   if (const config::Node* table = root.find("joint"))
@@ -291,10 +292,10 @@ std::vector<Joint> joints_of(const config::Node& root) {
   return out;
 }
 
-// A study, which runs an experiment many times.
+// Returns whether the file is a study, which runs an experiment many times.
 bool is_study(std::string_view kind) { return kind == "plan" || kind == "tuning"; }
 
-// What it is of: the file that was named, or one that comes with Sinew.
+// Returns the base: the file that was given, or one shipped with Sinew.
 Subject subject_of(const std::string& kind, const NewOptions& options) {
   const bool study = is_study(kind);
   if (kind != "experiment" && !study) {
@@ -318,13 +319,13 @@ Subject subject_of(const std::string& kind, const NewOptions& options) {
   return out;
 }
 
-// A file as one in the folder `from` calls it.
+// Returns the path of a file relative to the folder `from`.
 std::string relative_to(const fs::path& from, const fs::path& file) {
   const fs::path folder = fs::weakly_canonical(fs::absolute(from));
   return fs::weakly_canonical(fs::absolute(file)).lexically_relative(folder).string();
 }
 
-// Relative to the new file where somebody named it; one that comes with Sinew has its whole name.
+// Returns a path relative to the new file if the user gave it; a shipped file has its full path.
 std::string reference(const Subject& subject, const fs::path& from, bool named) {
   return named ? relative_to(from, subject.file) : subject.file.string();
 }
@@ -334,14 +335,14 @@ struct Draft {
   std::string text;
 };
 
-// What was asked for.
+// Request for a new file.
 struct Task {
   std::string kind, name;
   const NewOptions& options;
   Subject subject;
 };
 
-// `part` is the template: robot, actuator, …
+// Fills in the template `part`: robot, actuator, …
 Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   const fs::path from = shipped_folder() / "data/templates" / (part + ".toml");
   Draft out{file, config::read_text_file(from.string(), "a template of Sinew")};
@@ -364,7 +365,7 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   return out;
 }
 
-// A robot and a rig have their actuator and valves beside them in a folder of their own.
+// Returns the files to write; a robot and a rig have their actuator and valves in their own folder.
 std::vector<Draft> drafts(const std::string& kind, const std::string& name,
                           const NewOptions& options) {
   const fs::path folder(options.folder);

@@ -13,8 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An installation's share/sinew is at most so far above the program or Python's module, and so are
-// the sources above what was built in them.
+// Maximum number of levels from the program or Python's module up to share/sinew or the sources.
 constexpr int furthest = 5;
 
 bool is_it(const fs::path& folder) {
@@ -24,7 +23,7 @@ bool is_it(const fs::path& folder) {
          fs::is_directory(folder / "data/templates", none);
 }
 
-// The folders of the program and of the library that this code is in, where that is another file.
+// Returns the folders of the program and of the library that contains this code.
 std::vector<fs::path> beginnings() {
   std::error_code none;
   std::vector<fs::path> out;

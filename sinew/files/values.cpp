@@ -26,7 +26,7 @@ std::string si_text(const config::Node& values, const config::Origin& origin) {
   return config::written(node->is_value_table() ? *node->find("value") : *node);
 }
 
-// Returns it for people: a single number without the digits that reading it left behind.
+// Returns the value for display: a single number without digits caused by conversion.
 std::string rounded_text(const config::Node& values, const config::Origin& origin) {
   const std::string si = si_text(values, origin);
   const config::Parsed parsed = config::parse_quantity(si, origin.unit.empty() ? "1" : origin.unit);
@@ -34,10 +34,10 @@ std::string rounded_text(const config::Node& values, const config::Origin& origi
                                                : config::rounded_quantity(parsed.si, origin.unit);
 }
 
-// An absolute pressure is shown as pressures are, from the room's where the set has gauges.
+// Absolute pressures are shown with the unit of pressures, as gauge if the set of units has it.
 std::string_view held(std::string_view unit) { return unit == "Pa abs" ? "Pa" : unit; }
 
-// The value in the units that are asked for; a list has each of its numbers.
+// Returns the value in the units to show; a list has each of its numbers.
 std::string shown_text(const config::Node& values, const config::Origin& origin,
                        const units::ShownUnits& shown, double room) {
   const config::Node* node = origin.unit.empty() ? nullptr : config::value_at(values, origin.path);
@@ -63,7 +63,7 @@ std::string place(const config::Origin& o) {
   return o.where.line > 0 ? fmt::format("{}:{}", o.where.file, o.where.line) : o.where.file;
 }
 
-// Those that were asked for by their key or by how they begin; all, where none was.
+// Returns the origins selected by key or beginning of a key; all, if no key is given.
 config::Origins chosen(const config::Origins& all, const std::vector<std::string>& keys,
                        const std::string& path) {
   if (keys.empty()) return all;
@@ -105,7 +105,7 @@ Json to_json(const config::Origin& o, const config::Node& values) {
   return out;
 }
 
-// A mapping's rows are tables in a list.
+// Returns the values of a mapping, whose rows are tables in a list.
 Values mapping_values(const std::string& path, const std::vector<std::string>& sets,
                       const std::vector<std::string>& keys) {
   const config::Node root = config::compose(path, sets);

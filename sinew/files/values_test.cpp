@@ -1,4 +1,4 @@
-// Values of files as they are used, and where they came from.
+// Values of files as used, and their origins.
 #include "sinew/files/values.h"
 
 #include <gtest/gtest.h>

@@ -100,9 +100,9 @@ using Findings = std::vector<Finding>;
 // --- devices ---
 
 struct Kind {
-  std::string subject, place, group;  // group: that which usually has them
+  std::string subject, place, group;  // group: the usual group of the devices
   std::vector<std::string> names;     // below /dev
-  std::string if_none;                // what to do
+  std::string if_none;                // advice if there is no device
 };
 
 const std::vector<Kind>& kinds() {
@@ -118,7 +118,7 @@ void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) 
                               ? "a board is connected by one"
                               : "a card reads the sensors and switches the valves";
   std::vector<fs::path> devices = named(asked.root / "dev", kind.names);
-  // A card's device has a number alone; comedi0_subd1 is a part of it.
+  // A card's device is named comedi and a number; comedi0_subd1 is a part of it.
   std::erase_if(devices, [](const fs::path& d) {
     return d.filename().string().find("_subd") != std::string::npos;
   });
@@ -145,7 +145,7 @@ void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) 
 
 // --- USB adapters ---
 
-// A driver of FTDI's collects bytes for so long before it hands them on  [ms].
+// FTDI's driver collects bytes for this time before it passes them on [ms].
 void look_at_adapters(const DoctorAsked& asked, Findings& out) {
   const fs::path folder = asked.root / "sys/bus/usb-serial/devices";
   for (const fs::path& device : named(folder, {"tty"})) {
@@ -170,7 +170,7 @@ void look_at_limits(const DoctorAsked& asked, Findings& out) {
   const double most = limit_of(asked.root, "Max realtime priority");
   const double memory = limit_of(asked.root, "Max locked memory");
   const bool first = first_user || most < 0 || most >= priority;
-  // A run's memory is its log above all; a gigabyte is more than any has needed.
+  // A run's memory is mostly its log; a gigabyte exceeds the largest so far.
   const bool locked = first_user || memory < 0 || memory >= 1e9;
   const auto said = [](double limit) {
     return limit < 0 ? std::string("unlimited") : fmt::format("{:.0f}", limit);
@@ -205,7 +205,7 @@ void look_at_kernel(const DoctorAsked& asked, Findings& out) {
                  "reading hpet or acpi_pm costs a microsecond or more, tsc some nanoseconds",
                  slow ? "sudo dmesg | grep -i tsc   # prints why it was rejected" : ""});
 
-  // Each processor has its own; the slowest of them is the one that the loop is on.
+  // Each processor has its own governor; the loop may run on the slowest.
   std::string slowest;
   for (const fs::path& cpu : named(asked.root / "sys/devices/system/cpu", {"cpu"})) {
     const std::string governor = text_of(cpu / "cpufreq/scaling_governor");
@@ -274,7 +274,7 @@ std::vector<Finding> examine(const DoctorAsked& asked) {
   return out;
 }
 
-// One device that may be used is enough.
+// One usable device is enough.
 bool is_ready(const std::vector<Finding>& findings, const std::string& place) {
   for (const Finding& f : findings) {
     if (f.place != place || f.verdict != Verdict::missing) continue;

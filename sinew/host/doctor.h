@@ -1,8 +1,8 @@
-// host/doctor.h - is this computer ready to drive a machine? Each finding says what was found, why
-// it matters, and what to do.
+// host/doctor.h - check whether this computer is ready to drive a machine. Each finding has a
+// result, its importance, and advice.
 //
-// All but the timer's latency is read from files below a root: /, or a tree that a test has made
-// up.
+// Everything except the timer's latency is read from files below a root: /, or a tree made by a
+// test.
 #pragma once
 
 #include <filesystem>
@@ -15,58 +15,58 @@
 
 namespace sinew::host {
 
-// How serious a finding is.
+// Severity of a finding.
 enum class Verdict {
   good,
-  advice,   // it goes, and would go better otherwise
-  missing,  // what needs it does not go
+  advice,   // works, but could be improved
+  missing,  // the features that need it do not work
 };
 
-// One thing that was looked at, and what it means for whoever drives a machine.
+// Result of one check, for the operator of a machine.
 struct Finding {
   std::string subject;  // "serial devices"
-  std::string place;  // what needs it: serial, emulated, comedi; empty: whatever runs in real time
+  std::string place;    // serial, emulated, comedi; empty: needed for real time in general
   Verdict verdict = Verdict::good;
-  std::string found, why, todo;  // todo: a command; empty where there is nothing to do
+  std::string found, why, todo;  // todo: a command; empty: nothing to do
 };
 
-// Where the doctor looks.
+// Input of the checks.
 struct DoctorAsked {
   std::filesystem::path root = "/";
-  std::vector<std::string> programs = {"/usr/local/bin", "/usr/bin", "/bin"};  // where they are
-  std::function<Latency()> latency;  // none: it is not measured
+  std::vector<std::string> programs = {"/usr/local/bin", "/usr/bin", "/bin"};  // their folders
+  std::function<Latency()> latency;  // empty: not measured
 };
 
-// Looks, and changes nothing. In the order in which one would read them.
+// Runs all checks and changes nothing. The findings are in the order in which they should be read.
 std::vector<Finding> examine(const DoctorAsked& asked);
 
-// Does anything lack that this kind of place needs? `simulated` needs nothing.
+// Returns whether everything that this kind of place needs is available. `simulated` needs nothing.
 bool is_ready(const std::vector<Finding>& findings, const std::string& place);
 
-// What the doctor reads of a system below a root: text, devices, the groups
-// and limits of this process.
+// Readers of system files below a root: text, devices, groups and limits of this process.
 
-// The text of a file without what ends it; empty where there is none.
+// Returns the text of a file without blanks and line ends at its end; empty if it does not exist.
 std::string text_of(const std::filesystem::path& file);
 
-// Files of a folder whose names start so, sorted.
+// Returns the files of a folder whose names begin with one of `starts`, sorted.
 std::vector<std::filesystem::path> named(const std::filesystem::path& folder,
                                          const std::vector<std::string>& starts);
 
-// Who this process is, by /proc/self/status.
+// User of this process, from /proc/self/status.
 struct User {
   long id = -1, group = -1;
   std::vector<long> groups;
 };
 User user_of(const std::filesystem::path& root);
 
-// May the user read and write it, by owner, group and mode? The first user may everything.
+// Returns whether the user may read and write the file, by owner, group and mode. User 0 always
+// may.
 bool may_use(const std::filesystem::path& file, const User& user);
 
-// The name of the group that a file has, by etc/group; its number where there is no name.
+// Returns the name of a file's group from etc/group, or its number if it has no name.
 std::string group_of(const std::filesystem::path& file, const std::filesystem::path& root);
 
-// A soft limit by its name in /proc/self/limits; -1: unlimited, 0 where it is not told.
+// Returns a soft limit by its name in /proc/self/limits; -1: unlimited, 0: not listed.
 double limit_of(const std::filesystem::path& root, const std::string& name);
 
 }  // namespace sinew::host

@@ -1,4 +1,4 @@
-// A made-up system with one defect after the other: each is found, and what to do is said.
+// Simulated computer with one defect at a time: each is found, and advice is given.
 #include "sinew/host/doctor.h"
 
 #include <gtest/gtest.h>
@@ -12,13 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A computer on which nothing is wrong, until a test breaks something.
+// Computer without any defect, until a test adds one.
 class Doctor : public ::testing::Test {
  protected:
   Doctor() {
     std::string name = (fs::temp_directory_path() / "sinew-doctor-XXXXXX").string();
     root_ = mkdtemp(name.data());
-    // Nobody who runs this test has that number, so that modes alone decide.
+    // The user who runs the test does not have this number, so that only modes decide.
     put("proc/self/status",
         "Name:\tsinew\nUid:\t64001\t64001\nGid:\t64001\t64001\nGroups:\t64002\n");
     put("proc/self/limits",
@@ -60,7 +60,7 @@ class Doctor : public ::testing::Test {
     ADD_FAILURE() << "nothing said of " << subject;
     return {};
   }
-  // Only this is not good; returns what was said of it.
+  // Expects that only this finding is not good; returns it.
   Finding only(const std::string& subject) const {
     const std::vector<Finding> all = look();
     for (const Finding& f : all) {
@@ -118,7 +118,7 @@ TEST_F(Doctor, MembersOfTheGroupAndTheOwnerMayUseADevice) {
   EXPECT_FALSE(as(64001, 64002));
   EXPECT_TRUE(as(0, 64002));
   EXPECT_TRUE(as(owner, 64002));
-  mode("dev/comedi0", 0640);  // reading alone drives no machine
+  mode("dev/comedi0", 0640);  // reading alone is not enough to drive a machine
   EXPECT_FALSE(as(64001, group));
 }
 
@@ -187,7 +187,7 @@ TEST_F(Doctor, ALateTimerIsAdviceAndSaidByItsClass) {
   const Finding late = find(look({1e-6, 2e-4, 5e-3, 10'000}), "timer latency");
   EXPECT_EQ(late.verdict, Verdict::advice);
   EXPECT_TRUE(late.found.starts_with("unfit: ")) << late.found;
-  // Where nobody measures, nothing is said.
+  // Without a measurement there is no finding.
   for (const Finding& f : examine({.root = root_})) EXPECT_NE(f.subject, "timer latency");
 }
 

@@ -1,4 +1,4 @@
-// How late a computer is, from wake-ups that are known, and the beat by which a loop goes.
+// Statistics of given wake-up delays, and the ticks of a loop.
 #include "sinew/host/realtime.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(Latency, AClassIsAPromiseOfATick) {
             "real-time: 10000 wake-ups, worst 31 us, 99.9 % within 12 us");
 }
 
-// However busy the computer is: nobody is woken early.
+// Independent of the load: no thread wakes early.
 TEST(Beat, NoTickComesBeforeItsTime) {
   Beat beat;
   beat.start();

@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Where modules may be: beside the program's folder; and where this code is in a library that a
-// program of somebody else has loaded (Python's), beside a folder above that library.
+// Returns the folders that may contain modules: the program's own, and if this code is in a library
+// loaded by another program (Python), those above that library.
 std::vector<fs::path> folders() {
   std::error_code none;
   const fs::path program = fs::read_symlink("/proc/self/exe", none);

@@ -1,20 +1,20 @@
-// host/module.h - parts of the program that are files of their own, opened by those who need them:
-// whoever does not neither needs nor loads the libraries behind them.
+// host/module.h - optional parts of the program in files of their own, opened on demand, so that
+// the libraries that they use are needed only then.
 #pragma once
 
 #include <filesystem>
 
 namespace sinew::host {
 
-// Returns where a module's file is, beside the program as it is built or installed; empty where
-// there is none.
+// Returns the path of a module's file, next to the program as built or installed; empty if it is
+// not found.
 std::filesystem::path find_module(const char* file);
 
-// Opens a module beside the program, as it is built and as it is installed, else wherever the
-// system finds it. Returns nullptr where there is none. It stays open.
+// Opens a module next to the program as built or installed, or else where the system finds it.
+// Returns nullptr if it is not found. It is never closed.
 void* open_module(const char* file);
 
-// Returns a function of it by its name; nullptr where it has none.
+// Returns a function of the module by its name; nullptr if it has none.
 void* function_of(void* module, const char* name);
 
 }  // namespace sinew::host

@@ -62,7 +62,7 @@ Latency measure_latency(double seconds, double tick) {
 Latency latency_of(std::vector<double> late) {
   if (late.empty()) return {};
   std::ranges::sort(late);
-  // The last that belongs to the share, so that of few wake-ups it is the worst.
+  // Last value within the share, so that for few wake-ups it is the worst.
   const auto at = [&](double share) {
     const double rank = std::ceil(share * static_cast<double>(late.size()));
     return late[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
@@ -93,8 +93,8 @@ bool schedule(int policy, int with) noexcept {
 
 }  // namespace
 
-// Pages that come later are left as they are: locked from the start they would count against a
-// limit that a run's log may well exceed.
+// Pages allocated later are not locked: locked in advance, they would count against a limit that a
+// run's log may exceed.
 RealTime::RealTime() noexcept
     : first_(schedule(SCHED_FIFO, priority)), locked_(::mlockall(MCL_CURRENT) == 0) {}
 

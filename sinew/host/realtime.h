@@ -1,8 +1,8 @@
-// host/realtime.h - time on this computer: a thread that comes before all others, a beat that it
-// keeps, and how late it wakes.
+// host/realtime.h - real time on this computer: thread priority, locked memory, periodic ticks, and
+// wake-up latency.
 //
-// For as long as a Realtime lives the calling thread comes before all others and its
-// memory stays where it is, as far as this user may ask for that.
+// While a RealTime exists, the calling thread has priority over ordinary threads, and the memory of
+// its process is locked, as far as the user's limits permit.
 #pragma once
 
 #include <cstdint>
@@ -13,77 +13,76 @@
 
 namespace sinew::host {
 
-// Above a kernel's threads of interrupts (50), below those that keep the kernel itself alive.
+// Above the kernel's interrupt threads (50), below the threads that keep the kernel itself running.
 inline constexpr int priority = 80;
 
-// Puts the thread first when it is made, and back when it ends.
+// Raises the thread's priority on construction and resets it on destruction.
 class RealTime {
  public:
-  // Take memory before: what comes later is not locked. Never throws: what is not permitted is
-  // left out.
+  // Allocate memory before: later allocations are not locked. Never throws; skips what is not
+  // permitted.
   RealTime() noexcept;
   ~RealTime();
   RealTime(const RealTime&) = delete;
   RealTime& operator=(const RealTime&) = delete;
 
   bool first() const noexcept { return first_; }    // SCHED_FIFO
-  bool locked() const noexcept { return locked_; }  // what it has of memory
+  bool locked() const noexcept { return locked_; }  // present memory is locked
 
  private:
   bool first_ = false, locked_ = false;
 };
 
-// What was not permitted, and what to do about it; empty where all was.
+// Returns what was not permitted, with advice; empty if everything was.
 std::vector<std::string> problems(const RealTime& real_time);
 
-// How late this computer wakes a program that sleeps to a tick, measured.
+// Measured latency of wake-ups of a program that sleeps until a tick.
 //
-// A valve's edge and a conversion are as late as the wake-up before them. A kernel without a
-// promise is late by tens of microseconds as a rule, and by milliseconds now and then.
+// A valve's edge and a conversion are as late as the preceding wake-up. A kernel without real-time
+// guarantees is usually late by tens of microseconds, and occasionally by milliseconds.
 
-// Of so many wake-ups  [s].
+// Latency of `count` wake-ups [s].
 struct Latency {
-  double median = 0, most = 0, worst = 0;  // most: 99.9 % are no later
+  double median = 0, most = 0, worst = 0;  // most: exceeded by 0.1 %
   std::size_t count = 0;
 };
 
-// What a loop at that tick may expect.
+// Suitability for a loop with that tick.
 enum class LatencyClass {
-  real_time,  // never later than half a tick: an edge stands in its own tick
-  usual,      // 99.9 % within a tick: an edge is late now and then, and counted
-  unfit       // later than a tick more often than that
+  real_time,  // never later than half a tick: edges are in their own tick
+  usual,      // 99.9 % within a tick: an edge is late occasionally, and counted
+  unfit       // more often later than a tick
 };
 
-// Sleeps from tick to tick for that long. Takes its memory before.
+// Sleeps from tick to tick for `seconds`. Allocates its memory first.
 Latency measure_latency(double seconds, double tick = signals::tick_seconds);
 
-// Of wake-ups that were that late; any order. Empty: all 0.
+// Returns the statistics of wake-ups from their delays in any order [s]. Empty: all 0.
 Latency latency_of(std::vector<double> late);
 
-// Returns what a computer that wakes so late may drive, in ticks of that many seconds.
+// Returns the suitability of a computer with that latency for ticks of `tick` seconds.
 LatencyClass class_of(const Latency& latency, double tick = signals::tick_seconds);
 
-// "real-time: 10000 wake-ups, worst 31 us, 99.9 % within 12 us".
+// Returns the latency as text: "real-time: 10000 wake-ups, worst 31 us, 99.9 % within 12 us".
 std::string in_words(const Latency& latency, double tick = signals::tick_seconds);
 
-// The wall's clock in ticks: who drives a machine that does not wait for him sleeps
-// from tick to tick by it.
+// Monotonic clock in ticks, for a loop that drives hardware and sleeps from tick to tick.
 
-// Of the clock that no one sets  [ns].
+// Returns the time of the monotonic clock [ns].
 std::int64_t now_ns() noexcept;
-// Returns at once where the instant has passed. A signal's handler does not end it.
+// Sleeps until an instant; returns at once if it has passed. Signals do not interrupt it.
 void sleep_until_ns(std::int64_t instant) noexcept;
 
-// Gives the ticks of a machine by the clock of this computer.
+// Waits for the ticks of a machine by this computer's clock.
 class Beat {
  public:
-  // Tick 0 is at the first wait_until, or from here on.
+  // Sets tick 0 to now; without a call it is at the first wait_until().
   void start() noexcept;
 
-  // Sleeps to that tick. False where it is later than a tick by then.
+  // Sleeps until the tick. Returns false if it is then more than a tick late.
   bool wait_until(signals::Tick tick) noexcept;
 
-  // By how much the last wait ended too late  [ticks], 0 where it did not.
+  // Returns the delay of the last wait [ticks], 0 if it was in time.
   signals::Tick behind() const noexcept { return behind_; }
 
  private:

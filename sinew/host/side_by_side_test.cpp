@@ -1,4 +1,5 @@
-// Attempts beside each other: each once, its own result, the first error, the count.
+// Parallel tasks: each runs once, has its own result, the first error is thrown, and all are
+// counted.
 #include "sinew/host/side_by_side.h"
 
 #include <gtest/gtest.h>

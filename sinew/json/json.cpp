@@ -44,13 +44,14 @@ Library to_library(const Json& json) {
 // Receives the parts of a text from the library's parser and builds the value directly, so that the
 // library's own tree of values is never built.
 struct Builder {
-  // Deeper ones than any of ours are refused: a value is copied and removed level by level.
+  // Limit of the nesting, above that of all own files: a value is copied and removed level by
+  // level.
   static constexpr std::size_t deepest = 500;
 
   Json root;
-  std::vector<Json*> open;  // the lists and objects that have begun, the innermost last
+  std::vector<Json*> open;  // lists and objects that are not finished, the innermost last
   std::string name;         // name of the next member
-  std::string wrong;        // why the text is refused
+  std::string wrong;        // reason why the text is refused
 
   bool null() { return put(nullptr); }
   bool boolean(bool value) { return put(value); }

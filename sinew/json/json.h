@@ -1,5 +1,5 @@
-// json/json.h - a value of JSON: built, looked into, read and written. Members of an object stay in
-// the order in which they came.
+// json/json.h - JSON value that can be built, accessed, parsed and written. Members of an object
+// keep their order.
 //
 //   Json out{{"format", "sinew.study/1"}, {"seeds", {1, 2, 3}}};  // an object of two members
 //   out["title"] = "a walk";
@@ -9,8 +9,9 @@
 // array({...}) always makes an array. Json({"one"}) is an array to GCC and a text to Clang; write
 // array({"one"}).
 //
-// nlohmann's library reads and writes, in json.cpp alone. Its templates take a compiler four
-// seconds in each source that includes them, which was a third of the time to build the program.
+// Only json.cpp uses nlohmann's library, which parses and writes. Its templates take a compiler
+// four seconds in each source that includes them, which was a third of the time to build the
+// program.
 #pragma once
 
 #include <concepts>
@@ -88,10 +89,10 @@ class Json {
   static bool parse(std::string_view text, Json& out);
   static bool parse(std::istream& in, Json& out);
 
-  // Returns it as text: in one line, or with so many spaces before each inner line. Bytes that are
-  // no UTF-8 become U+FFFD; numbers that are not finite become null.
+  // Returns it as text: in one line, or with `indent` spaces before each inner line. Bytes that are
+  // not UTF-8 become U+FFFD; numbers that are not finite become null.
   std::string text(int indent = -1) const;
-  // Returns the same; throws JsonError where a text in it is no UTF-8.
+  // Returns the text like text(); throws JsonError if a text in it is not UTF-8.
   std::string exact_text(int indent = -1) const;
 
   // Returns the value in CBOR (RFC 8949), which keeps NaN and infinity; of_bytes() reads it. Throws
@@ -135,7 +136,7 @@ class Json {
   void push_back(Json item);
   // Returns all items. Throws JsonError if it is not an array.
   const std::vector<Json>& list() const&;
-  void list() const&& = delete;  // a loop over what is gone
+  void list() const&& = delete;  // the items would not outlive the loop
   // Returns the range of the items of an array, which is empty for every other type. Members of an
   // object are in items().
   const Json* begin() const;

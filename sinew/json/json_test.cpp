@@ -12,7 +12,7 @@
 namespace sinew::json_test {
 namespace {
 
-// A value of the kinds that a text keeps, with what is hard to write among it.
+// Value with all types that a text keeps, including ones that are difficult to write.
 Json random_value(std::mt19937& random, int deepest) {
   const auto kind = random() % (deepest > 0 ? 8 : 6);
   if (kind == 0) return nullptr;
@@ -70,7 +70,7 @@ TEST(Json, MembersStayInTheOrderInWhichTheyCame) {
   out.erase("a");
   EXPECT_EQ(out.items().size(), 2u);
   EXPECT_EQ(out.find("a"), nullptr);
-  EXPECT_EQ(out, Json::parse(R"({"m": 4.0, "z": 3})"));  // order and kind of number apart
+  EXPECT_EQ(out, Json::parse(R"({"m": 4.0, "z": 3})"));  // ignores order and type of numbers
 }
 
 TEST(Json, CopiesAreTheirOwn) {
@@ -107,7 +107,7 @@ TEST(Json, WhatIsNoJsonIsRefused) {
   EXPECT_THROW((void)Json::of_bytes("\xff\xff"), JsonError);
 }
 
-// A text of a million brackets must not take the program down.
+// A text with a million brackets must not crash the program.
 TEST(Json, WhatIsNestedTooDeeplyIsRefused) {
   const auto nested = [](std::size_t depth) {
     return std::string(depth, '[') + std::string(depth, ']');

@@ -37,7 +37,7 @@ std::string heading(const signals::Topic& topic, const signals::Field& field) {
   return quoted_if_needed(text);
 }
 
-// One series while the rows go by.
+// Position in a series while rows are written.
 class Walker {
  public:
   explicit Walker(const signals::Series& series)
@@ -46,7 +46,7 @@ class Walker {
   bool edges() const { return edges_; }
   const signals::Series& series() const { return series_; }
 
-  // Moves past all samples up to this time. Times must ascend.
+  // Skips all samples up to this time. Times must ascend.
   void go_to(std::int64_t time_ns) {
     while (next_ < series_.time_ns.size() && series_.time_ns[next_] <= time_ns) ++next_;
     here_ = next_ > 0 && (edges_ || series_.time_ns[next_ - 1] == time_ns);
@@ -73,7 +73,7 @@ signals::Times row_times(const std::vector<Walker>& walkers) {
   signals::Times times;
   for (const Walker& walker : walkers) {
     if (walker.edges() && !all) continue;
-    // Topics that share their times, as most do, add nothing.
+    // Most topics share their times and add none.
     const signals::Times& more = walker.series().time_ns;
     if (more == times) continue;
     signals::Times both(more.file());
@@ -83,7 +83,7 @@ signals::Times row_times(const std::vector<Walker>& walkers) {
   return times;
 }
 
-// Puts the table line by line.
+// Passes the table to `put` line by line.
 template <class Put>
 void put_lines(const signals::Table& table, const std::vector<std::string>& topics, Put put) {
   std::vector<Walker> walkers;
@@ -123,7 +123,7 @@ void write_csv(const signals::Table& table, std::ostream& out,
 void write_csv(const signals::Table& table, const std::filesystem::path& file,
                const std::vector<std::string>& topics) {
   Replacement out(file);
-  constexpr std::size_t piece = 1 << 20;  // written at a time
+  constexpr std::size_t piece = 1 << 20;  // size of one write [B]
   std::string text;
   put_lines(table, topics, [&](const std::string& line) {
     text += line;

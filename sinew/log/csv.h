@@ -1,12 +1,12 @@
-// log/csv.h - a channel table as CSV, for spreadsheets and everything else that reads columns.
+// log/csv.h - channel table as CSV, for spreadsheets and other programs that read columns.
 //
-// `time [s]` comes first, then a column per field under `topic.field [unit]`, or `topic [unit]`
-// where the topic has one field. There is a row per distinct time of the periodic topics; a topic
-// without a sample at a row's time has an empty cell there, and so has a value that is no number.
+// `time [s]` comes first, then a column per field named `topic.field [unit]`, or `topic [unit]` if
+// the topic has one field. Each distinct time of the periodic topics has a row. A topic without a
+// sample at a row's time has an empty cell there; a value that is not finite is empty as well.
 //
-// Valve edges (/valve/<muscle>/<inlet|exhaust>/open) make no rows: their column says whether the
-// valve stands open (1) or shut (0) at the row's time, an edge at that very time included. Before
-// its first edge a valve is shut. In a table of edges alone the rows are their times.
+// Valve edges (/valve/<muscle>/<inlet|exhaust>/open) add no rows: their column is 1 if the valve is
+// open and 0 if it is shut at the row's time, including an edge at exactly that time. A valve is
+// shut before its first edge. A table that has only edges has a row for each of their times.
 //
 // Numbers have the fewest digits that read back to the same bits.
 #pragma once
@@ -21,12 +21,12 @@
 
 namespace sinew::log {
 
-// `topics` names what to write: those topics and all below them ("/muscle/hip_flexor", "/true");
-// empty stands for all.
+// Writes the table. `topics` selects these topics and all below them ("/muscle/hip_flexor",
+// "/true"); empty selects all.
 void write_csv(const signals::Table& table, std::ostream& out,
                const std::vector<std::string>& topics = {});
 
-// Into a file, which is replaced when the table is whole. Throws Error where it cannot be written.
+// Writes to a file, which is replaced once the table is complete. Throws Error on failure.
 void write_csv(const signals::Table& table, const std::filesystem::path& file,
                const std::vector<std::string>& topics = {});
 

@@ -8,10 +8,10 @@
 namespace sinew::log {
 namespace {
 
-// Columns of a log shrink by a third at any level; higher ones only take longer.
+// Columns of a log shrink by a third at any level; higher levels only take longer.
 constexpr int level = 3;
 
-// zlib takes pointers to bytes that it does not write to.
+// zlib's interface takes non-const pointers to input bytes.
 Bytef* bytes_of(std::string_view text) {
   return reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
 }
@@ -23,7 +23,7 @@ std::string deflated(std::string_view bytes) {
   std::string out(size, '\0');
   const int done = ::compress2(reinterpret_cast<Bytef*>(out.data()), &size, bytes_of(bytes),
                                static_cast<uLong>(bytes.size()), level);
-  if (done != Z_OK) throw std::bad_alloc();  // the only way to fail with room enough
+  if (done != Z_OK) throw std::bad_alloc();  // the only possible failure with enough room
   out.resize(size);
   return out;
 }

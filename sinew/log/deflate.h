@@ -1,4 +1,4 @@
-// log/deflate.h - bytes made smaller, in zlib's format (RFC 1950): what a browser's
+// log/deflate.h - compression in zlib's format (RFC 1950), which a browser's
 // DecompressionStream("deflate") reads.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace sinew::log {
 
-// The same bytes for the same input and the same zlib.
+// Returns the compressed bytes; the result is deterministic for one version of zlib.
 std::string deflated(std::string_view bytes);
 
-// The way back. Throws std::invalid_argument for what deflated() did not write.
+// Decompresses. Throws std::invalid_argument for bytes that deflated() did not write.
 std::string inflated(std::string_view bytes);
 
 }  // namespace sinew::log

@@ -1,4 +1,4 @@
-// log/error.h - what a log file's reader and writer throw: which file, what happened, what to do.
+// log/error.h - exception of a log file's reader and writer: file, reason and advice.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace sinew::log {
 
 class Error : public std::runtime_error {
  public:
-  // what() is "file: reason; advice".
+  // Sets what() to "file: reason; advice".
   Error(const std::filesystem::path& file, const std::string& reason, const std::string& advice)
       : std::runtime_error(file.string() + ": " + reason + "; " + advice) {}
 };

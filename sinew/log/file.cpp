@@ -18,8 +18,8 @@ namespace {
 
 const char* const kWhereToLook = "check the name, and that `sinew run` wrote a log there";
 
-// An old file is unlinked rather than truncated: whoever has it mapped keeps it. But not one that
-// is being written.
+// Unlinks an old file instead of truncating it, as it may be mapped by a reader; keeps one that is
+// being written.
 void make_way(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return;
@@ -87,7 +87,7 @@ Output::Output(const std::filesystem::path& path) {
   if (fd_ < 0)
     throw Error(path, "cannot create the log: " + system_words(errno),
                 "choose a folder that exists and that you may write to");
-  (void)lock(fd_);  // new, so nobody holds it
+  (void)lock(fd_);  // the file is new, so the lock is free
 }
 
 Output::~Output() { close(); }

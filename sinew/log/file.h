@@ -1,4 +1,4 @@
-// log/file.h - a file read as a view, or appended to; and the words that a log's writer and
+// log/file.h - memory-mapped input file, append-only output file, and names that a log's writer and
 // reader share.
 #pragma once
 
@@ -9,41 +9,41 @@
 
 namespace sinew::log {
 
-// A whole file as bytes, mapped and not copied, so that an hour's log needs no memory of its own.
+// Maps a whole file without copying it, so that a log of an hour needs no memory of its own.
 class Mapping {
  public:
   explicit Mapping(const std::filesystem::path& path);  // throws Error: missing, unreadable, empty
 
-  // Maps a file that is open already; `path` is for messages.
+  // Maps a file that is already open; `path` is for messages.
   Mapping(int descriptor, const std::filesystem::path& path);
   ~Mapping();
   Mapping(const Mapping&) = delete;
   Mapping& operator=(const Mapping&) = delete;
 
-  // Returns the whole file, for as long as this lives.
+  // Returns the whole file; valid for the lifetime of this object.
   std::string_view bytes() const { return {data_, size_}; }
 
-  // CRC-32 of its first bytes.
+  // Returns the CRC-32 of the file's first bytes.
   std::uint32_t crc(std::size_t bytes) const;
 
-  // Says that it was read up to there, so that a long log takes up no memory behind the reader.
-  // What is read again comes from the file again.
+  // Releases the memory of the part before `here`, which was read, so that a long log does not fill
+  // memory. It is loaded from the file again if it is read again.
   void forget_before(const char* here) const noexcept;
 
  private:
-  static constexpr std::size_t stride = 1 << 22;  // forgotten at a time [B]
+  static constexpr std::size_t stride = 1 << 22;  // released at a time [B]
 
   void map(int descriptor, const std::filesystem::path& path);
   void forget(std::size_t from, std::size_t count) const noexcept;
 
   const char* data_ = nullptr;
   std::size_t size_ = 0;
-  mutable std::size_t forgotten_ = 0;  // up to there, a multiple of the stride
+  mutable std::size_t forgotten_ = 0;  // end of the released part, a multiple of the stride
 };
 
-// A new file that is only appended to. The first failure is final: it is kept, and nothing more is
-// written, so that what stands in the file remains a prefix of what was meant. While it is open
-// nobody else can make an Output of that name.
+// New file that is only appended to. The first failure is final: its error is kept and nothing more
+// is written, so that the file's content remains a prefix of the intended one. While it is open, no
+// other Output of that name can be created.
 class Output {
  public:
   explicit Output(const std::filesystem::path& path);  // replaces a file; throws Error
@@ -51,19 +51,19 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  // Appends. False: it did not get there.
+  // Appends; returns false if not all bytes were written.
   bool write(std::string_view bytes) noexcept;
-  bool sync() noexcept;  // to the disk
-  // False: the system could not keep what was written before.
+  bool sync() noexcept;  // flushes to the disk
+  // Closes the file; returns false if earlier writes could not be kept by the system.
   bool close() noexcept;
 
-  // Does this very file still stand under that name?
+  // Returns whether this same file is still at that path.
   bool stands_at(const std::filesystem::path& path) const noexcept;
 
   int descriptor() const { return fd_; }  // -1: closed
 
   int error() const { return error_; }                  // errno of the first failure, or 0
-  std::uint64_t position() const { return position_; }  // bytes written
+  std::uint64_t position() const { return position_; }  // number of bytes written
   std::uint32_t crc() const { return crc_; }            // CRC-32 of all of them
 
  private:
@@ -73,22 +73,22 @@ class Output {
   std::uint32_t crc_ = 0;
 };
 
-// Returns the checksum of MCAP, of the bytes behind those that had the checksum `before`.
+// Returns MCAP's checksum of bytes that follow others with the checksum `before`.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
-// "No space left on device": the system's words for an errno.
+// Returns the system's text for an errno: "No space left on device".
 std::string system_words(int error);
 
-// The words that Sinew's logs use and that its writer and its reader must share.
+// Names in Sinew's logs that the writer and the reader share.
 
 inline constexpr std::string_view kSchemaEncoding = "jsonschema";
 inline constexpr std::string_view kMessageEncoding = "json";
-inline constexpr std::string_view kRunMetadata = "sinew.run";  // the record that says what was run
+inline constexpr std::string_view kRunMetadata = "sinew.run";  // record that describes the run
 
-// Metadata of a channel: "unit.<field>" says in which unit a field is.
+// Metadata key of a channel: "unit.<field>" holds the unit of a field.
 inline constexpr std::string_view kUnit = "unit.";
-// A topic whose value never changes is written once, and says here: the topic at whose times it
-// stands.
+// Metadata key of a topic whose value never changes and is written once: holds the topic whose
+// times it has.
 inline constexpr std::string_view kSteady = "sinew.steady";
 
 }  // namespace sinew::log

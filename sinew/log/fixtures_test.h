@@ -1,5 +1,4 @@
-// log/fixtures_test.h - what the tests of this folder share: a folder to write in, and tables to
-// log.
+// log/fixtures_test.h - fixtures of this folder's tests: a temporary folder and tables to log.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +20,7 @@
 
 namespace sinew::log::testing {
 
-// A folder that goes away with the test.
+// Temporary folder that is removed with the test.
 class Folder {
  public:
   Folder() {
@@ -45,7 +44,8 @@ inline void put_bytes(const std::filesystem::path& file, std::string_view bytes)
   std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
 }
 
-// A double of any kind: any bits, a subnormal, a whole number, a zero with either sign, NaN.
+// Returns any kind of double: random bits, a subnormal, a whole number, a zero with either sign,
+// NaN.
 inline double any_double(std::mt19937_64& random) {
   switch (random() % 8) {
     case 0:
@@ -65,7 +65,7 @@ inline double any_double(std::mt19937_64& random) {
   return std::isfinite(any) ? any : 0.0;
 }
 
-// Up to six topics of one to four fields, with up to `samples` samples each.
+// Returns a table of up to six topics with one to four fields and up to `samples` samples each.
 inline signals::Table random_table(std::uint64_t seed, std::size_t samples) {
   std::mt19937_64 random(seed);
   signals::Table table;
@@ -91,7 +91,7 @@ inline std::vector<signals::Topic> topics_of(const signals::Table& table) {
   return topics;
 }
 
-// Pushes sample 0 of every topic, sample 1 of every topic, ...: nearly the order of time.
+// Pushes sample 0 of every topic, then sample 1 of every topic, and so on: nearly in order of time.
 inline void push_all(Writer& writer, const signals::Table& table) {
   bool more = true;
   for (std::size_t i = 0; more; ++i) {
@@ -108,7 +108,7 @@ inline void push_all(Writer& writer, const signals::Table& table) {
   }
 }
 
-// Finished: indexed. Not finished: the plain row of messages that a killed run leaves.
+// Writes a log: indexed if `finished`, else the plain list of messages that a killed run leaves.
 inline void write_log(const std::filesystem::path& file, const signals::Table& table,
                       bool finished) {
   Writer writer(file, topics_of(table), {{"experiment", "test"}, {"seed", "1"}}, {.version = "0"});
@@ -127,7 +127,7 @@ inline bool same_bits(double a, double b) {
          std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-// Equal to the bit, or, with `prefix`, holding the first samples of each series.
+// Expects tables equal to the bit; with `prefix`, `got` may hold only the first samples.
 inline void expect_same(const signals::Table& got, const signals::Table& wanted,
                         bool prefix = false) {
   ASSERT_TRUE(prefix || got.series.size() == wanted.series.size()) << got.series.size();
@@ -152,7 +152,7 @@ inline void expect_same(const signals::Table& got, const signals::Table& wanted,
   }
 }
 
-// The text of the Error that `call` throws.
+// Returns the text of the Error that `call` throws.
 template <typename Call>
 std::string error_of(Call&& call) {
   try {

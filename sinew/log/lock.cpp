@@ -11,9 +11,9 @@
 namespace sinew::log {
 namespace {
 
-// The kernel's list of locks has a line for each:
+// Returns the holder's process id from the kernel's list of locks, which has a line for each:
 //   1: FLOCK  ADVISORY  WRITE 4711 fe:00:131080 0 EOF
-// "" where it is not told, as of a process in another container.
+// Returns "" if it is not listed, for example for a process in another container.
 std::string holder_of(int descriptor) {
   struct stat info {};
   if (::fstat(descriptor, &info) != 0) return "";
@@ -31,7 +31,7 @@ std::string holder_of(int descriptor) {
 }  // namespace
 
 std::string lock(int descriptor) {
-  // A holder that cannot be found may just have ended: then the lock is free at the next try.
+  // If the holder cannot be found, it may have just ended: the next try then takes the lock.
   for (int tries = 0; tries < 10; ++tries) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return "";
     const std::string pid = holder_of(descriptor);

@@ -1,16 +1,16 @@
-// log/lock.h - who may write a file or a folder: one process at a time.
+// log/lock.h - locks of files and folders: one writing process at a time.
 #pragma once
 
 #include <string>
 
 namespace sinew::log {
 
-// Locks what is open there (flock) until the descriptor is closed, at the latest with its process.
-// Returns "" where the lock was taken, else who holds it: "process 4711". A file system that knows
-// no locks refuses nobody.
+// Locks the open file or folder (flock) until the descriptor is closed, at the latest when its
+// process ends. Returns "" if the lock was taken, else its holder: "process 4711". On a file system
+// without locks it always succeeds.
 std::string lock(int descriptor);
 
-// Waits for whoever holds it.
+// Waits until the lock is free.
 void wait_for_lock(int descriptor);
 
 }  // namespace sinew::log

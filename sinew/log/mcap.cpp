@@ -79,7 +79,7 @@ void put_pairs(Bytes& out, const Pairs& pairs) {
   out.close_list(list);
 }
 
-// Whether all of the list could be read.
+// Reads a list of pairs; returns whether it was complete.
 bool take_pairs(std::string_view list, Pairs& out) {
   Fields f(list);
   while (f.ok() && !f.rest().empty()) {
@@ -89,7 +89,7 @@ bool take_pairs(std::string_view list, Pairs& out) {
   return f.ok();
 }
 
-// All but the records.
+// Reads all fields except the records.
 Chunk take_chunk_head(Fields& f) {
   Chunk c;
   c.start_time = f.u64();
@@ -119,7 +119,7 @@ std::optional<Channel> parse_channel(std::string_view content) {
   c.schema = f.u16();
   c.topic = f.text();
   c.encoding = f.text();
-  // Other programs may write anything there.
+  // Other programs may write any content there.
   if (!take_pairs(f.text(), c.metadata)) c.metadata.clear();
   return if_ok(f, c);
 }
@@ -207,7 +207,7 @@ void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_o
   const std::size_t record = out.open(Op::footer);
   out.u64(summary_start);
   out.u64(summary_offset_start);
-  // The checksum covers the footer's own length too, so that is filled in first.
+  // The checksum covers the footer's length, so the length is filled in first.
   out.u32(0);
   out.close(record);
   out.data().resize(out.size() - 4);

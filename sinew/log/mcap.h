@@ -1,8 +1,8 @@
-// log/mcap.h - the bytes of an MCAP file: magic, opcodes, records and their little-endian fields.
+// log/mcap.h - bytes of an MCAP file: magic, opcodes, records and their little-endian fields.
 //
-// An MCAP file is a magic, a row of records and the magic again. A record is an opcode, a length of
-// eight bytes and its content. This header knows what stands in the records that Sinew writes or
-// reads, and nothing of topics and numbers; the format is described at mcap.dev/spec.
+// An MCAP file is a magic, a sequence of records and the magic again. A record is an opcode, a
+// length of eight bytes and its content. This header covers the records that Sinew writes or reads,
+// but not the meaning of their data; the format is described at mcap.dev/spec.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace sinew::log {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 
-// The kinds of records, by the number in the file.
+// Opcodes of records.
 enum class Op : std::uint8_t {
   header = 0x01,
   footer = 0x02,
@@ -38,10 +38,10 @@ inline constexpr std::size_t kFooterContent = 20;
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-// Puts fields one behind the other.
+// Buffer to which fields are appended.
 class Bytes {
  public:
-  // Each appends a number, little end first; bytes as they are; a text behind its length.
+  // Each appends one field: a little-endian number, bytes unchanged, or a text after its length.
   void u8(std::uint8_t v) { data_.push_back(static_cast<char>(v)); }
   void u16(std::uint16_t v) { put(v, 2); }
   void u32(std::uint32_t v) { put(v, 4); }
@@ -49,18 +49,18 @@ class Bytes {
   void raw(std::string_view v) { data_.append(v); }
   void text(std::string_view v);
 
-  // Opens a record, and closes it by filling in its length, with so many bytes that will be written
-  // behind these; likewise a list (arrays and maps).
+  // Open a record or a list (array, map), and close it by filling in its length. `behind` is the
+  // number of bytes that will be written after these as part of the record.
   std::size_t open(Op op);
   void close(std::size_t opened, std::size_t behind = 0);
   std::size_t open_list();
   void close_list(std::size_t opened);
 
-  // Returns what was appended; and forgets it.
+  // Return the bytes appended so far.
   std::string& data() { return data_; }
   std::string_view view() const { return data_; }
   std::size_t size() const { return data_.size(); }
-  // Forgets all of it.
+  // Removes all bytes.
   void clear() { data_.clear(); }
 
  private:
@@ -72,11 +72,11 @@ class Bytes {
   std::string data_;
 };
 
-// Takes fields from bytes that may be damaged: past the end it gives zeros and is no longer ok().
+// Reads fields from bytes that may be damaged; reading past the end sets ok() to false.
 class Fields {
  public:
-  // Each takes the next field off the bytes: a number, a text behind its length, so many bytes.
-  // Beyond the end they are 0 and empty, and ok() is false.
+  // Each reads the next field: a number, a text after its length, or a number of bytes. Past the
+  // end they return 0 or an empty text, and ok() becomes false.
   explicit Fields(std::string_view bytes) : rest_(bytes) {}
   std::uint16_t u16() { return static_cast<std::uint16_t>(take(2)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(take(4)); }
@@ -92,23 +92,22 @@ class Fields {
   bool ok_ = true;
 };
 
-// Walks through records. next() ends at the last byte, or, being torn(), at a record that claims
-// more bytes than there are or has no opcode.
+// Record of a file.
 struct Record {
   Op op;
   std::string_view content;
   std::string_view whole;  // with opcode and length
 };
 
-// Takes records off the bytes of a file, one after the other.
+// Reads the records in the bytes of a file, one after the other.
 class Records {
  public:
-  // Returns the next one, until there is no whole one; torn() then says whether a part of one was
-  // left.
+  // next() returns the next record, or nothing at the end and at a record that claims more bytes
+  // than are left or has no opcode; torn() is true in the latter cases.
   explicit Records(std::string_view bytes) : rest_(bytes) {}
   std::optional<Record> next();
   bool torn() const { return torn_; }
-  // What has not been taken yet: with torn(), the part of a record.
+  // Returns the bytes not yet read: after torn(), the part of a record.
   std::string_view rest() const { return rest_; }
 
  private:
@@ -116,7 +115,7 @@ class Records {
   bool torn_ = false;
 };
 
-// The records themselves. The views of a parsed one point into the file.
+// Content of the records. The views of a parsed record point into the file.
 struct Schema {
   std::uint16_t id = 0;
   std::string_view name, encoding, data;
@@ -138,14 +137,14 @@ struct Chunk {
   std::string_view compression, records;
 };
 
-// Nothing where the content is too short for what it claims to hold.
+// Parse a record; return nothing if the content is shorter than it claims.
 std::optional<Schema> parse_schema(std::string_view content);
 std::optional<Channel> parse_channel(std::string_view content);
 std::optional<Message> parse_message(std::string_view content);
 std::optional<Chunk> parse_chunk(std::string_view content);
-// The beginning of a chunk of which the file has no end, from its opcode on; its records are as
-// many bytes as there are. Nothing where it has no whole head, or where the lengths in it disagree:
-// such a chunk is damaged, and not cut off.
+// Parses the beginning of a chunk, from its opcode on, whose end is missing from the file; its
+// records are the bytes that are left. Returns nothing if the chunk's head is incomplete or its
+// lengths disagree: such a chunk is damaged rather than cut off.
 std::optional<Chunk> parse_cut_chunk(std::string_view beginning);
 std::optional<std::pair<std::string, Pairs>> parse_metadata(std::string_view content);
 
@@ -156,12 +155,12 @@ void put_channel(Bytes& out, const Channel& channel);
 void put_metadata(Bytes& out, std::string_view name, const Pairs& pairs);
 void put_data_end(Bytes& out, std::uint32_t crc);
 
-// Footer and closing magic. The summary's checksum needs all of it: `out` begins where the summary
-// does, or behind what was written of it, which has the checksum `before`.
+// Appends the footer and the closing magic. The checksum covers the whole summary: `out` begins at
+// the start of the summary, or after a part already written, whose checksum is `before`.
 void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_offset_start,
                 std::uint32_t before = 0);
 
-// Opens a message: fill in the data, then out.close(opened).
+// Opens a message: append the data, then call out.close(opened).
 std::size_t open_message(Bytes& out, std::uint16_t channel, std::uint32_t sequence,
                          std::uint64_t log_time);
 

@@ -27,16 +27,16 @@ double number(const Json& value) {
   return value.is_number() ? value.number() : kNaN;
 }
 
-// The instant of a message, which its log time says too: {"sec": …, "nsec": …}.
+// Returns whether it is the message's time, {"sec": …, "nsec": …}, which duplicates its log time.
 bool is_timestamp(const Json& properties) {
   return properties.size() == 2 && properties.contains("sec") &&
          (properties.contains("nsec") || properties.contains("nanosec"));
 }
 
-// Fields of objects within the message are called `pose.x`.
+// Adds the fields of a schema; those of nested objects are named `pose.x`.
 void add_fields(const Json& properties, const std::string& prefix,
                 std::vector<signals::Field>& out) {
-  constexpr std::size_t deepest = 8;  // dots in a name
+  constexpr std::size_t deepest = 8;  // maximum number of dots in a name
   if (static_cast<std::size_t>(std::ranges::count(prefix, '.')) > deepest) return;
   for (const auto& [name, property] : properties.items()) {
     if (!property.is_object()) continue;
@@ -50,7 +50,7 @@ void add_fields(const Json& properties, const std::string& prefix,
   }
 }
 
-// The value of a field by its name, in the object or within those in it; nullptr: it has none.
+// Returns the value of a field in the object or in nested ones; nullptr if it has none.
 const Json* value_of(const Json& object, std::string_view name) {
   if (const Json* found = object.find(name)) return found;
   for (std::size_t dot = name.find('.'); dot != name.npos; dot = name.find('.', dot + 1)) {
@@ -61,7 +61,7 @@ const Json* value_of(const Json& object, std::string_view name) {
   return nullptr;
 }
 
-// Removes `start` from the front of `text`, if it stands there.
+// Removes `start` from the front of `text`; returns whether it was there.
 bool skip(std::string_view& text, std::string_view start) {
   if (!text.starts_with(start)) return false;
   text.remove_prefix(start.size());
@@ -109,7 +109,7 @@ std::optional<signals::Topic> from_schema(std::string_view schema, std::string_v
 namespace {
 
 void add_numbers(const Json& object, const std::string& prefix, std::vector<signals::Field>& out) {
-  constexpr std::size_t deepest = 8;  // dots in a name
+  constexpr std::size_t deepest = 8;  // maximum number of dots in a name
   if (static_cast<std::size_t>(std::ranges::count(prefix, '.')) > deepest) return;
   if (is_timestamp(object)) return;
   for (const auto& [name, value] : object.items()) {
@@ -120,8 +120,7 @@ void add_numbers(const Json& object, const std::string& prefix, std::vector<sign
   }
 }
 
-// Numbers that JSON does not have, in the words in which Python and others write them: null in
-// their place.
+// Replaces numbers that JSON lacks, as Python and others spell them, by null.
 std::string with_nulls(std::string_view text) {
   std::string out;
   bool in_text = false;
@@ -140,7 +139,7 @@ std::string with_nulls(std::string_view text) {
   return out;
 }
 
-// Returns the object of a message; another kind of value where the message holds no object.
+// Returns the object of a message, or another kind of value if the message does not hold an object.
 Json object_in(std::string_view text) {
   Json json;
   if (Json::parse(text, json)) return json;

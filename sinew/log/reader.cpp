@@ -29,7 +29,7 @@ void check_magic(const path& file, std::string_view bytes) {
               "expected 89 4d 43 41 50 30 0d 0a; name a run's log.mcap");
 }
 
-// Takes a file's records, one after the other, into a table.
+// Collects a file's records in a table.
 class Collector {
  public:
   Collector(const path& file, const Mapping& mapping)
@@ -38,7 +38,7 @@ class Collector {
   signals::Table table();
 
  private:
-  // False where the record is damaged, so that nothing behind it can be trusted.
+  // Returns false if the record is damaged, so that nothing after it can be trusted.
   bool take(const Record& record);
   bool take_schema(std::string_view content);
   bool take_channel(std::string_view content);
@@ -51,7 +51,7 @@ class Collector {
   void repeat_steady();
   bool ends_properly(const Record& last) const;
 
-  struct Source {  // of a channel that is read
+  struct Source {  // channel that is read
     std::size_t series;
     MessageFormat format;
   };
@@ -60,15 +60,15 @@ class Collector {
   const Mapping& mapping_;
   const std::string_view bytes_;
   std::map<std::uint16_t, Schema> schemas_;
-  // By channel number; null for a channel that is passed over.
+  // Keyed by channel number; null for a channel that is skipped.
   std::map<std::uint16_t, std::unique_ptr<Source>> sources_;
-  // Channels with an open schema and their topics, until a first message shows the fields.
+  // Topics of channels with an open schema, until a first message shows the fields.
   std::map<std::uint16_t, std::string> open_;
   const signals::PageFile pages_ = signals::PageFile::make();
   std::vector<signals::Series> series_;
-  std::vector<std::pair<std::size_t, std::string>> steady_;  // series, at whose times
+  std::vector<std::pair<std::size_t, std::string>> steady_;  // series, topic with its times
   std::vector<double> values_;
-  bool whole_ = true;  // no message was damaged
+  bool whole_ = true;  // false: a message was damaged
 };
 
 signals::Table Collector::table() {
@@ -107,7 +107,7 @@ bool Collector::take(const Record& record) {
     case Op::chunk:
       return take_chunk(record.content);
     default:
-      return true;  // indexes, attachments, and what later versions may add
+      return true;  // indexes, attachments, and additions of later versions
   }
 }
 
@@ -133,7 +133,7 @@ bool Collector::take_channel(std::string_view content) {
 }
 
 void Collector::add_series(std::uint16_t channel, signals::Topic topic, const Pairs& metadata) {
-  // Two channels of one topic, as foreign logs may have them: the first one is the topic.
+  // Other programs' logs may have two channels of one topic: only the first is read.
   for (const signals::Series& series : series_)
     if (series.topic.name == topic.name) return;
   sources_[channel] = std::make_unique<Source>(Source{series_.size(), MessageFormat(topic)});
@@ -144,7 +144,7 @@ void Collector::add_series(std::uint16_t channel, signals::Topic topic, const Pa
                      std::vector<signals::Column>(fields, signals::Column(pages_))});
 }
 
-// A message that is damaged in itself: the next one can be found all the same.
+// Skips a damaged message, after which the next one can still be found.
 bool Collector::leave_out() {
   whole_ = false;
   return true;
@@ -179,8 +179,9 @@ bool Collector::take_chunk(std::string_view content) {
   return take_records(*chunk);
 }
 
-// The whole records in it: as the messages of a chunk are in the order in which they were logged,
-// all topics reach as far as the file. Its checksum is of all records and cannot be compared.
+// Takes the complete records of a chunk that was cut off: as its messages are in the order in which
+// they were logged, all topics reach the end of the file. Its checksum covers all records and
+// cannot be compared.
 void Collector::take_cut_chunk(std::string_view beginning) {
   if (const auto chunk = parse_cut_chunk(beginning)) take_records(*chunk);
 }
@@ -196,7 +197,7 @@ bool Collector::take_records(const Chunk& chunk) {
   return !records.torn();
 }
 
-// The data's checksum, if there is one, and the end of the file in its place.
+// Checks the data's checksum, if there is one, and the end of the file.
 bool Collector::ends_properly(const Record& last) const {
   const std::size_t tail = kRecordHead + kFooterContent + kMagic.size();
   const auto at = static_cast<std::size_t>(last.whole.data() - bytes_.data());
@@ -213,7 +214,7 @@ bool Collector::ends_properly(const Record& last) const {
   return footer && footer->op == Op::footer && bytes_.ends_with(kMagic);
 }
 
-// Samples belong in the order of their times; most logs have them so already.
+// Sorts samples by time; in most logs they are already sorted.
 void sort_by_time(signals::Series& series) {
   if (std::is_sorted(series.time_ns.begin(), series.time_ns.end())) return;
   std::vector<std::size_t> order(series.time_ns.size());

@@ -1,9 +1,9 @@
-// log/reader.h - reads an MCAP file as a channel table: Sinew's own logs, and what it can use of
-// others'.
+// log/reader.h - reader of an MCAP file as a channel table, for Sinew's logs and those of other
+// programs.
 //
-// Indexed and plain files read alike, and so does a log that was cut off or damaged: everything
-// before the damage is kept, and the table says that it is not complete. Topics whose messages are
-// not JSON with numbers in it are passed over.
+// Indexed and plain files give the same table. From a log that was cut off or damaged, everything
+// before the damage is read, and the table is marked as incomplete. Topics whose messages are not
+// JSON with numbers are skipped.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,11 @@
 
 namespace sinew::log {
 
-// The series stand in the order of the file's channels, each in ascending time. Throws Error where
-// there is no such file, or it is empty, or not MCAP, or compressed.
+// Reads a log. The series have the order of the file's channels, with ascending times. Throws Error
+// if the file is missing, empty, not MCAP, or compressed.
 signals::Table read(const std::filesystem::path& file);
 
-// What the writer was told about the run; empty where the file says nothing. Throws like read().
+// Returns the metadata of the run; empty if the file has none. Throws like read().
 std::vector<std::pair<std::string, std::string>> read_metadata(const std::filesystem::path& file);
 
 }  // namespace sinew::log

@@ -38,7 +38,7 @@ TEST(Reader, TellsWhatWasRun) {
   }
 }
 
-// Wherever a log is cut, what stands before the cut is read, and never less than in a shorter one.
+// Everything before a cut is read, wherever it is, and never less than from a shorter log.
 void cut_everywhere(bool finished) {
   const Folder folder;
   const signals::Table table = random_table(3, 12);
@@ -60,8 +60,8 @@ void cut_everywhere(bool finished) {
   EXPECT_EQ(most + !finished, messages_in(table));
 }
 
-// A log that is cut lacks at most one message, the one that the cut goes through: also where
-// it goes through the last chunk, which is a megabyte. Both kinds of log, cut at seeded places.
+// A cut log lacks at most the message at the cut, also in the last chunk, which is a megabyte. Both
+// kinds of log are cut at seeded places.
 TEST(Reader, ACutLosesOneMessageAtMost) {
   const Folder folder;
   std::mt19937_64 random(21);
@@ -93,7 +93,7 @@ TEST(Reader, ACutLosesOneMessageAtMost) {
 TEST(Reader, PlainLogCutAnywhere) { cut_everywhere(false); }
 TEST(Reader, IndexedLogCutAnywhere) { cut_everywhere(true); }
 
-// Damage must not end the program, and a whole file's damage in the data must not go unnoticed.
+// Damage must not end the program, and damage in the data of a complete file must be noticed.
 void damage(bool finished, int trials) {
   const Folder folder;
   const signals::Table table = random_table(4, 20);
@@ -105,7 +105,7 @@ void damage(bool finished, int trials) {
     std::string damaged = bytes;
     for (std::size_t i = 0, n = 1 + random() % 3; i < n; ++i) {
       const std::size_t at = kMagic.size() + random() % (bytes.size() - kMagic.size());
-      // Lengths filled with ones are the most likely to lead astray.
+      // Lengths filled with ones are the most likely to mislead the reader.
       damaged[at] = random() % 4 ? static_cast<char>(random()) : '\xFF';
     }
     put_bytes(folder / "damaged.mcap", damaged);
@@ -137,7 +137,7 @@ TEST(Reader, AbsurdLengthsTakeNoMemory) {
   }
 }
 
-// A log of someone else's, with everything that Sinew itself does not write.
+// Log of another program, with everything that Sinew itself does not write.
 class Foreign {
  public:
   Foreign() {
@@ -262,7 +262,7 @@ TEST(Message, ReadsOwnAndOthersAlike) {
     EXPECT_FALSE(format.parse(bad, v)) << bad;
 }
 
-// A walk of 12 s: 60 topics every 10 ms, and 8000 edges of 8 valves. Prints what it took.
+// Walk of 12 s: 60 topics every 10 ms, and 8000 edges of 8 valves. Prints the time it took.
 TEST(Reader, ReadsAWalkQuickly) {
   const Folder folder;
   std::mt19937_64 random(5);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const char* const advice = "make room, or choose a folder that exists and that you may write to";
 
-// The number of "/dev/fd/3", which stands for what this process has open already.
+// Returns the number in "/dev/fd/3", a descriptor that is open in this process.
 std::optional<int> own_descriptor(const fs::path& file) {
   const std::string folder = file.parent_path().string(), name = file.filename().string();
   if (folder != "/dev/fd" && folder != "/proc/self/fd") return {};
@@ -29,7 +29,7 @@ std::optional<int> own_descriptor(const fs::path& file) {
   return number;
 }
 
-// Follows symbolic links, also to what is not there yet.
+// Follows symbolic links, also to a file that does not exist.
 fs::path followed(fs::path file) {
   std::error_code none;
   for (int i = 0; i < 40 && !own_descriptor(file) && fs::is_symlink(file, none); ++i) {
@@ -53,7 +53,7 @@ fs::path visible_part(const fs::path& target) { return target.string() + ".part"
               "move it elsewhere or remove it");
 }
 
-// Who is writing it, or nobody.
+// Returns the process that is writing the file, or "".
 std::string writer_of(const fs::path& file) {
   const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return "";
@@ -103,7 +103,7 @@ Replacement::Replacement(const fs::path& file, Sync sync, Part part) : file_(fil
   if (part == Part::kept) show_part(visible_part(target_));
 }
 
-// An earlier part, of a process that was killed, is written anew.
+// Opens the part; one left by a killed process is overwritten.
 void Replacement::open_part() {
   for (;;) {
     fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
@@ -115,7 +115,7 @@ void Replacement::open_part() {
     if (!holder.empty())
       throw Error(file_, holder + " is writing it", "wait for it, or choose another name");
   }
-  // From here on the destructor of a thrown constructor would not run.
+  // The destructor does not run if the constructor throws from here on.
   struct stat old {};
   int error = ::ftruncate(fd_, 0) == 0 ? 0 : errno;
   if (error == 0 && ::stat(target_.c_str(), &old) == 0 && ::fchmod(fd_, old.st_mode & 07777) != 0)
@@ -126,7 +126,7 @@ void Replacement::open_part() {
   fail(error);
 }
 
-// Under a name that nothing stands at, in one step.
+// Renames the part to a name that must be unused, in one step.
 void Replacement::show_part(const fs::path& name) {
   const auto give_up = [this] {
     ::unlink(part_.c_str());
@@ -139,7 +139,7 @@ void Replacement::show_part(const fs::path& name) {
       fail(error);
     }
     try {
-      require_free_part(file_);  // and where it has become free, once more
+      require_free_part(file_);  // if it has become free, tries again
     } catch (...) {
       give_up();
       throw;
@@ -189,10 +189,10 @@ bool is_written_directly(const fs::path& file) {
 
 int sync_folder(const fs::path& folder) noexcept {
   const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return errno == EACCES ? 0 : errno;  // one whose names may not be read
+  if (fd < 0) return errno == EACCES ? 0 : errno;  // a folder whose entries may not be read
   const int error = ::fsync(fd) == 0 ? 0 : errno;
   ::close(fd);
-  return error == EINVAL || error == ENOTSUP ? 0 : error;  // file systems that cannot
+  return error == EINVAL || error == ENOTSUP ? 0 : error;  // not supported by the file system
 }
 
 }  // namespace sinew::log

@@ -1,12 +1,12 @@
-// log/replacement.h - a file that takes the place of an older one only when it is whole.
+// log/replacement.h - file that replaces an older one only once it is complete.
 //
 //   Replacement file("table.csv");
 //   file.write(text);
 //   file.commit();
 //
-// It is written to `.table.csv.sinew` beside, synced, and renamed: whatever happens meanwhile,
-// under its name stands the old file or the new one. A symbolic link stays, what it leads to is
-// replaced. What is no file - a pipe, a terminal, /dev/stdout - is written directly.
+// It is written to `.table.csv.sinew` in the same folder, synced and renamed: at any time the path
+// holds either the old or the new file. A symbolic link is kept and its target replaced. A pipe, a
+// terminal or /dev/stdout is written directly.
 #pragma once
 
 #include <filesystem>
@@ -19,31 +19,30 @@ namespace sinew::log {
 
 class Replacement {
  public:
-  // Later: whoever renames the folder syncs it.
+  // later: the caller renames and syncs the folder.
   enum class Sync { now, later };
 
-  // hidden: `.table.csv.sinew`, a name of our own; what a killed process left there is written
-  // anew. kept: `table.csv.part`, which stays without commit(); what stands there already is
-  // refused.
+  // hidden: `.table.csv.sinew`, a private name; the remains of a killed process are overwritten.
+  // kept: `table.csv.part`, which stays without commit(); an existing one is refused.
   enum class Part { hidden, kept };
 
-  // Throws Error where it cannot be written, or where another process is writing it.
+  // Throws Error if the file cannot be written or is being written by another process.
   explicit Replacement(const std::filesystem::path& file, Sync sync = Sync::now,
                        Part part = Part::hidden);
 
-  // Without commit() the old file stands, and nothing else; but for a part that is kept.
+  // Without commit() leaves only the old file, and a part if it is kept.
   ~Replacement();
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;
 
-  // Throws Error, for instance where the disk is full. Every call reaches the file at once.
+  // Writes to the file immediately. Throws Error, for instance if the disk is full.
   void write(std::string_view bytes);
 
-  // The new file is whole. Throws Error; then the old one stands, but for a disk that fails at the
-  // last moment: then it is the new one.
+  // Completes the file. Throws Error on failure; the old file then remains, unless the disk failed
+  // during the last step, after the new file had replaced it.
   void commit();
 
-  // Where the bytes stand until then; `file` where it is no file.
+  // Returns the path of the bytes until commit(); `file` if it is written directly.
   const std::filesystem::path& part() const { return part_; }
 
  private:
@@ -51,24 +50,25 @@ class Replacement {
   void show_part(const std::filesystem::path& name);
   [[noreturn]] void fail(int error) const;
 
-  std::filesystem::path file_;    // as it was named
-  std::filesystem::path target_;  // what a link leads to; empty: written directly
+  std::filesystem::path file_;    // as given
+  std::filesystem::path target_;  // final target of a link; empty: written directly
   std::filesystem::path part_;
   Sync sync_;
   int fd_ = -1;
   bool kept_ = false;
 };
 
-// The name under which a file of this name is written until it is whole.
+// Returns the name under which a file is written until it is complete.
 std::string hidden_name(std::string_view name);
 
-// Throws Error where `file` + ".part" stands, which Part::kept would refuse.
+// Throws Error if `file` + ".part" exists, which Part::kept would refuse.
 void require_free_part(const std::filesystem::path& file);
 
-// Is it a pipe, a device or one of this process's own descriptors, so that there is no old file?
+// Returns whether the file is a pipe, a device or an open descriptor of this process, and so has no
+// old content.
 bool is_written_directly(const std::filesystem::path& file);
 
-// Puts on the disk what stands in a folder's list of names. Returns an errno, or 0.
+// Flushes the directory entries of a folder to the disk. Returns an errno, or 0.
 int sync_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace sinew::log

@@ -1,4 +1,4 @@
-// An older file stands until the new one is whole.
+// The older file remains until the new one is complete.
 #include "sinew/log/replacement.h"
 
 #include <fcntl.h>
@@ -47,7 +47,7 @@ TEST(Replacement, LeavesTheOldOneWithoutACommit) {
   EXPECT_EQ(bytes_of(folder / "a.csv"), "old");
   EXPECT_EQ(bytes_of(folder / "a.csv.part"), "rows");
 
-  // What was kept is not lost to the next one, and no obstacle to what is not kept.
+  // A kept part is not lost to the next one, and does not block a hidden one.
   EXPECT_THAT(error_of([&] { Replacement(folder / "a.csv", now, Replacement::Part::kept); }),
               AllOf(HasSubstr("a.csv.part: stands already"), HasSubstr("move it elsewhere")));
   put_bytes(folder / ".a.csv.sinew", "of one that was killed");
@@ -122,8 +122,8 @@ TEST(Lock, IsFreeWhenItsDescriptorIsClosed) {
   ::close(second);
 }
 
-// Two logs of one name: the second finds the first at work, and where somebody takes the name all
-// the same, finishing does not touch what stands there then.
+// Two logs of one name: the second finds the first at work; if another file has taken the name
+// nevertheless, finishing does not change it.
 TEST(Lock, OfALogIsItsWriters) {
   const Folder folder;
   const std::vector<signals::Topic> topics = {{"/t", "", {{"x", "N"}}}};

@@ -10,7 +10,7 @@ void Steadiness::add(std::int64_t time_ns, std::string_view message) {
   else if (steady_ && message != first_)
     steady_ = false;
   ++count_;
-  constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;  // spreads near times over all bits
+  constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;  // distributes close times over all bits
   hash_ = (std::rotl(hash_, 5) ^ static_cast<std::uint64_t>(time_ns)) * odd;
 }
 
@@ -19,7 +19,7 @@ SteadyTopics steady_topics(const std::vector<std::string>& names,
   SteadyTopics out;
   for (std::size_t i = 0; i < topics.size(); ++i) {
     if (!topics[i].is_steady()) continue;
-    // Best one that changes; where all of those are steady, the first of them is written whole.
+    // Prefers a topic that changes; if all of them are steady, the first is written in full.
     for (std::size_t k = 0; k < topics.size(); ++k) {
       const bool whole = !topics[k].is_steady() || k < i;
       if (k == i || !whole || !topics[i].has_times_of(topics[k])) continue;
@@ -36,7 +36,7 @@ void repeat(signals::Series& series, const signals::Series& times) {
   for (std::size_t i = 0; i < times.time_ns.size(); ++i) {
     const std::int64_t at = times.time_ns[i];
     if (i == 0) {
-      if (at != series.time_ns[0]) return;  // it is of another log
+      if (at != series.time_ns[0]) return;  // belongs to another log
       continue;
     }
     series.time_ns.push_back(at);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-// Two topics at the same times, edges at others; `steady` of them never change.
+// Returns two topics with equal times and edges at other times; `steady` topics never change.
 signals::Table walk(std::uint64_t seed, int rows) {
   std::mt19937_64 random(seed);
   signals::Table table;
@@ -79,7 +79,7 @@ TEST(Steady, StandsOnceInAFinishedFile) {
   EXPECT_EQ(counts["/changes"], 500);
   EXPECT_EQ(counts["/signs/change"], 500) << "0 and -0 are two values";
   EXPECT_EQ(counts["/stays/before"] + counts["/stays/behind"], 2);
-  // Nothing that changes has their times: the first is kept for the other's.
+  // No changing topic has their times: the first is written in full for the other.
   EXPECT_EQ(counts["/stays/at/other/times"], 500);
   EXPECT_EQ(counts["/stays/too/with/it"], 1);
   const Pairs units = {{"unit.x", "m"}, {"unit.y", "m"}};
@@ -89,7 +89,7 @@ TEST(Steady, StandsOnceInAFinishedFile) {
   EXPECT_EQ(channels.at(2).metadata, units);
 }
 
-// Each row that is left has all of its values, wherever the log was cut.
+// Each row has all of its values, wherever the log was cut.
 TEST(Steady, ACutLogKeepsItsRows) {
   const Folder folder;
   write_log(folder / "log.mcap", walk(3, 40'000), true);
@@ -107,7 +107,7 @@ TEST(Steady, ACutLogKeepsItsRows) {
 TEST(Steady, OfATopicThatThereIsNotIsWhatItIs) {
   signals::Table table = walk(1, 3);
   signals::Series once = table.series[5];
-  repeat(once, table.series[3]);  // which begins at another time
+  repeat(once, table.series[3]);  // begins at another time
   EXPECT_EQ(once.time_ns.size(), 1U);
   repeat(once, table.series[1]);
   EXPECT_EQ(once.time_ns.size(), 3U);

@@ -23,10 +23,10 @@ namespace sinew::log {
 
 namespace {
 
-// The chunks of a long log are longer, so that little has to be kept of each of them until the end.
+// A long log has longer chunks, so that less has to be stored about them until the end.
 constexpr std::size_t kChunkBytes = 1 << 20, kLongChunkBytes = 1 << 23, kLong = 1 << 24;
 
-struct Span {  // of time; as the format wants it, zero to zero without messages
+struct Span {  // range of times; 0 to 0 without messages, as the format requires
   std::uint64_t first = 0, last = 0;
   std::uint64_t count = 0;
   void add(std::uint64_t t) {
@@ -36,7 +36,7 @@ struct Span {  // of time; as the format wants it, zero to zero without messages
   }
 };
 
-// Copies the records of one file into another, the messages in chunks, and adds the summary.
+// Copies records to another file, with messages in chunks, and adds the summary.
 class Indexer {
  public:
   Indexer(Output& output, const Pairs& metadata, const SteadyTopics& steady)
@@ -56,17 +56,17 @@ class Indexer {
 
   Output& output_;
   std::size_t chunk_bytes_ = kChunkBytes;
-  const Pairs& run_;  // what was run, in place of what the file says; empty: that
+  const Pairs& run_;  // replaces the description of the run; empty: the file's
   const SteadyTopics& steady_;
 
-  // The chunk being filled: its records, and per channel (time, offset) of each message.
+  // Chunk being filled: its records, and (time, offset) of each message per channel.
   Bytes chunk_;
   Span chunk_time_;
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> places_;
-  // Where the message index of a channel went, for the chunk's index.
+  // Position of each channel's message index, for the chunk's index.
   std::vector<std::pair<std::uint16_t, std::uint64_t>> index_places_;
 
-  // What the summary will say.
+  // Contents of the summary.
   Bytes schemas_, channels_, chunk_indexes_, metadata_indexes_;
   std::uint16_t schema_count_ = 0;
   std::uint32_t channel_count_ = 0, metadata_count_ = 0, chunk_count_ = 0;
@@ -106,10 +106,10 @@ void Indexer::copy(const Record& record) {
     default:
       break;
   }
-  output_.write(record.whole);  // only messages stand in chunks
+  output_.write(record.whole);  // only messages are in chunks
 }
 
-// A steady one says so, and at whose times it stands.
+// Copies a channel; a steady one is marked with the topic whose times it has.
 void Indexer::copy_channel(const Record& record) {
   Bytes out;
   auto channel = parse_channel(record.content);
@@ -164,7 +164,7 @@ void Indexer::end_chunk() {
   out.u32(crc32(chunk_.view()));
   out.text("");  // not compressed
   out.u64(chunk_.size());
-  // The chunk stands behind its head, and is not copied for that.
+  // The chunk is written after its head, to avoid a copy.
   out.close(record, chunk_.size());
   const std::uint64_t chunk_length = out.size() + chunk_.size();
   output_.write(out.view());
@@ -194,8 +194,8 @@ void Indexer::end_chunk() {
   chunk_time_ = {};
 }
 
-// One per channel, behind the chunk, `at` bytes from its beginning; sorted by time, whatever order
-// the messages came in.
+// Appends an index per channel, which follows the chunk, `at` bytes after its beginning; sorted by
+// time, as messages may come in any order.
 void Indexer::put_message_indexes(Bytes& out, std::uint64_t at) {
   index_places_.clear();
   for (auto& [channel, places] : places_) {
@@ -233,12 +233,12 @@ void Indexer::put_statistics(Bytes& out) const {
   out.close(record);
 }
 
-// Groups of records, one per opcode; then where each group stands; then the footer.
+// Writes groups of records, one per opcode, then the position of each group, then the footer.
 void Indexer::put_summary() {
   const std::uint64_t start = output_.position();
   Bytes statistics;
   put_statistics(statistics);
-  Bytes out;  // where the groups are, and the footer
+  Bytes out;  // positions of the groups, and the footer
   std::uint32_t crc = 0;
   const auto group = [&](Op op, const Bytes& records) {
     if (records.size() == 0) return;
@@ -275,7 +275,7 @@ void make_indexed(const Output& row, const std::filesystem::path& file, const Me
   if (!Indexer(output, run, steady).copy(source) || !output.sync())
     fail(output.error() ? system_words(output.error()) : "the file is damaged");
 
-  // By their names both could be somebody else's by now.
+  // Both names may belong to another program's files by now.
   std::error_code error;
   if (!row.stands_at(file) || !output.stands_at(beside)) {
     if (output.stands_at(beside)) std::filesystem::remove(beside, error);
@@ -311,8 +311,8 @@ void check(const path& file, const Topics& topics) {
   }
 }
 
-// What stands before the first message: which library, which run, which topics. Topic i has schema
-// and channel i + 1, since a schema must not be number 0.
+// Returns the bytes before the first message: library, run and topics. Topic i has schema and
+// channel i + 1, since 0 is not a valid schema.
 std::string front(const path& file, const Topics& topics, const Pairs& metadata,
                   const std::string& version) {
   Bytes out;
@@ -358,22 +358,22 @@ struct Writer::Impl {
 
   const path file_;
   const Options options_;
-  const std::vector<std::string> topics_;  // their names
-  std::vector<MessageFormat> formats_;     // per topic
+  const std::vector<std::string> topics_;  // topic names
+  std::vector<MessageFormat> formats_;     // one per topic
   Ring ring_;
   Output output_;
 
-  // The loop's.
+  // Used only by the loop.
   bool closed_ = false;
 
-  bool begun_ = false;  // the file has what is before the samples
+  bool begun_ = false;  // whether the bytes before the samples were written
 
-  // The thread's.
+  // Used only by the thread.
   Bytes pending_;
-  std::vector<std::uint32_t> sequence_;  // per topic
-  std::vector<Steadiness> steadiness_;   // per topic
+  std::vector<std::uint32_t> sequence_;  // one per topic
+  std::vector<Steadiness> steadiness_;   // one per topic
 
-  // Between the two. The mutex belongs to the thread's sleep alone; the loop never takes it.
+  // Shared. The mutex is only for the thread's sleep; the loop never locks it.
   std::atomic<bool> stopping_{false};
   std::atomic<bool> failed_{false};
   std::mutex sleep_;
@@ -417,8 +417,8 @@ bool Writer::Impl::push(std::uint16_t topic, std::int64_t time_ns,
   return true;
 }
 
-// The thread: sleeps, and writes what has come. It goes on emptying the ring when the file can no
-// longer be written, so that the loop never waits for a disk that is full.
+// Thread: sleeps, and writes new samples. It continues to empty the ring if the file can no longer
+// be written, so that the loop never waits for a full disk.
 void Writer::Impl::run() noexcept {
   for (;;) {
     const bool last = stopping_.load(std::memory_order_acquire);
@@ -470,7 +470,7 @@ void Writer::Impl::finish(const Pairs& metadata) {
   stop();
   fail_unless_written();
 
-  // The end of a file without a summary; then the file with one.
+  // Writes the end of a file without a summary, then replaces the file by one with a summary.
   Bytes end;
   put_data_end(end, output_.crc());
   Bytes footer;

@@ -1,10 +1,9 @@
-// log/writer.h - writes a run's log: the loop pushes samples, a thread of the log's own writes
-// them.
+// log/writer.h - writer of a run's log: the control loop pushes samples, and a thread of the log
+// writes them.
 //
-// While the run lasts, the file is a plain row of messages that is never more than a few
-// milliseconds behind, so that a run that is killed leaves a log that can be read up to there.
-// finish() ends that file and then puts an indexed one in its place, in one step. Nobody else can
-// write a log of that name meanwhile.
+// During the run the file is a plain list of messages that is at most a few milliseconds behind,
+// so that a killed run leaves a readable log. finish() completes that file and replaces it
+// atomically with an indexed one. No other log of that name can be written meanwhile.
 #pragma once
 
 #include <array>
@@ -25,38 +24,37 @@
 namespace sinew::log {
 
 struct Options {
-  std::string version{};                // of the program: the file says "sinew <version>"
-  std::size_t ring = 1 << 14;           // samples between loop and thread (48 bytes each)
-  std::chrono::milliseconds period{5};  // wall time between two writes; 10 at most
+  std::string version{};                // the program's version; the file has "sinew <version>"
+  std::size_t ring = 1 << 14;           // samples buffered between loop and thread (48 bytes each)
+  std::chrono::milliseconds period{5};  // wall time between two writes; at most 10
 };
 
 class Writer {
  public:
-  // Creates the file, replacing one of that name, and writes what each topic is. `metadata` says
-  // what was run, as pairs of key and text. Throws Error where the file cannot be created, or where
-  // a topic does not have one to four fields, or a name appears twice.
+  // Creates or replaces the file and writes the description of each topic. `metadata` describes the
+  // run in pairs of key and text. Throws Error if the file cannot be created, if a topic does not
+  // have one to four fields, or if a name occurs twice.
   Writer(const std::filesystem::path& path, std::vector<signals::Topic> topics,
          std::vector<std::pair<std::string, std::string>> metadata = {}, Options options = {});
 
-  // Without finish(), leaves what was pushed in a file that reads as cut off.
+  // Without finish(), leaves the pushed samples in a file that is read as cut off.
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  // One sample of the topic with this place in the constructor's list. `time_ns` counts from the
-  // start of the run and is not negative. To be called from one thread, the loop's: takes no memory
-  // and no lock and does no I/O. When the thread is behind by a whole ring, it waits for it.
-  // False, and nothing kept: no such topic, another number of values, after finish(), or the file
-  // can no longer be written (finish() says why).
+  // Adds a sample of the topic with this index in the constructor's list. `time_ns` counts from the
+  // start of the run and is not negative. Must be called from one thread, the loop's; does not
+  // allocate, lock or do I/O. Waits for the thread if the ring is full. Returns false and drops the
+  // sample for an unknown topic, a wrong number of values, a call after finish(), or if the file
+  // can no longer be written; finish() reports the reason.
   bool push(std::uint16_t topic, std::int64_t time_ns, std::span<const double> values) noexcept;
 
-  // How often push() had to wait.
+  // Returns how often push() had to wait.
   std::uint64_t waits() const noexcept;
 
-  // Writes the rest, closes the file and indexes it. `metadata`, where it is given, takes the place
-  // of the constructor's: a run may have been changed while it went. Throws Error where anything
-  // could not be written; the file then still holds everything up to there. A second call does
-  // nothing.
+  // Writes the rest, closes the file and indexes it. `metadata`, if not empty, replaces the
+  // constructor's, as a run may be changed while it runs. Throws Error if anything could not be
+  // written; the file still holds everything before. A second call does nothing.
   void finish(const std::vector<std::pair<std::string, std::string>>& metadata = {});
 
  private:
@@ -64,11 +62,11 @@ class Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-// What passes between the loop and the log's thread.
+// Data exchanged between the loop and the log's thread.
 
-inline constexpr std::size_t kMaxFields = 4;  // of a topic
+inline constexpr std::size_t kMaxFields = 4;  // maximum number of fields of a topic
 
-// Holds what the loop hands over: one message of a topic.
+// Sample of a topic, passed from the loop to the thread.
 struct Sample {
   std::int64_t time_ns = 0;
   std::uint16_t topic = 0;
@@ -77,16 +75,16 @@ struct Sample {
 
 using Ring = signals::Ring<Sample>;
 
-// Turns a finished row of messages into an indexed file, in which a viewer can jump.
+// Conversion of a finished list of messages to an indexed file, which viewers can seek in.
 
 class Output;
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-// Writes an indexed copy of `row` beside the file, syncs it and renames it over the file, so that
-// at any instant one of the two stands there whole. Throws Error; the file then is as it was: also
-// where another file has taken the place of `row`. `run`: what was run, in place of what the file
-// says of it; empty: that. Of `steady` topics only the first message is kept.
+// Writes an indexed copy of `row` to a second file, syncs it and renames it to `file`, which is
+// complete at any time. Throws Error, and leaves the file unchanged, on failure and if another file
+// has replaced `row`. `run`, if not empty, replaces the file's description of the run. Only the
+// first message of `steady` topics is kept.
 void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run = {},
                   const SteadyTopics& steady = {});
 

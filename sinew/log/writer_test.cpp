@@ -58,7 +58,7 @@ TEST(Writer, PlainAndIndexedFilesReadEqual) {
   write_log(folder / "plain.mcap", table, false);
   write_log(folder / "indexed.mcap", table, true);
   const signals::Table plain = read(folder / "plain.mcap");
-  EXPECT_FALSE(plain.complete);  // nobody finished it
+  EXPECT_FALSE(plain.complete);  // not finished
   expect_same(plain, table);
   expect_same(read(folder / "indexed.mcap"), plain);
   EXPECT_FALSE(std::filesystem::exists(folder / "indexed.mcap.tmp"));
@@ -72,7 +72,7 @@ TEST(Writer, SameSamplesGiveTheSameFile) {
   EXPECT_EQ(bytes_of(folder / "a.mcap"), bytes_of(folder / "b.mcap"));
 }
 
-// A run that was changed while it went says so; the file is that of one which knew it before.
+// Metadata of a run that was changed while it ran; the file equals one with it from the start.
 TEST(Writer, WhatWasRunMayBeKnownAtTheEnd) {
   using Pairs = std::vector<std::pair<std::string, std::string>>;
   const Folder folder;
@@ -175,7 +175,7 @@ TEST(Writer, SaysThatAFolderIsNotWritable) {
   const Folder own;
   std::filesystem::permissions(
       own.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  // root may write anywhere but there
+  // Root may write anywhere except there.
   const std::filesystem::path folder = ::geteuid() == 0 ? "/sys" : own.path();
   EXPECT_THAT(error_of([&] { Writer(folder / "log.mcap", kForce); }),
               AllOf(HasSubstr("log.mcap: cannot create the log: "),
@@ -185,7 +185,7 @@ TEST(Writer, SaysThatAFolderIsNotWritable) {
   std::filesystem::permissions(own.path(), std::filesystem::perms::owner_all);
 }
 
-// A limit on the size of files stands for a disk that is full.
+// A limit on the file size simulates a full disk.
 TEST(Writer, FullDiskIsReportedAtTheEnd) {
   const Folder folder;
   const auto old_handler = ::signal(SIGXFSZ, SIG_IGN);
@@ -200,7 +200,7 @@ TEST(Writer, FullDiskIsReportedAtTheEnd) {
   ::setrlimit(RLIMIT_FSIZE, &old_limit);
   ::signal(SIGXFSZ, old_handler);
 
-  EXPECT_LT(pushed, 10'000'000);  // the loop learns of it
+  EXPECT_LT(pushed, 10'000'000);  // push() reports it to the loop
   EXPECT_THAT(
       message,
       AllOf(HasSubstr("cannot write the log: File too large; it ends after 10000 bytes"),
@@ -223,9 +223,9 @@ TEST(Writer, FileThatCannotBeIndexedStaysWhole) {
   expect_same(back, table);
 }
 
-// A child pushes a sample per millisecond and is killed; when it pushed them stands in memory that
-// both see. What the file lacks must be younger than 20 ms; 60 because a loaded machine may not let
-// the log's thread run in time.
+// A child pushes a sample per millisecond and is killed; it stores the time of each push in shared
+// memory. Samples missing from the file must be younger than 20 ms; 60, as a loaded machine may
+// delay the log's thread.
 TEST(Writer, KilledRunLosesOnlyItsLastMilliseconds) {
   const Folder folder;
   struct Shared {

@@ -21,7 +21,7 @@
 namespace sinew::recording {
 namespace {
 
-// "Joint elbow-angle" -> "joint_elbow_angle".
+// Returns "joint_elbow_angle" for "Joint elbow-angle".
 std::string words_of(std::string_view name) {
   std::string out;
   for (const char c : name) {
@@ -36,7 +36,7 @@ std::string words_of(std::string_view name) {
   return out;
 }
 
-// The parts of a topic between its slashes.
+// Returns the parts of a topic between its slashes.
 std::vector<std::string> parts_of(std::string_view topic) {
   std::vector<std::string> out;
   while (!topic.empty()) {
@@ -106,7 +106,7 @@ void ChannelNames::add_aliases(Target target) {
 std::optional<Target> ChannelNames::exact(std::string_view name) const {
   const auto at = std::ranges::find(names_, name);
   if (at != names_.end()) return targets_[static_cast<std::size_t>(at - names_.begin())];
-  // A log that names the only field too.
+  // Logs may name the single field of a topic as well.
   if (!name.ends_with(".value")) return std::nullopt;
   name.remove_suffix(6);
   const auto whole = std::ranges::find(names_, name);
@@ -139,14 +139,14 @@ std::string ChannelNames::name_of(Target target) const {
 
 namespace {
 
-// --- which column is which channel, and how its numbers become that channel's ---
+// --- matching of columns to channels, and conversion of their numbers ---
 
-// Numbers of a file to those of a channel.
+// Conversion of a file's numbers to those of a channel.
 struct Scaling {
   double slope = 1, offset = 0;
-  bool same = true;  // bit for bit
+  bool same = true;  // whether the numbers are used unchanged
 
-  // Returns the value that the channel has for a number of the file.
+  // Returns the channel's value for a number of the file.
   double operator()(double number) const { return same ? number : offset + slope * number; }
 };
 
@@ -157,16 +157,16 @@ struct Matched {
   Scaling conversion;
 };
 
-// All columns that have a channel, and those that have none.
+// Matched columns, and the names of columns without a channel.
 struct Matches {
   std::vector<Matched> columns;
   std::vector<std::vector<std::string>> unused;  // columns' names, by file
   Mapping used;                                  // a row for each matched column
   std::vector<std::string> guessed;              // "elbow_angle is /joint/elbow/angle"
-  std::vector<signals::Topic> topics;            // the machine's, and /recorded/… behind them
+  std::vector<signals::Topic> topics;            // the machine's, followed by /recorded/…
 };
 
-constexpr std::size_t most_names = 20;  // that a message lists
+constexpr std::size_t most_names = 20;  // maximum number in a message
 
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
@@ -180,7 +180,7 @@ std::string near(std::string_view word, const std::vector<std::string>& names) {
   return config::closest_in_quotes(word, {names.begin(), names.end()});
 }
 
-// "/recorded/Kraft_A" of "Kraft A": what a topic's name can hold.
+// Returns a valid topic name for a column: "Kraft A" -> "/recorded/Kraft_A".
 std::string recorded_name(std::string_view name) {
   std::string out = "/recorded/";
   while (name.starts_with('/')) name.remove_prefix(1);
@@ -233,7 +233,7 @@ class Matcher {
     return out;
   }
 
-  // Every row of the mapping has to find its column, and its channel.
+  // Requires that each row of the mapping names an existing column and channel.
   void check_columns() {
     const std::vector<std::string> all = all_columns();
     for (const ColumnMapping& c : mapping_.columns) {
@@ -252,7 +252,7 @@ class Matcher {
     }
   }
 
-  // Those that are measured, and not the many others.
+  // Lists only measured channels, those of joints, muscles and stands, if there are any.
   std::string some_channels() const {
     std::vector<std::string> some;
     for (const std::string& name : names_.all())
@@ -290,7 +290,7 @@ class Matcher {
       out_.used.columns.push_back(std::move(use));
   }
 
-  // Fills in the channel that it finds.
+  // Returns the column's channel and stores its name in `use`.
   std::optional<Target> target_of(ColumnMapping& use, const std::string& unit) {
     if (use.channel.starts_with("/recorded/")) return added(use.channel, unit);
     std::optional<Target> found = names_.exact(use.channel.empty() ? use.name : use.channel);
@@ -315,7 +315,7 @@ class Matcher {
     return {out_.topics.size() - 1, 0};
   }
 
-  // Within a file a channel has one column; in several files only where they follow each other.
+  // A channel has one column in a file; several files may have it only if they are concatenated.
   bool is_free(Target target, std::size_t f, const RecordedColumn& column) {
     for (const Matched& other : out_.columns) {
       if (other.target != target || (at_end_ && other.file != f)) continue;
@@ -369,7 +369,7 @@ class Matcher {
     const auto parse = [&](int number, const std::string& in) {
       return config::parse_quantity(fmt::format("{} {}", number, in), wanted, atmosphere_);
     };
-    // As it is written, or as others write it: psig.
+    // Accepts Sinew's unit or another spelling of it, such as psig.
     for (const config::Spelling& meant : config::spellings(unit)) {
       const config::Parsed zero = parse(0, meant.unit), one = parse(1, meant.unit);
       if (zero.mistake) continue;
@@ -393,13 +393,13 @@ class Matcher {
     return {};
   }
 
-  // Turns what a quantity is told to try into words for a unit alone: "0 kPa gauge" -> "kPa gauge".
+  // Returns advice about a quantity as advice about its unit: "0 kPa gauge" -> "kPa gauge".
   static std::string without_number(std::string text) {
     for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
     return text;
   }
 
-  // The fields of a topic are of one instant.
+  // Requires that all fields of a topic have the same clock.
   void check_clocks() {
     std::map<std::pair<std::size_t, std::size_t>, const Matched*> first;
     for (const Matched& m : out_.columns) {
@@ -432,16 +432,16 @@ class Matcher {
   std::vector<config::Problem> problems_;
 };
 
-// Throws config::Error with all that is wrong.
+// Matches columns to channels. Throws config::Error with all faults.
 Matches match(const std::vector<Recorded>& files, const Mapping& mapping,
               std::span<const signals::Topic> topics, double atmosphere, bool at_end) {
   return Matcher(files, mapping, topics, atmosphere, at_end).take();
 }
 
-constexpr double nanoseconds = 1e9;                // of a second
-constexpr std::int64_t own_start = 1'000'000'000;  // up to there a clock is taken for a run's [ns]
+constexpr double nanoseconds = 1e9;                // in a second
+constexpr std::int64_t own_start = 1'000'000'000;  // a run's clock begins before this [ns]
 
-// How the times of a file become those of the table: (t - zero) scale + shift  [ns].
+// Conversion of a file's times to the table's: (t - zero) scale + shift [ns].
 struct Times {
   std::int64_t zero = 0, shift = 0;
   double scale = 1;
@@ -490,11 +490,11 @@ class Assembler {
   }
 
  private:
-  // First and last time of the columns that are used  [ns of the file].
+  // First and last time of the columns in use [ns, in the file's clock].
   struct Span {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     std::int64_t last = std::numeric_limits<std::int64_t>::min();
-    std::int64_t period = 10'000'000;  // of the clock that ends last
+    std::int64_t period = 10'000'000;  // the period of the clock that ends last
     bool any() const { return first <= last; }
   };
   Span span_of(std::size_t f) const {
@@ -539,8 +539,8 @@ class Assembler {
     tell_start(wall);
   }
 
-  // The earliest sample on the clock on the wall, where every file knows it: absent where one does
-  // not, or there is one file alone.
+  // Returns the wall-clock time of the earliest sample. Absent if a file has no wall-clock time, or
+  // if there is only one file.
   std::optional<std::int64_t> wall_start() const {
     std::optional<std::int64_t> first;
     if (files_.size() < 2 || joining_.at_end || !mapping_.clock.start.empty()) return first;
@@ -561,8 +561,8 @@ class Assembler {
     return files_[f].clocks.empty() ? none : files_[f].clocks.front();
   }
 
-  // The files' time 0 on one clock on the wall. Dates without a zone are taken for those of the
-  // zone that another file has, times of day without a date for those nearest to the first file's.
+  // Sets the wall-clock time of each file's time 0. Dates without a zone are assumed to be in the
+  // zone of another file; times of day without a date are taken as nearest to the first file's.
   void find_origins() {
     const Clock* zoned = nullptr;
     bool dates = false, times_of_day = false;
@@ -620,7 +620,7 @@ class Assembler {
     }
   }
 
-  // Files side by side of which one has no instant in common with any other.
+  // Notes each file that overlaps in time with no other file.
   void report_gaps() {
     if (joining_.at_end) return;
     for (std::size_t f = 0; f < files_.size() && files_.size() > 1; ++f) {
@@ -643,7 +643,7 @@ class Assembler {
     }
   }
 
-  // All files' samples of a topic, in the order of their times.
+  // Adds the samples of a topic from all files, in the order of their times.
   void topic(std::size_t t) {
     signals::Series series{matches_.topics[t], signals::Times(pages_), {}};
     series.columns.assign(series.topic.fields.size(), signals::Column(pages_));
@@ -691,7 +691,7 @@ class Assembler {
                                        files_[f].file, series.topic.name, late));
   }
 
-  // Only what changes; before the first edge a valve is shut.
+  // Stores only changes of the state; the valve is shut before the first edge.
   void edges(const Matched& of, signals::Series& series) {
     const signals::Times& times = clock_of(of).time_ns;
     double before = series.columns[0].empty() ? 0.0 : series.columns[0].back();
@@ -766,13 +766,13 @@ class Assembler {
   const Joining& joining_;
   Matches matches_;
   Assembled out_;
-  std::vector<Times> times_;                          // by file
-  std::vector<std::optional<std::int64_t>> origins_;  // by file, on one clock [ns]
+  std::vector<Times> times_;                          // one per file
+  std::vector<std::optional<std::int64_t>> origins_;  // one per file, on one clock [ns]
   signals::PageFile pages_ = signals::PageFile::make();
   bool sampled_edges_ = false;
 };
 
-// Every file once, every shift of a file that is there.
+// Requires that no file occurs twice and that every shift names a file.
 void check_files(const std::vector<Recorded>& files, const Joining& joining) {
   if (files.empty()) config::fail({"files", 0, 0}, "", "none", "a recording");
   std::vector<std::string_view> names;

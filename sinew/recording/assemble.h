@@ -1,8 +1,9 @@
-// recording/assemble.h - recordings become a channel table, by a mapping and a machine's channels.
+// recording/assemble.h - assembly of recordings into one channel table, by a mapping and the
+// channels of a machine.
 //
-// Several recordings stand side by side in time, or one begins where the one before it ends. The
-// table's time 0 is the first sample, unless the clock of the recording begins between 0 and 1 s:
-// then it is a run's own, and stays.
+// Several recordings are either aligned in time or concatenated. Time 0 of the table is the first
+// sample. If the recording's clock begins between 0 and 1 s, it is taken for the clock of a run and
+// is kept.
 #pragma once
 
 #include <map>
@@ -19,38 +20,39 @@
 
 namespace sinew::recording {
 
-// How several become one.
+// Controls how several recordings are combined.
 struct Joining {
-  bool at_end = false;                        // one behind the other; else side by side
-  std::map<std::string, std::string> shifts;  // file -> "0.12 s", by which its times are later
+  bool at_end = false;                        // true: concatenated in time; false: aligned in time
+  std::map<std::string, std::string> shifts;  // file -> "0.12 s", added to its times
   double atmosphere = units::atmosphere;      // between gauge and absolute pressures [Pa]
 };
 
-// Says what became of one file.
+// Summarizes the import of one file.
 struct Taken {
   std::string file, kind;
-  std::string started;              // on the clock on the wall; empty: not known
-  std::size_t rows = 0;             // of its longest clock
-  std::size_t values = 0;           // that went into the table
-  std::size_t left_out = 0;         // values that are no numbers, or stand before time 0
+  std::string started;              // wall-clock time of its start; empty: unknown
+  std::size_t rows = 0;             // rows of its longest clock
+  std::size_t values = 0;           // values written to the table
+  std::size_t left_out = 0;         // values that are not finite or lie before time 0
   std::vector<std::string> unused;  // columns without a channel
 };
 
-// The table, how it came about, and what somebody should know about it.
+// Holds the assembled table, the mapping that was used and notes for the user.
 struct Assembled {
   signals::Table table;  // in the order of the machine's channels, then /recorded/…
-  Mapping used;          // with every column that has a channel, also those that need no words
+  Mapping used;          // has every column with a channel, also those that need no row
   std::vector<Taken> files;
-  std::string started;  // the table's time 0 on the clock on the wall; empty: not known
+  std::string started;  // wall-clock time of the table's time 0; empty: unknown
   std::vector<std::string> notes;
 };
 
-// `topics`: the machine's. Throws config::Error with all that is wrong: a column or a channel that
-// there is not, a unit that is missing or of another dimension, a channel that two files have.
+// Assembles the recordings; `topics` are the machine's. Throws config::Error with all faults: an
+// unknown column or channel, a unit that is missing or of another dimension, a channel found in two
+// files.
 Assembled assemble(const std::vector<Recorded>& files, const Mapping& mapping,
                    std::span<const signals::Topic> topics, const Joining& joining = {});
 
-// A machine's channels by the names that people's loggers give them.
+// Finds a machine's channels by the names that other loggers give them.
 
 // One field of a topic.
 struct Target {
@@ -58,22 +60,22 @@ struct Target {
   friend bool operator==(const Target&, const Target&) = default;
 };
 
-// Knows channels by their own names and by those that say the same.
+// Maps channel names and their aliases to channels.
 class ChannelNames {
  public:
-  // `topics` outlives this.
+  // Keeps a reference to `topics`, which must outlive this object.
   explicit ChannelNames(std::span<const signals::Topic> topics);
 
-  // The channel of exactly this name: a topic with one field, or topic.field.
+  // Returns the channel with exactly this name: a topic with one field, or topic.field.
   std::optional<Target> exact(std::string_view name) const;
 
-  // The only channel that a column of this name and unit can be: "elbow_angle" and "Joint elbow
-  // angle" are /joint/elbow/angle, and so is "angle" where one joint is all there is. Nothing where
-  // it could be several, or has no such unit. What is only desired, planned or simulated has to be
-  // named in full.
+  // Returns the only channel that fits a column of this name and unit: "elbow_angle" and "Joint
+  // elbow angle" are /joint/elbow/angle, and so is "angle" on a machine with one joint. Returns
+  // nothing if several channels fit, or none with such a unit. Desired, planned and simulated
+  // channels need their full name.
   std::optional<Target> obvious(std::string_view name, std::string_view unit) const;
 
-  // The name of a channel, and all names, for messages.
+  // Return the name of a channel, and the names of all channels, for messages.
   std::string name_of(Target target) const;
   const std::vector<std::string>& all() const { return names_; }
 
@@ -81,18 +83,18 @@ class ChannelNames {
   struct Alias {
     std::string words;
     Target target;
-    bool counts_only = false;  // a sensor's own name, which is often that of what it measures
+    bool counts_only = false;  // a sensor's name, which is often that of the measured quantity
   };
   void add_aliases(Target target);
 
   std::span<const signals::Topic> topics_;
   std::vector<std::string> names_;
-  std::vector<Target> targets_;  // of these names
+  std::vector<Target> targets_;  // the targets of these names
   std::vector<Alias> aliases_;
 };
 
-// The unit of a channel as quantities name it: a log's Pa is absolute, but for what a test stand's
-// transducers say by their own scales, which is gauge.
+// Returns the unit of a channel as config::parse_quantity() takes it. A log's Pa is absolute,
+// except in /sensor/ topics, where a test stand's transducers measure gauge pressure.
 std::string quantity_unit(const signals::Topic& topic, std::size_t field);
 
 }  // namespace sinew::recording

@@ -156,10 +156,10 @@ TEST_F(AssembleTest, NamesThatSayTheChannelNeedNoMapping) {
         take({put("a.csv", "time [s]," + std::string(name) + " [deg]\n0,0\n0.01,180\n")});
     EXPECT_DOUBLE_EQ(series(a, "/joint/elbow/angle").columns[0][1], M_PI) << name;
   }
-  // The counts of a sensor of the same name say so by their unit.
+  // Counts of a sensor with the same name are distinguished by their unit.
   const Assembled counts = take({put("a.csv", "time [s],elbow_angle [count]\n0,5\n0.01,6\n")});
   EXPECT_EQ(series(counts, "/sensor/elbow_angle/count").columns[0][0], 5);
-  // Two pressures: which is meant?
+  // Two pressures: the name is ambiguous.
   EXPECT_NE(
       error_of({put("a.csv", "time [s],pressure [kPa abs]\n0,1\n0.01,2\n")}).find("no column"),
       std::string::npos);
@@ -231,7 +231,8 @@ TEST_F(AssembleTest, ZonesPlaceFilesSideBySide) {
     EXPECT_FALSE(has_note(both, "no other file"));
     EXPECT_EQ(both.started, files[0] == a ? "2026-11-24T10:15:30Z" : "2026-11-24T11:15:30+01:00");
   }
-  // Times of day have a common clock too, over midnight; files that do not meet are reported.
+  // Times of day are a common clock as well, also over midnight; files that do not overlap are
+  // reported.
   const std::string c = put("c.csv", "time,elbow_angle [rad]\n23:59:59,1\n00:00:01,2\n");
   const std::string d = put("d.csv", "time,tension [N]\n00:00:00,1\n00:00:05,2\n");
   EXPECT_EQ(series(take({c, d}), "/muscle/flexor/tension").time_ns[0], 1'000'000'000);
@@ -271,7 +272,8 @@ TEST_F(AssembleTest, SecondsAndTheirRestAreOneStamp) {
 }
 
 TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
-  // Rows every 10 ms under whole seconds, of which the first and the last are cut: 5 and 30 rows.
+  // Rows every 10 ms with times in whole seconds; the first and the last second are cut: 5 and 30
+  // rows.
   std::string text = "time,w [rad]\n";
   for (int i = 95; i < 330; ++i) text += fmt::format("{},{}\n", 1732340000 + i / 100, i);
   Mapping m = angle_is("w");
@@ -281,10 +283,10 @@ TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
   ASSERT_EQ(s.time_ns.size(), 235u);
   for (std::size_t i = 0; i < s.time_ns.size(); ++i)
     EXPECT_NEAR(static_cast<double>(s.time_ns[i]), 1e7 * static_cast<double>(i), 1e3);
-  // A pause is no step.
+  // A pause is not a step of the clock.
   const std::string pause = "time [s],w [rad]\n0,1\n0,2\n1,3\n1,4\n9,5\n9,6\n";
   EXPECT_EQ(series(take({put("b.csv", pause)}, m), "/joint/elbow/angle").time_ns[3], 1'500'000'000);
-  // One time alone gives no rate: the rate of the rows must.
+  // A single time gives no rate: the rate of the rows must be given.
   const std::string six = "time,w [rad]\n1.73234e+09,1\n1.73234e+09,2\n";
   EXPECT_NE(error_of({put("c.csv", six)}, m).find("rate=\"100 Hz\""), std::string::npos);
   m.table.spread_times = false;
@@ -294,7 +296,7 @@ TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
 
 TEST_F(AssembleTest, ACounterThatBeginsAgainIsContinued) {
   struct Counter {
-    double range, step, unit;  // of the file's numbers; s
+    double range, step, unit;  // unit of the file's numbers; s
     const char* name;
     double begin;
   };
@@ -313,7 +315,7 @@ TEST_F(AssembleTest, ACounterThatBeginsAgainIsContinued) {
       EXPECT_NEAR(static_cast<double>(s.time_ns[i] - s.time_ns[i - 1]), 1e9 * c.step * c.unit, 2e3);
     EXPECT_TRUE(has_note(a, "began again once"));
   }
-  // A recording that begins again is no counter.
+  // A recording that restarts is not a counter that overflows.
   std::string text = "t [ms],w [rad]\n";
   for (int i = 0; i < 400; ++i) text += fmt::format("{},{}\n", 10 * (i % 200), i);
   EXPECT_NE(error_of({put("a.csv", text)}, angle_is("w")).find("2 recordings"), std::string::npos);
@@ -353,7 +355,7 @@ TEST_F(AssembleTest, ARateStandsInPlaceOfAColumn) {
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[2], 10'000'000);
 }
 
-// --- what cannot be ---
+// --- refused input ---
 
 TEST_F(AssembleTest, SaysWhatIsWrongAndWhatToDo) {
   const std::string file = put("a.csv", "time [s],Winkel [deg],F [N],p\n0,1,2,3\n0.01,2,3,4\n");

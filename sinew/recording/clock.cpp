@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::int64_t one_day = 86400LL * 1'000'000'000;  // [ns]
 
-// "Time" of "Time (2)", "Time.1" and "Time_3", as programs call a second one.
+// Returns the name without a counter: "Time" of "Time (2)", "Time.1" and "Time_3".
 std::string_view without_count(std::string_view name) {
   std::string_view stem = name;
   if (stem.ends_with(')')) stem.remove_suffix(1);
@@ -55,7 +55,8 @@ StampClock::StampClock(const Grid& grid, const Source& source, std::size_t colum
   find_order(grid, source);
 }
 
-// One date whose first number is above 12 tells the order of all.
+// Finds the order of day and month: one date with a first or second number above 12 decides for
+// all.
 void StampClock::find_order(const Grid& grid, const Source& source) {
   if (source.dates == "day first") order_ = DateOrder::day_first;
   if (source.dates == "month first") order_ = DateOrder::month_first;
@@ -69,7 +70,7 @@ void StampClock::find_order(const Grid& grid, const Source& source) {
       const std::string_view text = row.cells[column].text;
       const auto stamp = stamp_in(text);
       if (!stamp || !stamp->has_date) continue;
-      if (stamp->order != DateOrder::unknown) return;  // and so all of them say it
+      if (stamp->order != DateOrder::unknown) return;  // and so do all other dates
       if (stamp->first > 12) order_ = DateOrder::day_first;
       if (stamp->second > 12) order_ = DateOrder::month_first;
       if (order_ != DateOrder::unknown) return;
@@ -78,7 +79,7 @@ void StampClock::find_order(const Grid& grid, const Source& source) {
       line = row.line;
     }
   }
-  order_ = DateOrder::day_first;  // days and months that are the same number
+  order_ = DateOrder::day_first;  // day and month are equal in all dates
   if (doubtful.empty()) return;
   config::fail({grid.file, line, 1}, grid.headings()[columns_[0]].name,
                fmt::format("{}, and no date whose day is above 12", config::in_quotes(doubtful)),
@@ -103,7 +104,7 @@ std::optional<std::int64_t> StampClock::read(const Row& row, std::size_t& cell) 
     offset += stamp->offset;
     if (first_ && stamp->has_zone) zone_ = stamp->offset;
   }
-  // A time of day alone begins anew at midnight.
+  // A time of day without a date restarts at midnight.
   if (!dated && !first_ && instant + days_ < last_ - one_day / 2) days_ += one_day;
   instant += days_;
   last_ = instant;
@@ -125,7 +126,7 @@ std::optional<std::int64_t> SplitSeconds::read(const Row& row, NumberStyle style
 
 namespace {
 
-// Ends of the names of the two columns.
+// Endings of the names of the two columns.
 struct SplitName {
   std::string_view seconds, rest;
   double unit;
@@ -216,10 +217,10 @@ std::vector<double> since_first(const std::vector<std::int64_t>& instants) {
 
 namespace {
 
-// Rows that share a time: from the first up to, and without, the last.
+// Rows that share a time: [from, to).
 struct TimeGroup {
   std::size_t from = 0, to = 0;
-  double step = 0;  // between its rows  [s]; 0: there is no time behind it
+  double step = 0;  // between its rows  [s]; 0: no later time exists
   double count() const { return static_cast<double>(to - from); }
 };
 
@@ -239,7 +240,7 @@ std::size_t spread_times(std::vector<double>& time) {
   const std::size_t shared = time.size() - groups.size();
   if (shared == 0 || groups.size() < 2) return 0;
 
-  double reach = 0;  // of the clock's digits  [s]
+  double reach = 0;  // the clock's resolution  [s]
   for (std::size_t g = 1; g < groups.size(); ++g) {
     const double step = time[groups[g].from] - time[groups[g - 1].from];
     if (step > 0 && (reach == 0 || step < reach)) reach = step;
@@ -250,15 +251,15 @@ std::size_t spread_times(std::vector<double>& time) {
 
   // The recording may begin and end within one step of the clock.
   TimeGroup &first = groups.front(), &last = groups.back();
-  double rows = 0, duration = 0;  // of the times between the first and the last
+  double rows = 0, duration = 0;  // between the first and the last time
   for (std::size_t g = 1; g + 1 < groups.size(); ++g) {
     rows += groups[g].count();
     duration += groups[g].step * groups[g].count();
   }
   const double usual = rows > 0 ? duration / rows : first.step;
   last.step = std::min(usual, reach / last.count());
-  // A first row alone stays where it is, unless the clock is far coarser than the rows.
-  const double each = reach / std::max(usual, 1e-12);  // rows of a time
+  // A single first row keeps its time, unless the clock is much coarser than the rows.
+  const double each = reach / std::max(usual, 1e-12);  // rows per time
   if (usual < first.step && (first.count() > 1 || each > 3)) {
     const double end = time[first.from] + first.step * first.count();
     first.step = usual;

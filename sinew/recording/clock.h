@@ -1,5 +1,5 @@
-// recording/clock.h - when the rows of a table were written: dates and times of day as seconds,
-// and what is wrong with a clock that is none.
+// recording/clock.h - clocks of a table: conversion of dates and times of day to seconds, and
+// checks of a table's times.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace sinew::recording {
 
-// Does such a column hold instants, or a part of them?
+// Returns whether a column of this kind holds instants, dates or times of day.
 bool tells_time(ColumnKind kind);
 
 // Columns of dates and times of day, read row by row.
 class StampClock {
  public:
-  // `column` holds stamps, or dates or times of day whose other part stands in the first column of
-  // that kind. Throws config::Error where nobody knows which of 11/03/2026 is the day.
+  // Uses the stamps in `column`, or its dates or times of day together with the first column of the
+  // other kind. Throws config::Error if the order of day and month is ambiguous, as in 11/03/2026.
   StampClock(const Grid& grid, const Source& source, std::size_t column);
 
-  // Returns the instant since 1970, or since a midnight where there is no date  [ns]. Nothing where
-  // a cell is no stamp; `cell` is that one.
+  // Returns the instant since 1970, or since a midnight where there is no date [ns]. Returns
+  // nothing if a cell does not hold a stamp; `cell` is then its index.
   std::optional<std::int64_t> read(const Row& row, std::size_t& cell);
 
   // Returns whether the instants are since 1970; else they are since a midnight.
   bool has_dates() const { return dated_; }
 
-  // Returns the zone of the first instant, local minus UTC  [ns]; nothing where no cell has one.
+  // Returns the zone of the first instant, local minus UTC  [ns]; nothing if no cell has one.
   std::optional<std::int64_t> zone() const { return zone_; }
 
   // Returns the columns that are read.
@@ -41,7 +41,7 @@ class StampClock {
 
   std::vector<std::size_t> columns_;
   DateOrder order_ = DateOrder::unknown;
-  std::int64_t days_ = 0, last_ = 0;  // midnights that were passed; the last instant  [ns]
+  std::int64_t days_ = 0, last_ = 0;  // midnights that were passed; last instant  [ns]
   bool first_ = true, dated_ = false;
   std::optional<std::int64_t> zone_;
 };
@@ -49,38 +49,40 @@ class StampClock {
 // A column of whole seconds and one with the rest of each: header.stamp.sec, header.stamp.nanosec.
 struct SplitSeconds {
   std::size_t seconds = 0, rest = 0;  // columns
-  double unit = 1;                    // of the rest  [s]
+  double unit = 1;                    // the unit of `rest`  [s]
 
-  // Returns the time  [ns]; nothing if a cell holds no number, and `cell` is that one.
+  // Returns the time [ns]; returns nothing if a cell does not hold a finite number, and `cell` is
+  // then its index.
   std::optional<std::int64_t> read(const Row& row, NumberStyle style, std::size_t& cell) const;
 };
 
-// Returns the pair whose seconds are in `column`, or the first pair of the table without one. Its
+// Returns the pair whose seconds are in `column`, or without `column` the table's first pair. Its
 // seconds are whole numbers, and the rest is below one second in each row.
 std::optional<SplitSeconds> split_seconds(const Grid& grid,
                                           std::optional<std::size_t> column = std::nullopt);
 
-// The columns of one clock, where a table has several: from the first up to, and without, the last.
+// Columns of one clock, where a table has several: [from, to).
 struct ClockColumns {
   std::size_t clock = 0, from = 0, to = 0;
 };
 
-// Returns the columns of each clock, `clock` as the first of them; nothing where there is one
-// clock. A clock without a column of numbers of its own is a column as any other.
+// Returns the columns of each clock, where `clock` is the first clock's column. Returns nothing if
+// the table has one clock. Each clock must have a column of numbers, else it is an ordinary column.
 std::vector<ClockColumns> clock_columns(const Grid& grid, std::optional<std::size_t> clock);
 
-// Returns the time between rows  [s] that "100 Hz" or "10 ms" says. Throws config::Error.
+// Returns the time between rows [s] for a text such as "100 Hz" or "10 ms". Throws config::Error.
 double period_of_rate(const std::string& rate);
 
 // Returns seconds since the first instant  [ns] -> [s].
 std::vector<double> since_first(const std::vector<std::int64_t>& instants);
 
-// Spreads rows that share a time evenly up to the next one, but no further than the clock's digits
-// reach: the smallest step between two of its times. The first and the last time may have fewer
-// rows than the others and have their step. Returns how many shared one.
+// Spreads rows that share a time evenly up to the next time, but no further than the clock's
+// resolution: the smallest step between two times. The first and the last time may have fewer rows
+// than the others, which are then spread with the usual step. Returns the number of rows that
+// shared a time.
 std::size_t spread_times(std::vector<double>& time);
 
-// Returns a note on rows of one time that became one.
+// Returns a note about rows of equal time that were merged.
 std::string merged_text(std::size_t count);
 
 // Adds a problem if a time is before the one above it.
@@ -91,17 +93,17 @@ void check_order(const std::vector<double>& time, const std::vector<int>& lines,
 void refuse_repeated(const std::vector<double>& time, const std::vector<int>& lines,
                      Problems& problems);
 
-// What is to be known about a recording's clock before it is read.
+// Settings of a recording's clock that are given before the recording is read.
 
-// Says where the times are.
+// Names the source of the times.
 struct ClockSettings {
-  std::string column;  // with the times; empty: `time`, or what else is clearly meant
-  std::string unit;    // of its numbers; empty: the file's, or else s
-  std::string rate;    // "100 Hz", in place of a column; empty: there is one
+  std::string column;  // with the times; empty: `time` or the only likely column
+  std::string unit;    // unit of its numbers; empty: the file's, or else s
+  std::string rate;    // "100 Hz", in place of a column; empty: a column holds the times
 };
 
-// Seconds of one step of the clock's unit; `file` is for the message. Throws config::Error where it
-// is no unit of time.
+// Returns the seconds in one unit of the clock; `file` is for the message. Throws config::Error if
+// `unit` is not a unit of time.
 double seconds_per_unit(const std::string& unit, const std::string& file);
 
 }  // namespace sinew::recording

@@ -24,13 +24,13 @@ namespace {
 
 using config::trimmed;
 
-// A header's unit and the name before it, where `text` ends with a unit behind `mark`.
+// Splits a header at the last `mark` into name and unit; returns false if no unit follows it.
 bool split_at(std::string_view mark, std::string_view text, Heading& h) {
   const std::size_t at = text.rfind(mark);
   if (at == text.npos || at == 0) return false;
   const std::string_view name = trimmed(text.substr(0, at));
   const std::string_view unit = without_brackets(text.substr(at + mark.size()));
-  // "m/s" as a column's name is one.
+  // A whole unit such as "m/s" as a column's name is not split.
   if (name.empty() || config::spellings(unit).empty()) return false;
   if (mark == "/" && !config::spellings(name).empty() && !config::spellings(text).empty())
     return false;
@@ -39,10 +39,10 @@ bool split_at(std::string_view mark, std::string_view text, Heading& h) {
   return true;
 }
 
-// "force (N)": what stands in round brackets is a unit or part of the name.
+// Splits "force (N)"; returns false if the text in the brackets is not a unit.
 bool split_at_brackets(std::string_view text, char open, char close, Heading& h) {
   if (text.empty() || text.back() != close) return false;
-  // "p [MPa(g)]", "p (MPa(g))": the bracket that matches the last one.
+  // Nested brackets, "p [MPa(g)]" or "p (MPa(g))": finds the one that matches the last.
   std::size_t at = text.size();
   int depth = 0;
   while (at-- > 0) {
@@ -57,7 +57,7 @@ bool split_at_brackets(std::string_view text, char open, char close, Heading& h)
   return true;
 }
 
-// "Druck ABS. (MPa)": a name has the reference that its unit lacks.
+// Adds the reference to a pressure unit if the name contains it: "Druck ABS. (MPa)".
 void add_reference(Heading& h) {
   if (h.unit.empty() || !config::is_unit(h.unit + " gauge")) return;
   constexpr std::pair<std::string_view, const char*> words[] = {
@@ -114,7 +114,7 @@ Heading heading_of(const Cell& cell) {
     if (equals != condition.npos) h.at_value = trimmed(condition.substr(equals + 1));
     text = trimmed(text.substr(0, at));
   }
-  // The stroke before the bracket: "p / bar(g)".
+  // The slash is tried before round brackets: "p / bar(g)".
   const bool split = split_at_brackets(text, '[', ']', h) || split_at(" in ", text, h) ||
                      split_at("/", text, h) || split_at_brackets(text, '(', ')', h) ||
                      split_at(", ", text, h);
@@ -125,44 +125,44 @@ Heading heading_of(const Cell& cell) {
 
 namespace {
 
-// --- the first rows of a table as cells, parted as most of them make sense ---
+// --- sample of a table's first rows, with the most plausible separator ---
 
-// Holds the clock and units that the header of a LabVIEW table gives for its rows.
+// Clock and units in the header of a LabVIEW table.
 struct LabViewHeader {
   bool is_there = false, has_x = true;
   double step = 0, first = 0;      // Delta_X and X0  [s]
   char decimal = '\0';             // '\0': not given
-  std::vector<std::string> units;  // of the columns behind X_Value
+  std::vector<std::string> units;  // units of the columns after X_Value
 };
 
 struct Sample {
   LabViewHeader labview;
   char separator = ',';
-  int first_line = 0;             // that holds something
-  std::vector<Row> rows;          // of these and the following lines
-  std::size_t width = 0;          // cells of most rows, those of the header and above it apart
-  std::vector<ColumnKind> kinds;  // of each of these cells
-  std::string_view comment;       // the last one before the first row
+  int first_line = 0;             // first line that is not empty
+  std::vector<Row> rows;          // rows from that line on
+  std::size_t width = 0;          // cells of most rows, not counting the header and rows above it
+  std::vector<ColumnKind> kinds;  // kinds of the columns
+  std::string_view comment;       // last one before the first row
   int comment_line = 0;
 
-  // How many cells of a row hold what their columns do, and how many something else; columns of
-  // words apart.
+  // Number of cells in a row that have their column's kind, and of those that do not; columns of
+  // words are not counted.
   struct Tally {
     std::size_t values = 0, words = 0;
   };
   Tally tally(const Row& row) const;
 
-  // Has the row as many cells as most, or more that are empty?
+  // Returns whether the row has `width` cells, not counting further empty ones at its end.
   bool fits(const Row& row) const;
 };
 
-// Enough to see commas, units and clocks; little enough to be read once for each separator.
+// Enough to find commas, units and clocks, but few enough to be read once per separator.
 constexpr std::size_t most_rows = 400, most_bytes = 1 << 20;
 
-// Where two make as much sense, the earlier one is preferred.
+// The earlier of two equally plausible separators is used.
 constexpr std::array separators{'\t', ';', ',', ' '};
 
-// A first line that tells spreadsheets the separator, and where the table begins behind it.
+// Separator given in the first line for spreadsheets, and the offset of the table after it.
 struct SaidSeparator {
   char separator = '\0';
   std::size_t at = 0;
@@ -180,7 +180,7 @@ SaidSeparator said_separator(std::string_view text) {
   return {line[4], next};
 }
 
-// A line of LabVIEW's header: a key, then its value, or one for each column.
+// Reads a line of LabVIEW's header: a key, then its value or one value for each column.
 void take_labview(const Row& line, LabViewHeader& out) {
   out.is_there = true;
   if (line.cells.size() < 2) return;
@@ -204,7 +204,7 @@ Sample read_sample(std::string_view text, char separator, std::size_t begin) {
       out.comment = reader.comment();
       out.comment_line = reader.comment_line();
     }
-    // LabVIEW's own table begins behind the last of these.
+    // LabVIEW's own table begins after the last of these lines.
     if (row.cells.front().text == "***End_of_Header***") {
       for (const Row& line : out.rows) take_labview(line, out.labview);
       out.rows.clear();
@@ -216,7 +216,7 @@ Sample read_sample(std::string_view text, char separator, std::size_t begin) {
   return out;
 }
 
-// The later half: what stands above a header is at the begin.
+// Returns the first row of the later half; lines above the header are in the first half.
 std::size_t later_half(const Sample& sample) { return sample.rows.size() / 2; }
 
 void find_width(Sample& sample) {
@@ -231,7 +231,7 @@ void find_width(Sample& sample) {
   }
 }
 
-// Returns the kind of what a cell holds; nothing where its value is missing.
+// Returns the kind of a cell; nothing if its value is missing.
 std::optional<ColumnKind> kind_of(std::string_view cell) {
   if (is_missing(cell)) return std::nullopt;
   if (marks_in(cell).number) return ColumnKind::numbers;
@@ -248,8 +248,8 @@ ColumnKind kind_of_column(const Sample& sample, std::size_t column) {
     if (row.cells.size() != sample.width) continue;
     if (const auto kind = kind_of(row.cells[column].text)) ++counts[*kind];
   }
-  if (counts.empty()) return ColumnKind::numbers;  // nothing but missing values
-  // Lines of units and names may be among few rows: words must be more than all values.
+  if (counts.empty()) return ColumnKind::numbers;  // only missing values
+  // Lines of units and names may be among few rows, so words must outnumber all values.
   std::size_t values = 0, most = 0;
   ColumnKind best = ColumnKind::words;
   for (const auto& [kind, count] : counts) {
@@ -262,8 +262,8 @@ ColumnKind kind_of_column(const Sample& sample, std::size_t column) {
   return counts[ColumnKind::words] > values ? ColumnKind::words : best;
 }
 
-// Returns the share of values among the cells of usual rows; a quarter of it for one column, as
-// every text makes one.
+// Returns how plausible a sample's separator is: the share of values among the cells of rows with
+// the usual width; a quarter of that for a single column, as any text makes one.
 double sense_of(const Sample& sample) {
   std::size_t values = 0, others = 0, rows = 0;
   for (std::size_t i = later_half(sample); i < sample.rows.size(); ++i) {
@@ -280,7 +280,7 @@ double sense_of(const Sample& sample) {
   return usual * share * (sample.width > 1 ? 1 : 0.25);
 }
 
-// The separator of which the first line has most; a comma where it has none.
+// Returns the most frequent separator in the line; a comma if it has none.
 char most_frequent(std::string_view line) {
   char best = ',';
   std::ptrdiff_t most = 0;
@@ -310,8 +310,8 @@ bool Sample::fits(const Row& row) const {
                      [](const Cell& cell) { return cell.text.empty(); });
 }
 
-// A line `sep=;` says the separator; without it, it is the one by which most cells are values.
-// `decimal_comma`: a comma is the decimal mark, for certain.
+// Returns the sample with the separator given by a line `sep=;`, or else with the one that makes
+// most cells values. `decimal_comma`: the comma is known to be the decimal mark.
 Sample sample_of(std::string_view text, bool decimal_comma) {
   const SaidSeparator said = said_separator(text);
   Sample best;
@@ -321,7 +321,7 @@ Sample sample_of(std::string_view text, bool decimal_comma) {
     Sample sample = read_sample(text, said.separator != '\0' ? said.separator : separator, said.at);
     find_width(sample);
     double sense = sense_of(sample);
-    if (decimal_comma && sample.separator == ',') sense *= 0.2;  // below a column of its own
+    if (decimal_comma && sample.separator == ',') sense *= 0.2;  // below one column's
     if (sense <= most) continue;
     most = sense;
     best = std::move(sample);
@@ -340,7 +340,7 @@ bool all_missing(const Row& row) {
   return std::ranges::all_of(row.cells, [](const Cell& c) { return is_missing(c.text); });
 }
 
-// "s;bar;mm": units and nothing else, at least one of which is no number.
+// Returns whether a row has only units, at least one of them not a number: "s;bar;mm".
 bool is_units_row(const Row& row) {
   const auto says_something = [](const Cell& c) {
     return !is_missing(c.text) && !number_in(c.text);
@@ -349,7 +349,7 @@ bool is_units_row(const Row& row) {
          std::ranges::any_of(row.cells, says_something);
 }
 
-// The index of the first row of values; the number of rows where there is none.
+// Returns the index of the first row of values; the number of rows if no row has values.
 std::size_t first_of_values(const Sample& sample) {
   const std::vector<Row>& rows = sample.rows;
   if (sample.labview.is_there) return std::min<std::size_t>(1, rows.size());
@@ -360,7 +360,7 @@ std::size_t first_of_values(const Sample& sample) {
     if (is_first) first_fitting = i;
     const Sample::Tally tally = sample.tally(rows[i]);
     if (tally.values == 0) continue;
-    // A header's names may be numbers, but not all of them; a row may have a cell that is wrong.
+    // Some names in a header may be numbers, but not all; a row of values may have a wrong cell.
     if (tally.words > 0 && (is_first || is_units_row(rows[i]) || tally.values < tally.words))
       continue;
     while (i > 0 && sample.fits(rows[i - 1]) && all_missing(rows[i - 1])) --i;
@@ -369,7 +369,7 @@ std::size_t first_of_values(const Sample& sample) {
   return std::min(first_fitting + 1, rows.size());
 }
 
-// Names that blanks part from their units: "time [s]  force [N]".
+// Joins names and units that were split at blanks: "time [s]  force [N]".
 std::vector<Cell> joined_units(std::vector<Cell> cells, std::size_t width,
                                std::deque<std::string>& texts) {
   std::vector<Cell> out;
@@ -385,7 +385,7 @@ std::vector<Cell> joined_units(std::vector<Cell> cells, std::size_t width,
   return out.size() == width ? out : cells;
 }
 
-// Reads the header of one table.
+// Reads the header of a table.
 class HeaderReader {
  public:
   HeaderReader(const Sample& sample, const Source& source) : sample_(sample), source_(source) {}
@@ -406,7 +406,7 @@ class HeaderReader {
   }
 
  private:
-  // Returns the index of the first row that is used.
+  // Returns the index of the first row in use.
   std::size_t find_names(std::size_t first, Dialect& out) const {
     if (first == 0) {
       use_comment(out);
@@ -438,7 +438,7 @@ class HeaderReader {
     if (sample_.separator == ' ' && cells.size() > sample_.width)
       cells = joined_units(cells, sample_.width, texts);
     while (cells.size() > 1 && cells.back().text.empty()) cells.pop_back();
-    // LabVIEW names a column of remarks, which most of its rows do not have.
+    // LabVIEW names a column of remarks, which most of its rows lack.
     out.has_remarks = cells.size() > 1 && cells.back().text == "Comment";
     for (const Cell& cell : cells) out.headings.push_back(heading_of(cell));
     use_labview(out);
@@ -448,7 +448,7 @@ class HeaderReader {
         set_unit(out.headings[i], unit);
   }
 
-  // Units and a clock that LabVIEW writes above its rows.
+  // Uses the units and the clock in LabVIEW's header.
   void use_labview(Dialect& out) const {
     const LabViewHeader& header = sample_.labview;
     for (std::size_t i = 0; i < header.units.size() && i + 1 < out.headings.size(); ++i)
@@ -462,7 +462,7 @@ class HeaderReader {
                                     config::format_number(header.step)));
   }
 
-  // "# time [s], force [N]", as NumPy writes a header.
+  // Uses a comment as header, as NumPy writes it: "# time [s], force [N]".
   void use_comment(Dialect& out) const {
     RowReader reader(sample_.comment, sample_.separator, 0, sample_.comment_line);
     Row names;
@@ -510,7 +510,8 @@ class HeaderReader {
       "decimal=\",\" if the comma is the decimal mark, thousands=\",\" if it groups thousands");
 }
 
-// Commas are decimal marks where they can be nothing else, and more so than points.
+// Returns the decimal mark: a comma if some commas can be nothing else, and at least as many as
+// points.
 char decimal_of(const Sample& sample, const Dialect& dialect, const Source& source) {
   if (!source.decimal.empty()) return source.decimal[0];
   if (sample.labview.decimal != '\0') return sample.labview.decimal;

@@ -1,6 +1,6 @@
-// recording/dialect.h - how a table is written: what parts its cells, which line names its columns,
-// whether its numbers have points or commas. Found from its first lines; nothing is guessed that
-// could be otherwise.
+// recording/dialect.h - format of a text table: its separator, the line of its column names, and
+// its decimal mark. The format is found from the first lines; a table that allows two readings is
+// refused, never guessed.
 #pragma once
 
 #include <string>
@@ -13,57 +13,58 @@
 
 namespace sinew::recording {
 
-// What stands above a column: its name, its unit, and the condition under
-// which a maker measured it.
+// Heading of a column: its name, its unit, and the condition under which its values were measured.
 //
 //   force [N]   force (N)   force / N   force in N   "force [N] @ pressure = 1 bar gauge"
 
 struct Heading {
   std::string name;       // force
-  std::string unit;       // N, as Sinew writes it where it is known; empty where none is given
+  std::string unit;       // N, in Sinew's spelling where it is a known unit; empty: not given
   std::string at_name;    // pressure; empty for most columns
   std::string at_value;   // 1 bar gauge
-  int column = 1;         // of the header's line
-  std::string written;    // all of it as the file has it
-  std::string file_unit;  // the unit as the file has it: psig
+  int column = 1;         // in the header's line
+  std::string written;    // whole cell as in the file
+  std::string file_unit;  // the unit as in the file: psig
   double factor = 1;      // the file's numbers times this are in `unit`: 0.001 from mbar to bar
 
-  // Is this its name, or all of its text?
+  // Returns whether `text` is the heading's name or its whole text.
   bool is_called(std::string_view text) const { return name == text || written == text; }
 };
 
-// Reads the cell of a header: its name, its unit, and the condition behind an @.
+// Reads a header cell: name, unit, and the condition after an @.
 Heading heading_of(const Cell& cell);
 
-// Gives the heading a unit as somebody wrote it.
+// Sets the heading's unit from any accepted spelling.
 void set_unit(Heading& heading, std::string_view unit);
 
-// Could the text stand in a line of units below the names? "[N]", "psig", "(mm)", "-" and nothing.
+// Returns whether the text can be a cell of a units line below the names: "[N]", "psig", "(mm)",
+// "-" or empty.
 bool is_unit_cell(std::string_view text);
 
-// The text without the brackets around a unit.
+// Returns the text without brackets around a unit.
 std::string_view without_brackets(std::string_view text);
 
-// A column holds cells of one kind.
+// Kind of the cells of a column.
 enum class ColumnKind { words, numbers, stamps, dates, times_of_day };
 
 struct Dialect {
   char separator = ',';  // ' ': any number of blanks
   NumberStyle numbers;
   std::vector<Heading> headings;
-  std::vector<ColumnKind> kinds;  // of the columns, as the first lines show them
-  int header_line = 0;            // 0: the header came from elsewhere
-  std::size_t body = 0;           // where the rows begin in the text
+  std::vector<ColumnKind> kinds;  // column kinds, found from the first lines
+  int header_line = 0;            // 0: the header is not in the file
+  std::size_t body = 0;           // start of the first row in the text [B]
   int body_line = 1;
-  bool has_remarks = false;        // its last column is one of remarks, which rows may lack
-  double period = 0, first = 0;    // of a clock that LabVIEW's header has in place of a column [s]
-  std::vector<std::string> notes;  // lines that stand before the header
+  bool has_remarks = false;        // whether the last column holds remarks, which rows may lack
+  double period = 0, first = 0;    // clock defined by LabVIEW's header, without a column [s]
+  std::vector<std::string> notes;  // lines above the header
 };
 
-// Returns whether a row is a date or an instant alone, as loggers write it above each recording.
+// Returns whether a row holds only a date or an instant, as loggers write it above each recording.
 bool is_date_line(const Row& row);
 
-// Throws config::Error for a text without rows, without a header, or whose commas can be either.
+// Finds the format of a table. Throws config::Error for a text without rows or header, and if
+// commas may be decimal marks or thousands separators.
 Dialect dialect_of(std::string_view text, const Source& source);
 
 }  // namespace sinew::recording

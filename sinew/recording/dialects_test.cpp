@@ -1,4 +1,4 @@
-// A table means the same numbers, whoever's program wrote it.
+// A table gives the same numbers in every format that programs write.
 #include <gtest/gtest.h>
 
 #include <string>

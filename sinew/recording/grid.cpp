@@ -61,7 +61,7 @@ Body::Body(const Grid& grid)
     : grid_(grid),
       reader_(*grid.text, grid.dialect.separator, grid.dialect.body, grid.dialect.body_line) {}
 
-// A row may have more separators behind its last cell.
+// Returns whether the row has as many cells as the header; removes empty cells at its end.
 bool Body::fits(Row& row) {
   const std::size_t width = grid_.headings().size();
   while (row.cells.size() > width && row.cells.back().text.empty()) row.cells.pop_back();
@@ -96,8 +96,8 @@ bool Body::next(Row& row) {
   return false;
 }
 
-// Returns whether the rows that do not fit are longer by numbers that a comma cuts in two: a
-// program has made commas of all semicolons, though the numbers have decimal commas.
+// Returns whether the rows that do not fit are longer because numbers were split at their decimal
+// commas: a program replaced all semicolons by commas.
 bool Body::is_cut_at_decimal_commas() const {
   const std::size_t width = grid_.headings().size();
   if (grid_.dialect.separator != ',' || first_cells_ <= width) return false;

@@ -1,4 +1,4 @@
-// recording/grid.h - a table as cells of text under a header, before anybody asks what they mean.
+// recording/grid.h - table of text cells under a header, not yet interpreted.
 #pragma once
 
 #include <atomic>
@@ -15,41 +15,40 @@
 
 namespace sinew::recording {
 
-// A table whose header is known. Its rows stay text until somebody reads them, as files may be
-// large.
+// Table with a known header. Its rows stay text until they are read, as files may be large.
 struct Grid {
   std::string file;
   std::unique_ptr<const std::string> text;  // in UTF-8
   Dialect dialect;
   std::vector<std::string> notes;
-  std::atomic<std::int64_t>* read = nullptr;  // the source's
+  std::atomic<std::int64_t>* read = nullptr;  // the source's byte counter
   bool drop_incomplete = false;               // the source's
 
   // Returns the columns, in the order of the file.
   const std::vector<Heading>& headings() const { return dialect.headings; }
-  int header_line() const { return dialect.header_line; }  // 0: the header came from elsewhere
+  int header_line() const { return dialect.header_line; }  // 0: not in the file
 
-  // About how many rows there are, to make room for them.
+  // Returns an estimate of the number of rows, for reserving memory.
   std::size_t rows_about() const;
 };
 
 // Reads the header of a text in any encoding. Throws config::Error.
 Grid read_grid(std::string bytes, const Source& source);
 
-// Reads the rows of a grid, which outlives it. Each has as many cells as the header.
+// Reads the rows of a grid, which must outlive it. Each row has as many cells as the header.
 class Body {
  public:
-  // Stands before the first row of the grid.
+  // Starts before the first row of the grid.
   explicit Body(const Grid& grid);
 
-  // Reads the next row; rows with other numbers of cells are counted and passed over.
+  // Reads the next row; counts and skips rows with another number of cells than the header.
   bool next(Row& row);
 
-  // Throws config::Error if there was such a row and rows that are not complete are not to be left
-  // out. A last one that is short was cut when the logger was switched off: that is noted.
+  // Throws config::Error if rows of another width were found and `drop_incomplete` is not set. A
+  // short last row was cut when the logger was switched off: it is noted instead.
   void finish(std::vector<std::string>& notes) const;
 
-  // Returns how many rows were read.
+  // Returns the number of rows read.
   std::size_t count() const { return count_; }
 
  private:
@@ -59,10 +58,10 @@ class Body {
   const Grid& grid_;
   RowReader reader_;
   std::size_t count_ = 0, ragged_ = 0, dates_ = 0;
-  int first_line_ = 0;            // of the rows that do not fit
-  std::size_t first_cells_ = 0;   // of that row
-  std::size_t first_digits_ = 0;  // of these cells those that are whole numbers
-  std::string cut_;               // what is to be noted of the last row
+  int first_line_ = 0;            // first row that does not fit
+  std::size_t first_cells_ = 0;   // number of cells in that row
+  std::size_t first_digits_ = 0;  // number of these cells that are whole numbers
+  std::string cut_;               // note about the last row
 };
 
 }  // namespace sinew::recording

@@ -30,7 +30,7 @@ Mapping load_mapping(const std::string& path) {
 
 namespace {
 
-// Collects what is wrong with a mapping.
+// Collects the faults of a mapping.
 class Findings {
  public:
   explicit Findings(const std::string& file) : file_(file) {}
@@ -111,7 +111,7 @@ Mapping merged(Mapping first, const Mapping& second) {
   take(first.table.spread_times, second.table.spread_times);
   take(first.table.drop_incomplete, second.table.drop_incomplete);
   take(first.table.columns, second.table.columns);
-  // A rate stands in place of a column, and the other way round.
+  // A rate replaces a column, and a column replaces a rate.
   if (!second.clock.rate.empty()) first.clock.column.clear();
   if (!second.clock.column.empty()) first.clock.rate.clear();
   take(first.clock.column, second.clock.column);
@@ -181,7 +181,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-// Lines `key = "value"  # comment`, of those that say something.
+// Writes lines `key = "value"  # comment`, except for empty values.
 class Lines {
  public:
   void comment(const std::string& text) { out_ += "# " + text + "\n"; }

@@ -1,6 +1,5 @@
-// recording/mapping.h - what the columns of somebody's recording mean to a machine of ours: which
-// channel each is, in which unit, and how its clock runs. A file of format sinew.mapping/1 keeps
-// it:
+// recording/mapping.h - mapping of a recording's columns to channels of a machine: the channel and
+// unit of each column, and the recording's clock. Stored in a file of format sinew.mapping/1:
 //
 //   format = "sinew.mapping/1"
 //
@@ -17,7 +16,7 @@
 //
 //   value = scale x number [unit] + offset
 //
-// A column whose name says it by itself needs no row: a channel's own name, or `elbow_angle`.
+// A column whose name identifies its channel needs no row: a channel's own name, or `elbow_angle`.
 #pragma once
 
 #include <string>
@@ -25,39 +24,39 @@
 
 namespace sinew::recording {
 
-// How a table of text is written, where it does not show it; the words are those of source.h.
+// Format of a text table, where the file does not show it; values as in source.h.
 struct TableSettings {
   std::string encoding, decimal, thousands, dates;
   bool spread_times = false;
   bool drop_incomplete = false;      // leave out rows without a time
   std::vector<std::string> columns;  // the header, for a file that has none
-  int part = 0;  // of several recordings in the file; 0: there is but one; not in a mapping's file
+  int part = 0;  // index of the recording in the file; 0: the only one; not stored
 };
 
-// How the recording tells time.
+// Source and scale of a recording's times.
 struct ClockMapping {
-  std::string column;  // with the times; empty: the one that is clearly meant
-  std::string unit;    // of its numbers; empty: as the file says
+  std::string column;  // with the times; empty: the only likely column
+  std::string unit;    // unit of its numbers; empty: as in the file
   std::string rate;    // "100 Hz", in place of a column
   double scale = 1;    // seconds of a true clock per second of this one
-  std::string start;   // of its times, the one that becomes the log's time 0; empty: the first
+  std::string start;   // the time that becomes the log's time 0; empty: the first
 };
 
-// Only rows in which the column has one of these values, "fill" or "100, 200", are taken.
+// Takes only rows in which the column has one of these values: "fill" or "100, 200".
 struct WhereMapping {
   std::string column, values;
 };
 
-// Tells what one column means.
+// Meaning of one column.
 struct ColumnMapping {
-  std::string name;     // the file's
-  std::string channel;  // ours: "/joint/elbow/angle", "/foot/position.x"
-  std::string unit;     // of the file's numbers; empty: as its header says
+  std::string name;     // in the file
+  std::string channel;  // channel of the machine: "/joint/elbow/angle", "/foot/position.x"
+  std::string unit;     // unit of the file's numbers; empty: as in its header
   double scale = 1;
   std::string offset;  // added after the scale, "90 deg"; empty: nothing
 };
 
-// All that a file of format sinew.mapping/1 says.
+// Contents of a file of format sinew.mapping/1.
 struct Mapping {
   TableSettings table;
   ClockMapping clock;
@@ -66,25 +65,25 @@ struct Mapping {
   bool keep_others = false;  // keep columns without a channel as /recorded/<name>
 };
 
-// Reads such a file. Throws config::Error with everything that is wrong.
+// Reads such a file. Throws config::Error with all faults.
 Mapping load_mapping(const std::string& path);
 
-// Returns the text of such a file, with a comment on each part that is there.
+// Returns the text of such a file, with a comment on each part in use.
 std::string text_of(const Mapping& mapping);
 
-// Returns `first` with what `second` says besides and in its place: its words are the later ones.
+// Returns `first` with the settings of `second` added; those of `second` replace those of `first`.
 Mapping merged(Mapping first, const Mapping& second);
 
-// Say one thing of a column or a channel; what was said of it before stands otherwise. The channel
-// `time` is the clock.
+// Set one property of a column or a channel and keep its other properties. The channel `time` is
+// the clock.
 void map_channel(Mapping& mapping, const std::string& channel, const std::string& column);
 void map_unit(Mapping& mapping, const std::string& column, const std::string& unit);
 void map_scale(Mapping& mapping, const std::string& column, double scale);
 void map_offset(Mapping& mapping, const std::string& column, const std::string& offset);
 void map_where(Mapping& mapping, const std::string& column, const std::string& values);
 
-// Throws config::Error for a column that two channels want in two units, a channel that has two
-// columns, and numbers that cannot be.
+// Throws config::Error for a column that two channels use with two units, a channel with two
+// columns, and numbers out of range.
 void check_mapping(const Mapping& mapping, const std::string& file);
 
 }  // namespace sinew::recording

@@ -20,9 +20,9 @@ namespace sinew::recording {
 
 namespace {
 
-// --- checks of a MATLAB file that come before the library ---
+// --- checks of a MATLAB file before libmatio reads it ---
 
-constexpr std::size_t header = 128;  // of level 5 [B]
+constexpr std::size_t header = 128;  // size of the header of level 5 [B]
 
 std::uint32_t word(std::string_view bytes, std::size_t at, bool big) {
   std::uint32_t out = 0;
@@ -38,9 +38,10 @@ std::uint32_t word(std::string_view bytes, std::size_t at, bool big) {
                "a whole one", "to copy it again, or to save it again");
 }
 
-// Elements stand one behind the other: a type, how many bytes, these bytes; within a matrix each
-// begins at a multiple of eight, and up to four bytes stand beside their type. A matrix is made of
-// elements, which may be matrices: fields of a struct.
+// Checks that no element extends past the end. An element is a type, a length and the data;
+// elements follow each other. Within a matrix each begins at a multiple of eight bytes, and data of
+// up to four bytes are stored next to their type. A matrix consists of elements, which may be
+// matrices: the fields of a struct.
 void check_elements(std::string_view bytes, bool within, bool big, const std::string& path,
                     std::size_t size) {
   constexpr std::uint32_t matrix = 14;
@@ -61,9 +62,9 @@ void check_level_5(std::string_view bytes, const std::string& path) {
   check_elements(bytes.substr(header), false, bytes.substr(126, 2) == "MI", path, bytes.size());
 }
 
-// Level 4 has no name in it: its numbers have to make sense. A variable is five words - what the
-// numbers are, rows, columns, whether they are complex, letters of the name - then the name, then
-// the numbers.
+// Returns whether the bytes are a MAT file of level 4, which has no signature: its numbers must be
+// plausible. A variable has five words (type, rows, columns, whether it is complex, length of the
+// name), then the name, then the numbers.
 bool is_level_4(std::string_view bytes) {
   constexpr std::size_t head = 20;
   if (bytes.size() < head) return false;
@@ -82,7 +83,7 @@ bool is_level_4(std::string_view bytes) {
          static_cast<double>(bytes.size() - head - letters);
 }
 
-// Throws config::Error for a file that is no MAT file, or that ends within a variable.
+// Throws config::Error for a file that is not a MAT file or ends within a variable.
 void check_matlab_bytes(std::string_view bytes, const std::string& path) {
   if (bytes.starts_with("MATLAB 5.0 MAT-file")) return check_level_5(bytes, path);
   if (is_matlab(bytes) || is_level_4(bytes)) return;
@@ -103,17 +104,17 @@ struct Matrix {
   std::vector<double> values;  // column by column
 };
 
-// Holds what is in a file, as the module hands it over.
+// Contents of a file, as received from the module.
 struct Variables {
   std::vector<Matrix> matrices;
-  std::map<std::string, std::string> texts;  // by name
+  std::map<std::string, std::string> texts;  // keyed by name
   std::vector<std::string> other;            // "C: a cell array"
 };
 
 void take_matrix(void* to, const char* name, std::size_t rows, std::size_t columns,
                  const double* values) {
   Matrix matrix{name, rows, columns, {values, values + rows * columns}};
-  if (rows == 1) std::swap(matrix.rows, matrix.columns);  // a vector either way
+  if (rows == 1) std::swap(matrix.rows, matrix.columns);  // a row vector becomes a column
   static_cast<Variables*>(to)->matrices.push_back(std::move(matrix));
 }
 
@@ -122,7 +123,7 @@ void take_text(void* to, const char* name, const char* text) {
 }
 
 void take_other(void* to, const char* name, const char* what) {
-  // MATLAB keeps the names of some objects where the library does not find them.
+  // Some objects have their names where the library does not find them.
   const std::string of = *name ? fmt::format("{}: ", name) : "";
   static_cast<Variables*>(to)->other.push_back(of + what);
 }
@@ -159,7 +160,7 @@ Variables variables_of(const std::string& path) {
                "a whole MAT file", "save(…, '-v7') again");
 }
 
-// --- which vector is the clock of which matrix ---
+// --- matching of matrices to time vectors ---
 
 std::string_view last_part(std::string_view name) {
   return name.substr(name.rfind('.') == name.npos ? 0 : name.rfind('.') + 1);
@@ -182,8 +183,8 @@ bool is_within(std::string_view name, std::string_view scope) {
          (name.starts_with(scope) && name.size() > scope.size() && name[scope.size()] == '.');
 }
 
-// "log.signals(2).values" is what Simulink calls by a label, or else "log(2)"; "elbow.Data" is
-// elbow.
+// Returns a readable name: a Simulink signal "log.signals(2).values" has its label or else
+// "log(2)"; "elbow.Data" is elbow.
 std::string people_name(std::string_view name, const Variables& in) {
   const std::string_view part = last_part(name);
   const std::string scope(scope_of(name));
@@ -196,7 +197,7 @@ std::string people_name(std::string_view name, const Variables& in) {
   return scope.substr(0, signals) + scope.substr(signals + std::strlen(".signals"));
 }
 
-// Puts matrices as columns behind their clocks.
+// Adds matrices as columns, each with its clock.
 class Columns {
  public:
   Columns(Variables in, const ClockSettings& settings, Recorded& out)
@@ -251,7 +252,7 @@ class Columns {
     }
   }
 
-  // The one nearest to it; with a rate, one that is made.
+  // Returns the clock in the nearest enclosing struct; with a rate, one that is made for it.
   std::optional<std::size_t> clock_for(const Matrix& m, std::size_t samples) {
     if (!settings_.rate.empty()) return made_clock(m, samples);
     std::optional<std::size_t> best;

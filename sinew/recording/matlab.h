@@ -1,11 +1,12 @@
 // recording/matlab.h - a MAT file of MATLAB or GNU Octave as columns.
 //
-// A vector is a column, a matrix one for each of its columns, `angle(1)`, `angle(2)`; fields of
-// structs are `log.angle`. The times are the vector `time`, `t` or `tout` beside them or further
-// out; what has as many values belongs to it. So Simulink's "structure with time" comes in, whose
-// signals are called by their labels, and a timeseries that was turned into a struct.
+// A vector is a column; a matrix gives one column for each of its own, `angle(1)`, `angle(2)`;
+// fields of structs are `log.angle`. The times are the vector `time`, `t` or `tout` in the same
+// struct or in an enclosing one; values of the same count belong to it. This covers Simulink's
+// "structure with time", whose signals are named by their labels, and a timeseries converted to a
+// struct.
 //
-// Level 5 and 7.3 are read by libmatio in a module of its own (module/matlab.h), level 4 too.
+// Levels 4, 5 and 7.3 are read by libmatio, which is in a module of its own (module/matlab.h).
 #pragma once
 
 #include <string>
@@ -16,11 +17,11 @@
 
 namespace sinew::recording {
 
-// Do the first bytes of a file say that it is MATLAB's?
+// Returns whether a file with these first bytes is a MAT file of level 5 or 7.3.
 bool is_matlab(std::string_view bytes);
 
-// Throws config::Error for a file that is none, or is cut off, or has no times, and where the
-// program was built without libmatio.
+// Reads a MAT file. Throws config::Error if the file is not a MAT file, is cut off or has no times,
+// and if the program was built without libmatio.
 Recorded read_matlab(const std::string& path, const ClockSettings& clock);
 
 }  // namespace sinew::recording

@@ -12,14 +12,14 @@
 #include "sinew/host/module.h"
 #include "sinew/recording/read.h"
 
-// Files are written here byte by byte, as the format is published, so that what reads them is not
-// what wrote them.
+// Files are written here byte by byte, after the published format, so that the reader is tested
+// independently of its own library.
 namespace sinew::recording::matlab_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-// One element: its type, how many bytes, these, up to a multiple of eight.
+// An element: its type, its length, and its data, padded to a multiple of eight bytes.
 std::string element(std::uint32_t type, const std::string& bytes) {
   std::string out(8, '\0');
   const auto size = static_cast<std::uint32_t>(bytes.size());
@@ -65,7 +65,7 @@ std::string text(const std::string& name, const std::string& letters) {
                      element(uint16, wide));
 }
 
-// Fields of an array of structs, element by element.
+// Writes the fields of an array of structs, element by element.
 std::string structure(const std::string& name, std::int32_t count,
                       const std::vector<std::string>& fields,
                       const std::vector<std::string>& values) {
@@ -75,7 +75,7 @@ std::string structure(const std::string& name, std::int32_t count,
     names += field;
   }
   std::string out = begin(struct_class, 1, count, name);
-  // Four bytes stand beside their type, in one word of eight.
+  // Four bytes are stored next to their type, in one word of eight bytes.
   out += words({std::uint32_t{4 << 16 | int32}, std::uint32_t{32}}) + element(int8, names);
   for (const std::string& value : values) out += value;
   return element(matrix_type, out);
@@ -190,7 +190,7 @@ TEST_F(MatlabTest, WhatIsNoWholeMatFileIsNamed) {
   EXPECT_NE(table.find("begins with \"time,angle"), std::string::npos) << table;
   EXPECT_NE(table.find("level 4, 5 or 7.3"), std::string::npos) << table;
   std::string broken = whole;
-  broken[190] = '\x7f';  // the first variable says that it has far more numbers than bytes
+  broken[190] = '\x7f';  // the first variable claims more numbers than there are bytes
   EXPECT_NE(error_of(broken), "no error");
 }
 

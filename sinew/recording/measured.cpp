@@ -33,38 +33,38 @@ namespace sinew::recording {
 
 namespace {
 
-// --- the places of the wanted columns in a table, and the meaning of their numbers ---
+// --- places of the wanted columns in a table, and conversion of their numbers ---
 
-// Numbers of a file's unit to SI: a pressure may have an offset.
+// Conversion of a file's unit to SI: a pressure may have an offset.
 struct ToSi {
   double slope = 1, offset = 0;
-  // Returns a number of the file in SI, and the number that stands for a value of SI.
+  // Convert a number of the file to SI, and a value in SI to a number of the file.
   double operator()(double number) const { return offset + slope * number; }
   double back(double si) const { return (si - offset) / slope; }
 };
 
-// Where a wanted column stands in the file.
+// Wanted column that was found in the file.
 struct Found {
   const Wanted* wanted = nullptr;
-  std::size_t index = 0;  // of the file's column; of the first one where there are several
-  bool is_at = false;     // it is the condition of the columns with an @
+  std::size_t index = 0;  // index of the file's column; the first if there are several
+  bool is_at = false;     // whether it is the condition of the columns with an @
   ToSi conversion;
-  std::optional<double> constant;  // of a value that is stated for the whole file, SI
-  std::string unit;                // of the file, as it writes it
-  std::string shown;  // the same as Sinew writes it; empty where Sinew has no such unit
+  std::optional<double> constant;  // value for the whole file, SI
+  std::string unit;                // unit as written in the file
+  std::string shown;               // unit in Sinew's spelling; empty: Sinew has no such unit
 };
 
-// Finds columns of one grid. What it cannot find goes to `problems`.
+// Finds the wanted columns of a grid. Columns that are not found are added to `problems`.
 class ColumnFinder {
  public:
-  // Looks in `grid` for what `source` says of its columns; all three outlive it.
+  // Keeps references to all three, which must outlive this object.
   ColumnFinder(const Grid& grid, const Source& source, Problems& problems)
       : grid_(grid), source_(source), problems_(problems) {}
 
-  // A column that is optional and not there is left out.
+  // Returns the columns found; an optional column that is missing is left out.
   std::vector<Found> find(std::span<const Wanted> wanted);
 
-  // The columns of `where`, and the values that let a row pass.
+  // Returns the columns of `where`, and the values that a row must have in them.
   std::vector<std::pair<std::size_t, std::string>> conditions();
 
  private:
@@ -86,7 +86,7 @@ class ColumnFinder {
   Problems& problems_;
 };
 
-// Returns a hint about a quantity as one about its unit alone: "0 kPa gauge" -> "kPa gauge".
+// Returns advice about a quantity as advice about its unit: "0 kPa gauge" -> "kPa gauge".
 std::string without_number(std::string text) {
   for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
   return text;
@@ -94,8 +94,8 @@ std::string without_number(std::string text) {
 
 bool is_pressure(std::string_view unit) { return unit.starts_with("Pa "); }
 
-// Returns the unit that the header has. Sinew's own channels have "Pa" alone: one that is called
-// pressure is absolute, unless its name says gauge.
+// Returns the unit in the header. Sinew's own channels have only "Pa": a pressure is absolute
+// unless its name contains gauge.
 std::string unit_in(const Heading& h) {
   const bool channel = h.name.starts_with('/') && h.name.ends_with("pressure");
   if (!channel || h.file_unit != "Pa") return h.file_unit;
@@ -126,7 +126,7 @@ std::vector<std::string_view> ColumnFinder::names() const {
   return out;
 }
 
-// A column would be left out unnoticed where a value is stated for what it replaces.
+// Refuses a column that would be ignored because a value is stated for the column it replaces.
 void ColumnFinder::refuse_beside_stated(const Wanted& w, const std::vector<Found>& found) {
   const auto at =
       std::ranges::find_if(found, [&](const Found& f) { return f.wanted->name == w.replaces; });
@@ -168,9 +168,9 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
                              : fmt::format("names.{}={}", w.name, near));
 }
 
-// A value that is stated for the whole file.
+// Finds a value that is stated for the whole file; returns false if it is missing.
 bool ColumnFinder::find_stated(const Wanted& w, std::vector<Found>& out) {
-  // The longest part of the file's name decides.
+  // The value with the longest matching part of the file's name is used.
   std::optional<std::string> text;
   std::size_t longest = 0;
   for (const std::string& setting : source_.values) {
@@ -219,7 +219,7 @@ void ColumnFinder::add_offset(const Wanted& w, Found& f) {
   f.conversion.offset += added.si;
 }
 
-// Two columns of one name: nobody knows which is meant. Those with an @ belong together.
+// Refuses two columns of one name, as either may be meant. Columns with an @ belong together.
 void ColumnFinder::refuse_twice(const std::string& name, std::size_t first) {
   for (std::size_t i = first + 1; i < grid_.headings().size(); ++i) {
     const Heading& h = grid_.headings()[i];
@@ -229,7 +229,7 @@ void ColumnFinder::refuse_twice(const std::string& name, std::size_t first) {
   }
 }
 
-// The only channel whose last part is the name, or else a name that differs by a few letters.
+// Returns the only channel that ends with the name, or else a similar name in quotes.
 std::string ColumnFinder::near_name(const std::string& name) const {
   std::vector<std::string_view> channels;
   for (const std::string_view one : names())
@@ -248,7 +248,7 @@ std::string ColumnFinder::all_names() const {
   return out;
 }
 
-// Every name in `names` and `units` must be somewhere.
+// Requires that the names in `names`, `units` and the like exist.
 void ColumnFinder::check_names(std::span<const Wanted> wanted) {
   const auto known = config::names_of(wanted);
   for (const auto& [name, file_name] : source_.names)
@@ -292,7 +292,7 @@ std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
   return out;
 }
 
-// The first meaning of the unit's text that has the wanted dimension.
+// Uses the first meaning of the unit's text that has the wanted dimension.
 void ColumnFinder::convert(const Heading& h, const Wanted& w, Found& f) {
   const bool stamps = tells_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel" ||
                       (w.name == "time" && split_seconds(grid_, f.index));
@@ -336,7 +336,7 @@ void ColumnFinder::refuse_unit(const Heading& h, const Wanted& w, const std::str
                 try_this);
 }
 
-// Returns units of the wanted dimension in which the file's number would be possible: "mm or in".
+// Returns units of the wanted dimension with which the file's number would be in range: "mm or in".
 std::string possible_units(const Wanted& wanted, double number) {
   std::string_view unit = wanted.unit, reference;
   for (const std::string_view word : {" gauge", " abs", " diff"}) {
@@ -355,7 +355,7 @@ std::string possible_units(const Wanted& wanted, double number) {
   return out;
 }
 
-// The column of the wanted times, where the file has one.
+// Returns the column with the times, if the file has one.
 std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
   const auto said = source.names.find("time");
   const std::string name = said != source.names.end() ? said->second : "time";
@@ -368,7 +368,7 @@ bool wants_time(std::span<const Wanted> wanted) {
   return std::ranges::find(wanted, "time", &Wanted::name) != wanted.end();
 }
 
-// Reads the wanted columns of one grid.
+// Reads the wanted columns of a grid.
 class Table {
  public:
   Table(const Grid& grid, const Source& source)
@@ -405,7 +405,7 @@ class Table {
   }
 
  private:
-  // A time is a number, a stamp, or the count of the row where a rate is given.
+  // Finds the source of the times: a column of numbers or stamps, or a rate.
   void find_clock() {
     const std::size_t none = grid_.headings().size();
     for (const Found& f : found_) {
@@ -425,7 +425,7 @@ class Table {
     }
   }
 
-  // A column of another clock would get the times of the first one.
+  // Refuses columns of another clock, as they would get the times of the first one.
   void refuse_clocks(std::span<const Wanted> wanted) {
     const std::optional<std::size_t> clock = clock_of(grid_, source_);
     const std::vector<ClockColumns> clocks = clocks_with(clock);
@@ -457,7 +457,7 @@ class Table {
     problems_.finish();
   }
 
-  // The clocks of which this is one; nothing where it is the only one.
+  // Returns the clocks of the table if the given one is among them; nothing if it is the only one.
   std::vector<ClockColumns> clocks_with(std::optional<std::size_t> clock) const {
     for (std::size_t i = 0; clock && i <= *clock; ++i) {
       std::vector<ClockColumns> out = clock_columns(grid_, i);
@@ -466,8 +466,8 @@ class Table {
     return {};
   }
 
-  // Rows of one time that fill each other's empty cells are one row: a logger wrote a line for each
-  // of its channels.
+  // Merges rows of equal time that fill each other's empty cells: the logger wrote a line for
+  // each of its channels.
   void read_body(Body& body, Measured& out) {
     Row above, row;
     std::size_t index = 0, merged = 0;
@@ -514,7 +514,7 @@ class Table {
     return a && b ? *a == *b : cell == value;
   }
 
-  // Every condition of `where` holds.
+  // Returns whether the row meets every condition of `where`.
   bool wanted_row(const Row& row) const {
     return std::ranges::all_of(where_, [&](const auto& condition) {
       for (std::string_view rest = condition.second; !rest.empty();)
@@ -523,7 +523,7 @@ class Table {
     });
   }
 
-  // One row of the file gives one, or one per column with an @ that is not empty.
+  // Adds one row, or one for each column with an @ whose cell is not empty.
   void add_rows(const Row& row, std::size_t index, Measured& out) {
     const bool several = std::ranges::any_of(found_, &Found::is_at);
     if (!several) return add_row(row, index, nullptr, out);
@@ -557,7 +557,7 @@ class Table {
     return cell(row, column_of(f, at), f, missing);
   }
 
-  // The column with an @ that is being read stands for all of its name.
+  // Returns the column to read: `at` represents all columns of its name.
   std::size_t column_of(const Found& f, const Heading* at) const {
     if (at && at->name == grid_.headings()[f.index].name)
       return static_cast<std::size_t>(at - grid_.headings().data());
@@ -634,7 +634,7 @@ class Table {
                                     dropped_, rows, columns));
   }
 
-  // Tells sizes in the file's own unit, as whoever wrote it knows these numbers.
+  // Checks sizes; reports them in the file's own unit, which its author is familiar with.
   void check_sizes(const Measured& data) {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const Found& f = found_[i];
@@ -661,15 +661,15 @@ class Table {
     }
   }
 
-  // Rows of recorders that were joined block by block stand a little out of order, and a coarse
-  // clock gives several rows one time: both are put right and told. A jump back over much of the
-  // recording is none of it.
+  // Sorts rows that are slightly out of order, as in blocks of several recorders, and spreads
+  // rows that share a time of a coarse clock; both are noted. A jump back over much of the
+  // recording is a fault.
   void check_time(Measured& data) {
     const auto is_time = [&] { return std::ranges::find(data.columns, "time", &Column::name); };
     if (is_time() == data.columns.end()) return;
     if (unwrap_.wraps() > 0) data.notes.push_back(wraps_text("time", unwrap_));
     sort_by_time(data, is_time()->values);
-    const auto at = is_time();  // sorting has made the columns anew
+    const auto at = is_time();  // sorting has replaced the columns
     check_order(at->values, data.lines, problems_);
     if (source_.spread_times || !lines_share_times(data, at->values)) {
       const std::size_t count = spread_times(at->values);
@@ -680,7 +680,7 @@ class Table {
     refuse_repeated(at->values, data.lines, problems_);
   }
 
-  // Sorts all rows by their times where no row is further back than a share of the recording.
+  // Sorts all rows by their times if none is further back than a small share of the recording.
   static void sort_by_time(Measured& data, const std::vector<double>& time) {
     constexpr double most = 0.02;
     if (time.empty() || std::ranges::is_sorted(time)) return;
@@ -702,7 +702,7 @@ class Table {
     data.notes.push_back(fmt::format("{} rows stood after later ones: sorted by their time", late));
   }
 
-  // Does a line of the file give several rows, which have its time in common?
+  // Returns whether one line of the file gives several rows, which then share its time.
   static bool lines_share_times(const Measured& data, const std::vector<double>& time) {
     for (std::size_t i = 1; i < time.size(); ++i)
       if (time[i] == time[i - 1] && data.lines[i] == data.lines[i - 1]) return true;
@@ -714,16 +714,16 @@ class Table {
   Problems problems_;
   std::vector<Found> found_;
   std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
-  std::unique_ptr<StampClock> clock_;                       // where times are stamps
-  std::optional<SplitSeconds> split_;                       // where they are in two columns
-  std::vector<std::size_t> clock_columns_;                  // that hold the times
+  std::unique_ptr<StampClock> clock_;                       // if times are stamps
+  std::optional<SplitSeconds> split_;                       // if times are in two columns
+  std::vector<std::size_t> clock_columns_;                  // columns that hold the times
   Unwrapper unwrap_;
   std::optional<std::int64_t> first_instant_;  // [ns]
   std::optional<double> first_day_;
   bool excel_days_ = false;
-  double period_ = 0;             // of rows that have a rate  [s]
-  std::vector<double> values_;    // of the row that is read
-  std::set<int> bad_conditions_;  // columns that were told
+  double period_ = 0;             // period of rows with a rate  [s]
+  std::vector<double> values_;    // values of the current row
+  std::set<int> bad_conditions_;  // columns already reported
   std::map<std::string_view, std::size_t> missing_;
   std::size_t dropped_ = 0;
 };
@@ -734,7 +734,7 @@ Measured read_rows(std::string bytes, const Source& source, std::span<const Want
   if (source.part != 0) keep_part(grid, source, clock);
   try {
     return Table(grid, source).read(wanted);
-  } catch (const config::Error&) {  // several recordings are the better reason, where it is that
+  } catch (const config::Error&) {  // several recordings in the file explain the fault better
     if (source.where.empty()) refuse_parts(grid, source, clock);
     throw;
   }

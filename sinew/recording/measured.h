@@ -1,13 +1,12 @@
-// recording/measured.h - a table that somebody measured: those columns of it that are wanted, as
-// numbers in SI.
+// recording/measured.h - selected columns of a measured table as numbers in SI.
 //
 //   time [s],force [N],pressure [kPa gauge]        a header of `name [unit]`, then numbers
 //   length [mm],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge
 //                                                  a maker's table: each such column becomes rows
 //
-// Separators, decimal marks, encodings and units are those of the file; what a file does not say
-// its Source does. What is wrong with it - a unit, a cell, a value that cannot be - is told with
-// its line, all at once.
+// Separators, decimal marks, encodings and units are those of the file; Source supplies what the
+// file does not state. All faults, such as a wrong unit, cell or value, are reported together with
+// their lines.
 #pragma once
 
 #include <span>
@@ -21,51 +20,51 @@
 
 namespace sinew::recording {
 
-// A column that a method wants.
+// Column that a method requires.
 struct Wanted {
   std::string_view name;  // "pressure"
-  std::string_view unit;  // what comes out, SI: "Pa gauge"
-  // Sizes that the largest value of such a measurement can have, in `unit`: beyond them the unit or
-  // the column is a mistake.
+  std::string_view unit;  // SI unit of the values that are returned: "Pa gauge"
+  // Range of the largest absolute value of such a measurement, in `unit`; outside it the unit or
+  // the column is wrong.
   double least = 0, most = 0;
   bool optional = false;
   std::string_view doc;
-  std::span<const std::pair<std::string_view, double>> words = {};  // that stand for numbers
-  // A column above this one that it replaces: where that one is read, this one is left alone.
+  std::span<const std::pair<std::string_view, double>> words = {};  // words that mean numbers
+  // Column earlier in the list that this one replaces: if that one is read, this one is skipped.
   std::string_view replaces = {};
 };
 
-// Values of one quantity, in the unit that was wanted.
+// Values of one quantity, in the requested unit.
 struct Column {
-  std::string name;  // the wanted name
-  std::string unit;  // the wanted unit
+  std::string name;  // name in Wanted
+  std::string unit;  // unit in Wanted
   std::vector<double> values;
-  std::string shown;       // unit for messages: the file's, where Sinew has it; empty: `unit`
-  bool is_stated = false;  // a value for the whole file, in place of its column
+  std::string shown;       // unit for messages: the file's, if Sinew has it; empty: `unit`
+  bool is_stated = false;  // one value for the whole file, instead of a column
 };
 
-// A table of measurements, its columns called as they were wanted.
+// Table of measurements, with columns named as in Wanted.
 struct Measured {
   std::string file;
   std::vector<Column> columns;
-  std::vector<int> lines;          // of the file, one per row
-  std::vector<std::string> notes;  // what was left out
+  std::vector<int> lines;          // line numbers in the file, one per row
+  std::vector<std::string> notes;  // parts that were left out
 
-  // How many rows there are; is there a column of that name?
+  // Return the number of rows, and whether there is a column of that name.
   std::size_t rows() const { return lines.size(); }
   bool has(std::string_view name) const;
-  // Throws std::out_of_range for a column that is not there.
+  // Returns the values of a column. Throws std::out_of_range if it was not read.
   const std::vector<double>& operator[](std::string_view name) const;
 
-  // The rows whose index is in `keep`.
+  // Returns the rows whose index is in `keep`.
   Measured subset(std::span<const std::size_t> keep) const;
 };
 
-// Throws config::Error. A wanted `time` must not run backwards or repeat itself; dates and times of
-// day become seconds since the first row.
+// Reads the wanted columns of the source. Throws config::Error. A wanted `time` must neither
+// decrease nor repeat; dates and times of day become seconds since the first row.
 Measured read_measured(const Source& source, std::span<const Wanted> wanted);
 
-// Reads a text in place of the file, for tests and tools; messages call it `source.path`.
+// Reads a text in place of the file, for tests and tools; messages use `source.path` as its name.
 Measured parse_measured(std::string_view text, const Source& source,
                         std::span<const Wanted> wanted);
 

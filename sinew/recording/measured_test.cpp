@@ -1,4 +1,4 @@
-// Measurements come out in SI whatever they were written in, and what is wrong is told by its line.
+// Measurements are returned in SI for every unit of the file; faults are reported with their line.
 #include "sinew/recording/measured.h"
 
 #include <gtest/gtest.h>
@@ -133,7 +133,7 @@ TEST(Measured, TwoColumnsOfOneNameAreRefusedUnlessAnAtTellsThemApart) {
   const std::string said = problem("pressure [kPa gauge],force [N],force [lbf]\n100,20,30\n");
   EXPECT_TRUE(says(said, "rig.csv:1:32: force: found a second column of this name")) << said;
   const std::string unread = "n [mm],n [s],pressure [kPa gauge],force [N]\n1,2,100,20\n";
-  EXPECT_EQ(problem(unread), "none");  // nobody asked for it
+  EXPECT_EQ(problem(unread), "none");  // the column is not requested
 }
 
 }  // namespace

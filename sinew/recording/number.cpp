@@ -15,10 +15,10 @@ namespace {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 constexpr std::string_view minus = "\u2212";
-// Blanks that part thousands: one of ASCII, and the narrow and wide ones that do not break a line.
+// Blanks used as thousands separators: ASCII's, and the no-break and thin ones.
 constexpr std::string_view blanks[] = {" ", "\u00A0", "\u202F", "\u2009"};
 
-// A number whose marks are known, with a sign in front: "-12.5e3".
+// Parses a number with known marks, with or without a sign: "-12.5e3".
 std::optional<double> plain_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
@@ -27,7 +27,7 @@ std::optional<double> plain_number(std::string_view text) {
   return value;
 }
 
-// Without the blanks that part thousands; the typographer's minus as a hyphen.
+// Returns the text with the typographic minus as a hyphen and, if required, without blanks.
 std::string with_ascii(std::string_view text, bool without_blanks) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -49,7 +49,7 @@ std::string with_ascii(std::string_view text, bool without_blanks) {
   return out;
 }
 
-// Takes the marks out of "1.234.567" if each stands before three digits and none comes first.
+// Removes the marks from "1.234.567" if three digits follow each and none comes first.
 std::optional<std::string> joined_thousands(std::string_view whole, char mark) {
   const bool sign = !whole.empty() && (whole[0] == '-' || whole[0] == '+');
   std::size_t at = sign ? 1 : 0, since = 0, groups = 0;
@@ -103,7 +103,8 @@ std::string with_mark(std::string_view text, std::size_t at, char mark) {
   return out;
 }
 
-// Digits before and behind the only comma or point.
+// Returns whether the only comma or point may be a thousands separator, judged by the digits around
+// it.
 bool can_part_thousands(std::string_view text, std::size_t mark) {
   const std::size_t first = text.find_first_of("0123456789");
   const std::size_t before = first < mark ? mark - first : 0;

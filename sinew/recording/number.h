@@ -1,5 +1,5 @@
-// recording/number.h - a cell of a foreign table as a number: decimal commas, parted thousands, the
-// many words for a value that is not there.
+// recording/number.h - parsing of a table cell as a number: decimal commas, thousands separators,
+// and words for a missing value.
 #pragma once
 
 #include <optional>
@@ -8,31 +8,31 @@
 
 namespace sinew::recording {
 
-// How a table writes its numbers.
+// Number format of a table.
 struct NumberStyle {
   char decimal = '.';
-  char thousands = '\0';  // '\0': they are not parted; ' ' stands for every kind of blank
+  char thousands = '\0';  // '\0': no separator; ' ': any kind of blank
 };
 
-// Returns the number, or nothing where the text is none. "nan" and "inf" are numbers here.
+// Returns the number, or nothing if the text is not a number. "nan" and "inf" are numbers here.
 std::optional<double> number_in(std::string_view text, NumberStyle style = {});
 
-// Does the text stand for a value that is not there? Empty, "-", "NaN", "NA", "#N/A", "OL" and
-// such.
+// Returns whether the text means a missing value: empty, "-", "NaN", "NA", "#N/A", "OL" and
+// similar.
 bool is_missing(std::string_view text);
 
-// Marks tell what the commas and points of a text can be.
+// Possible meanings of the commas and points of a text.
 struct Marks {
-  bool number = false;     // a number in one style or another
-  bool comma = false;      // and its comma can only be the decimal mark
-  bool point = false;      // its point can
-  bool either = false;     // "1,234": its comma parts thousands, or is the decimal mark
-  bool thousands = false;  // and its thousands are parted for certain: "1.234,5", "1 234"
+  bool number = false;     // a number in some format
+  bool comma = false;      // the comma can only be the decimal mark
+  bool point = false;      // the point can only be the decimal mark
+  bool either = false;     // "1,234": its comma is a thousands separator or the decimal mark
+  bool thousands = false;  // certainly with thousands separators: "1.234,5", "1 234"
 };
 Marks marks_in(std::string_view text);
 
-// Says what can be done about a cell that is no number in the table's style; empty where nobody
-// knows.
+// Returns advice for a cell that is not a number in the table's format; empty if no advice is
+// known.
 std::string hint_for(std::string_view text, NumberStyle style);
 
 }  // namespace sinew::recording

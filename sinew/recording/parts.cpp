@@ -13,10 +13,11 @@ namespace sinew::recording {
 
 namespace {
 
-// A time this close to the first one, as a share of the recording's length, is its start again.
+// Share of the recording's length: a time that jumps back this close to the first one is a new
+// start.
 constexpr double near_start = 0.05;
 
-// Tells for one row after another where a recording begins.
+// Finds the start of each recording, row by row.
 class PartFinder {
  public:
   PartFinder(const Grid& grid, const Source& source, std::optional<std::size_t> clock)
@@ -35,7 +36,7 @@ class PartFinder {
   }
 
  private:
-  // The header's line once more, cell by cell.
+  // Returns whether the row repeats the header, cell by cell.
   bool is_header(const Row& row) const {
     for (std::size_t i = 0; i < row.cells.size(); ++i)
       if (row.cells[i].text != grid_.headings()[i].written) return false;
@@ -81,7 +82,7 @@ class PartFinder {
   std::unique_ptr<StampClock> stamps_;
   std::optional<SplitSeconds> split_;
   Unwrapper unwrap_;
-  std::vector<Part> parts_;  // the last one has no end until it is known
+  std::vector<Part> parts_;  // the last one has end 0 until it is known
   double first_ = 0;
   std::optional<double> last_;
 };

@@ -1,4 +1,4 @@
-// recording/problems.h - what is wrong with a table, collected: the first few of them are told.
+// recording/problems.h - collection of the faults of a table; the first few are reported.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace sinew::recording {
 
 class Problems {
  public:
-  // Takes the name of the file that all of them are about.
+  // Takes the name of the file that has the faults.
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
-  // `line` 0: it is no line's.
+  // Adds a fault; `line` 0: it belongs to no line.
   void add(int line, int column, std::string key, std::string found, std::string expected,
            std::string try_this = "");
 
-  // Throws config::Error if there is one.
+  // Throws config::Error if there are any faults.
   void finish();
 
  private:

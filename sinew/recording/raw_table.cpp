@@ -34,7 +34,7 @@ std::string small_letters(std::string_view text) {
   return out;
 }
 
-// Names that a column of times usually has, in small letters, and the unit that each one says.
+// Usual names of a time column, in lower case, and the unit that each implies.
 struct ClockName {
   std::string_view name, unit;
 };
@@ -55,18 +55,18 @@ constexpr ClockName clock_names[] = {{"time", ""},           {"t", ""},
                                      {"t_us", "us"},         {"micros", "us"},
                                      {"timestamp_us", "us"}};
 
-// Reads all columns of one grid, or those of one of its clocks.
+// Reads all columns of a grid, or those of one of its clocks.
 class RawReader {
  public:
   RawReader(const Grid& grid, const Source& source, std::optional<ClockColumns> only = {})
       : grid_(grid), source_(source), only_(only), problems_(grid.file) {}
 
-  // The column of times, as far as it can be known.
+  // Returns the time column, if it can be found.
   std::optional<std::size_t> clock() {
     return source_.rate.empty() ? clock_column() : std::nullopt;
   }
 
-  // `names` holds those of columns that were read before.
+  // Reads the table; `names` holds the names of columns read before.
   RawTable read(std::set<std::string>& names) {
     RawTable out{.file = grid_.file};
     if (!only_ || only_->from == 0) out.notes = grid_.notes;
@@ -89,7 +89,7 @@ class RawReader {
  private:
   const std::vector<ColumnKind>& kinds() const { return grid_.dialect.kinds; }
 
-  // Each name in `units` must be somewhere.
+  // Requires that each name in `units` exists.
   void check_units() {
     std::vector<std::string_view> names = config::names_of(grid_.headings());
     for (const auto& [column, unit] : source_.units) {
@@ -107,7 +107,7 @@ class RawReader {
     return std::nullopt;
   }
 
-  // The column that is said, one of stamps, or one whose name says it.
+  // Returns the given column, a column of stamps, or one with a usual name.
   std::optional<std::size_t> clock_column() {
     if (only_) return only_->clock;
     const auto said = source_.names.find("time");
@@ -166,7 +166,7 @@ class RawReader {
     if (source_.dates != "excel") find_unit(h);
   }
 
-  // Seconds in one of the numbers of the clock.
+  // Finds the unit of a clock of numbers.
   void find_unit(const Heading& h) {
     auto said = source_.units.find(h.name);
     const bool is_given = said != source_.units.end() ||
@@ -202,7 +202,7 @@ class RawReader {
     return first > 30000 && first < 60000;  // 1982 to 2064
   }
 
-  // Nothing but a clock that counts from 1970 has such numbers.
+  // Recognises a clock since 1970 by the size of its numbers.
   bool find_unit_since_1970(const Heading& h) {
     constexpr std::pair<std::string_view, double> steps[] = {
         {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
@@ -257,7 +257,8 @@ class RawReader {
     return !only_ || (column >= only_->from && column < only_->to);
   }
 
-  // Columns of a clock of their own may end before the others.
+  // Returns whether the columns of a separate clock have ended; they may be shorter than the
+  // others.
   bool has_ended(const Row& row) const {
     for (std::size_t i = only_ ? only_->from : 0; only_ && i < only_->to; ++i)
       if (!is_missing(row.cells[i].text)) return false;
@@ -356,7 +357,7 @@ class RawReader {
     note_seconds(out);
   }
 
-  // A first row that was spread to the end of its clock's step is time 0 as well.
+  // Shifts the times so that the first row is time 0 again after its time was spread.
   static void begin_at_first(RawTable& out) {
     const double late = out.time.front();
     if (late == 0 || out.time.size() < 2) return;
@@ -365,8 +366,8 @@ class RawReader {
     for (double& t : out.time) t -= late;
   }
 
-  // Rows of one time in which no column has two values are one row: a logger wrote a line for each
-  // of its channels.
+  // Merges rows of equal time in which no column has two values: the logger wrote a line for
+  // each of its channels.
   void merge_rows(RawTable& out) const {
     std::size_t to = 0;
     for (std::size_t i = 1; i < out.rows(); ++i) {
@@ -403,14 +404,14 @@ class RawReader {
 
   static bool is_since_1970(double seconds) { return seconds > 1e9 && seconds < 5e9; }
 
-  // Numbers of a clock as seconds since the first one. Seconds since 1970 say when that was.
+  // Converts a clock's numbers to seconds since the first. Times since 1970 also give the start.
   void count_from_first(RawTable& out) {
     const bool days = source_.dates == "excel";
     const double first = out.time.front(), slope = days ? seconds_per_day : slope_;
     constexpr double days_from_1900_to_1970 = 25569;
     const double epoch = days ? (first - days_from_1900_to_1970) * seconds_per_day : first * slope_;
     if (is_since_1970(epoch)) {
-      // Doubles hold such numbers to the microsecond.
+      // Doubles resolve such numbers to about a microsecond.
       out.instant = std::llround(epoch * 1e6) * 1'000;
       if (!days) out.zone = 0;
     }
@@ -418,7 +419,7 @@ class RawReader {
     for (double& t : out.time) t = (t - first) * slope;
   }
 
-  // A second in which nothing but whole seconds pass may be a millisecond.
+  // Notes times that are all whole seconds: the unit may be milliseconds.
   void note_seconds(RawTable& out) const {
     if (!numbers_ || slope_ != 1 || source_.dates == "excel" || out.time.size() < 20) return;
     const bool whole = std::ranges::all_of(out.time, [](double t) { return t == std::floor(t); });
@@ -443,17 +444,17 @@ class RawReader {
   const Source& source_;
   std::optional<ClockColumns> only_;
   Problems problems_;
-  double period_ = 0;  // of rows that have a rate  [s]
+  double period_ = 0;  // period of rows with a rate  [s]
   std::unique_ptr<StampClock> stamps_;
   std::optional<SplitSeconds> split_;
-  std::optional<std::size_t> numbers_;  // the column of a clock that counts
+  std::optional<std::size_t> numbers_;  // column of a clock of numbers
   Unwrapper unwrap_;
-  double slope_ = 1;                    // seconds in one of its numbers
-  std::string note_;                    // on the clock
-  std::set<std::size_t> of_clock_;      // columns that it takes
+  double slope_ = 1;                    // seconds per unit of the clock
+  std::string note_;                    // about the clock
+  std::set<std::size_t> of_clock_;      // columns of the clock
   std::vector<std::int64_t> instants_;  // [ns]
-  std::vector<std::size_t> indices_;    // of the columns that are read
-  std::vector<double> factors_;         // from their numbers to those in their units
+  std::vector<std::size_t> indices_;    // indices of the columns that are read
+  std::vector<double> factors_;         // factors from the file's numbers to the columns' units
   std::size_t without_time_ = 0;
 };
 
@@ -481,7 +482,7 @@ RawTable read_table(const Source& source) {
   if (source.part != 0) keep_part(grid, source, RawReader(grid, source).clock());
   try {
     return read_clocks(grid, source);
-  } catch (const config::Error&) {  // several recordings are the better reason, where it is that
+  } catch (const config::Error&) {  // several recordings in the file explain the fault better
     refuse_parts(grid, source, RawReader(grid, source).clock());
     throw;
   }

@@ -1,5 +1,5 @@
-// recording/raw_table.h - every column of somebody's table as numbers, with a clock in seconds:
-// what an import begins with, before anybody says what the columns mean.
+// recording/raw_table.h - all columns of a table as numbers, with a clock in seconds: the first
+// step of an import, before the columns are given a meaning.
 #pragma once
 
 #include <cstddef>
@@ -12,43 +12,44 @@
 
 namespace sinew::recording {
 
-// A column of the file. Its numbers are in `unit`; a cell that holds none is NaN.
+// Column of the file. Its numbers are in `unit`; NaN for a cell without a number.
 struct RawColumn {
   std::string name;            // "force", of "force [N]"
-  std::string unit;            // as Sinew writes it, "psi gauge" for "psig"; empty: none is given
-  bool known_unit = false;     // is `unit` one of Sinew's? "bar" is, and still lacks its reference
-  std::string header;          // as the file has it: "Kraft (N)"
+  std::string unit;            // in Sinew's spelling, "psi gauge" for "psig"; empty: not given
+  bool known_unit = false;     // whether Sinew has `unit`; "bar" is known, without its reference
+  std::string header;          // as in the file: "Kraft (N)"
   std::vector<double> values;  // one per row
-  std::size_t missing = 0;     // how many of them are NaN
+  std::size_t missing = 0;     // number of NaN values
 };
 
-// A table of measurements in the order of the file.
+// Table of measurements in the order of the file.
 struct RawTable {
   std::string file;
   std::vector<RawColumn> columns;  // without those of the clock
-  std::vector<double> time;        // since the first row  [s]; empty where the file has no clock
-  double first = 0;                // the first row's own, of a clock of numbers  [s]
-  std::string clock;               // what the times are from: "column Zeit", "rate 100 Hz"
-  std::string start;               // of the first row, "2026-11-24T10:15:30.125"; empty: unknown
-  // The same since 1970 or, without dates, since a midnight [ns]; UTC if the table has a zone.
+  std::vector<double> time;        // since the first row  [s]; empty: the file has no clock
+  double first = 0;                // the first row's own time, if the clock holds numbers  [s]
+  std::string clock;               // source of the times: "column Zeit", "rate 100 Hz"
+  std::string start;  // instant of the first row, "2026-11-24T10:15:30.125"; empty: unknown
+  // Time of the first row since 1970 or, without dates, since a midnight [ns]; UTC if the table has
+  // a zone.
   std::optional<std::int64_t> instant;
   bool has_date = true;
   std::optional<std::int64_t> zone;  // local minus UTC [ns]; absent: the file gives no zone
-  std::vector<int> lines;            // of the file, one per row
-  std::vector<std::string> notes;    // what was left out, and what was taken for granted
+  std::vector<int> lines;            // line numbers in the file, one per row
+  std::vector<std::string> notes;    // omissions and assumptions
 
-  // Columns of further clocks: a second `Time` is that of the columns to its right.
+  // Tables of further clocks: a second `Time` belongs to the columns to its right.
   std::vector<RawTable> further;
 
-  // Returns how many rows there are.
+  // Returns the number of rows.
   std::size_t rows() const { return lines.size(); }
 };
 
-// Reads the source's file or text. `source.names["time"]` names the clock's column; without it a
-// column of dates or times of day is the clock, or one that is called `time`, `t`, `Zeit` or the
-// like. `source.units` holds units of columns whose header has none. A column of words is left out
-// with a note. Throws config::Error, which tells lines, for cells that are neither numbers nor
-// missing, for a clock that runs backwards or repeats itself, and for what no table is.
+// Reads the source's file or text. `source.names["time"]` names the clock's column; without it the
+// clock is a column of dates or times of day, or one named `time`, `t`, `Zeit` or similar.
+// `source.units` holds units of columns whose header has none. A column of words is left out with a
+// note. Throws config::Error with lines for cells that are neither numbers nor missing, for a clock
+// with times that decrease or repeat, and for a text that is not a table.
 RawTable read_table(const Source& source);
 
 }  // namespace sinew::recording

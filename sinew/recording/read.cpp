@@ -19,7 +19,8 @@ namespace sinew::recording {
 
 namespace {
 
-// A log's times count from the start of a run or, of most other programs, since 1970.
+// Times of a log count from the start of a run or, in most other programs' logs, since 1970; larger
+// times than this are since 1970.
 constexpr std::int64_t since_1970 = 31'536'000'000'000'000;  // one year [ns]
 
 std::string first_bytes(const std::string& path) {
@@ -30,13 +31,13 @@ std::string first_bytes(const std::string& path) {
   return bytes;
 }
 
-// "Zeit" of "column Zeit"; empty where the times are from elsewhere.
+// Returns "Zeit" of "column Zeit"; empty if the times are from elsewhere.
 std::string column_of(const std::string& clock) {
   constexpr std::string_view before = "column ";
   return clock.starts_with(before) ? clock.substr(before.size()) : "";
 }
 
-// Adds the columns of one clock; times count from `origin` where the clock has one.
+// Adds the columns of one clock; times count from `origin` if the clock has one.
 void add_clock(RawTable& table, std::optional<std::int64_t> origin, Recorded& out) {
   Clock clock{.column = column_of(table.clock),
               .origin = origin,
@@ -76,7 +77,7 @@ Recorded read_text(const std::string& path, const Mapping& mapping,
   return out;
 }
 
-// Times since 1970 become those since the first message of all.
+// Converts times since 1970 to times since the log's first message.
 void count_from_the_first(Recorded& log) {
   std::optional<std::int64_t> first;
   for (const Clock& clock : log.clocks)
@@ -118,7 +119,7 @@ Recorded read_mcap(const std::string& path) {
   return out;
 }
 
-// Refuses settings that only a table of text can be told.
+// Refuses settings that apply only to text tables.
 void refuse_table_settings(const std::string& path, const char* kind, const Mapping& mapping) {
   if (!mapping.where.empty())
     config::fail({path, 0, 0}, "where", fmt::format("rows of {}", kind),

@@ -1,8 +1,8 @@
-// recording/read.h - a recording from its file, whatever it is: told by its first bytes, not by its
-// name.
+// recording/read.h - reading of a recording from a file. The format is recognised by the file's
+// first bytes, not by its name.
 //
-//   CSV      tables of text in all their dialects (raw_table.h)
-//   MCAP     logs of Sinew and of others, with messages in JSON
+//   CSV      tables of text in all supported formats (raw_table.h)
+//   MCAP     logs of Sinew and of other programs, with messages in JSON
 //   MATLAB   .mat of level 5 and 7.3 (matlab.h)
 #pragma once
 
@@ -16,13 +16,13 @@
 
 namespace sinew::recording {
 
-// Reads one file; of the mapping, what it says of the clock, the table and the rows. Throws
-// config::Error and log::Error for what cannot be read, and names what else it is: a workbook, an
-// archive. `read` counts the bytes of a table of text while its rows are read.
+// Reads one file. Uses the mapping's clock, table settings and row conditions. Throws config::Error
+// and log::Error if it cannot be read, and names other formats that it recognises, such as a
+// workbook or an archive. `read` counts the bytes read from the rows of a text table.
 Recorded read_recording(const std::string& path, const Mapping& mapping,
                         std::atomic<std::int64_t>* read = nullptr);
 
-// Returns what the reader of tables is told by a mapping.
+// Returns the settings of a mapping for the table reader.
 Source source_of(const std::string& path, const Mapping& mapping);
 
 }  // namespace sinew::recording

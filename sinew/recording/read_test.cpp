@@ -90,7 +90,7 @@ TEST_F(ReadTest, ALogOfAnotherProgramCountsFromItsFirstMessage) {
   EXPECT_TRUE(r.find("state.angle") == &r.columns[0] || r.find("angle") == &r.columns[0]);
 }
 
-// Two topics in JSON whose schema, number `schema`, has no number; one message has no value.
+// Two topics in JSON with a schema number that does not exist; one message has no value.
 std::string open_log(std::uint16_t schema) {
   log::Bytes out;
   out.raw(log::kMagic);
@@ -133,7 +133,7 @@ TEST_F(ReadTest, LabViewsHeaderHasTheClockAndTheUnits) {
             (std::vector<std::int64_t>{500'000'000, 510'000'000, 520'000'000, 530'000'000}));
 }
 
-// A whole file of LabVIEW in Latin-1 with remarks in some rows: angle = 270 + 15 sin(pi t) deg,
+// A complete LabVIEW file in Latin-1 with remarks in some rows: angle = 270 + 15 sin(pi t) deg,
 // pressure = 2 + sin(pi t + 0.4) bar gauge, written as absolute MPa.
 TEST_F(ReadTest, LabViewsRemarksAreLeftOutAndItsNumbersAreTheTruth) {
   const std::string path =
@@ -267,7 +267,7 @@ TEST_F(ReadTest, OurOwnLogComesBackBitForBit) {
   EXPECT_EQ(csv_of(back.table), csv_of(table));
 }
 
-// A run's folder is the table that its log exports, bit for bit.
+// The folder of a run gives the table that its log exports, bit for bit.
 TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
   const fs::path folder = folder_;
   {
@@ -292,7 +292,7 @@ TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
   const Measured csv = read_measured(source, wanted);
   ASSERT_EQ(run.rows(), 50u);
   for (const Wanted& w : wanted) EXPECT_EQ(run[w.name], csv[w.name]) << w.name;
-  // A channel is in Pa without a word, and absolute.
+  // A channel's unit is Pa by default, absolute.
   for (std::size_t i = 0; i < run.rows(); ++i)
     EXPECT_NEAR(run["pressure"][i], 2e5 + 1e5 / static_cast<double>(i + 3) - units::atmosphere,
                 1e-9);

@@ -4,12 +4,12 @@ namespace sinew::recording {
 
 namespace {
 
-// A quote that closes later than this is a sign for inches, not the begin of a cell.
+// A quote without a closing one within this length is an inch sign, not the start of a cell.
 constexpr std::size_t longest_quoted = 64 * 1024;
 
 }  // namespace
 
-// Steps over the line's end, where there is one.
+// Skips a line end, if there is one.
 void RowReader::end_line() {
   if (at_ >= text_.size()) return;
   const bool both = text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n';
@@ -25,7 +25,7 @@ void RowReader::skip_blanks() {
   while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
 }
 
-// Stops at the first line that holds something; false at the end of the text.
+// Stops at the first line with content; returns false at the end of the text.
 bool RowReader::skip_comments() {
   while (at_ < text_.size()) {
     const std::size_t begin = at_;
@@ -47,8 +47,8 @@ bool RowReader::skip_comments() {
 
 bool RowReader::at_end() { return !skip_comments(); }
 
-// A cell between quotes, which may hold separators, line ends and, doubled, quotes. False, and
-// nothing read, where the quote is part of an ordinary cell.
+// Reads a quoted cell, which may contain separators, line ends and doubled quotes. Returns false,
+// without reading, if the quote is part of an ordinary cell.
 bool RowReader::quoted_cell(Row& row, int column) {
   bool doubled = false;
   int lines = 0;

@@ -1,4 +1,4 @@
-// recording/rows.h - the lines of a table as cells, one line after the other, none of them kept.
+// recording/rows.h - rows of a text table as cells, read one at a time and not stored.
 #pragma once
 
 #include <cstddef>
@@ -10,39 +10,39 @@
 namespace sinew::recording {
 
 struct Cell {
-  std::string_view text;  // trimmed and without its quotes; into the text that is read
-  int column = 1;         // of the line
+  std::string_view text;  // trimmed and without its quotes; a view into the text
+  int column = 1;         // in the line
 };
 
-// A line of the table; a quoted cell may stretch over several lines of the file.
+// Row of the table; a quoted cell may extend over several lines of the file.
 struct Row {
   int line = 0;
-  std::size_t at = 0;  // where it begins in the text
+  std::size_t at = 0;  // start of the row in the text [B]
   std::vector<Cell> cells;
-  // The texts of cells that differ from the file's: "" for a quote. They stay where they are when
-  // a row is moved.
+  // Texts of cells that differ from the file's, such as one with "" for a quote. Their addresses do
+  // not change when a row is moved.
   std::vector<std::unique_ptr<std::string>> mended;
 };
 
-// Reads rows from a text that outlives it. Empty lines are skipped, and those that begin with #.
-// Lines end with \n, \r\n or \r. The separator ' ' stands for any number of blanks and tabs.
+// Reads rows from a text, which must outlive the reader. Skips empty lines and lines that begin
+// with #. Lines end with \n, \r\n or \r. The separator ' ' means any number of blanks and tabs.
 class RowReader {
  public:
-  // Begins at byte `at`, which begins the line number `line`.
+  // Starts at byte `at`, where line number `line` begins.
   RowReader(std::string_view text, char separator, std::size_t at = 0, int line = 1)
       : text_(text), separator_(separator), at_(at), line_(line) {}
 
-  // Reads the next row into `row`; false at the end of the text.
+  // Reads the next row into `row`; returns false at the end of the text.
   bool next(Row& row);
 
-  // Is there nothing more than comments and empty lines? They are skipped.
+  // Skips comments and empty lines; returns whether the text ends after them.
   bool at_end();
 
-  // Returns the last comment that was skipped, without its #, and its line.
+  // Return the last skipped comment, without its #, and its line.
   std::string_view comment() const { return comment_; }
   int comment_line() const { return comment_line_; }
 
-  // Returns how many bytes were read.
+  // Returns the number of bytes read.
   std::size_t at() const { return at_; }
 
  private:

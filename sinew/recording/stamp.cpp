@@ -35,7 +35,7 @@ class StampReader {
     ++at_;
     return true;
   }
-  // Digits, how many there were; -1 for none or too many.
+  // Reads a number of `least` to `most` digits; returns -1 if there are fewer or more.
   int number(std::size_t least, std::size_t most) {
     int value = 0;
     const std::size_t from = at_;
@@ -64,7 +64,7 @@ class StampReader {
       out.first = a;
       out.second = b;
       out.year = digits_ == 2 ? 2000 + c : c;
-      // Points are written where the day comes first.
+      // Dates with points have the day first.
       out.order = mark == '.' ? DateOrder::day_first : DateOrder::unknown;
     }
     return true;
@@ -81,7 +81,7 @@ class StampReader {
     while (take(' ')) {}
   }
 
-  // Reads a part of a second, to the nanosecond; digits beyond it are left out.
+  // Reads the fraction of a second to the nanosecond; ignores further digits.
   std::int64_t fraction() {
     if (peek() != '.' && peek() != ',') return 0;
     ++at_;
@@ -166,7 +166,7 @@ std::optional<Stamp> stamp_in(std::string_view text) {
 
 std::optional<std::int64_t> days_of(const Stamp& stamp, DateOrder order) {
   if (stamp.order != DateOrder::unknown) order = stamp.order;
-  // Nobody measured before, and 64 bits of nanoseconds hold no more.
+  // Earlier years are not plausible, and 64 bits of nanoseconds do not hold later ones.
   const bool year = stamp.year >= 1900 && stamp.year <= 2200;
   if (order == DateOrder::unknown || !year) return std::nullopt;
   const bool day_first = order == DateOrder::day_first;

@@ -11,34 +11,36 @@
 
 namespace sinew::recording {
 
-// Which comes first in a date: "24.11.2026", "11/24/2026", "2026-11-24".
+// Order of the parts of a date: "24.11.2026", "11/24/2026", "2026-11-24".
 enum class DateOrder { unknown, day_first, month_first, year_first };
 
 // An instant, or a part of one.
 struct Stamp {
   bool has_date = false, has_time = false;
-  int first = 0, second = 0, year = 0;  // of the date as it is written; year first: month and day
+  int first = 0, second = 0,
+      year = 0;  // parts of the date as written; with year_first: month and day
   DateOrder order = DateOrder::unknown;
   std::int64_t time = 0;    // since midnight  [ns]
-  std::int64_t offset = 0;  // of the zone: local minus UTC  [ns]
+  std::int64_t offset = 0;  // the zone: local minus UTC  [ns]
   bool has_zone = false;
 };
 
-// Nothing where the text is no stamp.
+// Returns the stamp, or nothing if the text is not a stamp.
 std::optional<Stamp> stamp_in(std::string_view text);
 
-// Returns the date in days since 1970-01-01; nothing where there is no such day in that order. A
-// date that says its own order is read in that.
+// Returns the date in days since 1970-01-01; nothing if there is no such day in that order. A
+// date that shows its own order is read in that order.
 std::optional<std::int64_t> days_of(const Stamp& stamp, DateOrder order);
 
 // Returns a zone, local minus UTC  [ns], as ISO 8601 writes it: "Z", "+01:00".
 std::string zone_text(std::int64_t offset);
 
-// Returns when a recording began, as text: in its own zone and with it where it has one, without a
-// date where the instant is since a midnight.
+// Returns the start of a recording as text: in its own zone, and with the zone, if it has one;
+// without a date if the instant is since a midnight.
 std::string start_text(std::int64_t nanoseconds, bool has_date, std::optional<std::int64_t> zone);
 
-// Since 1970-01-01T00:00 of the stamp's clock  [ns] -> "2026-11-24T10:15:30.125".
+// Returns ISO 8601 of nanoseconds since 1970-01-01T00:00 of the stamp's clock:
+// "2026-11-24T10:15:30.125".
 std::string iso_text(std::int64_t nanoseconds);
 
 }  // namespace sinew::recording

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view table_of_text = "a table as text, such as CSV";
 
-// Files that are no text, by how they begin.
+// Files that are not text, recognised by their first bytes.
 struct Known {
   std::string_view begin, what, try_this;
 };
@@ -76,7 +76,7 @@ void refuse_other_files(std::string_view bytes, const std::string& file) {
                    std::string(known.try_this));
 }
 
-// The line and column of a byte.
+// Returns the line and column of a byte.
 config::Location place_of(const std::string& file, std::string_view text, std::size_t at) {
   const std::string_view before = text.substr(0, at);
   const std::size_t newline = before.rfind('\n');
@@ -85,7 +85,8 @@ config::Location place_of(const std::string& file, std::string_view text, std::s
           static_cast<int>(newline == before.npos ? at + 1 : at - newline)};
 }
 
-// The first byte that is no UTF-8, or the text's end. Most text is ASCII, eight letters at a time.
+// Returns the first byte that is not UTF-8, or the text's length. Most text is ASCII, which is
+// checked in steps of eight bytes.
 std::size_t first_other_byte(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
@@ -119,7 +120,7 @@ void append_letter(std::uint32_t code, std::string& out) {
   byte(0x80 | (code & 0x3F));
 }
 
-// Letters that Windows puts where Latin-1 has none: the euro, quotes, dashes.
+// Windows-1252 characters where Latin-1 has none: the euro, quotes, dashes.
 constexpr std::uint32_t windows_letters[32] = {
     0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
     0x2039, 0x0152, 0x8D,   0x017D, 0x8F,   0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
@@ -162,7 +163,8 @@ std::string from_utf16(std::string_view bytes, bool little_end_first, const std:
   return out;
 }
 
-// Which UTF-16 is it? Letters of ASCII have a zero byte each, always on the same side.
+// Returns the kind of UTF-16, or "". ASCII characters have one zero byte each, always on the same
+// side.
 std::string_view utf16_of(std::string_view bytes) {
   if (bytes.starts_with("\xFF\xFE")) return "utf-16le";
   if (bytes.starts_with("\xFE\xFF")) return "utf-16be";
@@ -177,7 +179,7 @@ std::string_view utf16_of(std::string_view bytes) {
   return "";
 }
 
-// Loggers whose power went leave zeros at the end of what they wrote; elsewhere they are a fault.
+// Removes zeros at the end, which loggers leave when they lose power; zeros elsewhere are a fault.
 void refuse_zeros(Text& text, const std::string& file) {
   const std::size_t zero = text.utf8.find('\0');
   if (zero == std::string::npos) return;
@@ -193,7 +195,8 @@ void refuse_zeros(Text& text, const std::string& file) {
                "another copy of the file: this one is damaged, or no table");
 }
 
-// Letters of Shift-JIS: bytes of 81 to 9F, which Latin-1 does not use, before a second byte.
+// Returns whether the bytes may be Shift-JIS: lead bytes 81 to 9F, which Latin-1 does not use,
+// before a second byte.
 bool is_shift_jis(std::string_view bytes) {
   std::size_t pairs = 0;
   for (std::size_t at = 0; at < bytes.size(); ++at) {
@@ -220,8 +223,8 @@ void refuse_other_encodings(const std::string& utf8, const std::string& file) {
                                   : "encoding=latin1, or iconv -f LATIN1 -t UTF-8");
 }
 
-// A table takes memory for its text, and 8 bytes for each of its cells, which are shorter than that
-// in few files. 0: nobody knows.
+// Returns the size that memory can hold, or 0 if it is unknown. A table needs memory for its text
+// and 8 bytes per cell; cells are seldom shorter.
 double most_of_memory() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page <= 0) return 0;
@@ -246,7 +249,7 @@ void refuse_too_large(const std::string& path, double largest) {
 std::string bytes_of_file(const std::string& path, std::string_view what, double largest) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none))
-    return config::read_text_file(path, std::string(what));  // a pipe, or nothing that is there
+    return config::read_text_file(path, std::string(what));  // a pipe, or a missing file
   refuse_too_large(path, largest);
   std::ifstream file(path, std::ios::binary);
   std::string bytes;
@@ -259,7 +262,7 @@ std::string bytes_of_file(const std::string& path, std::string_view what, double
   return bytes;
 }
 
-// The table that `sinew export` writes of the run; of a test stand the one that it has left.
+// Returns the table that `sinew export` writes for the run, or the one that a test stand has saved.
 std::string text_of_run(const std::filesystem::path& folder, std::string_view what) {
   const std::filesystem::path mcap = folder / "log.mcap", table = folder / "measured.csv";
   if (std::filesystem::exists(mcap)) {

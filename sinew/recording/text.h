@@ -1,4 +1,4 @@
-// recording/text.h - the bytes of a file as text in UTF-8, whatever they were written in.
+// recording/text.h - conversion of a file's bytes to UTF-8 from the supported encodings.
 #pragma once
 
 #include <string>
@@ -9,19 +9,21 @@
 
 namespace sinew::recording {
 
-// A text in UTF-8 without a byte order mark.
+// Text in UTF-8 without a byte order mark.
 struct Text {
   std::string utf8;
-  std::vector<std::string> notes;  // what was left out of it
+  std::vector<std::string> notes;  // parts that were left out of the text
 };
 
-// UTF-8 and UTF-16 are recognised; Latin-1 must be said. Throws config::Error for what is no text -
-// a workbook, an archive - with what it is, and for bytes of another encoding with their place.
+// Converts bytes to text. UTF-8 and UTF-16 are recognised; `encoding` must be given for Latin-1.
+// Throws config::Error for a file that is not text, such as a workbook or an archive, and gives the
+// place of bytes in another encoding.
 Text text_of_bytes(std::string bytes, const std::string& file, std::string_view encoding = {});
 
-// Returns the bytes of the source's text, or of its file; `what` it holds. Of a run's folder it is
-// the table that `sinew export` writes, its columns called as the channels. Throws config::Error,
-// before reading where a file is larger than this computer's memory can take.
+// Returns the bytes of the source's text or file; `what` names the expected content in messages.
+// For a run's folder it returns the table that `sinew export` writes, with columns named like the
+// channels. Throws config::Error; a file that is larger than this computer's memory can hold is
+// refused before it is read.
 std::string text_of(const Source& source, std::string_view what);
 
 }  // namespace sinew::recording

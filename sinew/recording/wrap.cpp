@@ -21,7 +21,8 @@ double Unwrapper::operator()(double time) {
   return time + added_;
 }
 
-// The counter was within two steps of its end, and is within two of its begin.
+// Returns the counter's range if it was near its end before the step back and is near its start
+// now.
 std::optional<double> Unwrapper::range_of(double time) const {
   constexpr int widths[] = {8, 16, 24, 32, 53, 64};
   constexpr double units[] = {1, 1e-3, 1e-6, 1e-9};
@@ -32,7 +33,7 @@ std::optional<double> Unwrapper::range_of(double time) const {
       const bool as_far = std::abs(range - (last_ - time) - step_) <= step_;
       const double begin = time < 0 ? -range / 2 : 0;
       const bool at_ends = time >= begin && time - begin <= 2 * step_;
-      // Fewer samples than these in a whole turn do not show its length.
+      // Fewer samples per turn do not determine the range.
       if (!as_far || !at_ends || range < 16 * step_) continue;
       bits_ = bits;
       return range;

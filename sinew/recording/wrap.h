@@ -1,4 +1,4 @@
-// recording/wrap.h - counters of a clock that begin again at a power of two.
+// recording/wrap.h - correction of clock counters that overflow and restart.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,18 @@
 
 namespace sinew::recording {
 
-// Continues a counter of 8, 16, 24, 32, 53 or 64 bits, with or without sign, over its end. It may
-// count thousandths of the numbers: micros() / 1000 begins again at 4294967.296 ms.
+// Continues a counter of 8, 16, 24, 32, 53 or 64 bits, signed or unsigned, after an overflow. Its
+// numbers may be in thousandths, millionths or billionths: micros() / 1000 restarts at 4294967.296
+// ms.
 class Unwrapper {
  public:
-  // Returns a time as a clock would show it that does not begin again. A step back is a wrap only
-  // where a power of two explains it to within one sample: any other is left as it is.
+  // Returns the time as a counter without overflow would show it. A step back counts as an overflow
+  // only if a power of two explains it to within one sample; other steps back are left as they are.
   double operator()(double time);
 
-  // Returns how often it has begun again.
+  // Returns the number of overflows.
   std::size_t wraps() const { return wraps_; }
-  int bits() const { return bits_; }  // of the counter, once it has begun again
+  int bits() const { return bits_; }  // width of the counter, after the first overflow
 
  private:
   std::optional<double> range_of(double time) const;
@@ -28,7 +29,7 @@ class Unwrapper {
   mutable int bits_ = 0;
 };
 
-// Returns a note on a clock's counter that began again.
+// Returns a note about a clock's counter that overflowed.
 std::string wraps_text(std::string_view column, const Unwrapper& clock);
 
 }  // namespace sinew::recording

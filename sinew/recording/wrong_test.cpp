@@ -1,4 +1,4 @@
-// A table that cannot be read for certain is refused by its line, with what to do; nothing is lost
+// A table that is ambiguous or wrong is refused with the line and advice; nothing is dropped
 // silently.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -188,7 +188,7 @@ TEST(Wrong, MeasurementsThatShareATimeAreSpreadAndTold) {
   EXPECT_EQ(m.notes[0], "1 rows shared the time of another: spread evenly");
 }
 
-// Two recorders whose rows were joined in blocks of a few: rows keep what belongs to them.
+// Two recorders whose rows were joined in small blocks: rows keep their own values.
 TEST(Wrong, MeasurementsThatAreInterleavedAreSortedAndTold) {
   std::string text = "time [s],pressure [barg],force [N]\n";
   for (int block = 0; block < 100; ++block)

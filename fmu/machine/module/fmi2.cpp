@@ -1,4 +1,4 @@
-// fmu/machine/module/fmi2.cpp - FMI 2.0 of the model machine.
+// fmu/machine/module/fmi2.cpp - FMI 2.0 functions of the model machine.
 #include "fmu/machine/models.h"
 
 #include "fmu/slave/fmi2_functions.h"

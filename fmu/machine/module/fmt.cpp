@@ -1,5 +1,5 @@
-// fmu/machine/module/fmt.cpp - the compiled part of the library fmt, inside the module: Debian has
-// no archive of it, and an importer's computer need not have the shared one.
+// fmu/machine/module/fmt.cpp - compiled part of the library fmt, inside the module: Debian has no
+// suitable static library, and an importer's computer may lack the shared one.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

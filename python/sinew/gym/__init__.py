@@ -1,4 +1,4 @@
-"""Robots of braided actuators as environments in the shape of Gymnasium, which need not be there.
+"""Environments with Gymnasium's interface for robots with braided actuators; Gymnasium is optional.
 
     import sinew.gym
 
@@ -9,7 +9,7 @@
         seen, reward, terminated, truncated, info = env.step(env.action_space.sample())
         over = terminated or truncated
 
-Where Gymnasium is installed, Env is a gymnasium.Env and its spaces are Gymnasium's.
+If Gymnasium is installed, Env is a gymnasium.Env and its spaces are Gymnasium's.
 """
 
 from sinew.gym.env import Env, VectorEnv

@@ -1,4 +1,4 @@
-"""The machine as an image or a line of text, without any library for pictures."""
+"""Rendering of the machine as an image or a line of text, without an image library."""
 
 import math
 from typing import List, Tuple
@@ -14,7 +14,7 @@ _paper, _ink, _faint = (255, 255, 255), (38, 70, 110), (170, 170, 170)
 
 
 class Drawing:
-    """A chain of links below a hip, as of the thesis's leg; the view goes with the hip.
+    """Drawing of a chain of links below a hip, like the thesis's leg; the view follows the hip.
 
     Raises ValueError for a robot with several legs.
     """
@@ -36,7 +36,7 @@ class Drawing:
         self._x, self._y = columns + 0.5, rows + 0.5
 
     def points(self, simulation: Simulation) -> List[Tuple[float, float]]:
-        """Return the joints and the foot about the hip, x and y [m]."""
+        """Return the positions of the joints and the foot relative to the hip, x and y [m]."""
         out, x, y, turned = [(0.0, 0.0)], 0.0, 0.0, 0.0
         for length, name in zip(self._lengths, self._names):
             turned += simulation.read(f"/true/joint/{name}/angle")
@@ -45,7 +45,7 @@ class Drawing:
         return out
 
     def text(self, simulation: Simulation) -> str:
-        """Return a line: time, angles, the foot."""
+        """Return a line of text: time, angles, position of the foot."""
         x, y = self.points(simulation)[-1]
         angles = ", ".join(
             f"{name} {math.degrees(simulation.read(f'/true/joint/{name}/angle')):.1f} deg"
@@ -71,7 +71,7 @@ class Drawing:
 
     @staticmethod
     def _marks(simulation: Simulation) -> List[float]:
-        """Return where a mark on the ground is, each 0.1 m, in pixels."""
+        """Return the positions of the marks on the ground, every 0.1 m [pixels]."""
         moved = _scale * simulation.read("/true/trolley/position")
         return [x for x in numpy.arange(-moved % (0.1 * _scale), _width, 0.1 * _scale)]
 

@@ -1,4 +1,4 @@
-"""One environment, and several side by side."""
+"""Single and vectorized environments."""
 
 import copy
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
@@ -23,7 +23,7 @@ except ImportError:
 
 
 class _Shared:
-    """What the episodes of a task share: experiment, spaces, and the plan's own settings."""
+    """Data shared by the episodes of a task: experiment, spaces, and the plan's own settings."""
 
     def __init__(self, task: Union[str, Task]) -> None:
         self.task = task_of(task) if isinstance(task, str) else task
@@ -65,7 +65,7 @@ class _Shared:
 
 
 def _clipped(action: numpy.typing.ArrayLike) -> "Optional[numpy.typing.NDArray[numpy.bool_]]":
-    """Return which numbers are beyond -1 and 1; None where none is."""
+    """Return a mask of the numbers outside -1 to 1; None if all are inside."""
     beyond = numpy.abs(numpy.asarray(action, float)) > 1.0
     return beyond if beyond.any() else None
 
@@ -73,7 +73,7 @@ def _clipped(action: numpy.typing.ArrayLike) -> "Optional[numpy.typing.NDArray[n
 def _without_gaps(
     seen: "numpy.typing.NDArray[numpy.float64]", info: Info
 ) -> "numpy.typing.NDArray[numpy.float64]":
-    """Return what was seen with 0 for channels without a value, which info["missing"] marks."""
+    """Return the observation with 0 for channels without a value, and mark them in info["missing"]."""
     missing = numpy.isnan(seen)
     if not missing.any():
         return seen
@@ -90,7 +90,7 @@ def _refuse(options: Optional[Dict[str, Any]]) -> None:
 
 
 class _Seeds:
-    """Seeds of episodes: the one that is asked for, then others that follow from it."""
+    """Seeds of episodes: the given one, then others derived from it."""
 
     def __init__(self) -> None:
         self._random = numpy.random.default_rng()
@@ -105,16 +105,16 @@ class _Seeds:
 
 
 class Env(_Base):  # type: ignore[misc]
-    """A robot's run as an environment in Gymnasium's shape.
+    """A robot's run as an environment with Gymnasium's interface.
 
     task: a name (sinew.gym.names) or a Task. render_mode: None, "rgb_array" (an image of the
     machine) or "ansi" (a line of text).
 
-    An action has a number from -1 to 1 for each of the task's actions; 0 is what the plan does. An
-    episode is terminated where the run fails, and truncated where the plan ends. The same seed and
-    actions give the same bits. Numbers of an action beyond -1 and 1 are clipped; info["clipped"] then
-    marks them with True, by their places. A channel that has no value, such as a desired position of
-    the foot while joint angles are desired, is seen as 0, and info["missing"] marks it.
+    An action has a number from -1 to 1 for each of the task's actions; 0 keeps the plan's value. An
+    episode is terminated if the run fails, and truncated when the plan ends. The same seed and actions
+    give the same bits. Numbers of an action outside -1 to 1 are clipped, and info["clipped"] is then a
+    mask of them. A channel without a value, such as the desired position of the foot while joint
+    angles are desired, is observed as 0 and marked in info["missing"].
     """
 
     metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20}
@@ -132,12 +132,12 @@ class Env(_Base):  # type: ignore[misc]
         self.observation_space = self._shared.observation_space
         self._seeds = _Seeds()
         self._episode: Optional[_sinew.Episode] = None
-        self._number = 0  # the episode's seed
+        self._number = 0  # seed of the episode
         self._over = False
         self._drawing: Optional[Drawing] = None
 
     def __copy__(self) -> "Env":
-        """Return an environment that goes on alike, and apart from this one."""
+        """Return an independent environment that continues equally."""
         out = Env(self.task, self.render_mode)
         out._seeds = copy.deepcopy(self._seeds)
         if self._episode is not None:
@@ -147,7 +147,7 @@ class Env(_Base):  # type: ignore[misc]
         return out
 
     def __deepcopy__(self, memo: Dict[int, Any]) -> "Env":
-        """Return a copy: what a task is never changes, so that copies may share it."""
+        """Return a copy; copies share the task, which never changes."""
         return self.__copy__()
 
     @property
@@ -163,7 +163,7 @@ class Env(_Base):  # type: ignore[misc]
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
-        """Begin an episode. Without a seed it has one that follows from the last one given.
+        """Begin an episode. Without a seed, it is derived from the last one given.
 
         Raises ValueError for options: a task has none.
         """
@@ -179,7 +179,7 @@ class Env(_Base):  # type: ignore[misc]
     def step(
         self, action: numpy.typing.ArrayLike
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", float, bool, bool, Info]:
-        """Run on by a period: observation, reward, terminated, truncated, info."""
+        """Advance by a period. Returns observation, reward, terminated, truncated, info."""
         episode = self._episode
         if episode is None or self._over:
             raise RuntimeError("env: found no episode under way; expected reset() before")
@@ -200,7 +200,7 @@ class Env(_Base):  # type: ignore[misc]
         return _without_gaps(seen, info), reward, terminated, truncated, info
 
     def render(self) -> Any:
-        """Return the machine as it stands, in the way of `render_mode`."""
+        """Return an image or a text of the machine, according to `render_mode`."""
         if self.render_mode is None:
             return None
         if self._drawing is None:
@@ -215,12 +215,12 @@ class Env(_Base):  # type: ignore[misc]
 
 
 class VectorEnv:
-    """Several environments of a task side by side, each step with one call.
+    """Several parallel environments of a task, which step with one call.
 
     Observations, rewards and flags have a row for each. An environment whose episode has ended
-    begins the next one by itself in the next step, as Gymnasium's vector environments do; its
-    action is then not looked at, and its reward is 0. info["clipped"] marks numbers of actions that
-    were clipped to -1 and 1, info["missing"] channels without a value; each is left out where none was.
+    begins the next one in the next step, like Gymnasium's vector environments; its action is then
+    ignored, and its reward is 0. info["clipped"] marks numbers of actions that were clipped to -1
+    and 1, info["missing"] channels without a value; each is left out if nothing is marked.
     """
 
     def __init__(self, task: Union[str, Task] = "walk", num_envs: int = 16) -> None:
@@ -249,7 +249,7 @@ class VectorEnv:
         seed: Optional[Union[int, Sequence[int]]] = None,
         options: Optional[Dict[str, Any]] = None,
     ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
-        """Begin all anew. `seed`: of the first, the others follow; or one for each.
+        """Restart all environments. `seed`: seed of the first, increased by 1 for each next; or a list.
 
         Raises ValueError for options: a task has none.
         """
@@ -272,7 +272,7 @@ class VectorEnv:
         return _without_gaps(numpy.array([seen for seen, _ in looks]), info), info
 
     def step(self, actions: numpy.typing.ArrayLike) -> Tuple[Any, Any, Any, Any, Info]:
-        """Run all on by a period: observations, rewards, terminated, truncated, info."""
+        """Advance all by a period. Returns observations, rewards, terminated, truncated, info."""
         if not self._episodes:
             raise RuntimeError("env: found no episodes; expected reset() before")
         skipped = self._over

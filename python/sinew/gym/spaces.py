@@ -1,4 +1,4 @@
-"""Spaces of actions and observations in Gymnasium's shape, for where Gymnasium is not installed."""
+"""Spaces of actions and observations with Gymnasium's interface, used if Gymnasium is not installed."""
 
 from typing import Any, Optional, Tuple
 
@@ -7,9 +7,9 @@ import numpy.typing
 
 
 class Box:
-    """Arrays between two bounds, as gymnasium.spaces.Box.
+    """Arrays between two bounds, like gymnasium.spaces.Box.
 
-    low, high: arrays of the same shape, in the units of what they bound.
+    low, high: arrays of the same shape, in the units of the bounded quantities.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class Box:
         return self.low.shape
 
     def seed(self, seed: Optional[int] = None) -> None:
-        """Begin the samples anew; the same seed gives the same samples."""
+        """Restart the samples; the same seed gives the same samples."""
         self._random = numpy.random.default_rng(seed)
 
     def sample(self) -> "numpy.typing.NDArray[Any]":
@@ -66,7 +66,7 @@ class Box:
 
 
 def box(low: numpy.typing.ArrayLike, high: numpy.typing.ArrayLike) -> Any:
-    """Return Gymnasium's Box where Gymnasium is installed, else the one here."""
+    """Return Gymnasium's Box if Gymnasium is installed, else the Box of this module."""
     low, high = numpy.asarray(low, float), numpy.asarray(high, float)
     try:
         from gymnasium.spaces import Box as Theirs  # type: ignore[import]

@@ -1,6 +1,6 @@
-"""What an environment is about: an experiment, what may be done, what is seen, what is wanted.
+"""Tasks of environments: an experiment, actions, observations and a reward.
 
-A Task is plain data and three functions, so that one of your own is as good as those here:
+A Task is plain data with two functions, so that tasks of your own work like those of this module:
 
     walk = sinew.gym.task("walk")
     heavier = dataclasses.replace(walk, sets={**walk.sets, "trolley.payload": 1.0})
@@ -16,11 +16,11 @@ from sinew._shipped import shipped
 
 @dataclasses.dataclass(frozen=True)
 class Action:
-    """A number of the action, from -1 to 1, and what it does to a setting of the run.
+    """Effect of a number of the action, from -1 to 1, on a setting of the run.
 
     setting: its key, "control.stiffness.hip".
-    kind: "offset" adds `size` times the number to what the plan has there; "factor" multiplies what
-        the plan has there by `size` to the power of the number. So 0 is the plan itself.
+    kind: "offset" adds `size` times the number to the plan's value; "factor" multiplies the plan's
+        value by `size` to the power of the number. So 0 keeps the plan's value.
     size: of an offset in the setting's SI unit, of a factor without unit.
     """
 
@@ -31,7 +31,7 @@ class Action:
 
 @dataclasses.dataclass(frozen=True)
 class Sight:
-    """A number of the observation: a channel of the run, divided by `scale`, in its unit."""
+    """A number of the observation: (value of a channel - middle) / scale, both in its unit."""
 
     channel: str
     scale: float = 1.0
@@ -40,17 +40,17 @@ class Sight:
 
 @dataclasses.dataclass(frozen=True)
 class Task:
-    """An environment's task. See the module's text.
+    """Task of an environment, see the module.
 
-    experiment: a path; of one that comes with Sinew, sinew.shipped("experiments/…").
-    sets: settings in place of the experiment's, as for sinew.Experiment.
-    actions, sights: what may be done and what is seen.
-    measures: channels that `reward` needs besides, in their units; "plan:KEY" is what the plan has
-        of the setting of an action, whatever the action makes of it.
-    reward: of the measures before and after a step, and its time [s]: a number.
-    failed: of the measures after a step: has it failed for good? Then the episode is terminated.
-    period: of a step [s]; a multiple of the gait controller's 0.01 s is advisable.
-    begin: when an episode begins [s]: what comes before goes as planned.
+    experiment: its path; sinew.shipped("experiments/…") for one shipped with Sinew.
+    sets: settings that override the experiment's, as in sinew.Experiment.
+    actions, sights: the numbers of actions and observations.
+    measures: channels that `reward` and `failed` use, in their units; "plan:KEY" is the plan's value
+        of an action's setting, without the action.
+    reward: function of the measures before and after a step and its period [s]; returns the reward.
+    failed: function of the measures after a step; returns whether the episode is terminated as failed.
+    period: duration of a step [s]; a multiple of the gait controller's 0.01 s is advisable.
+    begin: start of an episode [s]; before, the run follows the plan.
     """
 
     experiment: str
@@ -100,7 +100,7 @@ def _progress(before: Any, after: Any, period: float) -> float:
 def _walk() -> Task:
     return Task(
         experiment=shipped("experiments/walk-test-1.toml"),
-        # The thesis's track is as long as its walk: a better one would stand at its end.
+        # The thesis's track is only as long as its walk; a faster robot would reach its end.
         sets={"trolley.track_length": 20.0, "sequence.repeat": 4},
         actions=_ways,
         sights=_angles
@@ -177,12 +177,11 @@ names: Tuple[str, ...] = tuple(_made)
 
 
 def task(name: str) -> Task:
-    """Return a task that comes with Sinew: "walk", "kick", "reach", "hold-stiffness".
+    """Return a task shipped with Sinew: "walk", "kick", "reach", "hold-stiffness".
 
-    walk: progress of the trolley in a step [m]. kick and reach:
-    distance of the foot from where the plan wants it, times the time, below 0 [m s]. hold-stiffness:
-    how far the joints' stiffnesses are from the plan's, relative, times the time, below 0 [s].
-    Raises ValueError for another name.
+    Rewards: walk: progress of the trolley in a step [m]. kick and reach: distance of the foot from its
+    planned position times the period, negative [m s]. hold-stiffness: relative deviation of the joints'
+    stiffnesses from the plan's times the period, negative [s]. Raises ValueError for another name.
     """
     if name not in _made:
         raise ValueError(f"task: found {name!r}; expected one of {', '.join(names)}")

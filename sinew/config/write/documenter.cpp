@@ -19,7 +19,7 @@ std::string range_text(const units::Field& field) {
   return "";
 }
 
-// A bar would end the cell.
+// Escapes bars, which would end the cell.
 std::string cell(std::string_view text) {
   std::string out;
   for (char c : text) {

@@ -1,4 +1,4 @@
-// config/write/documenter.h - the visitor that turns field tables into a Markdown table.
+// config/write/documenter.h - visitor that formats field tables as a Markdown table.
 //
 //   config::Documenter documenter;
 //   Robot robot;
@@ -16,11 +16,11 @@
 
 namespace sinew::config {
 
-// A key as a table for people has it.
+// Row of the table.
 struct DocumentedField {
   std::string key;    // muscle.<name>.mount_length
   std::string unit;   // "m", "text", "whole number", "a or b"
-  std::string range;  // "0 to 1 m", empty where there is none
+  std::string range;  // "0 to 1 m"; empty: no range
   std::string doc;
   bool optional = false;
 };
@@ -29,7 +29,7 @@ class Documenter {
  public:
   using Field = units::Field;
 
-  // The visitor of units/field.h.
+  // Functions of a visitor, see units/field.h.
   void number(const Field& field, double&) { add(field, field.unit); }
   void numbers(const Field& field, std::vector<double>&) {
     add(field, "list of " + std::string(field.unit));
@@ -73,7 +73,7 @@ class Documenter {
     path_.pop_back();
   }
 
-  // Returns the keys that were visited, in their order.
+  // Returns the visited keys, in their order.
   const std::vector<DocumentedField>& fields() const { return fields_; }
   std::string markdown() const;  // | key | unit | range | what it is |
 

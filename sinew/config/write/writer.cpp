@@ -85,9 +85,9 @@ void print_table(const Node& table, const std::string& path, std::string& out) {
   }
 }
 
-// --- values and where they came from ---
+// --- values and their provenance ---
 
-// `plain`: in SI, whatever digits that takes; else without those that nobody wrote.
+// `plain`: in SI with all digits; else without digits caused by conversion.
 Node quantity_node(std::string_view key, double si, std::string_view unit, bool plain) {
   if (plain) return unit == "1" ? make_number(key, si) : make_text(key, format_quantity(si, unit));
   std::string text = short_quantity(si, unit);
@@ -102,7 +102,7 @@ Node make_array(std::string_view key) {
   return node;
 }
 
-// { value = …, source = … }, or the bare value where nothing is known about it.
+// Returns { value = …, source = … }, or the bare value if it has no provenance.
 Node with_origin(Node value, const Origin& origin) {
   Node table = make_table(value.key);
   value.key = "value";

@@ -1,14 +1,13 @@
-// config/write/writer.h - the visitor that prints structs as TOML, in the namespace that Reader
-// reads.
+// config/write/writer.h - visitor that writes structs as TOML, in the namespace that Reader reads.
 //
 //   config::Writer writer(&reader.origins());
 //   writer.format("experiment");
 //   fields(writer, robot);
 //   file << writer.text();
 //
-// Quantities come out in SI with as many digits as bring back the same bits; with origins, which
-// people read, in the unit in which they are short (config/quantity.h). A number that is not
-// finite means "not set" and is left out.
+// Quantities are in SI with the digits that read back to the same bits; with origins, for human
+// readers, in the unit that makes them short (config/quantity.h). A number that is not finite means
+// "not set" and is left out.
 #pragma once
 
 #include <map>
@@ -27,12 +26,12 @@ class Writer {
  public:
   using Field = units::Field;
 
-  // With origins every value is written with its source, fit, guess, range and uncertainty.
+  // With origins, each value is written with its source, fit, guess, range and uncertainty.
   explicit Writer(const Origins* origins = nullptr) : origins_(origins) {}
 
   void format(std::string_view kind);  // format = "sinew.<kind>/1"
 
-  // The visitor of units/field.h.
+  // Functions of a visitor, see units/field.h.
   void number(const Field& field, double& value);
   void numbers(const Field& field, std::vector<double>& values);
   void polynomial(const Field& field, std::vector<double>& coefficients, std::string_view per);
@@ -75,13 +74,13 @@ class Writer {
     leave();
   }
 
-  // Returns the TOML of what was visited.
+  // Returns the TOML of the visited fields.
   std::string text() const;
-  // The tree so far; complete when the outermost fields() has returned.
+  // Returns the tree so far; it is complete after the outermost fields() has returned.
   const Node& root() const { return open_.front(); }
 
  private:
-  // Opening a table that is there already (another struct wrote into it) goes on with it.
+  // Opens a table; one that another struct has written is continued.
   void enter(std::string_view key, Node::Kind kind);
   void leave();
   void add(Node value);
@@ -91,12 +90,12 @@ class Writer {
   std::vector<Node> open_{Node{}};  // the tables from the root to the one being written
 };
 
-// A tree as TOML: values first, then tables under their headers.
+// Returns a tree as TOML: values first, then tables under their headers.
 std::string to_toml(const Node& root);
 
-// A text as TOML writes one.
+// Texts in TOML.
 
-// Returns the text between double quotes. TOML is UTF-8: what of the text is none is replaced.
+// Returns the text in double quotes. TOML is UTF-8: invalid bytes are replaced.
 std::string toml_string(std::string_view text);
 
 }  // namespace sinew::config

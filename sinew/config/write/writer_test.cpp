@@ -1,4 +1,4 @@
-// What the writer prints, the reader reads back to the same bits.
+// The reader reads back the writer's text to the same bits.
 #include "sinew/config/write/writer.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ void fields(Visitor& v, Whole& w) {
 
 class Random {
  public:
-  // Within the least of the ranges that a unit has (units/ranges.h).
+  // Within the smallest range of all units (units/ranges.h).
   double real() { return mantissa_(engine_) * std::pow(10.0, exponent_(engine_)); }
   Part part(std::string name) {
     Part p;

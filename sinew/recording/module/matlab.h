@@ -1,26 +1,28 @@
-// recording/module/matlab.h - what the module with libmatio in it offers: the variables of a MAT
-// file. The program opens it for such a file alone.
+// recording/module/matlab.h - interface of the module that contains libmatio: the variables of a
+// MAT file. The program opens the module only for such files.
 #pragma once
 
 #include <cstddef>
 
 extern "C" {
 
-// Takes what a file holds, variable by variable. A field of a struct is called `log.angle`, one of
-// an array of structs `log.signals(2).values`.
+// Receives the contents of a file, variable by variable. The field of a struct is named
+// `log.angle`, a field in an array of structs `log.signals(2).values`.
 struct SinewMatlabSink {
   void* object;
-  // A matrix of real numbers, column by column. The values are gone when the call returns.
+  // Receives a matrix of real numbers in column-major order. The values are valid only during the
+  // call.
   void (*matrix)(void* object, const char* name, std::size_t rows, std::size_t columns,
                  const double* values);
   void (*text)(void* object, const char* name, const char* text);
-  // Names what is neither: "a cell array", "complex numbers".
+  // Receives the type of a variable of another kind: "a cell array", "complex numbers".
   void (*other)(void* object, const char* name, const char* what);
 };
 
-// Holds the functions of the module.
+// Functions of the module.
 struct SinewMatlab {
-  // False: the file cannot be opened, or ends within a variable; `words` says why.
+  // Returns false if the file cannot be opened or ends within a variable; words() then returns the
+  // reason.
   bool (*read)(const char* path, const SinewMatlabSink* sink);
   const char* (*words)();
 };

@@ -1,4 +1,4 @@
-// The module with libmatio in it.
+// Module that contains libmatio.
 #include <matio.h>
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace {
 
-std::string last_words;  // of the library, about what it could not do
+std::string last_words;  // the library's last error message
 
-// By default the library prints, and an error of the highest level ends the program.
+// Stores messages: by default the library prints them and ends the program after a fatal error.
 void listen(int /*level*/, char* words) { last_words = words; }
 
 const char* words() { return last_words.c_str(); }
@@ -23,7 +23,7 @@ std::vector<double> as_doubles(const matvar_t& of, std::size_t count) {
   return {values, values + count};
 }
 
-// Empty for what is no matrix of real numbers.
+// Converts a matrix of real numbers; returns nothing for other variables.
 std::vector<double> numbers(const matvar_t& of, std::size_t count) {
   switch (of.class_type) {
     case MAT_C_DOUBLE:
@@ -68,7 +68,7 @@ const char* kind_of(const matvar_t& of) {
   }
 }
 
-// The library gives a text's letters as bytes, or as UTF-16 where they are more than bytes.
+// Converts the letters of a text, which are bytes or UTF-16, to UTF-8.
 std::string text_of(const matvar_t& of, std::size_t count) {
   std::string out;
   for (std::size_t i = 0; i < count; ++i) {
@@ -92,7 +92,7 @@ class Walk {
  public:
   explicit Walk(const SinewMatlabSink& sink) : sink_(sink) {}
 
-  // False where the file ends within the variable.
+  // Passes on a variable; returns false if the file ends within it.
   bool variable(matvar_t* of, const std::string& name) {
     if (!of) return true;
     if (of->class_type == MAT_C_STRUCT) return structure(*of, name);
@@ -108,8 +108,8 @@ class Walk {
     if (!numeric || of->isComplex != 0 || of->rank < 1) return other(*of, name);
     if (!of->data) return false;
     const std::vector<double> values = numbers(*of, count);
-    // Simulink's samples of a vector stand as 1 x n x times; any other number of dimensions is
-    // told.
+    // Simulink stores samples of a vector as 1 x n x times; other arrays of more than two
+    // dimensions are reported.
     if (of->rank > 2 && of->dims[0] * of->dims[1] * of->dims[2] != count) return other(*of, name);
     return matrix(*of, name, values);
   }
@@ -117,7 +117,7 @@ class Walk {
  private:
   bool matrix(const matvar_t& of, const std::string& name, const std::vector<double>& values) {
     if (of.rank == 3) {
-      // Turned so that time runs down the rows.
+      // Transposed: time runs down the rows.
       const std::size_t width = of.dims[0] * of.dims[1], rows = of.dims[2];
       std::vector<double> turned(values.size());
       for (std::size_t i = 0; i < rows; ++i)
