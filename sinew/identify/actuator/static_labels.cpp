@@ -11,8 +11,7 @@ namespace {
 
 constexpr double nearest_mount = 0.02;  // share of the rest length
 constexpr double most_deviations = 10;
-constexpr double most_of_gap =
-    0.9;  // share of the gap to the next mount: keeps the order of lengths
+constexpr double most_of_gap = 0.9;  // share of the gap to the next mount: keeps their order
 
 bool same(double a, double b) { return std::abs(a - b) < same_label; }
 
