@@ -21,7 +21,7 @@ constexpr std::size_t most_alternating = 8;   // curves in one table
 
 std::string pressure_text(double p) { return config::format_quantity(p, "Pa abs", "kPa abs", 4); }
 
-// Returns the first row beyond this share of the change; rows() if there is none.
+// Returns the first row beyond this share of the change; rows() if no row is.
 std::size_t first_beyond(const Curve& c, double share) {
   for (std::size_t i = 0; i < c.pressure.size(); ++i)
     if (c.share(c.pressure[i]) >= share) return i;

@@ -46,7 +46,7 @@ struct ValveResult {
   gas::Valve valve;
   bool flow_known = false, opening_known = false, closing_known = false;  // identified
   Provenance provenance;  // origins under "valve.<name>."
-  std::string refused;    // what the data do not support, in addition to the report
+  std::string refused;    // problems of the data, in addition to the report
   Report report;
 };
 
