@@ -72,8 +72,7 @@ double RunResiduals::cost(std::span<const double> p) const {
 
 namespace {
 
-constexpr double only_noise =
-    1.05;  // rms of what is left, in noises, above which cells are changed
+constexpr double only_noise = 1.05;  // rms in noises, above which cells are changed
 constexpr double tick = signals::tick_seconds;
 
 // If the residuals are far above the noise, the search is in a wrong minimum: it restarts with all
