@@ -62,7 +62,7 @@ std::vector<Knob> law_for(std::vector<Knob> law, const Points& points) {
   return law;
 }
 
-// Points of one or several muscles, fitted with every label as it is.
+// Points of one or several muscles, fitted without doubting a label.
 struct Believed {
   Points points;
   double atmosphere = 0;       // [Pa]

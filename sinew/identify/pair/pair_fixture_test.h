@@ -18,7 +18,7 @@ struct TestPair {
   double friction = 30, presliding = 1e-5, fade_time = 0;  // [N] [m] [s], 0: it does not fade
   double bias = -7, gain = 1, delay = 0;                   // of the force [N] [1] [s]
   double exponent = 1.2, area = 8e-3, volume = 4e-4;       // of the trapped air [1] [m2] [m3]
-  double elastic = 0;                                      // stiffness beside the air's [N/m]
+  double elastic = 0;                                      // stiffness without the air [N/m]
   double noise = 0.5, memory = 0;                          // of the force [N], of an AR(1) process
   double shift = 0;                                        // of the motion's phases [rad]
 };
