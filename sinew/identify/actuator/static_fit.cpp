@@ -140,7 +140,7 @@ class Problem {
  private:
   bool has_labels() const { return parameters_.size() > knobs_.size(); }
 
-  // Returns the sum of delta/L_0.
+  // Returns the sum of e_L/L_0.
   double in_common(std::span<const double> values) const {
     double sum = 0;
     std::size_t i = knobs_.size();

@@ -23,8 +23,8 @@ struct StaticFit {
   StaticSetting setting;
   std::vector<Knob> knobs;
   Solution solution;   // free parameters, then doubted rest lengths; residuals of points alone
-  double scatter = 0;  // s [N]
-  std::size_t outliers = 0;   // points beyond 4 s
+  double scatter = 0;  // sigma [N]
+  std::size_t outliers = 0;   // points beyond 4 sigma
   std::vector<Knob> unknown;  // not determined by the data, at their prior
 };
 

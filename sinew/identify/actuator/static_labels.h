@@ -24,10 +24,10 @@
 
 namespace sinew::identify {
 
-// Prior standard deviation of sum delta/L_0 [-].
+// Prior standard deviation of sum e_L/L_0 [-].
 inline constexpr double common_deviation = 1e-3;
 
-// Returns the prior standard deviation of delta [m].
+// Returns the prior standard deviation of e_L [m].
 double rest_length_deviation(double labelled);
 
 // Returns whether a length equals the labelled rest length within 0.2 %.
@@ -39,7 +39,7 @@ void unite_labels(std::vector<StaticPoint>& points);
 // Returns the muscles of the points in their order, with zero error, and with bounds if doubted.
 std::vector<RestLengthError> labels_of(std::span<const StaticPoint> points);
 
-// Returns the search parameter of delta, named like "rest_length_error_225mm".
+// Returns the search parameter of e_L, named like "rest_length_error_225mm".
 Parameter parameter_of(const RestLengthError& label);
 inline constexpr std::string_view rest_length_error = "rest_length_error_";
 

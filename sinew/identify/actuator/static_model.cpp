@@ -311,7 +311,7 @@ actuator::Actuator like(const actuator::Actuator& actuator, double from, double 
   actuator::Actuator a = actuator;
   const double r = to / from;
   if (r == 1) return a;
-  // The ends take the same length of every muscle: 1 - scale is c/L_0.
+  // The ends take the same length of every muscle: 1 - scale is L_e/L_0.
   a.effectiveness.scale = 1 - (1 - a.effectiveness.scale) / r;
   for (double* size : {&a.braid.thread_length, &a.braid.turns, &a.bladder.saturation_length,
                        &a.bladder.rest_length, &a.taper.rest_length, &a.long_end.length,

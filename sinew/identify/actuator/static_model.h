@@ -63,8 +63,8 @@ inline constexpr double same_label = 1e-6;
 
 // Error of a muscle's labelled rest length.
 struct RestLengthError {
-  double labelled = 0, error = 0;  // L_0 as labelled, delta [m]
-  double low = 0, high = 0;        // bounds of delta [m]; both 0: not fitted
+  double labelled = 0, error = 0;  // L_0 as labelled, e_L [m]
+  double low = 0, high = 0;        // bounds of e_L [m]; both 0: not fitted
 
   // Returns whether the error is fitted with the law.
   bool doubted() const { return low < high; }
@@ -73,7 +73,7 @@ struct RestLengthError {
 // An actuator with a given value of every free parameter.
 struct StaticSetting {
   actuator::Actuator actuator;                // reference muscle, with its labelled length
-  double end_loss = 0;                        // c [m]
+  double end_loss = 0;                        // L_e [m]
   std::vector<RestLengthError> rest_lengths;  // fitted muscles
 };
 

@@ -8,8 +8,9 @@
 // blocks of time, each predicted from the others.
 //
 // Not determined by such data: the gain of a single rig, as everything scales with it; the area A
-// and the stiffness k separately, if the pressures follow the position; which part of D is due to
-// the muscles and which to bearings and gears; area and volume behind the pressures (pair_air.h).
+// and the stiffness k separately, if the pressures follow the position; which part of Phi_c is due
+// to the muscles and which to bearings and gears; area and volume behind the pressures
+// (pair_air.h).
 #pragma once
 
 #include <limits>

@@ -51,8 +51,8 @@ double slope_of(Records records, std::size_t muscle, const Selection& selection)
   return xx > 0 ? xy / xx : 0;
 }
 
-// One law on all recordings. Parameters: s of each muscle, leak of each muscle, delay of the
-// pressures, then P_0 of each muscle in each recording.
+// One law on all recordings. Parameters: a of each muscle, leak of each muscle, delay of the
+// pressures, then P_start of each muscle in each recording.
 class TrappedAir {
  public:
   TrappedAir(const AirLaw& law, Records records) : law_(law), records_(records) {

@@ -24,8 +24,8 @@ namespace sinew::identify {
 // Result from the pressures.
 struct PairAir {
   Report report;                 // report on the pressures
-  std::vector<double> slope;     // s of each muscle, > 0 [1/m] or [1/rad]
-  std::vector<double> pressure;  // P_0 of each muscle, mean over the recordings [Pa]
+  std::vector<double> slope;     // a of each muscle, > 0 [1/m] or [1/rad]
+  std::vector<double> pressure;  // P_start of each muscle, mean over the recordings [Pa]
   std::vector<bool> falls;       // for each muscle: falls with the position
   double per_position = 0;       // change of P_b - P_a with the position [Pa/m] or [Pa/rad]
 };

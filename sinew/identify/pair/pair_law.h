@@ -51,10 +51,10 @@ struct PairValues {
   double stiffness = 0;   // k [N/m]
   double area = 0;        // A [m2]
   double viscous = 0;     // c [N s/m]
-  double mass = 0;        // m [kg]
-  double friction = 0;    // D [N]
-  double presliding = 0;  // d [m], > 0 if the law has it
-  double fade_time = 0;   // T [s], > 0 if the law has it
+  double mass = 0;        // M [kg]
+  double friction = 0;    // Phi_c [N]
+  double presliding = 0;  // x_slip [m], > 0 if the law has it
+  double fade_time = 0;   // t_fade [s], > 0 if the law has it
 };
 
 // Parameters of a recording and of the sensors of its rig.
@@ -62,7 +62,7 @@ struct PairSensors {
   double bias = 0;   // bias of the effort [N]
   double gain = 1;   // gain of the effort
   double delay = 0;  // delay of the effort behind the position [s]
-  double start = 0;  // w at the first sample
+  double start = 0;  // phi at the first sample
 };
 
 // Returns the difference of the pressures, b - a, without its mean [Pa]. For a single measured

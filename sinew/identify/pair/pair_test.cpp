@@ -109,7 +109,7 @@ TEST(Pair, PredictsARecordingThatIsHeldOut) {
   EXPECT_EQ(found.report.best().residuals.size(), found.report.rows.size());
 }
 
-// s = n A/V, to first order; the air's part of the stiffness is determined if the area is known.
+// a = n_p A/V, to first order; the air's part of the stiffness is determined if the area is known.
 TEST(Pair, AirIsToldFromThePressures) {
   const TestPair truth{.viscous = 0, .mass = 0, .elastic = 5e4};
   const std::vector<PairRecord> records{test_record(truth, 10, true)};

@@ -28,11 +28,11 @@
 namespace sinew::identify {
 
 struct ForceBeam {
-  double length = 0;         // L, from the load to the mount  [m]
+  double length = 0;         // l_beam, from the load to the mount [m]
   double width = 0;          // [m]
-  double height = 0;         // in the direction of the load  [m]
-  double gage_distance = 0;  // x  [m]
-  double modulus = 0;        // E  [Pa]
+  double height = 0;         // in the direction of the load [m]
+  double gage_distance = 0;  // x_g [m]
+  double modulus = 0;        // E [Pa]
   double poisson_ratio = 0;
   double yield_stress = 0;          // [Pa]
   double stress_concentration = 1;  // at the mount

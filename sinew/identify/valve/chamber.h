@@ -32,13 +32,13 @@ struct Chamber {
   gas::Flow::Law law = gas::Flow::Law::iso6358;
   double conductance = 0;     // C/V, for an orifice that of its choked flow [1/(s Pa)]
   double critical_ratio = 0;  // b_crit, ISO 6358 only [-]
-  double exponent = 1;        // n [-]
+  double exponent = 1;        // n_p [-]
   double port = 0;            // pressure on the valve's other side [Pa abs]
   double start = 0;           // pressure before the valve opens [Pa abs]
   double leak = 0;            // conductance of a leak to the room, relative to the valve's [-]
-  double share = 0;           // s, soft and hose [-]
+  double share = 0;           // eps_V, soft, or eps_h, hose [-]
   double swell = 1e5;         // P_s, soft [Pa]
-  double hose = 1;            // h, hose [-]
+  double hose = 1;            // kappa_h, hose [-]
   double vent = 0;            // conductance to the room while the valve is shut, relative to C [-]
 };
 
