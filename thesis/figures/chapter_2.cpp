@@ -1,5 +1,5 @@
-// thesis/figures/chapter_2.cpp - figures that are laws drawn: 2-6, 2-11, 2-13. The stand's are in
-// chapter_2_stand.cpp.
+// thesis/figures/chapter_2.cpp - figures computed from laws: 2-6, 2-11, 2-13. Those of the test
+// stand are in chapter_2_stand.cpp.
 #include "thesis/figures/chapter_2.h"
 
 #include <fmt/format.h>
@@ -19,14 +19,14 @@ using enum config::StatementClass;
 using report::Curve, report::judge;
 using units::inch, units::psi, units::pound_force;
 
-// 20 to 110 psi, the range of figure 2-6.
+// Returns 20 to 110 psi, the range of figure 2-6.
 std::vector<double> gauge_pressures() {
   std::vector<double> out;
   for (int p = 20; p <= 110; p += 10) out.push_back(p);
   return out;
 }
 
-// Lengths from L_min to beyond the figure's right end, L_max among them  [in].
+// Returns lengths [in] from L_min to beyond the figure's right end, including L_max.
 std::vector<double> lengths(const actuator::Actuator& a, double longest) {
   const double shortest = actuator::shortest_length(a.braid) / inch;
   std::vector<double> out{shortest, a.long_end.length / inch};
@@ -36,7 +36,7 @@ std::vector<double> lengths(const actuator::Actuator& a, double longest) {
   return out;
 }
 
-// y over length for each pressure.
+// Returns y over length for each pressure.
 template <class Law>
 std::vector<Curve> family(const std::vector<double>& pressures, const std::vector<double>& length,
                           const std::string& source, Law law) {
@@ -79,7 +79,7 @@ Exhibit figure_2_6(const Sources& from) {
   double straightest = 1, bent = 0, uneven = 0;
   for (const Curve& c : force) straightest = std::min(straightest, report::bend(trace(c)));
   for (const Curve& c : stiffness) bent = std::max(bent, report::bend(trace(c)));
-  // Over pressure, at the longest length.
+  // Stiffness over pressure, at the longest length.
   Curve over{.xs = gauge_pressures()};
   for (const Curve& c : stiffness) over.ys.push_back(c.ys.back());
   uneven = report::bend(trace(over));

@@ -1,14 +1,14 @@
-// thesis/figures/chapter_2.h - the figures of chapter 2 that the test stand gives.
+// thesis/figures/chapter_2.h - figures of chapter 2 that come from the test stand.
 #pragma once
 
 #include "thesis/figures/thesis.h"
 
 namespace sinew::thesis {
 
-// 2-8 to 2-12: weights hung on an actuator with its air shut in, beside the laws.
+// Returns 2-8 to 2-12: weights hung on an actuator with its air sealed in, compared with the laws.
 Exhibits weights(const Sources& from);
 
-// Into 2-13: the stand pulls the actuator out.
+// Adds to 2-13 a run in which the stand stretches the actuator.
 void add_length_sweep(const Sources& from, Exhibit& figure_2_13);
 
 }  // namespace sinew::thesis

@@ -1,6 +1,7 @@
-// thesis/figures/chapter_2_stand.cpp - 2-8 to 2-13 from the test stand. Measured halves are lost;
-// what stands here in their place is our stand's, with its transducers, and says so. It was made
-// with the laws that 2.3 found: what it shows of them was put in.
+// thesis/figures/chapter_2_stand.cpp - figures 2-8 to 2-13 from the test stand. The
+// measurements are lost; in their place are runs of our simulated stand with its transducers,
+// labelled as such. The stand uses the laws identified in 2.3, so these runs do not confirm those
+// laws.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ using Kind = Curve::Kind;
 using Style = Curve::Style;
 using units::inch, units::psi, units::pound_force;
 
-// What was written down at a stand, in the thesis's units, and what the laws make of it.
+// Readings of a stand run in the thesis's units, and the predictions of the laws for them.
 struct Loop {
   int nominal = 0;                              // [psi gauge]
   std::vector<double> length, force, pressure;  // [in] [lbf] [psi gauge]
@@ -46,7 +47,7 @@ Loop measured(const Sources& from, const std::string& name) {
   return out;
 }
 
-// [29]: P V is what it was at the first reading  [psi gauge].
+// Predicts the pressure by [29]: P V is constant from the first reading on [psi gauge].
 void predict_pressure(Loop& loop, double atmosphere) {
   const experiment::Stand::Element& element = loop.experiment.stand->element;
   const auto volume = [&](double length) {
@@ -59,7 +60,8 @@ void predict_pressure(Loop& loop, double atmosphere) {
     loop.predicted_pressure.push_back(constant / volume(length) - room);
 }
 
-// [22] at [29]'s pressure, without and with effectiveness [30]  [lbf].
+// Predicts the force by [22] at the pressure of [29], without and with the effectiveness [30]
+// [lbf].
 void predict_force(Loop& loop, const actuator::Effectiveness& effectiveness, double atmosphere) {
   for (std::size_t i = 0; i < loop.length.size(); ++i) {
     const double p = loop.predicted_pressure[i] * psi;
@@ -97,7 +99,7 @@ Curve over_length(const Loop& loop, const std::vector<double>& y, const std::str
           .source = source};
 }
 
-// The readings of the way up, to the heaviest weight, and those of the way down.
+// Returns the index of the heaviest weight, which divides the readings into loading and unloading.
 std::size_t heaviest(const Loop& loop) {
   return static_cast<std::size_t>(std::ranges::max_element(loop.force) - loop.force.begin());
 }
@@ -106,7 +108,8 @@ Trace way_up(const Loop& loop, const std::vector<double>& y) {
   return {std::span(loop.length).first(n), std::span(y).first(n)};
 }
 
-// How much longer it is on the way down, mean over the weights, of the loop's range of lengths.
+// Returns how much longer the actuator is during unloading, mean over the weights, as a share of
+// the range of lengths.
 double opening(const Loop& loop) {
   double sum = 0;
   const std::size_t top = heaviest(loop);
@@ -115,7 +118,7 @@ double opening(const Loop& loop) {
   return sum / static_cast<double>(weights) / (loop.length[top] - loop.length.front());
 }
 
-// Force measured by force predicted, least squares.
+// Returns the least squares ratio of measured to predicted force.
 double effectiveness_of(const Loop& loop) {
   double both = 0, square = 0;
   for (std::size_t i = 0; i < loop.force.size(); ++i) {
@@ -127,7 +130,8 @@ double effectiveness_of(const Loop& loop) {
 
 double mean(const std::vector<double>& y) { return report::mean({y, y}); }
 
-// The pressure that such a fit belongs to: each reading's by what it weighs there  [psi gauge].
+// Returns the pressure of such a fit: the mean of the readings' pressures, weighted by their
+// influence on the fit [psi gauge].
 double pressure_of_fit(const Loop& loop) {
   double sum = 0, square = 0;
   for (std::size_t i = 0; i < loop.force.size(); ++i) {
@@ -218,7 +222,7 @@ Exhibit figure_2_9(const std::vector<Loop>& loops) {
                              "thesis's gauge is not described"})}};
 }
 
-// 2-10 and 2-12 have the pressures that 2.3 names.
+// Returns the curves of 2-10 and 2-12, which have the pressures of 2.3.
 std::vector<Curve> beside_law(const std::vector<Loop>& loops, bool with_effectiveness) {
   std::vector<Curve> out;
   int color = 0;
@@ -233,7 +237,8 @@ std::vector<Curve> beside_law(const std::vector<Loop>& loops, bool with_effectiv
   return out;
 }
 
-// How far the law, drawn over the measured lengths, leaves its own way up  [lbf].
+// Returns the largest difference between the law's loading and unloading forces over the measured
+// lengths [lbf].
 double ways_apart(const Loop& l) {
   const Trace up = way_up(l, l.ideal_force);
   double largest = 0;

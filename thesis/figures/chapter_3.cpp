@@ -1,4 +1,4 @@
-// thesis/figures/chapter_3.cpp - figures of the valve: 3-4, 3-13. The stand's are in
+// thesis/figures/chapter_3.cpp - figures of the valve: 3-4, 3-13. Those of the test stand are in
 // chapter_3_stand.cpp.
 #include <cmath>
 
@@ -16,7 +16,7 @@ using enum config::StatementClass;
 using report::Curve, report::judge;
 using units::psi;
 
-// Flow of the maker's chart: into the room, over the supply's pressure.
+// Returns the flow of the maker's chart: into the room, over the supply pressure.
 Exhibit figure_3_4(const Sources& from) {
   gas::Flow flow = from.chapter3.flow;
   flow.efficiency = 1;
@@ -30,7 +30,7 @@ Exhibit figure_3_4(const Sources& from) {
     volume.ys.push_back(m / gas::iso_density * 6e4);
   }
 
-  // What 3.3 did with the chart: A_p C_q from the choked flow at 100 psi, by [42].
+  // As 3.3 uses the chart: A_p C_q from the choked flow at 100 psi, by [42].
   constexpr double square_foot = 0.09290304;
   const double choked = gas::choked_parameter(from.air.gas_constant) *
                         (from.air.atmosphere + 100 * psi) / std::sqrt(from.air.temperature);
@@ -69,7 +69,7 @@ Exhibit figure_3_13(const Sources& from) {
     }
     curves.push_back(std::move(c));
   }
-  // The largest command that leaves it shut, and the least that leaves it open.
+  // The largest command at which the valve stays shut, and the smallest at which it stays open.
   const auto shut_to = [](const Curve& c) {
     double last = 0;
     for (std::size_t i = 0; i < c.xs.size() && c.ys[i] == 0; ++i) last = c.xs[i];

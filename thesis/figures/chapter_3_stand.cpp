@@ -1,5 +1,5 @@
-// thesis/figures/chapter_3_stand.cpp - lengths over time, 3-6 to 3-11 and 3-14 to 3-23. Each pair
-// is a measurement, which is lost and has our stand in its place, and its simulation.
+// thesis/figures/chapter_3_stand.cpp - lengths over time, 3-6 to 3-11 and 3-14 to 3-23. Each
+// pair is a measurement, which is lost and replaced by our simulated stand, and its simulation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using enum config::StatementClass;
 using report::Curve, report::judge, report::not_applicable;
 using units::inch;
 
-// A pair of figures and the file that they come from.
+// A pair of figures, and the experiment file that they come from.
 struct Pair {
   std::string measured, simulated, file, what;
   int trial = 1;
@@ -32,7 +32,7 @@ struct Run {
   analysis::Machine stand;
 };
 
-// Length over time as the stand records it; through the potentiometer where there is one.
+// Returns the recorded length over time, through the potentiometer if there is one.
 Curve recorded(const experiment::Experiment& e, const signals::Table& table,
                const robot::Transducer* potentiometer) {
   const signals::Series& length = *table.find("/true/stand/length");
@@ -62,8 +62,8 @@ Run run(const Sources& from, const std::string& file, const std::vector<std::str
   return out;
 }
 
-// Where our stand departs from the simulation, for want of the measurement: the equations, with
-// what section 3.4 and our reading of it name as missing from its model.
+// Returns the differences of our stand from the simulation, in place of the measurement: the
+// equations, with the effects that section 3.4 and our reading of it name as missing in its model.
 std::vector<std::string> departures(int trial, bool pulsed) {
   std::vector<std::string> sets{"element.actuator=equations",
                                 "actuator.equations.loss.coulomb_scale=sealed",
@@ -109,7 +109,7 @@ Exhibit drawn(const std::string& name, const std::string& title, const std::stri
           {}};
 }
 
-// The last two, which belong together, are drawn with the same lengths.
+// Gives the last two figures, which belong together, the same axis of lengths.
 void share_axis(Exhibits& out) {
   double least = 1e300, most = -1e300;
   for (std::size_t e = out.size() - 2; e < out.size(); ++e)
@@ -129,7 +129,7 @@ constexpr const char* lost =
     "numbers where 3.4 names what it lacks, through a potentiometer.";
 constexpr const char* simulation = "The simulation of appendix A with steps that have converged.";
 
-// What the experiment's file has of appendix A, and of the text.
+// Adds the comparisons with values of appendix A and the text that are in the experiment's file.
 void add_reported(Exhibit& e, const Run& run) {
   for (const analysis::Verdict& v : analysis::compare(run.summary, run.stand.reported))
     e.claims.push_back(in_words(v));
@@ -140,7 +140,7 @@ double of(const Run& run, const char* key) {
   return value ? *value : std::nan("");
 }
 
-// The averages after [53], from our stand in the place of the measurements.
+// Adds the averages after [53], from our stand instead of the measurements.
 void add_averages(Exhibit& e, const std::vector<Run>& stands) {
   const auto mean = [&](const char* key) {
     double sum = 0;
@@ -182,13 +182,14 @@ void add_averages(Exhibit& e, const std::vector<Run>& stands) {
                                 "them and from what swings: with 11 lb it is less"}));
 }
 
-// Mean of the last five periods of a pulsed run  [in].
+// Returns the mean of the last five periods of a pulsed run [in].
 double settled(const Curve& length, double period) {
   const double end = length.xs.back();
   return report::mean(report::part(trace(length), end - 5 * period, end));
 }
 
-// Amplitude of what still swings about the settled length between 0.75 and 1.5 s  [in].
+// Returns the amplitude of the remaining swing about the settled length between 0.75 and 1.5 s
+// [in].
 double left_over(const Curve& length, double period) {
   const double middle = settled(length, period);
   double n = 0, square = 0;
@@ -225,8 +226,8 @@ Exhibits trapped_air(const Sources& from) {
 namespace {
 
 struct Settling {
-  double apart = 0;   // settled lengths of stand and simulation [in]
-  double longer = 0;  // what is left of the swing, simulation by stand
+  double apart = 0;   // settled lengths of stand and simulation: difference [in]
+  double longer = 0;  // remaining swing, ratio of simulation to stand
 };
 
 Settling settling(const Run& stand, const Run& model) {
@@ -235,8 +236,9 @@ Settling settling(const Run& stand, const Run& model) {
           left_over(model.length, period) / left_over(stand.length, period)};
 }
 
-// 25 Hz at 5, 1 and 15 lb. What 3.4 says of measurement and simulation cannot be judged: our stand,
-// whose hose is a guess, is no measurement. What it would give is told.
+// Adds the values at 25 Hz and 5, 1 and 15 lb. Statements of 3.4 about measurement and simulation
+// cannot be tested: the hose of our stand is a guess, so it is no measurement. Our values are given
+// for information.
 void claim_of_mass(Exhibits& out, const Settling& five, const Settling& one,
                    const Settling& fifteen) {
   const auto add = [&](const char* figure, const char* says, const std::string& measured) {
@@ -266,7 +268,7 @@ Exhibit measured_pulsed(const Pair& pair, std::vector<Curve> curves) {
   return e;
 }
 
-// 3-22 and 3-23 say 1 lb once more: 5 and 15 lb are our guesses for it.
+// Adds guesses for 3-22 and 3-23, whose captions repeat 1 lb: 5 and 15 lb.
 void add_guesses(Exhibits& out, const Sources& from) {
   Pair pair{"3-22", "3-23", "", "50 Hz and an unknown load"};
   std::vector<Curve> stands, models;

@@ -74,11 +74,11 @@ report::Figure coil(const std::string& name, const std::string& title, double fr
                      .curves = {wave}}}};
 }
 
-// Time of the dip after the edge  [ms].
+// Returns the time of the dip after the edge [ms].
 double dip(const Curve& c) { return report::first_dip(trace(c)); }
 
-// Of a square wave of which the shutter still follows both edges: a half period lasts longer than
-// either delay  [Hz].
+// Returns the largest frequency of a square wave that the shutter still follows: half a period is
+// longer than either delay [Hz].
 double largest_frequency(const gas::Valve& valve, double pressure) {
   return 0.5 / std::max(gas::delay_at(valve, true, pressure * psi),
                         gas::delay_at(valve, false, pressure * psi));
@@ -149,7 +149,7 @@ constexpr std::array<const char*, 4> transducers = {"hip_flexor_tension", "hip_e
 constexpr std::array<double, 4> printed_scale = {0.1689, 0.1610, 0.1694, 0.1809};  // [V/lb]
 constexpr std::array<double, 4> printed_error = {0.7, 5.6, 0.4, -6.0};             // [%]
 
-// Weights hung on, as the converter reads them.
+// Returns the converter's readings for a series of weights.
 identify::SensorData hung(const robot::Robot& robot) {
   identify::SensorData out{.file = "figure 4-14", .kind = identify::SensorKind::tension};
   for (double load = 0; load <= 16; load += 2) out.known.push_back(load * pound_force);

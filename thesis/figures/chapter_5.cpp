@@ -1,5 +1,5 @@
-// thesis/figures/chapter_5.cpp - 5-3, the interrupt's timing, from the low level's own schedule and
-// from the edges that a run has recorded.
+// thesis/figures/chapter_5.cpp - figure 5-3, the interrupt's timing, from the low level's schedule
+// and from the recorded edges of a run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Edge {
 
 struct Valve {
   std::string name;   // "hip flexor inlet"
-  std::size_t joint;  // in the low level's order
+  std::size_t joint;  // index in the low level
   std::vector<Edge> edges;
 };
 
@@ -37,8 +37,8 @@ struct Schedule {
   experiment::Experiment experiment;
   control::JointControllerConfig spine;
   std::vector<Valve> valves;
-  Tick begin = 0, end = 0;  // of the plan's phases
-  Tick period = 0;          // that is drawn: its first tick
+  Tick begin = 0, end = 0;  // range of the plan's phases
+  Tick period = 0;          // first tick of the period that is drawn
 };
 
 std::vector<Valve> valves_of(const experiment::Experiment& e, const signals::Table& table) {
@@ -57,7 +57,7 @@ std::vector<Valve> valves_of(const experiment::Experiment& e, const signals::Tab
   return out;
 }
 
-// The first of the periods in which, with the next one, most valves are switched.
+// Returns the first of the periods in which, together with the next one, most valves switch.
 Tick busiest(const std::vector<Valve>& valves, Tick period, Tick from, Tick to) {
   std::map<Tick, int> busy;
   for (const Valve& v : valves) {
@@ -90,7 +90,7 @@ Schedule schedule(const Sources& from) {
   return out;
 }
 
-// Ticks within the period at which valves of a joint are opened, the earliest and the latest.
+// Returns the earliest and the latest tick within the period at which valves of a joint open.
 std::pair<Tick, Tick> openings(const Schedule& s, std::size_t joint) {
   std::pair<Tick, Tick> out{1'000'000, -1};
   for (const Valve& v : s.valves)
@@ -102,13 +102,13 @@ std::pair<Tick, Tick> openings(const Schedule& s, std::size_t joint) {
   return out;
 }
 
-// --- the picture: one row per signal, high where it is on ---------------------------------------
+// --- the figure: one row per signal, high while it is on ----------------------------------------
 
 class Rows {
  public:
   Rows(double last, std::size_t rows) : last_(last), row_(static_cast<double>(rows) + 1) {}
 
-  // On in [from, to) of each pair  [ms].
+  // Adds a row that is on in [from, to) of each pair [ms].
   void add(const std::string& name, const std::vector<std::pair<double, double>>& on,
            const std::string& source, int color) {
     row_ -= 1;
@@ -142,7 +142,7 @@ class Rows {
   }
 
  private:
-  // All rows change or hold at the instants of all: one table of numbers.
+  // Gives all rows the instants of all, so that they form one table of numbers.
   void share_instants() {
     std::vector<double> all;
     for (const Curve& c : curves_) all.insert(all.end(), c.xs.begin(), c.xs.end());
@@ -207,7 +207,7 @@ report::Plot pulses(const Schedule& s) {
   return rows.plot("valves", "Two periods of commands to the valves");
 }
 
-// --- what 5.2 says ------------------------------------------------------------------------------
+// --- statements of 5.2 --------------------------------------------------------------------------
 
 std::vector<report::Claim> claims_of(const Schedule& s) {
   const Section text("5.2");
@@ -220,7 +220,7 @@ std::vector<report::Claim> claims_of(const Schedule& s) {
     least_step = std::min(least_step, step);
     most_step = std::max(most_step, step);
   }
-  double latest = 0;  // from a law to the opening that it has decided
+  double latest = 0;  // time from a law to the opening that results from it
   for (std::size_t j = 0; j < s.spine.joints; ++j) {
     const auto [first, last] = openings(s, j);
     for (const Tick at : {first, last})

@@ -1,4 +1,4 @@
-// thesis/figures/chapter_6.cpp - walking, 6-1 and 6-3 to 6-11: test 1, which 6.3 plots.
+// thesis/figures/chapter_6.cpp - walking, 6-1 and 6-3 to 6-11: test 1, which is plotted in 6.3.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ using Weights = analysis::Column;
 constexpr const char* foot = "/foot/position";
 constexpr const char* desired_foot = "/desired/foot/position";
 
-// Rows as they are, less others.
+// Returns the difference of two columns, row by row.
 Column difference(const Column& a, const Column& b) {
   Column out;
   for (std::size_t i = 0; i < a.size(); ++i) out.push_back(a[i] - b[i]);
@@ -31,7 +31,7 @@ Weights phase_of(const LegRun& run, std::string_view name) {
 
 // --- paths --------------------------------------------------------------------------------------
 
-// [66], [68], [70]: y of the desired foot over its x  [in].
+// Returns y of the desired foot over its x by [66], [68], [70] [in].
 double planned_y(const std::string& phase, double x) {
   if (phase == "swing") return -0.081 * x * x - 0.2571 * x - 11.75;
   return phase == "foot_plant" ? 0.25 * x - 14 : -13.5;
@@ -42,7 +42,7 @@ Exhibit figure_6_1(const LegRun& run) {
   double off = 0;
   int color = 0;
   for (const char* phase : {"swing", "foot_plant", "propulsion"}) {
-    // To the next phase's first row, so that lines meet.
+    // Extended to the next phase's first row, so that lines meet.
     Curve c = run.path(in_words(phase), desired_foot, run.phase(phase));
     c.color = color++;
     for (std::size_t i = 0; i + 1 < c.xs.size(); ++i)
@@ -100,7 +100,8 @@ Exhibit figure_6_3(const LegRun& run) {
 
 // --- over time ----------------------------------------------------------------------------------
 
-// Swing with the foot in the air: the leg lags its plan, and still pushes when swing has begun.
+// Returns the weights of swing with the foot in the air: the leg lags its plan and is still on the
+// ground when swing begins.
 Weights in_the_air(const LegRun& run) {
   const Column load = run.rows({"/true/foot/force", "y"});
   Weights out = run.record().swing();
@@ -109,21 +110,21 @@ Weights in_the_air(const LegRun& run) {
   return out;
 }
 
-// Why forces do not vanish in swing. With the three links at 0.01 lb each, dampings of 0.8 lbf in
-// s/rad and no dry friction the torques have 4.5 and 4.9 %, the false reactions 4.3 %.
+// Reason that forces do not vanish in swing. With the three links at 0.01 lb each, dampings of 0.8
+// lbf in s/rad and no dry friction the torques have 4.5 and 4.9 %, the false reactions 4.3 %.
 constexpr const char* moves_against =
     "the muscles carry what the links weigh and what our fitted joints damp and rub; with hardly "
     "any of the three it is under 5 %, without one of them it is not";
 
-// rms in the air, of the range over the walk  [%].
+// Returns the rms in the air as a share of the range over the walk [%].
 double in_the_air_of_range(const LegRun& run, const Column& values) {
   const Weights& walk = run.record().sequence();
   const double range = analysis::largest(values, walk) - analysis::smallest(values, walk);
   return 100 * analysis::rms(values, in_the_air(run)) / range;
 }
 
-// How near the joints come to table 6-1's limits, the least of the four distances; < 0 where one
-// is passed  [deg].
+// Returns the smallest of the four distances of the joints to the limits of table 6-1; negative if
+// one is exceeded [deg].
 double to_a_limit(const LegRun& run) {
   const auto degrees = [&](const char* key) { return run.summary(key) * 180 / M_PI; };
   return std::min(
@@ -229,7 +230,8 @@ Exhibit figure_6_7(const LegRun& run) {
 
 // --- ground and trolley -------------------------------------------------------------------------
 
-// First time in [from, to] at which the values reach that share of their largest one there  [s].
+// Returns the first time in [from, to] at which the values reach a share of their maximum there
+// [s].
 double begins(const LegRun& run, const Column& values, const report::Span& in, double share) {
   const double start = run.record().sequence_start();
   const auto inside = [&](std::size_t i) {
@@ -302,7 +304,7 @@ Exhibit figure_6_9(const LegRun& run) {
 
 // --- valves -------------------------------------------------------------------------------------
 
-// Table 6-4  [%].
+// A row of table 6-4 [%].
 struct Duty {
   const char *muscle, *valve;
   double reported;

@@ -1,5 +1,5 @@
-// thesis/figures/chapter_6_text.cpp - what else 6.3 says of the figures of test 1: when things
-// happen, and what other runs show of it.
+// thesis/figures/chapter_6_text.cpp - further statements of 6.3 about the figures of test 1:
+// times of events, and results of other runs.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using enum config::StatementClass;
 
 using analysis::Column, analysis::Stretch;
 
-// Each time that the phase went, the steps before `from_step` left out.
+// Returns each stretch of the phase, except in steps before `from_step`.
 std::vector<Stretch> stretches(const LegRun& run, std::string_view phase, int from_step = 0) {
   std::vector<Stretch> out;
   for (const Stretch& s : run.record().stretches())
@@ -30,7 +30,7 @@ double mean_of(const std::vector<Stretch>& list, Of of) {
   return sum / static_cast<double>(list.size());
 }
 
-// Rows by which y has passed the level for good.
+// Returns the number of rows after which y stays above the level.
 std::size_t passes(const Column& y, const Stretch& s, double level) {
   std::size_t at = s.first;
   for (std::size_t i = s.first; i < s.last; ++i)
@@ -38,7 +38,7 @@ std::size_t passes(const Column& y, const Stretch& s, double level) {
   return at;
 }
 
-// How much later the hip passes 280 deg than it should, on its way forward, of swing  [%].
+// Returns the delay of the hip at 280 deg on its way forward, as a share of swing [%].
 double lag(const LegRun& run) {
   const Column is = run.rows({"/joint/hip/angle"}), wanted = run.rows({"/desired/joint/hip/angle"});
   return mean_of(stretches(run, "swing", 1), [&](const Stretch& s) {
@@ -48,7 +48,7 @@ double lag(const LegRun& run) {
   });
 }
 
-// Share of propulsion before the hip has moved by half a degree.
+// Returns the share of propulsion before the hip has moved by half a degree.
 double stands_for(const LegRun& run) {
   const Column angle = run.rows({"/joint/hip/angle"});
   return mean_of(stretches(run, "propulsion"), [&](const Stretch& s) {
@@ -58,8 +58,8 @@ double stands_for(const LegRun& run) {
   });
 }
 
-// By how much a torque changes over the second half of swing, the least of the steps, of its range
-// over the walk  [%]: by the straight line through it.
+// Returns the change of a torque over the second half of swing, by the straight line through it;
+// the smallest of the steps, as a share of its range over the walk [%].
 double change_of(const LegRun& run, const std::string& topic) {
   const Column torque = run.rows({topic});
   const Column& walk = run.record().sequence();
@@ -75,8 +75,8 @@ double change_of(const LegRun& run, const std::string& topic) {
   return 100 * least / (analysis::largest(torque, walk) - analysis::smallest(torque, walk));
 }
 
-// How far the normal force falls from its height at touch-down within the first half of stance, of
-// its largest  [%].
+// Returns the drop of the normal force from its height at touch-down within the first half of
+// stance, as a share of its maximum [%].
 double spike(const LegRun& run) {
   const Column force = run.rows({"/foot/force", "y"});
   const double largest = analysis::largest(force, run.record().stance());
@@ -90,7 +90,7 @@ double spike(const LegRun& run) {
          });
 }
 
-// Share of propulsion in which a muscle is as good as empty  [%].
+// Returns the share of propulsion in which a muscle is nearly empty [%].
 double empty_for(const LegRun& run, const std::string& muscle) {
   Column low;
   for (const double p : run.rows({"/true/muscle/" + muscle + "/pressure"}))
@@ -99,7 +99,7 @@ double empty_for(const LegRun& run, const std::string& muscle) {
   return analysis::mean(low, run.record().part(propulsion, 0, 1));
 }
 
-// Where the hip's error turns in each swing, in shares of it, and by how much  [deg].
+// Turning points of the hip's error in a swing, and their amplitudes [deg].
 struct SwingTurns {
   std::vector<analysis::TurningPoint> points;  // rows count from the swing's first
   double rows = 0;
@@ -112,7 +112,7 @@ SwingTurns turns_in(const LegRun& run, const std::string& joint, const Stretch& 
           static_cast<double>(s.last - s.first)};
 }
 
-// Share of swing after which the hip turns no more, the mean of the steps  [%].
+// Returns the share of swing after which the hip does not turn, mean over the steps [%].
 double last_turn(const LegRun& run) {
   return mean_of(stretches(run, "swing"), [&](const Stretch& s) {
     const SwingTurns t = turns_in(run, "hip", s);
@@ -120,7 +120,8 @@ double last_turn(const LegRun& run) {
   });
 }
 
-// From the first propulsion on: before, empty muscles are filled with all that the valves give.
+// Returns the largest duty from the first propulsion on: before, empty muscles are filled with the
+// full flow of the valves.
 double largest_duty(const LegRun& run, const std::string& valve) {
   Column walking = run.record().sequence();
   const std::size_t first = stretches(run, "propulsion").at(0).first;
@@ -141,7 +142,7 @@ double swing_amplitude(const LegRun& run, const std::string& joint, int step) {
 
 namespace {
 
-// The largest half swing of a joint's error in any swing, of the joint's excursion  [%].
+// Returns the largest half swing of a joint's error in any swing, as a share of its excursion [%].
 double largest_swing(const LegRun& run, const std::string& joint) {
   double largest = 0;
   for (int step = 0; step < static_cast<int>(run.summary("steps")); ++step)
@@ -158,7 +159,7 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
       return e.figure.name == figure;
     })->claims.push_back(std::move(claim));
   };
-  // Adds a statement that another experiment's file judges, in the words of the text.
+  // Adds a statement that is judged in another experiment's file, with the wording of the text.
   const auto add_run = [&](const char* figure, const char* experiment, const char* key,
                            const char* says) {
     for (report::Claim& c : LegRun(from, experiment).verdicts({key})) {

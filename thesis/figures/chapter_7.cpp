@@ -1,4 +1,4 @@
-// thesis/figures/chapter_7.cpp - what limits the leg, 6-12 to 6-16, and walking without stiffness
+// thesis/figures/chapter_7.cpp - limits of the leg, 6-12 to 6-16, and walking without stiffness
 // control, 7-1.
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ using enum config::StatementClass;
 
 using report::Curve, report::judge;
 
-// Largest half swing of a joint's error in a swing, the mean of the steps, of the joint's excursion
-// [%]; a swing without any counts as 0.
+// Returns the largest half swing of a joint's error in a swing, mean over the steps, as a share of
+// its excursion [%]; a swing without any counts as 0.
 double oscillates(const LegRun& run, const std::string& joint) {
   const int steps = static_cast<int>(run.summary("steps"));
   double sum = 0;
@@ -47,7 +47,7 @@ Exhibit figure_6_12(const Sources& from) {
 
 Exhibits kick(const Sources& from) {
   const LegRun run(from, "kick");
-  // From the kick's begin until it has calmed down.
+  // Window from the start of the kick until the leg is at rest.
   const double begin = run.phase("kick").from;
   report::Figure path =
       foot_path(run, "6-13", "Desired and actual foot path of a kick",
@@ -65,7 +65,7 @@ Exhibits kick(const Sources& from) {
                           .why = "an oscillation has two turning points at least"})}}};
 }
 
-// Counts for which the controller takes a radian of the hip.
+// Returns the counts per radian that the controller assumes for the hip.
 double hip_scale(const LegRun& run) {
   for (const robot::Sensor& s : run.machine().robot.sensors)
     if (s.name == "hip_angle") return s.assumed_scale;
@@ -74,7 +74,7 @@ double hip_scale(const LegRun& run) {
 
 Exhibits derivative_control(const Sources& from) {
   const LegRun run(from, "derivative-control");
-  // One step's swing and propulsion: the second one, which starts from walking.
+  // Swing and propulsion of the second step, which starts from walking.
   const std::vector<report::Span> stance = run.stance();
   const Window step{stance.at(0).to, stance.at(1).to};
   Curve speed = run.curve("", {"/joint/hip/velocity_estimate"}, step, 0);

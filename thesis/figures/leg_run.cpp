@@ -63,7 +63,7 @@ bool LegRun::within(const Window& window, std::int64_t time_ns) const {
   return t > window.from - 1e-9 && t < window.to + 1e-9;
 }
 
-// A duty is a share, which a log does not tell from another number.
+// A duty is shown as a share; the unit in the log does not distinguish it from other numbers.
 units::ShownUnit LegRun::unit_of(const report::Channel& channel) const {
   const report::Samples samples = channels().find(channel);
   return units::ShownUnits(units::UnitSet::thesis)

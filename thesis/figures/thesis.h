@@ -1,10 +1,10 @@
-// thesis/figures/thesis.h - the figures of Colbrunn (2000) as data, each with what the text says of
-// it and whether ours shows it.
+// thesis/figures/thesis.h - figures of Colbrunn (2000) as data, each with the statements of the
+// text and verdicts on our results.
 //
-// A curve is computed (a law or a simulation, as the thesis drew it) or synthetic (in the place of
-// a measurement that is lost: our stand with stated losses, transducers, noise and seed). What can
-// be neither is named as missing. Verdicts are computed here, from the curves as they are drawn
-// and from summaries of runs; docs/evidence/thesis-figures.md lists which bands are ours.
+// A curve is computed (a law or a simulation, as in the thesis) or synthetic (instead of a
+// measurement that is lost: our simulated stand with stated losses, transducers, noise and seed).
+// All others are listed as missing. Verdicts are computed here, from the curves as drawn and from
+// summaries of runs; docs/evidence/thesis-figures.md lists the bands that we chose.
 #pragma once
 
 #include <atomic>
@@ -24,32 +24,32 @@ namespace sinew::thesis {
 using report::Exhibit;
 using Exhibits = std::vector<Exhibit>;
 
-// Where the files of the project are, and what the laws are drawn with.
+// Folder of the project, and the parts whose laws are drawn.
 struct Sources {
   std::string root;
-  actuator::Actuator actuator;  // robots/leg-as-printed, the gauge pressure in [30]
-  gas::Air air;                 // chapter 3's
-  gas::Valve chapter3;          // of the test stand
-  gas::Valve inlet, exhaust;    // at the bench
+  actuator::Actuator actuator;  // robots/leg-as-printed, with gauge pressure in [30]
+  gas::Air air;                 // chapter 3
+  gas::Valve chapter3;          // valve of the test stand
+  gas::Valve inlet, exhaust;    // valves at the bench
 
-  // Returns where a file of the project stands.
+  // Returns the path of a file of the project.
   std::string path(const std::string& file) const;
 };
 
-// Throws config::Error where root is no folder of the project.
+// Loads the sources. Throws config::Error if root is not the project's folder.
 Sources sources(const std::string& root);
 
-// Returns how many steps gallery() has.
+// Returns the number of steps of gallery().
 std::int64_t steps();
 
-// Returns all figures in the order of the thesis, made step by step; `done` counts the steps.
-// Throws config::Error where an experiment cannot be read.
+// Returns all figures in the order of the thesis; `done` counts the steps. Throws config::Error if
+// an experiment cannot be read.
 report::Gallery gallery(const Sources&, std::atomic<std::int64_t>& done);
 
-// Each returns the figures of a chapter, or of a part of it.
+// Return the figures of a chapter, or of a part of it.
 Exhibits chapter_2(const Sources&);
 Exhibits valve_laws(const Sources&);    // 3-4, 3-13
-Exhibits trapped_air(const Sources&);   // 3-6 to 3-11: a load let go with the air shut in
+Exhibits trapped_air(const Sources&);   // 3-6 to 3-11: a load released with the air sealed in
 Exhibits pulsed_valve(const Sources&);  // 3-14 to 3-23
 Exhibits chapter_4(const Sources&);
 Exhibits chapter_5(const Sources&);
@@ -59,10 +59,10 @@ Exhibits chapter_7(const Sources&);
 
 using report::StatementClass;
 
-// Section collects the statements of one section, a number each; `because` says why ours differs.
+// Creates the statements of one section, one number each; `because` explains a difference of ours.
 class Section {
  public:
-  // `where` is the section, as the claims name it.
+  // `where` is the section as named in the claims.
   explicit Section(std::string where) : where_(std::move(where)) {}
   report::Claim number(StatementClass statement_class, const char* says, const char* theirs,
                        const char* quantity, double ours, const char* unit, report::Band accept,
@@ -72,13 +72,13 @@ class Section {
   std::string where_;
 };
 
-// Returns a verdict on a summary's key, its key in words where we have them.
+// Returns a verdict on a summary's key, with the key's description if it has one.
 report::Claim in_words(const analysis::Verdict& verdict);
 
-// Returns "knee flexor" of knee_flexor.
+// Returns "knee flexor" for knee_flexor.
 std::string in_words(std::string name);
 
-// Returns the points of a curve, to be measured.
+// Returns the points of a curve, for measurements.
 inline report::Trace trace(const report::Curve& curve) { return {curve.xs, curve.ys}; }
 
 }  // namespace sinew::thesis

@@ -7,7 +7,7 @@
 namespace sinew::thesis {
 namespace {
 
-// Of keys that the experiments of chapters 3, 6 and 7 have judged.
+// Descriptions of the keys that the experiments of chapters 3, 6 and 7 judge.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 28> words = {{
     {"swing.period_s", "Period of the swing"},
     {"swing.damping_ratio", "Damping ratio"},

@@ -29,7 +29,7 @@ const robot::Muscle& muscle(const experiment::Experiment& e, int joint, Role rol
   return e.robot.muscles[static_cast<std::size_t>(m)];
 }
 
-// Its own scale, as the recorder shows tensions.
+// Returns the transducer's true scale, which the recorder uses for tensions.
 GaugeScale scale(const experiment::Experiment& e, const robot::Sensor& s) {
   return {s.assumed_at_rest, 1.0 / (s.scale * e.robot.converter.counts_per_volt())};
 }

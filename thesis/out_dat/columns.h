@@ -1,4 +1,4 @@
-// thesis/out_dat/columns.h - which of a robot's channels stand in out.dat, and their scales.
+// thesis/out_dat/columns.h - channels of a robot that out.dat contains, and their scales.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace sinew::thesis {
 
 struct GaugeScale {
-  double counts_at_zero = 0, newtons_per_count = 0;  // of the transducer itself
+  double counts_at_zero = 0, newtons_per_count = 0;  // true values of the transducer
 
-  // Returns the tension that counts of the transducer stand for  [N].
+  // Returns the tension for counts of the transducer [N].
   double newtons(double counts) const { return (counts - counts_at_zero) * newtons_per_count; }
 };
 
-// A joint with its muscles, as their columns need them.
+// A joint with its muscles, as needed for their columns.
 struct OutDatJoint {
   std::string name, flexor, extensor;                   // joint and muscles
   std::string angle, flexor_tension, extensor_tension;  // sensors
@@ -32,10 +32,11 @@ struct OutDatColumns {
   std::string heading() const;
 };
 
-// Throws config::Error for a robot whose joints have not two muscles with transducers each.
+// Returns the columns. Throws config::Error if a joint does not have two muscles with a transducer
+// each.
 OutDatColumns out_dat_columns(const experiment::Experiment& experiment);
 
-std::string mode_of_phase(const std::string& phase);  // "plant" of "foot_plant"
-std::string phase_of_mode(const std::string& mode);   // "foot_plant" of "plant"
+std::string mode_of_phase(const std::string& phase);  // "plant" for "foot_plant"
+std::string phase_of_mode(const std::string& mode);   // "foot_plant" for "plant"
 
 }  // namespace sinew::thesis

@@ -26,7 +26,7 @@ class TableReader {
  public:
   TableReader(const signals::Table& table, const std::string& path) : table_(table), path_(path) {}
 
-  // Held from one sample to the next, as `analysis` does it.
+  // Returns the value held from the last sample, as `analysis` does.
   double at(const std::string& topic, std::int64_t time_ns) const {
     const signals::Series* s = table_.find(topic);
     if (!s || s->columns.empty())
@@ -47,8 +47,8 @@ class TableReader {
 
 int whole(double value) { return static_cast<int>(std::lround(value)); }
 
-// As the high level hands desired counts down: cut to an integer. A whole count that was an angle
-// in between is not cut by its last bit.
+// Truncates desired counts to an integer, as the high level does. A count that is whole except for
+// rounding errors of a conversion to an angle is rounded.
 int cut(double counts) {
   const double nearest = std::round(counts);
   return static_cast<int>(std::abs(counts - nearest) < 1e-6 ? nearest : counts);
@@ -77,11 +77,11 @@ std::string joint_cells(const OutDatJoint& j, const TableReader& read, std::int6
 
 // --- reading ---
 
-// A line's numbers, in the order of the heading.
+// Values of a line, in the order of the heading.
 struct Line {
-  int number = 0;  // in the file
+  int number = 0;  // line number in the file
   std::string mode;
-  std::vector<double> values;  // from the timer on
+  std::vector<double> values;  // starting with the timer
 };
 
 Words words_of(std::string_view line) {
@@ -94,7 +94,7 @@ Words words_of(std::string_view line) {
   return out;
 }
 
-// What a column may hold, by its name in the heading.
+// Allowed values of a column, by its name in the heading.
 struct Allowed {
   double low = -2147483648.0, high = 2147483647.0;
   bool whole = true;
@@ -142,13 +142,13 @@ Line read_line(std::string_view text, int number, const Words& heading, double t
   return line;
 }
 
-// Where the plan is while the lines go by.
+// Follows the plan from line to line.
 class PlanWalk {
  public:
   PlanWalk(const gait::Plan& plan, config::RowProblems& problems)
       : plan_(plan), problems_(problems), period_(std::llround(plan.brain_period * 1e9)) {}
 
-  // A new phase begins where the word changes or the timer starts again.
+  // Processes a line. A new phase begins where its name changes or the timer restarts.
   void go_on(const Line& line) {
     const auto timer = static_cast<std::int64_t>(line.values[0]);
     const bool begins = line.mode != mode_ || timer == 0;
@@ -164,7 +164,7 @@ class PlanWalk {
     next_ns_ = time_ns + period_;
   }
 
-  // For the line after the one that was seen.
+  // Advances to the line after this one.
   void step_on() { time_ns = next_ns_; }
 
   std::int64_t time_ns = 0;
@@ -198,7 +198,7 @@ class PlanWalk {
   std::size_t place_ = plan_.sequence.empty() ? 0 : plan_.sequence.size() - 1;
 };
 
-// Fills one topic after the other, in the order in which they are named first.
+// Writes topics in the order of their first use.
 class TableWriter {
  public:
   explicit TableWriter(const experiment::Experiment& e) : all_(run::topics(e)) {}
@@ -226,7 +226,7 @@ class TableWriter {
   signals::Table table_;
 };
 
-// The ten columns of a joint.
+// Writes the ten columns of a joint.
 void put_joint(const OutDatJoint& j, const double* v, std::int64_t t, TableWriter& out) {
   const auto angle = [&](double counts) {
     return j.rest + (counts - j.counts_at_rest) / j.counts_per_rad;
@@ -282,7 +282,7 @@ std::string write_out_dat(const signals::Table& table, const experiment::Experim
   if (!phases)
     config::fail({e.path, 0, 0}, "/plan/phase", "no such channel in the log", "one, for out.dat");
 
-  // A line where the timer has moved on, as B.1 looks at it.
+  // Writes a line when the timer has changed, as the controller of B.1 does.
   const std::int64_t period = std::llround(e.plan.brain_period * 1e9);
   double before = -1, step_before = -1;
   std::int64_t began = 0, last_timer = -1;

@@ -1,4 +1,4 @@
-// out.dat: what B.1 prints, there and back.
+// out.dat is written as in B.1 and read back.
 #include "thesis/out_dat/out_dat.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(OutDat, HasTheLinesThatTheCodeWrites) {
   EXPECT_EQ(lines[305].find("swing 0 "), 0U);
 }
 
-// A finer log has the same lines, but for what moves within a period.
+// A finer log has the same lines, except for values that change within a period.
 TEST(OutDat, HasALinePerPeriodWhateverWasLogged) {
   const experiment::Experiment e = walk({"log.period=1 ms"});
   EXPECT_EQ(lines_of(write_out_dat(run::run(e).table, e)).size(), 1U + 2U * (150U + 3U + 150U));
@@ -82,7 +82,7 @@ TEST(OutDat, IsReadByTheControllersScales) {
   for (const signals::Series& s : t.series) EXPECT_FALSE(s.topic.name.starts_with("/true"));
 }
 
-// There, back and there again: the same file; and what comes back is what went.
+// Writing, reading and writing again gives the same file, and the values are recovered.
 TEST(OutDat, GoesRoundWithoutChange) {
   const experiment::Experiment e = walk();
   const signals::Table ran = run::run(e).table;
@@ -90,7 +90,7 @@ TEST(OutDat, GoesRoundWithoutChange) {
   const signals::Table back = parse_out_dat(text, "out.dat", e);
 
   const std::string again = write_out_dat(back, e);
-  // A desired angle that is a whole count may be cut once more, one count lower.
+  // A desired angle that is a whole count may be truncated again, one count lower.
   EXPECT_EQ(lines_of(again).size(), lines_of(text).size());
 
   const auto* phase = ran.column("/plan/phase");
@@ -146,7 +146,7 @@ TEST(OutDat, SaysInWhichLineItIsWrong) {
             "phase begins");
 }
 
-// A line that was lost leaves a gap in time, not a shift.
+// A missing line leaves a gap in time, not a shift.
 TEST(OutDat, KeepsTimeOverALostLine) {
   const experiment::Experiment e = walk();
   auto lines = lines_of(write_out_dat(run::run(e).table, e));

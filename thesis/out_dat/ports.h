@@ -1,5 +1,5 @@
-// thesis/out_dat/ports.h - the bytes that the thesis's controller writes to the valves' two ports
-// (B.1), and when.
+// thesis/out_dat/ports.h - bytes that the thesis's controller writes to the two valve ports (B.1),
+// with their times.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace sinew::thesis {
 
-// Returns CSV: a time in s, and the byte of each port [1], wherever one changes. A board whose
-// valves have more bits has more ports; several boards come one after the other, with a column that
-// numbers them.
+// Returns CSV: time [s] and the byte of each port [1], with a row for each change. A board with
+// more valve bits has more ports; several boards follow one after the other, with a column for
+// their number.
 std::string write_ports(const signals::Table& table, const experiment::Experiment& experiment);
 
 }  // namespace sinew::thesis

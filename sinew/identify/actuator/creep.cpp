@@ -21,7 +21,7 @@ const Wanted creep_wanted[] = {
     {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
 };
 
-// Says what is searched: how many elements of creep, and whether there is friction.
+// Structure of a candidate model: number of creep elements, and with or without friction.
 struct Form {
   std::string_view name;
   int elements = 0;
@@ -34,24 +34,24 @@ constexpr Form forms[] = {{"none", 0, false},
                           {"friction-and-one", 1, true},
                           {"friction-and-two", 2, true}};
 
-constexpr int stretches = 10;           // of time, left out by turns
-constexpr std::size_t least_rows = 12;  // that creep can be had from
-constexpr int least_rests = 2;  // fewer tell that the pressure is let in slowly: all is fitted
+constexpr int stretches = 10;           // parts of the recording, cross-validated by turns
+constexpr std::size_t least_rows = 12;  // fewest rows that creep can be fitted to
+constexpr int least_rests = 2;  // fewer: the pressure is let in slowly, and every row is fitted
 
-// Holds a recording, and which of its rows are fitted.
+// A recording, and which of its rows are fitted.
 struct Held {
   std::span<const double> time, force, pressure;
   std::vector<std::size_t> rows;  // at which the pressure rests
   double top = 0, pull = 0;       // largest pressure and force [Pa], [N]
 
-  // Returns the stretch of time that a row lies in.
+  // Returns the index of the time stretch that contains a row.
   int stretch(std::size_t row) const {
     const double share = (time[row] - time.front()) / (time.back() - time.front());
     return std::min(static_cast<int>(stretches * share), stretches - 1);
   }
 };
 
-// Returns what the mesh feels of the pressure, which it drags behind it, at every row.
+// Returns the effective pressure at every row: the output of a play operator.
 std::vector<double> felt(std::span<const double> pressure, double half_width) {
   std::vector<double> out;
   double f = pressure[0];
@@ -59,7 +59,7 @@ std::vector<double> felt(std::span<const double> pressure, double half_width) {
   return out;
 }
 
-// Returns the pressure that comes late, at every row; straight lines between rows, so it is exact.
+// Returns the delayed pressure at every row. The pressure is linear between rows, so this is exact.
 std::vector<double> late(std::span<const double> t, std::span<const double> p, double tau) {
   std::vector<double> z{p[0]};
   for (std::size_t i = 1; i < t.size(); ++i) {
@@ -71,8 +71,8 @@ std::vector<double> late(std::span<const double> t, std::span<const double> p, d
   return z;
 }
 
-// Returns the force at every row; `x` holds A, P0, w where there is friction, then c and tau of
-// each element.
+// Returns the force at every row. `x` holds A, P0, w if there is friction, then c and tau of each
+// element.
 std::vector<double> force(const Held& held, const Form& form, std::span<const double> x) {
   const std::vector<double> f = felt(held.pressure, form.friction ? x[2] : 0.0);
   std::vector<double> out;
@@ -144,7 +144,7 @@ Candidate candidate_of(const Held& held, const Form& form) {
   return out;
 }
 
-// Ten stretches of time, of which every second one is left out, by turns.
+// Splits the time into ten stretches. Every second one is left out in each of two trials.
 Trial trial_of(const Held& held) {
   Trial out{.measured = {held.force.begin(), held.force.end()}, .rows = held.rows};
   out.cross_validates = true;
@@ -157,7 +157,7 @@ Trial trial_of(const Held& held) {
   return out;
 }
 
-// Does the pressure go down again by more than a tenth of its range?
+// Returns whether the pressure falls again by more than a tenth of its range.
 bool vents(std::span<const double> pressure) {
   double highest = pressure[0], fall = 0;
   for (const double p : pressure) {
@@ -167,7 +167,8 @@ bool vents(std::span<const double> pressure) {
   return fall > 0.1 * (highest - *std::ranges::min_element(pressure));
 }
 
-// From one time constant of the slowest element on: what the pressure's own rise adds meanwhile.
+// Warns where the rise of the pressure itself explains a tenth or more of the force's growth after
+// one time constant of the slowest element: creep and pressure are then confounded.
 void warn_of_pressure(const Measured& m, const actuator::Creep& creep, Report& report) {
   const std::vector<double>&t = m["time"], &f = m["force"], &p = m["pressure"];
   const double slowest = *std::max_element(creep.time.begin(), creep.time.end());
@@ -185,7 +186,7 @@ void warn_of_pressure(const Measured& m, const actuator::Creep& creep, Report& r
       report.fits[0].fit.rmse_percent));
 }
 
-// Takes a recording apart, and tells what of it is not fitted.
+// Prepares a recording for the fit, and notes how many of its rows are not fitted.
 Held held_of(const Measured& data, Report& report) {
   Held out{.time = data["time"], .force = data["force"], .pressure = data["pressure"]};
   out.top = largest(data["pressure"]);

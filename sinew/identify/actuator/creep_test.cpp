@@ -1,4 +1,4 @@
-// Shares and times of creep come back from a hold; a pressure that still rises is told.
+// Shares and times of creep are identified from a hold; a pressure that still rises is reported.
 #include "sinew/identify/actuator/creep.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace sinew::identify::creep_test {
 namespace {
 
-// Integrated by small steps of actuator::creep_rate, not by what the fit uses.
+// Simulates by small steps of actuator::creep_rate, independently of the fit.
 Measured hold(double share, double tau, double rising, double noise, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0, noise);
@@ -59,8 +59,8 @@ TEST(Creep, APressureThatRisesOnIsTold) {
   EXPECT_NE(found.report.warnings[0].find("confounded"), std::string::npos);
 }
 
-// A muscle that is filled in six steps, held, and vented in six, for a minute; between the steps
-// the pressure rests. The friction is a play behind the pressure, written down from its two
+// A muscle that is filled in six steps, held, and vented in six, for a minute; between the
+// steps the pressure rests. The friction is a play behind the pressure, programmed from its two
 // conditions.
 Measured there_and_back(double half_width, double share, double tau, double noise, unsigned seed) {
   std::mt19937_64 random(seed);
@@ -103,11 +103,11 @@ TEST(Creep, AndFrictionComeBackTogetherFromFillHoldAndVent) {
     EXPECT_NEAR(found.hysteresis.half_width, 8e3, 1000);  // 4 of its deviations
   }
   for (const int covered : {half_width, share, time}) {
-    EXPECT_GE(covered, 35);  // of 40 trials; chance gives fewer once in 100 times
+    EXPECT_GE(covered, 35);  // of 40 trials; fewer by chance once in 100 times
   }
 }
 
-// Without one of them the vent is missed: that is what tells them apart.
+// Without one of the effects the vent does not fit, which separates them.
 TEST(Creep, AndFrictionAreToldApart) {
   EXPECT_EQ(identify_creep(there_and_back(8e3, 0, 4, 0.5, 1)).report.best().model, "friction");
   EXPECT_EQ(identify_creep(there_and_back(0, 0.06, 4, 0.5, 1)).report.best().model, "one");
@@ -115,8 +115,8 @@ TEST(Creep, AndFrictionAreToldApart) {
   EXPECT_EQ(identify_creep(there_and_back(0, 0, 4, 0.5, 1)).hysteresis.half_width, 0);
 }
 
-// Another recording of the same muscle lies in the bands as often as they say, where the pressure
-// rests: of the noise, and of what the form leaves.
+// The bands contain another recording of the same muscle as often as stated, where the pressure
+// rests, with the noise and the error of the law's form.
 TEST(Creep, BandsHoldAnotherRecording) {
   int in_68 = 0, in_95 = 0, all = 0;
   for (unsigned seed = 0; seed < 5; ++seed) {

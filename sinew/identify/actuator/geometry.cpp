@@ -26,8 +26,8 @@ struct Line {
   double at_zero = 0, slope = 0;
 };
 
-// L^2 = b^2 - (n pi)^2 D^2 is a straight line in D^2: through the median of the slopes of all
-// pairs, which no single point moves.
+// Fits L^2 = b^2 - (n pi)^2 D^2, a straight line in D^2, by the median of the slopes of all
+// pairs, which a single wrong point does not change.
 Line straight_line(const std::vector<double>& length, const std::vector<double>& diameter) {
   std::vector<double> slopes, at_zero;
   for (std::size_t i = 0; i < length.size(); ++i)
@@ -66,8 +66,9 @@ void refuse_thick(const Measured& data, const std::vector<double>& diameter, dou
       "a diameter above zero", "the thickness of one thread, or diameters in mm");
 }
 
-// Residuals are in diameters, which exist wherever the threads are longer than the mesh. One pair
-// that stands far off at the start was written down wrong: it counts little in the fit.
+// Residuals are in diameters, which exist wherever the thread is longer than the mesh. A
+// pair that is far off at the start is probably a typing error and is given little weight in the
+// fit.
 Candidate candidate_of(const std::vector<double>& length, const std::vector<double>& diameter,
                        double thread, double turns) {
   Candidate out{.model = "braid", .law = "L^2 + (n pi D)^2 = b^2", .source = "[1]-[4]"};

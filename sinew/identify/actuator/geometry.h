@@ -1,13 +1,13 @@
-// identify/actuator/geometry.h - thread length and turns of a braid, from what can be seen without
+// identify/actuator/geometry.h - thread length and turns of a braid from measurements without
 // pressure.
 //
-// Either the opened mesh is counted, [14]-[18] (actuator/braid.h: braid_from_trapezoids), or length
-// and diameter are measured at several lengths, [1]-[4]:
+// Either threads of the opened mesh are counted, [14]-[18] (actuator/braid.h:
+// braid_from_trapezoids), or length and diameter are measured at several lengths, [1]-[4]:
 //
 //   L^2 + (n pi D)^2 = b^2        b thread length [m], n turns [-], D diameter of the mesh [m]
 //
-// A caliper meets the outside of the threads; `thread_thickness` is taken off the diameter once
-// (half a thread on either side).
+// A caliper measures the outside of the threads: `thread_thickness` is subtracted from the diameter
+// once (half a thread on either side).
 #pragma once
 
 #include <span>
@@ -18,17 +18,17 @@
 
 namespace sinew::identify {
 
-// Columns `length` and `diameter`.
+// Returns the columns that are used: `length` and `diameter`.
 std::span<const Wanted> geometry_columns();
 
-// The braid that was found, and how well it fits.
+// The identified braid, and the quality of the fit.
 struct GeometryResult {
   actuator::Braid braid;
   Report report;
 };
 
-// Residuals are of the diameter at the measured length  [m]. Throws Refusal if the lengths do not
-// differ enough to tell b from n.
+// Fits a braid to the diameters at the measured lengths [m]. Throws Refusal if the lengths differ
+// too little to separate b from n.
 GeometryResult identify_geometry(const Measured& data, double thread_thickness = 0);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-// A braid's lengths and diameters give back its thread and turns.
+// The thread and turns of a braid are identified from lengths and diameters.
 #include "sinew/identify/actuator/geometry.h"
 
 #include <gtest/gtest.h>
@@ -63,8 +63,8 @@ TEST(Geometry, OneWrongDiameterIsToldAndHardlyHeard) {
   }
 }
 
-// The outside of the threads, a caliper's, is wider than the circle they lie on. Untold it makes a
-// braid of fewer turns.
+// A caliper measures the outside of the threads, wider than the circle of their centers. Without a
+// correction the braid has fewer turns.
 TEST(Geometry, TheOutsideTakenForTheMeshLosesTurns) {
   const Measured outside = pairs(1, 0, 8, 5e-4);
   EXPECT_LT(identify_geometry(outside).braid.turns, 0.98 * truth.turns);
@@ -94,7 +94,7 @@ TEST(Geometry, OneLengthAndSwappedColumnsAreRefused) {
   for (std::size_t i = 0; i < 6; ++i) wild.columns[1].values[i] *= i % 2 == 0 ? 1.5 : 0.6;
   EXPECT_THROW(identify_geometry(wild), Refusal);
 
-  // An ellipse of lengths and diameters is one the other way round too, of hardly any turns.
+  // An ellipse of lengths and diameters is also one with exchanged axes, with hardly any turns.
   Measured swapped = pairs(1, 0, 5);
   std::swap(swapped.columns[0].values, swapped.columns[1].values);
   EXPECT_THROW(identify_geometry(swapped), Refusal);

@@ -28,33 +28,33 @@ namespace sinew::identify {
 
 namespace {
 
-// --- points of which no law can be true: a slipped decimal, a ---
+// --- gross outliers ---
 
-// A point that no law explains, and what the law of the others has in its place.
+// A point that no law explains, and the force that the law of the other points has there.
 struct Outlier {
   std::size_t point = 0;  // its index
   double law = 0;         // force of that law there [N]
-  std::string why;        // what would explain it
+  std::string why;        // probable cause
 };
 
-// Points that are wrong, and how far from the law a point may lie  [N].
+// Gross outliers, and the distance from the law beyond which a point is one [N].
 struct Outliers {
   std::vector<Outlier> points;
   double limit = 0, scatter = 0;
 };
 
-// --- what would explain a point that no law does: a slipped ---
+// --- probable causes of a gross outlier ---
 
-constexpr double near_scatters = 3, near_share = 0.01;  // of the largest force
-constexpr double other_mount = 0.004;  // of the longest length: less is the same one
+constexpr double near_scatters = 3, near_share = 0.01;  // share of the largest force
+constexpr double other_mount = 0.004;  // share of the longest length; closer: same mount
 
-// One thing that may have happened to a number.
+// A possible error of a recorded value.
 struct Slip {
   double factor;
   std::string_view words;
 };
 
-// The force that was written down is the true one times this.
+// The recorded force is the true one multiplied with this factor.
 constexpr Slip of_force[] = {{-1, "its sign is the other one"},
                              {10, "ten times what the law has: a slipped decimal"},
                              {0.1, "a tenth of what the law has: a slipped decimal"},
@@ -66,7 +66,7 @@ constexpr Slip of_force[] = {{-1, "its sign is the other one"},
                              {1 / 4.4482216, "what the law has over 4.45: lbf in place of N"},
                              {1 / 9.80665, "what the law has over 9.81: kg in place of N"}};
 
-// The pressure that was written down is the true one times this.
+// The recorded pressure is the true one multiplied with this factor.
 constexpr Slip of_pressure[] = {
     {10, "as at a tenth of its pressure: a slipped decimal"},
     {0.1, "as at ten times its pressure: a slipped decimal"},
@@ -75,17 +75,18 @@ constexpr Slip of_pressure[] = {
     {6.894757, "as at its pressure over 6.89: kPa in place of psi"},
     {1 / 6.894757, "as at 6.89 times its pressure: psi in place of kPa"}};
 
-// Looks for the explanation that comes nearest.
+// Finds the cause that explains a reading best.
 class SlipSearch {
  public:
-  // `within`: how near is near enough  [N].
+  // `within`: largest distance from the law that counts as explained [N].
   SlipSearch(const StaticFit& fit, const StaticScales& scales, double within)
       : fit_(fit), scales_(scales), within_(within), least_(within) {}
 
-  // Would the law have the measured force there, were the point this one and the force so?
+  // Compares the law at the point `as` with a force [N], and keeps `words` if it is the nearest so
+  // far.
   void ask(const StaticPoint& as, double force, std::string words) {
     const double law = predicted(fit_.setting, scales_, as);
-    if (law < 2 * within_) return;  // no force says nothing of where it was read
+    if (law < 2 * within_) return;  // near zero force every cause fits
     const double off = std::abs(law - force);
     if (off > least_) return;
     least_ = off;
@@ -101,8 +102,8 @@ class SlipSearch {
   std::string words_;
 };
 
-// Returns it in words; `fit` is the law of the other points, `points` are all of them, `scatter` is
-// how far they lie from it  [N].
+// Returns the probable cause of an outlier in words. `fit` is the law of the other points,
+// `points` are all points, `scatter` is the scatter of the points about the law [N].
 std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
                            const StaticScales& scales, std::span<const StaticPoint> points,
                            double scatter) {
@@ -140,7 +141,7 @@ std::vector<double> distances(const StaticFit& fit, const StaticScales& scales,
   return out;
 }
 
-// Every other law is one of these with a term left out, or the kin of one (series).
+// Every other law is a special case of one of these, or similar to one (series).
 constexpr std::string_view freest[] = {"wall",
                                        "taper",
                                        "elastic-linear",
@@ -148,13 +149,13 @@ constexpr std::string_view freest[] = {"wall",
                                        "saturating-effectiveness",
                                        "saturating-end-caps"};
 
-// A law, and how far each point lies from it.
+// A fitted law, and the distance of each point from it.
 struct Closest {
   StaticFit fit;
-  std::vector<double> distances;  // empty: there is none
+  std::vector<double> distances;  // empty: no law could be fitted
 };
 
-// The law that most points are closest to, among the freest or among all others.
+// Returns the law with the smallest median distance, among the freest laws or among all others.
 Closest closest_of(bool free, const std::vector<StaticPoint>& points, const StaticScales& scales) {
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
@@ -176,13 +177,13 @@ Closest closest_of(bool free, const std::vector<StaticPoint>& points, const Stat
   return closest;
 }
 
-// The same; the simpler laws only where the data are too few for the freest.
+// Returns the closest of the freest laws, or of the simpler ones if the data are too few for those.
 Closest the_closest(const std::vector<StaticPoint>& points, const StaticScales& scales) {
   const Closest free = closest_of(true, points, scales);
   return free.distances.empty() ? closest_of(false, points, scales) : free;
 }
 
-// The largest force that is not alone: what one wild point says does not count.
+// Returns the 90th percentile of the forces, which single wild points do not change.
 double common_force(const std::vector<StaticPoint>& points) {
   std::vector<double> forces;
   for (const StaticPoint& p : points) forces.push_back(p.force);
@@ -191,10 +192,9 @@ double common_force(const std::vector<StaticPoint>& points) {
   return *at;
 }
 
-// Returns points further from a law than 8 scatters and 5 % of the largest force. The law is the
-// one that most points lie closest to: of all models, fitted with outliers counting little, the one
-// with the smallest median distance. None where they would be more than one in ten: then it is not
-// the points that are wrong.
+// Returns the points further from a law than 8 scatters and 5 % of the largest force. The law is
+// the one of all models, fitted robustly, with the smallest median distance. Returns no points if
+// they would be more than one in ten: then the law is wrong, not the points.
 Outliers gross_outliers(const std::vector<StaticPoint>& points, const StaticScales& scales) {
   if (points.empty()) return {};
   StaticScales common = scales;
@@ -216,13 +216,13 @@ Outliers gross_outliers(const std::vector<StaticPoint>& points, const StaticScal
 
 using Points = std::vector<StaticPoint>;
 
-// At their bounds these do not make another law of a law. Zero is an answer for branches that lie
-// on each other and for ends that take nothing or do not give way. The braid's thread at the
-// shortest that a braid can have still fits where the data are; describe() tells it.
+// These parameters may be at a bound without disqualifying a law. Zero is a valid result for
+// branches that coincide and for ends that take no length or do not give way. A thread at the
+// shortest length of a braid still fits within the data; describe() notes it.
 constexpr std::string_view may_be_at_bound[] = {"half_width", "width_per_pressure", "end_loss",
                                                 "thread_length", "series_compliance"};
 
-// A muscle whose rest length nobody said has its longest length.
+// Gives muscles without a rest length the longest length of the points.
 void give_rest_length(Points& points, Report& report) {
   unite_labels(points);
   double longest = 0;
@@ -240,7 +240,7 @@ void give_rest_length(Points& points, Report& report) {
       fmt::format("no rest length given: the longest, {:.4g} mm, is taken for it", 1e3 * longest));
 }
 
-// A law that is used elsewhere must grow with the pressure.
+// Throws Refusal if the tension falls as the pressure rises: such a law cannot be used elsewhere.
 void refuse_falling(const StaticFit& fit, const StaticScales& scales) {
   double before = -1;
   for (int i = 0; i <= 100; ++i) {
@@ -254,7 +254,7 @@ void refuse_falling(const StaticFit& fit, const StaticScales& scales) {
   }
 }
 
-// Which muscles pull as others than their labels say.
+// Notes the muscles whose fitted rest length differs from their label.
 void tell_labels(const StaticFit& fit, Fit& out) {
   for (const RestLengthError& r : fit.setting.rest_lengths) {
     const Estimate* e = rest_length_estimate(fit, r.labelled);
@@ -301,8 +301,8 @@ void describe(const StaticFit& fit, Fit& out) {
                     fit.outliers, fit.solution.residuals.size(), fit.scatter));
 }
 
-// Returns what was held out by the points themselves, or every second pressure, or each length or
-// muscle once.
+// Returns the score of what was held out: the points that were marked so, every second pressure, or
+// each length or muscle in turn.
 std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const StaticSplit& s,
                               const std::vector<LeftOut>& muscles, HoldOut which,
                               double full_scale) {
@@ -361,7 +361,7 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
   return out;
 }
 
-// Tries the laws side by side.
+// Fits all laws in parallel.
 std::vector<Fit> try_all(const StaticSplit& s, const StaticScales& scales,
                          const StaticOptions& options, double full_scale,
                          std::vector<Best>& found) {
@@ -406,7 +406,7 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
   return s;
 }
 
-// Points that no law explains have no say in which is chosen.
+// Removes the points that no law explains, so that they do not influence the choice.
 StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
   const Outliers wild =
       gross_outliers(points, scales_of(points, options.atmosphere, options.braid));
@@ -434,10 +434,10 @@ StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, 
   return out;
 }
 
-// Chooses the rest length of a muscle's file, between its label and the length that the fit found
-// from the other muscles: the one with the smallest error on the muscle's rows at their labelled
-// lengths, because a user of the file measures those. In the fit an error of the label also moves
-// the mount at rest.
+// Chooses the rest length of a muscle's file, between its label and the length that the fit
+// found from the other muscles: the one with the smallest error on the muscle's rows at their
+// labelled lengths, because a user of the file measures those. In the fit an error of the label
+// also moves the mount at rest.
 void set_file(const StaticFit& fit, const StaticScales& scales, const Points& points,
               StaticMuscle& muscle) {
   constexpr int steps = 20;
@@ -483,7 +483,7 @@ std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& s
   return out;
 }
 
-// Notes which files miss their own rows by more than the fit does, which has another length for the
+// Notes the files whose error on their own rows is clearly larger than the fit's, which moves the
 // mount at rest.
 void note_files(const StaticResult& found, Report& report) {
   constexpr double more = 1.25;
@@ -501,7 +501,7 @@ void note_files(const StaticResult& found, Report& report) {
   }
 }
 
-// What the chosen one makes of the points it was not for: the other branch.
+// Notes the error of the common model on each muscle.
 void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points& points,
                   Report& report) {
   std::set<double> muscles;
@@ -523,7 +523,7 @@ void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points
   }
 }
 
-// Gives the law the volume of air that is known, and reports it.
+// Gives the law the known volume of air, and reports it.
 void set_air(const StaticOptions& options, StaticResult& out) {
   actuator::Actuator& a = out.fit.setting.actuator;
   const double rest = out.scales.rest_length;
@@ -532,7 +532,7 @@ void set_air(const StaticOptions& options, StaticResult& out) {
   const double known =
       options.volume > 0 ? options.volume : cylinder_volume(rest, options.diameter);
   if (!(known > 0)) {
-    if (options.braid) return;  // its geometry is
+    if (options.braid) return;  // the geometry determines it
     out.report.warnings.push_back(fmt::format(
         "the air at rest, {:.3g} cm3 by the force alone, is known from {:.3g} to {:.3g} cm3 only, "
         "and so are fill times and the use of air: state the diameter of the muscle at rest",

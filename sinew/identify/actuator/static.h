@@ -1,13 +1,13 @@
-// identify/actuator/static.h - the static law of an actuator from force, length and pressure: every
-// model is tried, the data choose.
+// identify/actuator/static.h - identification of an actuator's static law from force, length and
+// pressure. Every model is fitted, and the data choose one.
 //
-// Choice: each model predicts parts of the data it was not fitted to - pressures in four parts,
-// lengths one by one, the lowest and the highest of both left in - and the one with the fewest
-// parameters within 10 % of the smallest error (geometric mean over the kinds, and each) is taken.
-// Of several muscles each is left out once, too: that is the third kind.
-// A law of which a parameter stands at the bound of its range is none for the data and is not
-// chosen. The end lengths, predicted by the others, are told apart: that is extrapolation. What is
-// held out by the user (StaticPoint::fitted) has no part in it and tells how good the result is.
+// Choice: each model predicts parts of the data that it was not fitted to: pressures in four
+// parts and lengths one by one, both without the lowest and the highest, and each muscle in turn
+// if there are several. The model with the fewest parameters within 10 % of the smallest error
+// (geometric mean over these kinds, and each kind) is chosen. A law with a parameter at the
+// bound of its range does not describe the data and is not chosen. The end lengths, predicted from
+// the others, are reported separately, as extrapolation. Points that the user holds out
+// (StaticPoint::fitted) take no part in the choice and test the result.
 #pragma once
 
 #include <optional>
@@ -23,51 +23,51 @@
 
 namespace sinew::identify {
 
-// Which points judge the models: none; every second pressure, which is not fitted; each length
-// once, all others fitted; each muscle once.
+// Points that are held out to test the models: no points; every second pressure, which is then not
+// fitted; each length in turn; each muscle in turn.
 enum class HoldOut { none, pressure, length, muscle };
 
-// Holds what is known besides the points, and which models are tried.
+// Known quantities, and the models that are tried.
 struct StaticOptions {
   std::string subject = "static law";
   double atmosphere = units::atmosphere;  // [Pa]
-  std::optional<actuator::Braid> braid;   // known from elsewhere
-  double volume = 0;                      // of the reference's air at rest [m3]; 0: unknown
-  double diameter = 0;                    // of each muscle at rest [m]; 0: unknown
-  std::string model;                      // this one alone; empty: all
-  HoldOut hold_out = HoldOut::none;       // beside what the points say
+  std::optional<actuator::Braid> braid;   // known braid, not fitted
+  double volume = 0;                      // air of the reference muscle at rest [m3]; 0: unknown
+  double diameter = 0;                    // diameter of each muscle at rest [m]; 0: unknown
+  std::string model;                      // the only model to try; empty: all
+  HoldOut hold_out = HoldOut::none;       // in addition to StaticPoint::fitted
 
-  // Counts the laws that have been tried, for whoever watches; null: nobody does.
+  // Counts the laws that have been tried, for a progress display; may be null.
   host::Tally* tried = nullptr;
 };
 
-// One muscle's actuator, as a file would have it.
+// Actuator of one muscle, as it is written into its file.
 struct StaticMuscle {
   actuator::Actuator actuator;
   double rest_length = 0;  // as labelled [m]
-  double file_length = 0;  // rest length with which the law misses its own rows least [m]
-  double rms = 0, half_68 = 0, half_95 = 0;  // of what it misses them by [N]
-  std::vector<double> lengths;     // that were fitted, as labelled, in ascending order [m]
-  double lowest = 0, highest = 0;  // gauge pressures that were fitted [Pa]
+  double file_length = 0;  // rest length with the smallest error on its own rows [m]
+  double rms = 0, half_68 = 0, half_95 = 0;  // error on its own rows [N]
+  std::vector<double> lengths;               // fitted lengths as labelled, ascending [m]
+  double lowest = 0, highest = 0;            // fitted gauge pressures [Pa]
 };
 
-// The models that were fitted, and the muscles of the chosen one.
+// Fitted models, and the muscles of the chosen one.
 struct StaticResult {
   Report report;
-  std::vector<StaticMuscle> muscles;  // the reference, the longest, first
+  std::vector<StaticMuscle> muscles;  // the reference, which is the longest, first
   StaticScales scales;
-  StaticFit fit;                    // the chosen one, to all points that were to be fitted
-  StaticSpread spread;              // how far it was off where it had not seen the points
-  std::vector<StaticPoint> points;  // that were fitted
-  AirAtRest air;                    // of the reference
+  StaticFit fit;                    // chosen law, fitted to all points that are not held out
+  StaticSpread spread;              // errors on points that it was not fitted to
+  std::vector<StaticPoint> points;  // fitted points
+  AirAtRest air;                    // air of the reference muscle
 };
 
-// Throws Refusal where the data support no model, std::invalid_argument for a model that there is
-// not.
+// Identifies the static law. Throws Refusal if the data support no model or the model's name is
+// unknown.
 StaticResult identify_static(const StaticData& data, const StaticOptions& options);
 
-// Returns the file of one muscle, sinew.actuator/1: one of those that were fitted, or their like
-// (static_predict.h). `source` says where the data are from.
+// Returns the file of one muscle, sinew.actuator/1: a fitted muscle, or a similar one
+// (static_predict.h). `source` describes the origin of the data.
 std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
                         const std::string& name, const std::string& source,
                         const std::string& braid_source);

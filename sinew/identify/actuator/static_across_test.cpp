@@ -1,5 +1,5 @@
-// Muscles of one make predict each other, and intervals hold what they say, on measurements that
-// may not ship: read where SINEW_DATA_DIR has them.
+// Muscles of one make predict each other, and intervals have the stated coverage, on
+// measurements that may not be shipped: read from SINEW_DATA_DIR if set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string bins_file(const std::string& folder) {
   return data && std::filesystem::exists(path) ? path.string() : "";
 }
 
-// The fill branch of all muscles.
+// Returns the fill branch of all muscles.
 Points filling(const std::string& path) {
   Source source{.path = path, .drop_incomplete = true};
   source.names = {{"force", "F_mean_N"},
@@ -42,7 +42,7 @@ Points filling(const std::string& path) {
   return data.points;
 }
 
-// The muscle whose force map ships in data/.
+// Returns the muscle whose force map is in data/.
 Points dmsp() {
   Source source{.path = sinew::test::source_dir() +
                         "/data/martens_boblan_2017/DMSP-10-250_force_map.csv"};
@@ -54,9 +54,9 @@ Points dmsp() {
 }
 
 struct Other {
-  StaticResult found;  // of all muscles but one
-  Points unseen;       // of that one
-  double largest = 0;  // force of it [N]
+  StaticResult found;  // fitted to all muscles but one
+  Points unseen;       // points of that muscle
+  double largest = 0;  // its largest force [N]
 };
 
 Other without(const Points& points, double muscle, const std::string& model) {
@@ -69,7 +69,7 @@ Other without(const Points& points, double muscle, const std::string& model) {
   return out;
 }
 
-// Root mean square of what is missed, in % of the muscle's largest force.
+// Returns the root mean square error in % of the muscle's largest force.
 template <class Force>
 double missed(const Other& other, Force force) {
   double sum = 0;
@@ -77,7 +77,7 @@ double missed(const Other& other, Force force) {
   return 100 * std::sqrt(sum / static_cast<double>(other.unseen.size())) / other.largest;
 }
 
-// Share of the forces that lie in their 95 % interval.
+// Returns the share of forces within their 95 % interval.
 double held(const Other& other) {
   double in = 0;
   for (const StaticPoint& p : other.unseen) {
@@ -87,14 +87,14 @@ double held(const Other& other) {
   return 100 * in / static_cast<double>(other.unseen.size());
 }
 
-// Mean half-width of the 95 % intervals, in % of the muscle's largest force.
+// Returns the mean half-width of the 95 % intervals, in % of the muscle's largest force.
 double half_width(const Other& other) {
   double sum = 0;
   for (const StaticPoint& p : other.unseen) sum += predict(other.found, p).half_95;
   return 100 * sum / static_cast<double>(other.unseen.size()) / other.largest;
 }
 
-// Asked for: 5, 4 and 4 %.
+// Required: 5, 4 and 4 %.
 TEST(AcrossMuscles, MusclesOf10MmPredictEachOther) {
   const std::string path = bins_file("psu_10mm");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_10mm";
@@ -109,8 +109,9 @@ TEST(AcrossMuscles, MusclesOf10MmPredictEachOther) {
   }
 }
 
-// Asked for: the muscle of 98 mm within 5 % with one reading of its own, else its interval holds
-// it. Both others are far from it, and it comes within 5 % without a reading as well.
+// Required: the muscle of 98 mm within 5 % with one reading of its own, or else within its
+// interval. Both others have very different lengths, and it is within 5 % without a reading as
+// well.
 TEST(AcrossMuscles, TheShortMuscleOf20MmIsWithinItsInterval) {
   const std::string path = bins_file("psu_20mm");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
@@ -120,9 +121,9 @@ TEST(AcrossMuscles, TheShortMuscleOf20MmIsWithinItsInterval) {
   EXPECT_LE(missed(other, [&](const StaticPoint& p) { return predict(other.found, p).force; }), 5);
 }
 
-// A reading where the program advises it, at the longest mount and above nine tenths of the
-// pressures, makes each of the six muscles better; wherever above a third of the largest force it
-// is taken, it makes none worse by more than a third.
+// A reading as the program recommends, at the longest mount and above nine tenths of the pressures,
+// improves each of the six muscles; any reading above a third of the largest force makes none
+// worse by more than a third.
 TEST(AcrossMuscles, OneReadingCorrectsAMuscleThatWasNotFitted) {
   for (const char* folder : {"psu_10mm", "psu_20mm"}) {
     const std::string path = bins_file(folder);
@@ -163,8 +164,8 @@ TEST(AcrossMuscles, OneReadingCorrectsAMuscleThatWasNotFitted) {
   }
 }
 
-// The muscle that is labelled 225 mm is probably 228 mm (check/label_test.cpp). Asked for, with
-// that label: it and the one of 398 mm each from the other two within 6 %.
+// The muscle that is labelled 225 mm is probably 228 mm (check/label_test.cpp). Required with that
+// label: it and the one of 398 mm, each from the other two within 6 %.
 TEST(AcrossMuscles, MusclesOf20MmPredictEachOther) {
   const std::string path = bins_file("psu_20mm");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
@@ -183,9 +184,9 @@ TEST(AcrossMuscles, MusclesOf20MmPredictEachOther) {
   }
 }
 
-// Asked for: of three muscles the law that is chosen says by its cross-validation at least half of
-// what muscles left out are missed by. They have a part in it, so that it says as much by
-// construction; and not twice as much.
+// Required: for three muscles the cross-validated error of the chosen law is at least half of the
+// error on a muscle that is left out. As it includes such errors this holds by construction; it
+// must also be at most twice as large.
 TEST(AcrossMuscles, CrossValidationPromisesNoLessThanHalfOfAnUnseenMuscle) {
   for (const char* folder : {"psu_10mm", "psu_20mm"}) {
     const std::string path = bins_file(folder);
@@ -199,8 +200,8 @@ TEST(AcrossMuscles, CrossValidationPromisesNoLessThanHalfOfAnUnseenMuscle) {
   }
 }
 
-// Forces that were not seen, and those of them that lie in their interval: of the fit, and of the
-// file that is made of it.
+// Number of forces that were left out, and of those within their interval: of the fit, and of the
+// file made from it.
 struct Held {
   int all = 0, in = 0, by_file = 0;
 };
@@ -216,8 +217,8 @@ void expect_19_of_20(const Held& held) {
   EXPECT_NEAR(100.0 * held.by_file / held.all, 95, 3);
 }
 
-// Forces that a fit to all others finds in their 95 % interval, where the muscle pulls. A slack one
-// is read anywhere between -19 and 5 N, as its weight and the sensor's zero will have it.
+// Counts forces within the 95 % interval of a fit to all others, where the muscle pulls. Slack
+// readings are anywhere between -19 and 5 N, due to weight and the sensor's zero.
 template <class Fitted>
 Held held(const Points& muscle, Fitted fitted) {
   StaticData data;
@@ -238,7 +239,7 @@ Held held(const Points& muscle, Fitted fitted) {
   return out;
 }
 
-// Each length between the ends, from all others.
+// Predicts each length between the ends from all others.
 Held held_of_lengths(const Points& muscle) {
   std::set<double> lengths;
   for (const StaticPoint& p : muscle) lengths.insert(p.length);
@@ -251,7 +252,7 @@ Held held_of_lengths(const Points& muscle) {
   return out;
 }
 
-// Every second pressure from the others.
+// Predicts every second pressure from the others.
 Held of_dmsp_by_pressure() {
   const Points points = dmsp();
   std::set<double> all;
@@ -269,9 +270,9 @@ std::vector<Points> muscles_of(const Points& points) {
   return list;
 }
 
-// Seven muscles. Six are fitted at 100, 200 ... 600 kPa while filling, all other bins not seen;
-// the seventh at every second pressure; and each length between the ends of each is left out: the
-// 95 % intervals hold 92 to 98 % of all that was not seen.
+// Seven muscles. Six are fitted at 100, 200 ... 600 kPa while filling, with all other bins left
+// out; the seventh at every second pressure; and each length between the ends of each is left out.
+// The 95 % intervals contain 92 to 98 % of all that was left out.
 TEST(AcrossMuscles, IntervalsHoldWhatTheySayWithinMuscles) {
   const auto full = [](const StaticPoint& p) {
     return p.pressure > 5e4 && std::fmod(p.pressure + 12500, 1e5) < 25000;
@@ -294,8 +295,9 @@ TEST(AcrossMuscles, IntervalsHoldWhatTheySayWithinMuscles) {
   expect_19_of_20(lengths);
 }
 
-// The shortest length of each muscle of four or more, from the others: the law goes on beyond the
-// ends as far as it says. The longest, the mount at rest, is not told from shorter ones.
+// Predicts the shortest length of each muscle with at least four, from the others: the law
+// extrapolates with the stated accuracy. The longest, the mount at rest, is not predicted from
+// shorter ones.
 TEST(AcrossMuscles, IntervalsHoldBeyondTheShortestLength) {
   Held all;
   for (const char* folder : {"psu_10mm", "psu_20mm"}) {
@@ -314,7 +316,7 @@ TEST(AcrossMuscles, IntervalsHoldBeyondTheShortestLength) {
   EXPECT_GE(100.0 * all.by_file / all.all, 92);
 }
 
-// Of a muscle that is not mounted at its rest length nothing is told there.
+// Without a mount at rest no interval is given there.
 TEST(AcrossMuscles, TheMountAtRestIsNotToldFromShorterOnes) {
   StaticData data;
   const Points points = dmsp();
@@ -332,7 +334,7 @@ TEST(AcrossMuscles, TheMountAtRestIsNotToldFromShorterOnes) {
   EXPECT_TRUE(actuator::force_interval(file, 0.196, 5e5).known);
 }
 
-// The one that ships, by itself.
+// The shipped muscle alone.
 TEST(AcrossMuscles, IntervalsOfDmspHoldPressuresAndLengths) {
   Held both = of_dmsp_by_pressure();
   add(held_of_lengths(dmsp()), both);

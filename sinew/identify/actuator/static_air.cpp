@@ -13,14 +13,14 @@ double cylinder_volume(double length, double diameter) {
 }
 
 double give_volume(double rest_length, double volume, bool braid_is_known, actuator::Actuator& a) {
-  constexpr double most = 1.5;  // of an effectiveness of two thirds
+  constexpr double most = 1.5;  // corresponds to an effectiveness of two thirds
   a.air.offset = 0;
   const double fitted = actuator::volume(a, rest_length);
   const double kappa = braid_is_known || !(fitted > 0) ? 1 : std::clamp(volume / fitted, 1.0, most);
   a.braid.turns /= std::sqrt(kappa);
   a.wall.thickness *= std::sqrt(kappa);
   for (double* c : {&a.effectiveness.c0, &a.effectiveness.c1, &a.effectiveness.c2}) *c /= kappa;
-  // A difference that rounding leaves does not count.
+  // Ignore a difference due to rounding.
   const double left = volume - actuator::volume(a, rest_length);
   if (std::abs(left) > 1e-9 * volume) a.air.offset = left;
   return kappa;

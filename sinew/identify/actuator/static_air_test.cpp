@@ -1,4 +1,4 @@
-// The air in a muscle whose force was measured.
+// Volume of the air in a muscle identified from its force.
 #include "sinew/identify/actuator/static_air.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ StaticData measured(const StaticSetting& s) {
 }
 
 // A muscle that loses a tenth to a quarter of its ideal tension: its air is that of its geometry,
-// at rest and along the way, and its force is the one that the fit without the diameter has.
+// at rest and at other lengths, and its force is that of the fit without the diameter.
 TEST(StaticAir, TheDiameterGivesTheVolumeOfAMuscleWithLosses) {
   for (const double effectiveness : {0.9, 0.75}) {
     StaticSetting truth = test_muscle();
@@ -58,8 +58,8 @@ TEST(StaticAir, TheDiameterGivesTheVolumeOfAMuscleWithLosses) {
   }
 }
 
-// A thick wall leaves less air than the braid holds, and does not change by how much it changes. A
-// volume that was measured is taken in place of the cylinder's.
+// A thick wall leaves less air than the braid contains, but does not affect changes of volume. A
+// measured volume replaces the cylinder's.
 TEST(StaticAir, AThickWallIsAirThatIsNotThere) {
   const StaticData data = measured(test_muscle());
   const double braid = actuator::volume(test_muscle().actuator, rest);

@@ -19,16 +19,16 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double turn = 0.1;       // of the range of pressures: less is no turn of a branch
-constexpr int bins = 25;           // over the range of pressures
-constexpr std::size_t fewest = 3;  // samples in a bin
-constexpr double largest_zero_force = 0.25;     // of the range of forces: more is no zero
-constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
-constexpr double same_pressure = 0.02;          // of the largest: no more is one pressure
-constexpr double same_force = 0.02;             // of their range: no more is one force
-constexpr double same_length = 0.01;            // of the length: no more is one mount
-constexpr int fewest_rests = 6;                 // of a recording that goes from level to level
-constexpr std::size_t most_omitted = 60;        // samples of a recording that are kept to be shown
+constexpr double turn = 0.1;  // share of the range of pressures; a smaller reversal ends no branch
+constexpr int bins = 25;      // over the range of pressures
+constexpr std::size_t fewest = 3;               // samples in a bin
+constexpr double largest_zero_force = 0.25;     // share of the range of forces
+constexpr double largest_zero_pressure = 0.05;  // share of the range of pressures
+constexpr double same_pressure = 0.02;    // share of the largest pressure; closer ones are the same
+constexpr double same_force = 0.02;       // share of the range of forces; closer ones are the same
+constexpr double same_length = 0.01;      // share of the length; closer ones are one mount
+constexpr int fewest_rests = 6;           // in a recording that steps from level to level
+constexpr std::size_t most_omitted = 60;  // samples of a recording that are kept for display
 
 constexpr std::pair<std::string_view, double> branch_words[] = {
     {"fill", 1.0}, {"vent", -1.0}, {"auf", 1.0}, {"ab", -1.0}};
@@ -79,7 +79,7 @@ std::vector<double> force_of(const Measured& m) {
   return out;
 }
 
-// Length of every row: a column, or what a contraction leaves of the rest length.
+// Returns the length of every row: a column, or the rest length less the contraction.
 std::vector<double> length_of(const Measured& m, const StaticInput& input) {
   if (m.has("length")) return m["length"];
   if (m.has("contraction")) {
@@ -97,7 +97,7 @@ std::vector<double> length_of(const Measured& m, const StaticInput& input) {
                 "names.length=NAME, or values.length=\"205 mm\"");
 }
 
-// A sensor at its upper end. At the lower one it may well stay: a slack muscle leaves it there.
+// Refuses a sensor at its upper limit. The lower limit is allowed: a slack muscle stays there.
 void refuse_full(const Measured& m, std::string_view column, const std::vector<double>& values) {
   const Clipping c = clipping(values);
   if (c.at_top == 0) return;
@@ -109,8 +109,8 @@ void refuse_full(const Measured& m, std::string_view column, const std::vector<d
       "readings within its range", "a sensor of a larger range, or less pressure");
 }
 
-// Among rows of one length force rises with the pressure; columns that are swapped, or a sign, do
-// the opposite, beyond what noise does. Rows of one force show nothing of it.
+// Refuses rows of one length whose force falls as the pressure rises, beyond noise: columns are
+// swapped or a sign is wrong. Rows at constant force are skipped, as they do not show this.
 void refuse_falling(const Measured& m, const std::vector<double>& force,
                     const std::vector<double>& length) {
   const std::vector<double>& p = m["pressure"];
@@ -137,7 +137,7 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
                   "names.force=NAME, if columns are swapped, or the sign of the force");
 }
 
-// Returns whether the muscle is pulled from length to length while the recording runs.
+// Returns whether the length of the muscle changes during the recording.
 bool is_sweep(const Measured& m, const std::vector<double>& length) {
   return m.has("time") && largest(length) - smallest(length) > same_length * median(length);
 }
@@ -155,7 +155,7 @@ void check(const Measured& m, const std::vector<double>& force, const std::vecto
   refuse_falling(m, force, length);
 }
 
-// Turning points of the pressure: rows at which a branch ends.
+// Returns the rows at which the pressure reverses: ends of the branches.
 std::vector<std::size_t> turns_of(const std::vector<double>& p, double least) {
   std::vector<std::size_t> out{0};
   std::size_t low = 0, high = 0;
@@ -179,7 +179,7 @@ std::vector<std::size_t> turns_of(const std::vector<double>& p, double least) {
   return out;
 }
 
-// Noise of single samples would make turns: the median of what is around each.
+// Returns running medians, so that the noise of single samples makes no turns.
 std::vector<double> smooth(const std::vector<double>& values) {
   constexpr std::size_t half = 7;
   std::vector<double> out(values.size());
@@ -190,7 +190,7 @@ std::vector<double> smooth(const std::vector<double>& values) {
   return out;
 }
 
-// What the sensors read before the pressure begins to rise.
+// Returns the zero readings: those before the pressure begins to rise.
 Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, StaticData& data,
                   const std::string& file) {
   const double lowest = smallest(p), range = largest(p) - lowest;
@@ -217,7 +217,7 @@ Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, St
   return zero;
 }
 
-// One branch, rows from ... to: its bins, of samples that have settled.
+// Adds the bins of one branch, rows `from` to `to`, from samples that have settled.
 void add_branch(const std::vector<double>& p, const std::vector<double>& f,
                 const std::vector<bool>& settled, std::size_t from, std::size_t to, double width,
                 const StaticPoint& like, StaticData& data) {
@@ -246,8 +246,9 @@ void add_branch(const std::vector<double>& p, const std::vector<double>& f,
   }
 }
 
-// Samples at rest, of a recording that goes from level to level. One whose pressure moves slowly
-// all the way has no levels: all of its samples are used, which is told.
+// Returns the samples at rest of a recording that steps from level to level. A recording whose
+// pressure moves slowly all the time has no levels: all of its samples are used, and a note reports
+// this.
 std::vector<bool> choose_samples(const Measured& m, const std::vector<double>& p,
                                  StaticData& data) {
   const Settled settled = settled_samples(m["time"], p);
@@ -266,7 +267,7 @@ std::vector<bool> choose_samples(const Measured& m, const std::vector<double>& p
   return settled.sample;
 }
 
-// Keeps some of the samples that were left out, evenly, to be shown.
+// Keeps an even selection of the samples that were left out, for display.
 void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
                  const std::vector<bool>& settled, const StaticPoint& like, StaticData& data) {
   const auto count = static_cast<std::size_t>(std::ranges::count(settled, false));
@@ -285,8 +286,8 @@ void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
   }
 }
 
-// Adds the points of a recording of a muscle that is pulled from length to length: where the
-// pressure rests, the medians of each step of length, of each level of the pressure, on each way.
+// Adds the points of a recording in which the muscle is pulled from length to length at resting
+// pressure: the median of each length step, at each pressure level, in each direction.
 void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
   const std::vector<double>& p = m["pressure"];
   const std::vector<double> l = length_of(m, input), f = force_of(m);
@@ -365,8 +366,8 @@ Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data
   return zero;
 }
 
-// Force where the muscle is slack: at one length, from the lowest pressure on, it stays. Median of
-// all such rows; 0 where there are too few.
+// Returns the force reading of the slack muscle: rows of one length, from the lowest pressure
+// up, whose force does not change. Median of all such rows; 0 if there are too few.
 double slack_force(const std::vector<double>& length, const std::vector<double>& p,
                    const std::vector<double>& f) {
   const double range = largest(p) - smallest(p), near = 0.005 * (largest(f) - smallest(f));
@@ -475,14 +476,14 @@ std::vector<int> groups_of(std::span<const double> values, double gap, double mo
 
 std::vector<int> mount_groups(std::span<const double> lengths, double gap, double widest) {
   const std::vector<int> chain = groups_of(lengths, gap, std::numeric_limits<double>::infinity());
-  std::map<int, std::pair<double, double>> ends;  // of each chain
+  std::map<int, std::pair<double, double>> ends;  // ends of each chain
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     auto& [first, last] = ends.try_emplace(chain[i], lengths[i], lengths[i]).first->second;
     first = std::min(first, lengths[i]);
     last = std::max(last, lengths[i]);
   }
-  // A sweep ends in a whole step, so that no group is narrower than the others.
-  std::vector<std::pair<int, int>> step;  // of each length its chain, and the step there
+  // A sweep is divided into whole steps, so that no group is narrower than the others.
+  std::vector<std::pair<int, int>> step;  // chain and step of each length
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const auto [first, last] = ends.at(chain[i]);
     const double width = last - first;

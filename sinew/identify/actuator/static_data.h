@@ -1,11 +1,11 @@
-// identify/actuator/static_data.h - force at a length and a pressure: tables, or recordings of a
-// muscle that is filled and vented at one length.
+// identify/actuator/static_data.h - readings of force at a length and a pressure: from tables,
+// or from recordings of a muscle that is filled and vented at one length.
 //
-// A table has one point per row. A recording (a `time` column) is cut into branches at the turns of
-// its pressure, each branch into bins of pressure, each bin is its median: outliers and the noise
-// of thousands of samples go, and no bin is made by hand. Zeros: a recording begins vented, so what
-// the sensors read there is their zero, unless it is too much to be one; a table tells the force's
-// zero by its slack rows, where force does not ask for the pressure.
+// A table has one point per row. A recording (it has a `time` column) is cut into branches where
+// its pressure reverses, each branch into pressure bins; a bin's point is its median, which
+// removes outliers and noise. Zeros: a recording begins vented, and the readings there are the
+// sensors' zeros unless they are too large for that. The force zero of a table comes from its slack
+// rows, in which the force does not depend on the pressure.
 #pragma once
 
 #include <span>
@@ -16,30 +16,30 @@
 
 namespace sinew::identify {
 
-// Did the pressure fall or rise before the reading?
+// Direction of the pressure before the reading: fill is rising, vent is falling.
 enum class Branch { vent = -1, unknown = 0, fill = 1 };
 
 // A reading at rest.
 struct StaticPoint {
-  double length = 0;       // [m]
-  double pressure = 0;     // gauge, zero taken off [Pa]
-  double force = 0;        // zero taken off [N]
-  double rest_length = 0;  // of its muscle; 0: not known [m]
+  double length = 0;       // gauge, zero subtracted [Pa]
+  double pressure = 0;     // zero subtracted [N]
+  double force = 0;        // rest length of its muscle [m]; 0: unknown
+  double rest_length = 0;  // rest length of its muscle [m]; 0: unknown
   Branch branch = Branch::unknown;
   bool fitted = true;  // false: held out
 };
 
 struct Zero {
-  double force = 0, pressure = 0;  // what the sensors read without force, without pressure
-  std::string from;                // "the vented start", empty: not taken off
+  double force = 0, pressure = 0;  // readings without load and without pressure
+  std::string from;                // e.g. "the vented start"; empty: not subtracted
 };
 
 // Readings that are not among the points, for one reason.
 struct StaticOmitted {
   std::string reason, told_by;      // as in identify/fit/evidence.h
-  std::size_t count = 0;            // how many they are
-  std::vector<StaticPoint> points;  // some of them, where they are many
-  std::vector<std::string> why;     // of each of these; may be empty
+  std::size_t count = 0;            // number of readings
+  std::vector<StaticPoint> points;  // these readings, or a selection
+  std::vector<std::string> why;     // cause for each of `points`; may be empty
 };
 
 struct StaticData {
@@ -47,37 +47,37 @@ struct StaticData {
   std::vector<StaticOmitted> left_out;
   std::vector<std::string> notes, warnings;
 
-  // Returns those of a reason, which may be new.
+  // Returns the readings left out for a reason, adding an entry if it is new.
   StaticOmitted& omitted(const std::string& reason, const std::string& told_by);
 };
 
-// Holds what is known of a file's points beside its columns.
+// Properties of a file's points that are not in its columns.
 struct StaticInput {
-  double rest_length = 0;  // 0: not known [m]
+  double rest_length = 0;  // 0: unknown [m]
   bool fitted = true;
 };
 
-// force or load, pressure; length or contraction, rest_length, branch, time where there are such
-// columns.
+// Returns the columns that are used: force or load, pressure; length or contraction, and
+// rest_length, branch and time if present.
 std::span<const Wanted> static_columns();
 
-// Adds a file's points. Throws Refusal for files that no static model can be had from: a clipped
-// sensor, a pressure that never changes, no length.
+// Adds a file's points. Throws Refusal for files that cannot give a static model: a clipped sensor,
+// a constant pressure, no length.
 Zero add_points(const Measured& measured, const StaticInput& input, StaticData& data);
 
-// One order, whatever that of the rows was.
+// Sorts the points, so that the result does not depend on the order of the rows.
 void sort_points(std::vector<StaticPoint>& points);
 
-// Groups of values that differ by less than `gap`; where one group would be wider than `most`,
-// equal steps of `most`/2 instead. The group of each value, counted from the smallest.
+// Returns the group of each value, counted from the smallest. Values that differ by less than
+// `gap` are one group; a group wider than `most` is divided into equal steps of about `most`/2.
 std::vector<int> groups_of(std::span<const double> values, double gap, double most);
 
 // Readings of one mount differ by less than this share of the longest length.
 inline constexpr double widest_mount = 0.02;
 
-// Returns the group of each length, counted from the smallest: those that differ by less than `gap`
-// are of one mount, unless their chain is wider than `widest`. Such a chain is a sweep, and is
-// parted in equal steps of about widest/2.
+// Returns the group of each length, counted from the smallest. Lengths that differ by less
+// than `gap` are of one mount, unless their chain is wider than `widest`. Such a chain is a
+// sweep, which is divided into equal steps of about widest/2.
 std::vector<int> mount_groups(std::span<const double> lengths, double gap, double widest);
 
 }  // namespace sinew::identify

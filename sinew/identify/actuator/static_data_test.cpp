@@ -1,4 +1,4 @@
-// Tables and recordings become points: units, branches, zeros; what cannot be used is refused.
+// Tables and recordings become points, with units, branches and zeros; unusable ones are refused.
 #include "sinew/identify/actuator/static_data.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ double force_at(double length, double pressure) {
                    {.length = length, .pressure = pressure, .rest_length = rest});
 }
 
-// Filled for 20 s, vented for 10, 200 Hz; vented and at rest before.
+// Filled for 20 s, vented for 10 s, 200 Hz; vented and at rest before.
 std::string recording(double length, double zero_force, double zero_kpa, unsigned seed,
                       double clip = 1e9) {
   std::mt19937_64 random(seed);
@@ -55,7 +55,7 @@ Measured read(const std::string& text, Source source = {.path = "muscle.csv"}) {
   return parse_measured(text, source, static_columns());
 }
 
-// A file of one length.
+// Reads a file of one length.
 Measured read_at(double length, const std::string& text) {
   return read(text, {.path = "muscle.csv", .values = {fmt::format("length={} m", length)}});
 }
@@ -91,7 +91,7 @@ TEST(StaticData, BranchesAndZerosOfARecordingAreFound) {
   }
 }
 
-// The same law, whatever the sensors' zeros.
+// Checks that the sensors' zeros do not change the law.
 TEST(StaticData, ZerosDoNotMatterToTheParameters) {
   const auto identify = [](double f0, double p0) {
     StaticData data;
@@ -137,7 +137,7 @@ TEST(StaticData, SlackRowsOfATableTellTheZeroOfTheForce) {
   }
 }
 
-// What hangs on the muscle pulls with its weight.
+// A hanging mass pulls with its weight.
 TEST(StaticData, MassesAreWeighed) {
   StaticData data;
   add_points(read("load [kg],length [mm],pressure [kPa gauge]\n1,200,100\n2,210,200\n"), {}, data);
@@ -181,7 +181,7 @@ TEST(StaticData, ASweepOfLengthsIsNoMountAndAMountIsOneWhateverItsReadings) {
   EXPECT_TRUE(std::ranges::is_sorted(all.begin() + 40, all.end()));
 }
 
-// A tensile machine pulls at constant pressure: 205 to 249.8 mm in steps of 0.8 mm at three
+// A tensile testing machine pulls at constant pressure: 205 to 249.8 mm in steps of 0.8 mm at three
 // pressures.
 TEST(StaticData, ASweepOfLengthsGivesTheBraid) {
   const actuator::Braid braid{.thread_length = 0.3, .turns = 2.2};
@@ -202,7 +202,7 @@ TEST(StaticData, ASweepOfLengthsGivesTheBraid) {
   EXPECT_NEAR(found["turns"], braid.turns, 1e-4);
 }
 
-// --- what cannot be used says why ---
+// --- refusals state their reason ---
 
 void expect_refused(const std::string& message, std::initializer_list<const char*> words) {
   for (const char* word : words)
@@ -228,7 +228,7 @@ TEST(StaticRefusal, TooFewPoints) {
                  {"3 points", "at least", "more measurements"});
 }
 
-// Rigs write the contraction as often as the length.
+// Test rigs report the contraction as often as the length.
 TEST(StaticData, AContractionCountsFromTheRestLength) {
   const auto lengths = [](const std::string& text, const StaticInput& input) {
     StaticData data;
@@ -248,7 +248,7 @@ TEST(StaticData, AContractionCountsFromTheRestLength) {
                                ",rest_length [mm]\n0,100,100,250\n10,100,50,250\n"
                                "20,200,60,250\n",
                            {});
-  // A contraction is ignored where there is a length, whatever its unit.
+  // A contraction is ignored if there is a length, in any unit.
   const auto both = lengths(
       "length [mm]," + std::string("contraction [mm],pressure [kPa gauge],"
                                    "force [N]\n250,0,100,100\n225,25,100,50\n200,50,200,60\n"),
@@ -294,7 +294,7 @@ TEST(StaticRefusal, ASensorAtItsEnd) {
   }
 }
 
-// Pulled out and let back at a pressure that a regulator keeps: an ideal braid, with noise.
+// Stretched and released at a regulated pressure: an ideal braid, with noise.
 std::string sweep(double gauge, double pressure_noise) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, 1);
@@ -308,7 +308,7 @@ std::string sweep(double gauge, double pressure_noise) {
   return text;
 }
 
-// A length sweep that is recorded is read as it is: a file for each pressure.
+// A recorded length sweep needs no preparation: one file for each pressure.
 TEST(StaticData, ASweepOfLengthsIsARecordingToo) {
   StaticData data;
   for (const double gauge : {2e5, 4e5, 6e5})
@@ -333,7 +333,7 @@ TEST(StaticRefusal, ASweepOfTooFewRows) {
   expect_refused(refusal_of(text), {"a length that changes, in 10 rows", "slower sweep"});
 }
 
-// The noise of a regulated pressure is no second one.
+// Noise of a regulated pressure does not make a second pressure.
 TEST(StaticData, ASweepAtOnePressureHasOne) {
   StaticData data;
   add_points(read(sweep(4e5, 1)), {.rest_length = 0.25}, data);

@@ -14,7 +14,7 @@ namespace sinew::identify {
 
 namespace {
 
-// Uncertainty of the polynomial is told in its source: a key has one, this has up to three values.
+// Returns the source text of the polynomial with its uncertainty: one key holds up to three values.
 std::string polynomial_source(const StaticFit& fit, const std::string& source) {
   std::string out = source;
   for (std::size_t i = 0; i < fit.knobs.size(); ++i) {
@@ -25,7 +25,7 @@ std::string polynomial_source(const StaticFit& fit, const std::string& source) {
   return out;
 }
 
-// Estimates are the reference's: another muscle's are larger or smaller with it.
+// Scales an estimate of the reference muscle to the value of another muscle.
 Estimate scaled_estimate(const Estimate& e, double value) {
   Estimate out = e;
   const double ratio = e.value != 0 ? value / e.value : 1;
@@ -35,7 +35,8 @@ Estimate scaled_estimate(const Estimate& e, double value) {
   return out;
 }
 
-// What no static measurement tells: ends as stiff as the thesis's, reached where the data end.
+// Adds ends, which a static measurement does not show: as stiff as in the thesis, reached at the
+// end of the data.
 void add_ends(double longest_measured, const std::string& path, actuator::Actuator& a,
               Provenance& provenance) {
   const double longest =
@@ -50,7 +51,7 @@ void add_ends(double longest_measured, const std::string& path, actuator::Actuat
       provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
 }
 
-// The rest length with what it may be off, where it was fitted and that is known.
+// Adds the rest length, with its uncertainty if it was fitted and that is known.
 void add_rest_length(const StaticResult& result, const StaticMuscle& muscle,
                      const std::string& path, const std::string& source, Provenance& provenance) {
   const std::string key = path + "prediction.rest_length";
@@ -91,11 +92,11 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   if (a.effectiveness.scale != 1)
     provenance.given(path + "effectiveness.scale", source + "; the rest length's effect");
 
-  // Outside what was measured the laws are held.
+  // The laws are held constant outside the measured range.
   const double shortest = muscle.lengths.front(), longest = muscle.lengths.back();
   a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
   a.effectiveness.valid_to = muscle.highest;
-  a.bladder.valid_from =  // the braid is shorter than the muscle where ends give way
+  a.bladder.valid_from =  // braid_length(): ends that give way shorten the braid
       actuator::braid_length(a, shortest, muscle.highest, result.scales.atmosphere);
   a.bladder.valid_to = std::max(longest, shortest * 1.0001);
   provenance.given(path + "effectiveness.valid", "pressures in " + source);

@@ -25,13 +25,13 @@ namespace {
 
 // --- intervals of a static fit whose points scatter differently ---
 
-// Scatter differs from point to point: a length that is 0.1 mm off matters most where force is
-// steepest. Each point's own residual says how much (White's errors, with HC3's factor for the pull
-// that a point has on its own fit). Readings of one setting leave what the law leaves there, so
-// that they count together. Intervals that this makes wider become so; none narrower.
+// The scatter differs from point to point: a length error of 0.1 mm matters most where the
+// force is steepest. Each point's own residual is the measure (White's standard errors, with HC3's
+// correction for the leverage of a point). Readings of one setting share the law's error there, so
+// they are summed before squaring. Intervals are only widened, never narrowed.
 //
-// The first of `count` residuals are measurements, whose settings these are, the others what is
-// known beforehand. A residual beyond `outlier` scatters counts as that many.
+// The first of `count` residuals are measurements with these settings, the others are priors. A
+// residual beyond `outlier` scatters counts as that many.
 void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::size_t count,
            std::span<const int> settings, double scatter, double outlier, Solution& solution) {
   const std::size_t n = solution.values.size();
@@ -46,10 +46,10 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
   const auto setting = [&](std::size_t r) {
     return r < points ? static_cast<std::size_t>(settings[r]) : r;
   };
-  std::vector<double> leverage(count);  // of each setting
+  std::vector<double> leverage(count);  // leverage of each setting
   for (std::size_t r = 0; r < points; ++r)
     for (std::size_t i = 0; i < n; ++i) leverage[setting(r)] += pull(r, i) * j(r, i);
-  Matrix moved(count, n);  // what each setting's misses move a parameter by, in its scale
+  Matrix moved(count, n);  // change of each parameter due to each setting's residuals, in its scale
   for (std::size_t r = 0; r < count; ++r) {
     double off = r < points ? solution.residuals[r] : scatter;
     off = std::clamp(off, -outlier * scatter, outlier * scatter);
@@ -74,10 +74,10 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
   }
 }
 
-constexpr double slack_below = 0.005;  // of the full scale
+constexpr double slack_below = 0.005;  // share of the full scale
 constexpr double first_scatter = 0.005, least_scatter = 0.001, most_scatter = 0.02;
-constexpr double outlier = 4;        // scatters
-constexpr double prior_rules = 0.6;  // of its deviation: an error that is larger says nothing new
+constexpr double outlier = 4;        // in scatters
+constexpr double prior_rules = 0.6;  // share of the prior deviation; larger: no information
 
 class Problem {
  public:
@@ -109,7 +109,7 @@ class Problem {
     return out;
   }
 
-  // The values of a setting.
+  // Returns the parameter values of a setting.
   std::vector<double> values(const StaticSetting& setting) const {
     std::vector<double> out;
     StaticSetting from = setting;
@@ -140,7 +140,7 @@ class Problem {
  private:
   bool has_labels() const { return parameters_.size() > knobs_.size(); }
 
-  // Returns the sum of delta/L_0.
+  // Returns the sum of e_L/L_0.
   double in_common(std::span<const double> values) const {
     double sum = 0;
     std::size_t i = knobs_.size();
@@ -169,12 +169,13 @@ class Problem {
         by[++i * r.size() - 1] = scatter / (label.labelled * common_deviation);
   }
 
-  // Points below `slack` may be slack: a law that pushes there is no worse than one that ends.
+  // Clips the law at zero for points below `slack`, which may be slack: a law that pushes there is
+  // as good as one that ends.
   void fill_points(std::span<const double> values, double slack, std::span<double> r,
                    std::span<double> by) const {
     const StaticSetting at = setting(values);
     ForceSlopes slopes;
-    std::size_t i = 0, own = knobs_.size();  // of the parameters, the error of the muscle's label
+    std::size_t i = 0, own = knobs_.size();  // parameter index of the error of the muscle's label
     for (const RestLengthError& label : labels_) {
       const MuscleLaw law(at, scales_, label.labelled);
       for (; i < points_.size() && points_[i].rest_length == label.labelled; ++i) {
@@ -196,11 +197,11 @@ class Problem {
   std::span<const StaticPoint> points_;
   const StaticScales& scales_;
   std::vector<RestLengthError> labels_;
-  std::vector<Parameter> parameters_;  // of the knobs, of doubted labels
+  std::vector<Parameter> parameters_;  // free parameters, then doubted labels
   std::vector<std::optional<Prior>> priors_;
 };
 
-// Spread of what the fit leaves, of the points that are taut.
+// Returns the scatter of the residuals of taut points.
 double scatter_of(std::span<const double> residuals, std::span<const StaticPoint> points,
                   const StaticScales& scales) {
   std::vector<double> taut;
@@ -210,7 +211,7 @@ double scatter_of(std::span<const double> residuals, std::span<const StaticPoint
   return std::clamp(s, least_scatter * scales.full_scale, most_scatter * scales.full_scale);
 }
 
-// Starts: the likely values, with braids of two angles.
+// Returns the start values: the likely ones, with braids of two angles.
 std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters,
                                            const std::vector<Knob>& knobs) {
   std::vector<double> likely;
@@ -223,9 +224,9 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
   return out;
 }
 
-// An error that the data leave where its prior has it is told as not identifiable; all of them know
-// only how the muscles are beside each other. Where one stands at its bound the others stand for a
-// part of it, and nobody knows how far off they are.
+// Marks label errors that the data leave at their prior as not identifiable. If all are so, the
+// data show only how the muscles differ. If one is at its bound, the others absorb a part of its
+// error, and their intervals are unknown.
 void judge_labels(StaticFit& fit) {
   const bool wrong =
       std::any_of(fit.solution.estimates.begin() + static_cast<std::ptrdiff_t>(fit.knobs.size()),
@@ -361,9 +362,9 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
   StaticSetting ideal = setting_of(scales);
   if (!scales.braid) ideal = fit_static({Knob::thread_length, Knob::turns}, points, scales).setting;
   of_braid.braid = ideal.actuator.braid;
-  ideal.rest_lengths.clear();  // the thesis believes its labels
+  ideal.rest_lengths.clear();  // the thesis does not correct labels
 
-  // Sums per nominal pressure, of what pulls.
+  // Sums per nominal pressure, over points that pull.
   std::vector<double> pressures;
   for (const StaticPoint& p : points) pressures.push_back(p.pressure);
   const double range = largest(pressures) - smallest(pressures);

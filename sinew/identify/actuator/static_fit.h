@@ -1,14 +1,13 @@
-// identify/actuator/static_fit.h - one static model, fitted to points of force, length and
-// pressure.
+// identify/actuator/static_fit.h - fit of one static model to points of force, length and pressure.
 //
 //   taut   r = F(L, p) - F_measured            slack   r = max(F(L, p), 0) - F_measured
 //
-// A slack point is censored: it says that the muscle does not pull, not how much it would push. So
-// counts whatever is within the scatter of no force. Two passes: the first finds how far the points
-// scatter (sigma, by its median), the second takes what is beyond 4 sigma for outliers and holds
-// every parameter to its prior, (value - mean)/deviation x sigma, which counts less beyond 4
-// deviations as a point does. Of several muscles the errors of their rest lengths are fitted as
-// well (static_labels.h).
+// A slack point is censored: it shows that the muscle does not pull, not how hard it would push.
+// All points within the scatter of zero force are treated so. Two passes: the first estimates the
+// scatter of the points (sigma, by the median), the second treats points beyond 4 sigma as outliers
+// and adds the priors, residuals (value - mean)/deviation x sigma, which like points have less
+// weight beyond 4 deviations. If there are several muscles, the errors of their rest lengths are
+// fitted as well (static_labels.h).
 #pragma once
 
 #include <span>
@@ -23,30 +22,30 @@ namespace sinew::identify {
 struct StaticFit {
   StaticSetting setting;
   std::vector<Knob> knobs;
-  Solution solution;          // of the knobs, of doubted rest lengths; residuals of points alone
-  double scatter = 0;         // s [N]
-  std::size_t outliers = 0;   // points beyond 4 s
-  std::vector<Knob> unknown;  // that the data leave where the prior has them
+  Solution solution;   // free parameters, then doubted rest lengths; residuals of points alone
+  double scatter = 0;  // sigma [N]
+  std::size_t outliers = 0;   // points beyond 4 sigma
+  std::vector<Knob> unknown;  // not determined by the data, at their prior
 };
 
-// Returns the estimate of a muscle's error; null where its label is believed.
+// Returns the estimate of a muscle's rest length error; null if its label is not doubted.
 const Estimate* rest_length_estimate(const StaticFit& fit, double labelled);
 
-// Returns the force at a length [m] at the pressure and on the branch of a point: below zero where
-// the muscle would push  [N].
+// Returns the force [N] at a length [m], at the pressure and on the branch of a point.
+// Negative where the muscle would push.
 double law_force(const actuator::Actuator& a, double length, const StaticPoint& point,
                  double atmosphere);
 
-// Force of a point, never negative  [N].
+// Returns the predicted force of a point [N], never negative.
 double predicted(const StaticSetting& setting, const StaticScales& scales,
                  const StaticPoint& point);
 
-// predicted - measured, of all points.
+// Returns predicted - measured force of every point [N].
 std::vector<double> misses(const StaticSetting& setting, const StaticScales& scales,
                            std::span<const StaticPoint> points);
 
-// Throws Refusal where there are too few points. `start`: a solution of the same knobs.
-// `tolerance`: see SolverOptions.
+// Fits the free parameters to the points. `start`: a solution with the same parameters.
+// `tolerance`: see SolverOptions. Throws Refusal if there are too few points.
 StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
                      const StaticScales& scales, const StaticFit* start = nullptr,
                      double tolerance = 1e-14);
@@ -55,8 +54,8 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
 Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
                const StaticScales& scales);
 
-// 2.3: the effectiveness of each nominal pressure by the ratio of sums, a parabola through them;
-// the braid is the given one, or that of an ideal fit.
+// Fits the method of the thesis, 2.3: the effectiveness at each nominal pressure as a ratio of
+// sums, with a parabola through them. The braid is the given one, or that of an ideal fit.
 StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& scales);
 
 }  // namespace sinew::identify

@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<StaticPoint>;
 
-// Of each group the mean of what its points have.
+// Returns the mean of a field for each group.
 std::vector<double> means(const Points& points, const std::vector<int>& group,
                           double StaticPoint::*what) {
   std::vector<double> sum(points.size() + 1), count(points.size() + 1);
@@ -28,7 +28,8 @@ std::vector<double> means(const Points& points, const std::vector<int>& group,
   return sum;
 }
 
-// A length, or a pressure, and its branch where it is known; of several muscles the muscle.
+// Returns the curve's name: a length or pressure, with the branch if known, and the muscle if
+// several.
 std::string branch_of(const StaticPoint& p, const std::string& own, bool several) {
   std::string out = several ? fmt::format("{:.0f} mm muscle, ", 1e3 * p.rest_length) : "";
   out += own;
@@ -69,7 +70,7 @@ int count_of(const std::vector<int>& groups) {
 }
 
 std::vector<int> setting_groups(const Points& points) {
-  constexpr double same_mount = 2e-3, same_pressure = 0.01;  // of the largest
+  constexpr double same_mount = 2e-3, same_pressure = 0.01;  // shares of the largest
   std::vector<double> length, pressure;
   for (const StaticPoint& p : points) {
     length.push_back(p.length);
@@ -101,7 +102,7 @@ std::vector<double> lengths_of(const Points& points, double rest_length) {
   }
   std::vector<double> out(mounts.begin(), mounts.end());
   if (out.empty()) return out;
-  // The ends are those of all readings: beyond them nothing was measured.
+  // The first and last are the extreme readings: beyond them nothing was measured.
   if (out.size() == 1 && *readings.begin() < *readings.rbegin()) out.push_back(out.front());
   out.front() = *readings.begin();
   out.back() = *readings.rbegin();

@@ -1,5 +1,5 @@
-// identify/actuator/static_groups.h - which points of a static test belong together: those of one
-// pressure, of one length; and how they are shown.
+// identify/actuator/static_groups.h - grouping of the points of a static test by pressure, length
+// and setting, and their rows in a report.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace sinew::identify {
 
-// The points that are fitted, and those that judge.
+// Points that are fitted, and points that test the fit.
 struct StaticSplit {
   std::vector<StaticPoint> fitted, held_out;
 };
 
-// Parts the points: those whose index `keep` takes are fitted.
+// Splits the points: those whose index satisfies `keep` are fitted.
 template <class Keep>
 StaticSplit split(const std::vector<StaticPoint>& points, Keep keep) {
   StaticSplit out;
@@ -25,30 +25,30 @@ StaticSplit split(const std::vector<StaticPoint>& points, Keep keep) {
   return out;
 }
 
-// Returns the sizes that start values and bounds go by: those of the points.
+// Returns the scales of start values and bounds, from the points.
 StaticScales scales_of(const std::vector<StaticPoint>& points, double atmosphere,
                        const std::optional<actuator::Braid>& braid);
 
-// Of each point its group, counted from the smallest.
+// Returns the group of each point, counted from the smallest pressure.
 std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
-// Lengths of different muscles are different lengths.
+// Returns the group of each point by length; different muscles have different groups.
 std::vector<int> length_groups(const std::vector<StaticPoint>& points);
 int count_of(const std::vector<int>& groups);
 
 // Returns the setting of each point, counted from 0: readings of one muscle and branch whose
-// lengths and pressures differ by what a mount and a gauge leave open. Together they are as much
-// evidence about a law as one of them, however many they are.
+// lengths and pressures differ within the accuracy of a mount and a gauge. Readings of one setting
+// together count as a single piece of evidence about a law.
 std::vector<int> setting_groups(const std::vector<StaticPoint>& points);
 
-// Returns the lengths of a muscle's mounts in ascending order, each the mean of its readings, the
-// first and the last the shortest and the longest reading of all  [m]. Empty: it has no point.
+// Returns the lengths of a muscle's mounts in ascending order [m], each the mean of its readings;
+// the first and last are the shortest and longest reading. Empty if the muscle has no points.
 std::vector<double> lengths_of(const std::vector<StaticPoint>& points, double rest_length);
 
-// The fitted points, then the others.
+// Returns the fitted points, then the others.
 std::vector<StaticPoint> all_points(const StaticSplit& split);
 
-// The fitted ones, then the others: over pressure with a curve per length, or over length with a
-// curve per pressure, whichever makes fewer.
+// Returns the rows of a report, the fitted points first: over pressure with a curve per length, or
+// over length with a curve per pressure, whichever gives fewer curves.
 Rows rows_of(const StaticSplit& split);
 
 }  // namespace sinew::identify

@@ -9,13 +9,13 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double nearest_mount = 0.02;  // of a rest length
+constexpr double nearest_mount = 0.02;  // share of the rest length
 constexpr double most_deviations = 10;
-constexpr double most_of_gap = 0.9;  // to the next mount: lengths keep their order
+constexpr double most_of_gap = 0.9;  // share of the gap to the next mount: keeps their order
 
 bool same(double a, double b) { return std::abs(a - b) < same_label; }
 
-// The bounds of one muscle's error; none where its label cannot be doubted.
+// Sets the bounds of one muscle's error; none if its label cannot be doubted.
 void set_bounds(std::span<const StaticPoint> points, RestLengthError& label) {
   const double rest = label.labelled, most = most_deviations * rest_length_deviation(rest);
   double below = most / most_of_gap, above = below;

@@ -1,5 +1,5 @@
-// identify/actuator/static_labels.h - rest lengths that may be labelled wrong, of several muscles
-// of one make: where the fittings begin is a matter of taste, and a ruler has its error.
+// identify/actuator/static_labels.h - errors in the labelled rest lengths of several muscles of one
+// make: where the fittings begin is a matter of convention, and rulers are not exact.
 //
 //   F = F(L', p; L_0 + e_L)    L' = L_0 + e_L at the mount that is labelled as the rest length,
 //                              L at the others
@@ -9,11 +9,11 @@
 //   sum e_L/L_0 = 0 +- 0.1 %   an error that all labels share is the law's error at rest, not one
 //                              of labels
 //
-// Both are priors that count less where the data insist, as all of them do (static_fit.h). As the
-// common part is held, an error is one beside the other muscles: its interval is wider by what the
-// mean of so many labels may be off. A label is doubted where the muscle has a mount at rest and
-// another one, none of them within 2 % of the label: of a sweep in small steps nobody can say which
-// of its lengths the label's error is in. One muscle alone has no e_L.
+// Both are priors, with less weight if the data contradict them strongly (static_fit.h). As the
+// common part is fixed, an error is relative to the other muscles: its interval includes the
+// uncertainty of the labels' mean. A label is doubted if the muscle has a mount at rest and another
+// mount, and none of the others is within 2 % of the label: in a sweep of small steps the error
+// cannot be assigned to one length. A single muscle has no e_L.
 #pragma once
 
 #include <span>
@@ -24,31 +24,31 @@
 
 namespace sinew::identify {
 
-// Standard deviation of sum delta/L_0 beforehand  [-].
+// Prior standard deviation of sum e_L/L_0 [-].
 inline constexpr double common_deviation = 1e-3;
 
-// Returns the standard deviation that delta has before the data are looked at  [m].
+// Returns the prior standard deviation of e_L [m].
 double rest_length_deviation(double labelled);
 
-// Is a length labelled as the rest length, within 0.2 %?
+// Returns whether a length equals the labelled rest length within 0.2 %.
 bool at_rest(double length, double rest_length);
 
-// Gives one value to labels that are the same within a micrometre, as 283 mm and 0.283 m are.
+// Makes labels that agree within a micrometre equal, such as 283 mm and 0.283 m.
 void unite_labels(std::vector<StaticPoint>& points);
 
-// Returns the muscles of the points in their order, no error in any; bounds where it is doubted.
+// Returns the muscles of the points in their order, with zero error, and with bounds if doubted.
 std::vector<RestLengthError> labels_of(std::span<const StaticPoint> points);
 
-// Returns how delta is searched. Its name is "rest_length_error_225mm".
+// Returns the search parameter of e_L, named like "rest_length_error_225mm".
 Parameter parameter_of(const RestLengthError& label);
 inline constexpr std::string_view rest_length_error = "rest_length_error_";
 
-// Widens the interval of a label's error by what the labels of all may be off together, of
-// `freedom`.
+// Widens the interval of a label's error by the common uncertainty of all labels. `freedom`:
+// degrees of freedom of the fit.
 void widen_by_common(std::span<const RestLengthError> labels, const RestLengthError& label,
                      int freedom, Estimate& estimate);
 
-// Returns the length of a point with its muscle's error, which a mount at rest has as well  [m].
+// Returns the length of a point, corrected by its muscle's error if it is the mount at rest [m].
 double fitted_length(const StaticSetting& setting, const StaticPoint& point);
 
 }  // namespace sinew::identify

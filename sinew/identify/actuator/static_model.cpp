@@ -110,7 +110,7 @@ constexpr std::array infos = {
 
 const Info& info(Knob knob) { return infos[static_cast<std::size_t>(knob)]; }
 
-// n of a braid that pulls with the full scale at its rest length and the highest pressure.
+// Returns n of a braid that has the full scale force at its rest length and the highest pressure.
 double likely_turns(const StaticScales& s, double thread_length) {
   const double l = s.rest_length;
   const double area = s.top_pressure * (3 * l * l - thread_length * thread_length);
@@ -311,7 +311,7 @@ actuator::Actuator like(const actuator::Actuator& actuator, double from, double 
   actuator::Actuator a = actuator;
   const double r = to / from;
   if (r == 1) return a;
-  // What the ends take is the same length of every muscle: 1 - scale is c/L_0.
+  // The ends take the same length of every muscle: 1 - scale is L_e/L_0.
   a.effectiveness.scale = 1 - (1 - a.effectiveness.scale) / r;
   for (double* size : {&a.braid.thread_length, &a.braid.turns, &a.bladder.saturation_length,
                        &a.bladder.rest_length, &a.taper.rest_length, &a.long_end.length,

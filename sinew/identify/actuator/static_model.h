@@ -1,24 +1,23 @@
-// identify/actuator/static_model.h - the static laws that are tried: which of the actuator's
-// parameters each sets free, where the search begins, what other muscles let one expect.
+// identify/actuator/static_model.h - static laws that are tried: the free parameters of the
+// actuator in each, their start values and their priors.
 //
-// Every model is a choice of terms of actuator/tension.h, so that what is identified is what is
-// simulated. Parameters are those of one muscle. Of muscles of one make and several rest lengths
-// the longest is the reference; the others are its like: same braid angle, same diameter, same
-// strains,
+// Every model is a choice of terms of actuator/tension.h, so the identified law is the simulated
+// one. Parameters are those of one muscle. For several muscles of one make the longest is the
+// reference; the others are similar to it, with equal braid angle, diameter and strains:
 //
 //   b, n, lambda ~ L_0    k_1, F_toe ~ 1/L_0    k_2 ~ 1/L_0^2    k_3 ~ 1/L_0^3
 //   Eff x (1 - L_e/L_0)
 //
-// L_e, the rest length's own effect, is what the ends take from every muscle alike; no geometric
-// law gives it. Laws whose ends give way (actuator/series.h) need no L_e: C_s is that of the ends,
-// the same for every muscle, and takes more from a short one by itself.
+// L_e, the effect of the rest length, is the length that the ends take from every muscle; it does
+// not follow from a geometric law. Laws with ends that give way (actuator/series.h) need no L_e:
+// C_s belongs to the ends, is equal for every muscle, and so affects a short one more.
 //
-// Nobody knows a rest length to the last bit: of several muscles each may have another one than its
-// label says, which is fitted with the law (static_labels.h).
+// A rest length is not known exactly: with several muscles, the error of each label can be fitted
+// with the law (static_labels.h).
 //
-// Priors: a term that the data do not determine stays where three Festo muscles of 20 mm put it
-// (rest lengths 98, 225, 398 mm; docs/theory/static-models.md), instead of anywhere. Where the data
-// say something, that wins.
+// Priors: a term that the data do not determine stays at its value for three Festo muscles of 20 mm
+// (rest lengths 98, 225, 398 mm; docs/theory/static-models.md). Data that determine it outweigh the
+// prior.
 #pragma once
 
 #include <cmath>
@@ -59,76 +58,76 @@ enum class Knob {
   toe
 };
 
-// Labels nearer to each other than this are one  [m].
+// Labels that differ by less are the same [m].
 inline constexpr double same_label = 1e-6;
 
-// What a muscle's rest length is more than its label says.
+// Error of a muscle's labelled rest length.
 struct RestLengthError {
-  double labelled = 0, error = 0;  // L_0 as labelled, delta [m]
-  double low = 0, high = 0;        // bounds of delta [m]; both 0: the label is believed
+  double labelled = 0, error = 0;  // L_0 as labelled, e_L [m]
+  double low = 0, high = 0;        // bounds of e_L [m]; both 0: not fitted
 
-  // Is it fitted with the law?
+  // Returns whether the error is fitted with the law.
   bool doubted() const { return low < high; }
 };
 
-// What a set of knobs comes to.
+// An actuator with a given value of every free parameter.
 struct StaticSetting {
-  actuator::Actuator actuator;                // of a muscle as long as the reference's label says
-  double end_loss = 0;                        // c [m]
-  std::vector<RestLengthError> rest_lengths;  // of the muscles that were fitted
+  actuator::Actuator actuator;                // reference muscle, with its labelled length
+  double end_loss = 0;                        // L_e [m]
+  std::vector<RestLengthError> rest_lengths;  // fitted muscles
 };
 
-// Sizes that start values and bounds go by.
+// Scales of start values and bounds.
 struct StaticScales {
-  double rest_length = 0;                // of the reference muscle [m]
+  double rest_length = 0;                // rest length of the reference muscle [m]
   double full_scale = 0;                 // largest force [N]
   double top_pressure = 0;               // [Pa]
   double atmosphere = 0;                 // [Pa]
-  std::optional<actuator::Braid> braid;  // given: thread length and turns are not searched
+  std::optional<actuator::Braid> braid;  // if given, thread length and turns are not fitted
 };
 
-// Holds what is expected of a knob before the data are looked at.
+// Prior distribution of a free parameter.
 struct Prior {
   double mean = 0, deviation = 0;
   bool logarithmic = false;  // deviation of ln(value/mean)
 
-  // Returns how far a value lies from the mean, as the deviation counts it, and the deviation of
-  // the value itself about there.
+  // away() is the distance of a value from the mean in the unit of `deviation`; deviation_at() is
+  // the deviation of the value itself near there.
   double away(double value) const { return logarithmic ? std::log(value / mean) : value - mean; }
   double deviation_at(double value) const { return logarithmic ? deviation * value : deviation; }
 };
 
 struct StaticModel {
   std::string_view name, law, source;
-  std::vector<Knob> knobs;  // beside the braid's
+  std::vector<Knob> knobs;  // in addition to the braid's
 };
 
-// Returns all of them.
+// Returns all models.
 std::span<const StaticModel> static_models();
 
-// All that a model sets free with this data: the braid (or, where it is given, the effectiveness),
-// the model's own.
+// Returns the free parameters of a model for these data: those of the braid (or, if it is given, of
+// the effectiveness), and the model's own.
 std::vector<Knob> knobs_of(const StaticModel& model, const StaticScales& scales);
 
-// "actuator.<name>." + key is its place in a file; end_loss has none of its own.
+// Returns the key of a parameter in a file, below "actuator.<name>."; end_loss has no key.
 std::string_view key_of(Knob knob);
 double& value_of(StaticSetting& setting, Knob knob);
 Parameter parameter_of(Knob knob, const StaticScales& scales);
 std::optional<Prior> prior_of(Knob knob, const StaticScales& scales);
 
-// Returns the rest length of the muscle that is labelled so  [m].
+// Returns the fitted rest length of the muscle with this label [m].
 double rest_length_of(const StaticSetting& setting, double labelled);
 
-// Does it shape how force goes with length? One length cannot tell.
+// Returns whether the parameter affects force over length, so that one length cannot determine it.
 bool needs_lengths(Knob knob);
 
-// What every search begins with.
+// Returns the setting at which every search starts.
 StaticSetting setting_of(const StaticScales& scales);
 
-// Returns the like of an actuator whose muscle has the rest length `from`, with `to`  [m].
+// Returns an actuator scaled from the rest length `from` to the rest length `to` [m].
 actuator::Actuator like(const actuator::Actuator& actuator, double from, double to);
 
-// Returns the like of the reference muscle that is labelled with this rest length  [m].
+// Returns the reference actuator scaled to the muscle with this labelled rest length [m].
 actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,
                           double rest_length);
 

@@ -15,8 +15,8 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double a_fifth = 0.2;  // of the range, prediction.h's beyond
-constexpr int nodes = 5;         // of pressures
+constexpr double a_fifth = 0.2;  // share of the range, "beyond" of prediction.h
+constexpr int nodes = 5;         // number of pressures
 constexpr std::size_t most_lengths = 9;
 
 const StaticMuscle* fitted(const StaticResult& result, double rest_length) {
@@ -30,7 +30,7 @@ bool within(double x, double low, double high) {
   return x >= low - slip && x <= high + slip;
 }
 
-// Returns the roots of the means of the squares of both half-widths.
+// Returns the root mean squares of both half-widths.
 std::array<double, 2> mean_widths(const StaticResult& result,
                                   const std::vector<StaticPoint>& points) {
   std::array<double, 2> sum{};
@@ -42,7 +42,7 @@ std::array<double, 2> mean_widths(const StaticResult& result,
   return {std::sqrt(sum[0]), std::sqrt(sum[1])};
 }
 
-// Writes half-widths, no narrower than the least; 0 where they are not known.
+// Writes half-widths, no narrower than `least`; 0 if unknown.
 void write_widths(const std::array<double, 2>& widths, const std::array<double, 2>& least,
                   double& half_68, double& half_95) {
   const bool known = std::isfinite(widths[1]) && widths[1] > 0;
@@ -50,7 +50,7 @@ void write_widths(const std::array<double, 2>& widths, const std::array<double, 
   half_95 = known ? std::max(widths[1], least[1]) : 0;
 }
 
-// The ends of the lengths and some of those between: a sweep has hundreds.
+// Returns the end lengths and a selection of the others: a sweep has hundreds.
 std::vector<double> some_of(const std::vector<double>& lengths) {
   std::vector<double> out;
   const std::size_t last = lengths.size() - 1, count = std::min(last, most_lengths - 1);
@@ -59,7 +59,7 @@ std::vector<double> some_of(const std::vector<double>& lengths) {
   return out;
 }
 
-// Where the widths of a muscle's file are taken from.
+// Points at which the half-widths in a muscle's file are evaluated.
 struct Places {
   std::vector<StaticPoint> inside, between, beyond, above;
 };
@@ -112,7 +112,8 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
                       within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? spread.inside : spread.beyond;
   out.guess = inside ? Guess::inside : Guess::beyond;
-  // What ends and muscles were missed by that were left out holds what the law's form errs.
+  // The quantiles of ends and of muscles that were left out already include the error of the law's
+  // form.
   double away = 0;
   if (!fitted(result, point.rest_length)) {
     q = wider(q, spread.other_muscle);
@@ -167,7 +168,8 @@ ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r,
 }
 
 actuator::Actuator stronger(actuator::Actuator a, double factor) {
-  // effectiveness.scale is what the ends take, by which a file is scaled to other lengths.
+  // effectiveness.scale is left: it is the share of the ends, used to scale a file to other
+  // lengths.
   for (double* spring :
        {&a.effectiveness.c0, &a.effectiveness.c1, &a.effectiveness.c2, &a.bladder.stiffness,
         &a.bladder.quadratic, &a.bladder.cubic, &a.bladder.saturating_tension, &a.toe.tension})

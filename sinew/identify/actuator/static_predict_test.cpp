@@ -1,4 +1,4 @@
-// Muscles that nobody measured: the likes of those that were, and one reading that corrects them.
+// Muscles that were not measured: similar to measured ones, and corrected by one reading.
 #include "sinew/identify/actuator/static_predict.h"
 
 #include <gtest/gtest.h>
@@ -34,13 +34,13 @@ double force(const actuator::Actuator& a, double length, double pressure) {
   return actuator::clamped_tension(a, length, 0, pressure, units::atmosphere);
 }
 
-// The muscle after one reading of it, at 250 mm and 6 bar, where it pulls most.
+// Returns the muscle after one reading at 250 mm and 6 bar, where it pulls most.
 actuator::Actuator read(const actuator::Actuator& a, double force) {
   return stronger(a, reading_factor(a, {0.25, 6e5, force}, units::atmosphere).law);
 }
 
-// Strains, not lengths, make the force: a like muscle pulls the same at the same share of its rest
-// length, as long as nothing but the braid and the first part of the bladder pulls.
+// Force depends on strain, not length: a similar muscle pulls the same at the same share of its
+// rest length, as long as only the braid and the first part of the bladder pull.
 TEST(Predict, ALikeMusclePullsTheSameAtTheSameStrain) {
   actuator::Actuator a = measured_muscle();
   a.bladder.stiffness = 0;
@@ -51,7 +51,8 @@ TEST(Predict, ALikeMusclePullsTheSameAtTheSameStrain) {
                   force(a, strain * test_rest_length, p), 1e-9);
 }
 
-// The ends are the same for every muscle: their compliance does not scale, a short one loses more.
+// The ends of every muscle are the same: their compliance does not scale, and a short muscle loses
+// more.
 TEST(Predict, EndsThatGiveWayTakeMoreFromAShortMuscle) {
   actuator::Actuator a = measured_muscle();
   a.series.compliance = 1e-5;
@@ -67,7 +68,7 @@ TEST(Predict, ThereAndBackIsTheSameMuscle) {
   for (const double l : {0.2, 0.22, 0.25}) EXPECT_NEAR(force(back, l, 4e5), force(a, l, 4e5), 1e-9);
 }
 
-// Nobody tried so far: the interval grows with the distance, never below that of the fit.
+// Beyond the tested ratio the interval grows with the distance, and is never below that of the fit.
 TEST(Predict, IntervalsGrowBeyondTheRatioThatWasTried) {
   const actuator::Actuator a = measured_muscle();
   const auto share = [&](double rest_length) {
@@ -78,8 +79,8 @@ TEST(Predict, IntervalsGrowBeyondTheRatioThatWasTried) {
   EXPECT_NEAR(share(0.25 * std::exp(-1.0)), 0.10, 1e-9);
 }
 
-// Strengths differ by 2 %, and the law's form errs by 1 % there: the law goes four fifths of the
-// way, at every length.
+// Strengths differ by 2 %, and the error of the law's form is 1 % there: the law is corrected by
+// four fifths of the difference, at every length.
 TEST(Predict, AReadingCountsAsFarAsItIsSurerThanTheLaw) {
   const actuator::Actuator a = measured_muscle();
   const actuator::Actuator b = read(a, 1.1 * force(a, 0.25, 6e5));
@@ -87,7 +88,7 @@ TEST(Predict, AReadingCountsAsFarAsItIsSurerThanTheLaw) {
     EXPECT_NEAR(force(b, l, 5e5), 1.08 * force(a, l, 5e5), 1e-9 * force(a, l, 5e5));
 }
 
-// Where the muscle pulls less the form's error is a larger share of it.
+// At lower force the error of the form is a larger share.
 TEST(Predict, AReadingOfASmallForceCountsLess) {
   const actuator::Actuator a = measured_muscle();
   const double f = force(a, 0.25, 2e5), most = force(a, 0.25, 6e5);
@@ -96,7 +97,7 @@ TEST(Predict, AReadingOfASmallForceCountsLess) {
   EXPECT_LT(factor, 1.05);
 }
 
-// What a reading leaves is one muscle more, beside three.
+// The error after a reading counts as one more muscle in addition to three.
 TEST(Predict, AReadingNarrowsOrWidensTheInterval) {
   const actuator::Actuator a = measured_muscle();
   const double f = force(a, 0.25, 6e5);
@@ -110,8 +111,8 @@ TEST(Predict, AReadingNarrowsOrWidensTheInterval) {
   EXPECT_NEAR(inside(0.9), 0.9 * inside(1), 1e-12);
 }
 
-// A corrected muscle that is scaled on takes its reading along: it is as much stronger at every
-// length, whatever the ends take.
+// A corrected muscle that is scaled keeps its correction: it is stronger by the same factor at
+// every length, for any loss at the ends.
 TEST(Predict, AReadingGoesAlongToOtherLengths) {
   for (const double scale : {1.0, 0.9}) {
     actuator::Actuator a = measured_muscle();

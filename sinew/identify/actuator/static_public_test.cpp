@@ -1,5 +1,5 @@
-// Static laws on public measurements. The force map of the DMSP-10-250 ships in data/; the 20 mm
-// muscles may not, and are read where SINEW_DATA_DIR has them.
+// Static laws on public measurements. The force map of the DMSP-10-250 is in data/; the 20 mm
+// muscles may not be shipped, and are read from SINEW_DATA_DIR if set.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,17 +23,17 @@ StaticData dmsp() {
   return data;
 }
 
-// Every second pressure was not seen: 0.5 % of the largest force. All models are tried.
+// Every second pressure is left out: 0.5 % of the largest force. All models are tried.
 TEST(PublicData, DmspByPressure) {
   const StaticResult found = identify_static(dmsp(), {.hold_out = HoldOut::pressure});
   EXPECT_LE(found.report.best().held_out->rmse_percent, 0.5) << found.report.rule;
   EXPECT_LE(found.report.best().held_out->max_percent, 2.5);
 }
 
-// Each length on its own, the longest and the shortest too, was not seen. Its authors' model, which
-// saw them all, is off by up to 4.4 %: so far off are the lengths between the ends at most. The
-// rest length itself is guessed worse from the others, by 4.7 %: there the bladder's first pull is
-// steepest. Asked for: 0.9 % rms.
+// Each length in turn is left out, also the longest and the shortest. The model of the data's
+// authors, fitted to all, has errors up to 4.4 %; lengths between the ends have at most this error.
+// The rest length is predicted worse from the others, by 4.7 %: there the bladder's first pull is
+// steepest. Required: 0.9 % rms.
 TEST(PublicData, DmspByLength) {
   const StaticResult found = identify_static(dmsp(), {.hold_out = HoldOut::length});
   EXPECT_LT(found.report.best().held_out->rmse_percent, 0.9) << found.report.rule;
@@ -75,12 +75,12 @@ TEST(PublicData, MusclesOf20MmByPressure) {
   const auto held_out = [&](const char* muscle) {
     return bins(path, muscle, false).report.best().held_out->rmse_percent;
   };
-  EXPECT_LE(held_out("98"), 1.0);  // asked for: 2.5, 3.0, 1.0
+  EXPECT_LE(held_out("98"), 1.0);  // required: 2.5, 3.0, 1.0
   EXPECT_LE(held_out("225"), 1.0);
   EXPECT_LE(held_out("398"), 1.0);
 }
 
-// The law that is chosen misses what was held out by little more than the best of them all.
+// The chosen law's error on held-out data is hardly larger than that of the best law.
 TEST(PublicData, TheChoiceIsNearTheBestOfAllOnMusclesOf10And20Mm) {
   const std::string small = shared("psu_10mm/isometric_bins.csv");
   const std::string large = shared("psu_20mm/isometric_bins.csv");
@@ -96,7 +96,7 @@ TEST(PublicData, TheChoiceIsNearTheBestOfAllOnMusclesOf10And20Mm) {
   }
 }
 
-// Three rest lengths, one law: the ends take a length of 3 cm from each.
+// Three rest lengths, one law: the ends take 3 cm from each.
 TEST(PublicData, MusclesOf20MmAreOfOneMake) {
   const std::string path = shared("psu_20mm/isometric_bins.csv");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
@@ -106,7 +106,7 @@ TEST(PublicData, MusclesOf20MmAreOfOneMake) {
   EXPECT_NEAR(found.fit.setting.end_loss, 0.03, 0.01);
 }
 
-// Three mounts, recorded at 600 Hz: branches, zeros and bins are found.
+// Three mounts, recorded at 600 Hz: branches, zeros and bins are found automatically.
 TEST(PublicData, RecordingsOf20MmNeedNoHand) {
   const std::string first = shared("psu_20mm/raw/20mm_23cm_Unkinked_Test10.csv");
   if (first.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
@@ -129,9 +129,9 @@ TEST(PublicData, RecordingsOf20MmNeedNoHand) {
   EXPECT_LE(found.report.best().fit.rmse_percent, 1.2);
 }
 
-// Twelve recordings of each muscle of 10 mm, samples that have settled: pressures between the ends,
-// not seen, are met within what is asked for by the law that `sinew identify static` chooses there;
-// to try the others takes a minute.
+// Twelve recordings of each muscle of 10 mm, settled samples: pressures between the ends that are
+// left out are predicted within the requirement by the law that `sinew identify static` chooses
+// there; trying the others takes a minute.
 TEST(PublicData, RecordingsOf10MmBySettledSamples) {
   const std::string folder = shared("psu_10mm/raw");
   if (folder.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_10mm";

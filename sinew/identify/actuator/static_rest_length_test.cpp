@@ -1,4 +1,4 @@
-// Rest lengths that are labelled wrong: fitted with the law where there are several muscles.
+// Wrong labels of rest lengths: fitted with the law if there are several muscles.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,8 +17,8 @@ constexpr std::array labels = {0.1, 0.16, 0.25};
 constexpr std::array mounts = {1.0, 0.97, 0.93, 0.88};
 const StaticScales scales{.rest_length = test_rest_length};
 
-// Three muscles of one make, each longer by its error [m] than its label says. The mount at rest is
-// labelled as the rest length is, the others by a ruler.
+// Three muscles of one make, each longer than its label by its error [m]. The mount at rest has the
+// label of the rest length; the others are measured with a ruler.
 StaticData measured(const std::array<double, 3>& errors, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -53,8 +53,8 @@ std::string notes_of(const StaticResult& found) {
   return out;
 }
 
-// Errors as they are expected, independent of each other and with whatever they have in common: of
-// 60 intervals 54 or more hold theirs. How the muscles are beside each other is known far better.
+// Errors of the expected size, independent but with a common part: at least 54 of 60 intervals
+// contain the true error. Differences between muscles are determined much better.
 TEST(RestLength, ErrorsOfLabelsAreHeldByTheirIntervals) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -81,7 +81,7 @@ TEST(RestLength, ErrorsOfLabelsAreHeldByTheirIntervals) {
   EXPECT_GE(beside, 54);
 }
 
-// Right labels are left where they are, and nothing is said of them.
+// Correct labels are not changed, and not mentioned.
 TEST(RestLength, RightLabelsAreBelieved) {
   int held = 0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -96,8 +96,7 @@ TEST(RestLength, RightLabelsAreBelieved) {
   EXPECT_GE(held, 27);
 }
 
-// What all labels have in common is not taken for their errors: the law's own lengths answer for
-// it.
+// The common part of all labels is not attributed to their errors, but to the law's own lengths.
 TEST(RestLength, WhatAllLabelsHaveInCommonIsNotTheirs) {
   const StaticResult found = identified(measured({0.001, 0.0016, 0.0025}, 3));
   double sum = 0;
@@ -105,7 +104,7 @@ TEST(RestLength, WhatAllLabelsHaveInCommonIsNotTheirs) {
   EXPECT_NEAR(sum, 0, 0.004);
 }
 
-// One muscle cannot tell how long it is: nothing is fitted, and every length is believed.
+// The label of a single muscle cannot be tested: no error is fitted.
 TEST(RestLength, OneMuscleHasNoError) {
   StaticData all = measured({0.0012, 0, 0}, 4), one;
   for (const StaticPoint& p : all.points)
@@ -116,7 +115,7 @@ TEST(RestLength, OneMuscleHasNoError) {
   EXPECT_EQ(found.muscles[0].file_length, labels[0]);
 }
 
-// The like of another length is that of the fit, whichever muscle's file it is scaled from.
+// A muscle scaled to another length is that of the fit, for any muscle's file.
 TEST(RestLength, EveryFileScalesToTheSameMuscle) {
   const StaticResult found = identified(measured({0.0012, -0.00064, -0.002}, 5));
   const StaticMuscle wanted = muscle_of(found, 0.2);
@@ -134,9 +133,9 @@ TEST(RestLength, EveryFileScalesToTheSameMuscle) {
   }
 }
 
-// A file misses the rows that it was made from, at the lengths as labelled, no more than the law
-// does with the label that the fit would have, or with the label as it is; the half-widths that it
-// states hold 95 % of those misses.
+// The error of a file on the rows that it was made from, at the lengths as labelled, is at
+// most that of the law with the fitted label or with the label as given; the stated half-widths
+// contain 95 % of the errors.
 TEST(RestLength, AFileIsScoredOnTheRowsThatItWasMadeFrom) {
   for (unsigned seed = 5; seed < 8; ++seed) {
     const StaticResult found = identified(measured({0.0012, -0.00064, -0.002}, seed));
@@ -166,8 +165,8 @@ TEST(RestLength, AFileIsScoredOnTheRowsThatItWasMadeFrom) {
   }
 }
 
-// A muscle that was not fitted has an error of its own, which makes its interval wider by what a
-// length is worth where force is steepest.
+// A muscle that was not fitted has its own label error, which widens its interval by the effect of
+// a length error where the force is steepest.
 TEST(RestLength, AnUnseenMuscleIsPredictedWithAnErrorOfItsOwn) {
   const StaticResult found = identified(measured({}, 6));
   const double rest = 0.16 + 1e-5, step = rest_length_deviation(rest);
@@ -184,15 +183,15 @@ TEST(RestLength, AnUnseenMuscleIsPredictedWithAnErrorOfItsOwn) {
   EXPECT_LT(wider, std::hypot(1.5 * known, 1.1 * worth));
 }
 
-// Labels in other units are one muscle, whatever rounding leaves of them.
+// Labels in other units, with rounding errors, are one muscle.
 TEST(RestLength, LabelsWithinAMicrometreAreOneMuscle) {
   StaticData data = measured({}, 8);
   for (std::size_t i = 0; i < data.points.size(); i += 2) data.points[i].rest_length += 1e-10;
   EXPECT_EQ(identified(data).muscles.size(), 3u);
 }
 
-// A label that is far off stands at its bound, and the errors of the others, which make up for a
-// part of it, have no interval.
+// A label with a large error is at its bound, and the errors of the others, which absorb a part of
+// it, have no interval.
 TEST(RestLength, ALabelThatIsFarOffIsToldAsSuch) {
   const StaticResult found = identified(measured({0.01, 0, 0}, 9));
   const std::string said = notes_of(found);
@@ -203,7 +202,7 @@ TEST(RestLength, ALabelThatIsFarOffIsToldAsSuch) {
   EXPECT_EQ(error_of(found, labels[1]).high, unbounded);
 }
 
-// Of a sweep in small steps nobody knows which of its lengths the label's error is in.
+// In a sweep of small steps the label's error cannot be assigned to one length.
 TEST(RestLength, SweepsAndMusclesWithoutAMountAtRestAreBelieved) {
   std::vector<StaticPoint> points;
   for (const double label : labels)
@@ -218,12 +217,12 @@ TEST(RestLength, SweepsAndMusclesWithoutAMountAtRestAreBelieved) {
   const std::vector<RestLengthError> four = labels_of(points);
   EXPECT_FALSE(four[0].doubted());
   EXPECT_TRUE(four[1].doubted());
-  EXPECT_FALSE(four[2].doubted());  // the mount beside it is 1.5 % away
+  EXPECT_FALSE(four[2].doubted());  // the nearest mount is 1.5 % away
   EXPECT_TRUE(four[3].doubted());
   EXPECT_GT(four[3].low, -0.01);  // it stays longer than the next mount
 }
 
-// A few readings of a second muscle say nothing of the first, and do not refuse its laws.
+// A few readings of a second muscle do not determine its error, and do not refuse its laws.
 TEST(RestLength, AFewReadingsOfAnotherMuscleAreNoReasonToRefuse) {
   StaticData all = measured({}, 10), few;
   int taken = 0;
@@ -235,7 +234,7 @@ TEST(RestLength, AFewReadingsOfAnotherMuscleAreNoReasonToRefuse) {
   EXPECT_NE(notes_of(found).find("250 mm was not left out"), std::string::npos) << notes_of(found);
 }
 
-// Two muscles tell how far off a third may be, without and with what the file keeps of it alike.
+// Two muscles give the uncertainty of a third, equally with the fit and with the file.
 TEST(RestLength, TwoMusclesPredictAThirdAsTheirFileDoes) {
   StaticData all = measured({0.0012, 0, -0.002}, 11), two;
   for (const StaticPoint& p : all.points)

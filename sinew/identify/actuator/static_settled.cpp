@@ -10,12 +10,11 @@ namespace sinew::identify {
 namespace {
 
 constexpr double shortest_window = 0.12;  // [s]
-constexpr double of_range = 0.005;        // of the range of pressures
+constexpr double of_range = 0.005;        // share of the range of pressures
 constexpr double of_scatter = 6;
-constexpr std::size_t median_reach =
-    7;  // samples on each side that a smoothed one is the median of
+constexpr std::size_t median_reach = 7;  // samples on each side of a running median
 
-// Returns each sample's median with its neighbours.
+// Returns running medians.
 std::vector<double> smooth_pressure(std::span<const double> values) {
   std::vector<double> out(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -25,21 +24,21 @@ std::vector<double> smooth_pressure(std::span<const double> values) {
   return out;
 }
 
-// Returns the median time between samples  [s].
+// Returns the median time between samples [s].
 double middle_interval(std::span<const double> time) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
   return median(steps);
 }
 
-// Returns how far single samples scatter about the smoothed ones, as a standard deviation.
+// Returns the standard deviation of single samples about the smoothed ones, from the median.
 double scatter_about(std::span<const double> values, std::span<const double> smooth) {
   std::vector<double> off;
   for (std::size_t i = 0; i < values.size(); ++i) off.push_back(std::abs(values[i] - smooth[i]));
   return 1.4826 * median(off);
 }
 
-// Counts the runs of settled samples that last for a window.
+// Counts the runs of settled samples that last at least for a window.
 int rests_of(const std::vector<bool>& settled, std::span<const double> time, double window) {
   int out = 0;
   for (std::size_t i = 0; i < settled.size();) {

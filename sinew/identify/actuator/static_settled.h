@@ -1,5 +1,5 @@
-// identify/actuator/static_settled.h - which samples of a recording are at rest: while a valve lets
-// air in or out, the pressure at the sensor is not yet the pressure in the muscle.
+// identify/actuator/static_settled.h - samples of a recording at which the pressure rests: while a
+// valve lets air in or out, the pressure at the sensor differs from that in the muscle.
 #pragma once
 
 #include <span>
@@ -7,21 +7,21 @@
 
 namespace sinew::identify {
 
-// Says which samples have settled, and by which measure.
+// Which samples have settled, and by which criterion.
 struct Settled {
-  std::vector<bool> sample;  // of each one: has it?
-  double window = 0;         // over which the pressure is looked at  [s]
-  double most = 0;           // change over the window up to which a sample has settled  [Pa]
-  int rests = 0;             // how many times it rests for at least a window
+  std::vector<bool> sample;  // true for each settled sample
+  double window = 0;         // time over which the change of pressure is measured [s]
+  double most = 0;           // largest change over the window of a settled sample [Pa]
+  int rests = 0;             // number of rests of at least a window
 
-  // Returns how many samples have not.
+  // Returns the number of samples that have not settled.
   std::size_t moving() const;
 };
 
-// Times ascend [s], pressures [Pa], as many. A sample has settled where the pressure, smoothed,
-// changes over 0.12 s around it by no more than 0.5 % of its whole range, or by no more than 6
-// times the scatter of its samples where that is more. The window is longer where samples are rare:
-// it holds three of them.
+// Finds settled samples. Times ascend [s], with one pressure [Pa] each. A sample has settled if
+// the smoothed pressure changes over 0.12 s around it by at most 0.5 % of its range, or 6 times the
+// scatter of the samples if that is more. The window holds at least three samples, so it is longer
+// if samples are rare.
 Settled settled_samples(std::span<const double> time, std::span<const double> pressure);
 
 }  // namespace sinew::identify

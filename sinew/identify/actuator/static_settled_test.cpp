@@ -1,4 +1,4 @@
-// Samples at rest are told from those of a valve's transient.
+// Samples at rest are separated from those of a valve's transient.
 #include "sinew/identify/actuator/static_settled.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(Settled, DoesNotDependOnWhenTheClockBeganNorOnTheUnit) {
   EXPECT_EQ(settled_samples(s.time, s.pressure).sample, first);
 }
 
-// A loop by hand, a sample a second: the window grows to hold samples at all.
+// A manual loop with one sample a second: the window is extended to contain samples.
 TEST(Settled, RareSamplesAreLookedAtOverALongerWindow) {
   std::vector<double> time, pressure;
   for (int i = 0; i < 40; ++i) {
@@ -67,7 +67,7 @@ TEST(Settled, RareSamplesAreLookedAtOverALongerWindow) {
   EXPECT_LT(found.moving(), 20u);
 }
 
-// A vessel that fills through a throttle rests before and after, and nowhere between.
+// A vessel that fills through a throttle rests before and after, but not between.
 TEST(Settled, AFillThroughAThrottleHasNoLevels) {
   std::vector<double> time, pressure;
   for (int i = 0; i < 6000; ++i) {

@@ -13,13 +13,13 @@ namespace {
 
 using Points = std::vector<StaticPoint>;
 
-constexpr int curve_nodes = 33;          // of a curve, between the ends of its points
+constexpr int curve_nodes = 33;          // nodes of a curve between the ends of its points
 constexpr int nodes_beyond = 4;          // on each side
-constexpr double room_beyond = 0.08;     // of the range of all points
-constexpr std::size_t most_shown = 240;  // left out for one reason
-constexpr double off_branch = 1000;      // of another branch: further than any length  [m]
+constexpr double room_beyond = 0.08;     // share of the range of all points
+constexpr std::size_t most_shown = 240;  // points left out for one reason
+constexpr double off_branch = 1000;  // distance added for another branch, more than any length [m]
 
-// Says whether the picture's axis goes over pressures; it goes over lengths otherwise.
+// Returns whether the x axis is the pressure; otherwise it is the length.
 bool over_pressure(const Rows& rows) { return rows.x == "pressure"; }
 
 double& along(StaticPoint& point, bool pressure) {
@@ -28,7 +28,8 @@ double& along(StaticPoint& point, bool pressure) {
 
 double along(StaticPoint point, const Rows& rows) { return along(point, over_pressure(rows)); }
 
-// Places of a curve: evenly between its ends, then on either side as far as the room allows.
+// Returns the nodes of a curve: evenly between its ends, then on either side as far as `room`
+// allows.
 std::vector<double> places_of(double low, double high, double room) {
   std::vector<double> out;
   const double least = std::max(0.0, low - room);
@@ -39,7 +40,7 @@ std::vector<double> places_of(double low, double high, double room) {
   return out;
 }
 
-// The law along one group, at what its points have in common.
+// Returns the law along one group, at the values that its points have in common.
 PredictedCurve curve_of(const StaticResult& result, const std::string& group, const Points& points,
                         double room) {
   const bool pressure = over_pressure(result.report.rows);
@@ -81,7 +82,7 @@ std::vector<PredictedCurve> curves_of(const StaticResult& result, const Points& 
   return out;
 }
 
-// Numbers of the parts: each muscle, and each branch.
+// Returns the part of each point: its muscle.
 std::vector<int> muscle_parts(const Points& points) {
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
@@ -98,7 +99,7 @@ std::vector<int> branch_parts(const Points& points) {
   return out;
 }
 
-// By all that was varied; what was not says nothing.
+// Returns the errors by every quantity that was varied.
 std::vector<ErrorBy> errors_of(const Report& report, const Points& points) {
   const std::vector<double>& residuals = report.best().residuals;
   const auto by = [&](const char* what, const char* unit, double StaticPoint::*value,
@@ -123,7 +124,7 @@ std::vector<ErrorBy> errors_of(const Report& report, const Points& points) {
   return out;
 }
 
-// The group of the point that is next to it in what the groups differ by.
+// Returns the group of the nearest point, by the quantity that differs between groups.
 std::string group_near(const StaticPoint& point, const Rows& rows, const Points& points) {
   std::string out;
   double least = std::numeric_limits<double>::infinity();

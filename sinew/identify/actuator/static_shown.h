@@ -1,5 +1,5 @@
-// identify/actuator/static_shown.h - what a static report shows beside its models: the chosen law
-// along each curve with its intervals, its error by part, and what was left out.
+// identify/actuator/static_shown.h - additional parts of a static report: the chosen law along each
+// curve with its intervals, its error by part, and the points that were left out.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace sinew::identify {
 
-// Fills in the report's curves, errors and left_out; its rows and the chosen law are there.
+// Fills in the report's curves, errors and left_out. Its rows and the chosen law must be set.
 void show_static(const StaticSplit& split, std::span<const StaticOmitted> left_out,
                  StaticResult& result);
 

@@ -1,5 +1,5 @@
-// A static report explains points that are wrong, its errors by part add up to those of the whole,
-// and its intervals lie about the law.
+// A static report explains wrong points, its errors by part sum to the total, and its intervals are
+// about the law.
 #include "sinew/identify/actuator/static_shown.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::size_t place_of(int mount, int step) {
   return static_cast<std::size_t>(12 * mount + step - 1);
 }
 
-// Returns what is told of the only point that is wrong.
+// Returns the explanation of the only wrong point.
 std::string told_of(const StaticData& data) {
   const Report report = identify_static(data, {.braid = test_muscle().actuator.braid}).report;
   if (report.left_out.size() != 1) return "nothing is left out";

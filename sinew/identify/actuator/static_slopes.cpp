@@ -12,8 +12,8 @@ namespace sinew::identify {
 
 namespace {
 
-// A muscle's own value of a knob is the reference's, multiplied with this power of the rest
-// lengths' ratio.
+// A muscle's own value of a parameter is the reference's, multiplied with this power of the
+// ratio of the rest lengths.
 constexpr std::pair<Knob, int> powers[] = {
     {Knob::thread_length, 1},       {Knob::turns, 1},      {Knob::saturation_length, 1},
     {Knob::bladder_rest_length, 1}, {Knob::stiffness, -1}, {Knob::toe, -1},

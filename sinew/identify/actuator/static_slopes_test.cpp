@@ -1,4 +1,4 @@
-// The derivatives of every static law are those of its force.
+// The derivatives of every static law match differences of its force.
 #include "sinew/identify/actuator/static_slopes.h"
 
 #include <gtest/gtest.h>
@@ -11,16 +11,17 @@ namespace {
 
 const StaticScales scales{
     .rest_length = 0.25, .full_scale = 540, .top_pressure = 6e5, .atmosphere = 101325};
-constexpr double labelled = 0.1;  // of a muscle that is shorter than the reference [m]
+constexpr double labelled = 0.1;  // rest length of a muscle shorter than the reference [m]
 
 double force(const StaticSetting& setting, double length, const StaticPoint& point) {
   return MuscleLaw(setting, scales, labelled).force(length, point);
 }
 
-// A step that the rounding of the force and its curvature leave some 1e-9 of the scale.
+// Returns a central difference; rounding and curvature leave errors of about 1e-9 of the scale.
 double slope(double step, auto force_at) { return (force_at(step) - force_at(-step)) / (2 * step); }
 
-// Within what a central difference leaves: 2e-6 of the slope, and of the full scale per scale.
+// Compares within the error of a central difference: 2e-6 of the slope, and of the full scale per
+// scale.
 void expect_slope(double closed, double difference, double scale, std::string_view what) {
   EXPECT_NEAR(closed * scale, difference * scale,
               2e-6 * std::abs(difference * scale) + 2e-7 * scales.full_scale)

@@ -11,9 +11,9 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::size_t few = 20;  // points below which an order says little of the 95th percentile
-constexpr double slack_share = 0.005;    // of the largest force: less is no pull
-constexpr double believed_error = 0.08;  // c_0: share of the largest force per rest length
+constexpr std::size_t few = 20;          // fewer points give no empirical 95th percentile
+constexpr double slack_share = 0.005;    // share of the largest force; less counts as slack
+constexpr double believed_error = 0.08;  // kappa_d0: share of the largest force per rest length
 constexpr int believed_freedom = 1;      // nu_0
 
 }  // namespace
@@ -58,7 +58,7 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
         if (const double c = covariance[i * gradient.size() + k]; std::isfinite(c))
           sum += c * gradient[i] * gradient[k];
     double square = fit.scatter * fit.scatter + std::max(sum, 0.0);
-    // A muscle that was not fitted has an error of its own.
+    // A muscle that was not fitted has an additional error of its rest length.
     if (!is_known)
       square +=
           std::pow(pulls * slopes.by_label(point) * rest_length_deviation(point.rest_length), 2);

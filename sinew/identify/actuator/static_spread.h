@@ -1,4 +1,4 @@
-// identify/actuator/static_spread.h - how far a force that is measured lies from the predicted one.
+// identify/actuator/static_spread.h - distribution of measured forces about the predicted one.
 //
 //   sigma_F^2 = sigma^2 + g' Cov g + (g_L sigma_L)^2        half-width = q sigma_F
 //
@@ -8,15 +8,15 @@
 //   Cov    covariance of the parameters                     sigma_F  deviation by the fit [N]
 //   q      quantile of |measured - predicted|/sigma_F over points that were not fitted  [-]
 //
-// sigma_F describes where a guess is safer and where less so, and grows outside the data; q says
-// how large it is, from what went wrong when parts of the data were left out. There are three kinds
-// of guess, each with a q of its own: between the ends of the data, beyond them, and of a muscle of
-// another rest length. No law of errors is assumed: the quantiles are those of the points that were
-// left out (split-conformal prediction; of muscles the worst one, as points of one muscle err
-// together).
+// sigma_F describes how the error varies with the point, and grows outside the data; q scales it
+// to the errors found when parts of the data were left out. There are three kinds of prediction,
+// each with its own q: between the ends of the data, beyond them, and for a muscle of another rest
+// length. No distribution of errors is assumed: the quantiles are those of the points that were
+// left out (split-conformal prediction; for muscles the worst one, as the errors of one muscle are
+// correlated).
 //
-// Between two lengths the form of the law errs besides, at all pressures alike, by the more the
-// further the nearest one is:
+// Between two lengths the form of the law has an additional error, common to all pressures, which
+// grows with the distance to the nearest length:
 //
 //   half-width^2 = (q sigma_F)^2 + (q_t kappa_d eps_d F_max)^2
 //   kappa_d^2 = (nu_0 kappa_d0^2 + sum e_k^2/eps_dk^2) / (nu_0 + n_L)
@@ -30,10 +30,11 @@
 //   kappa_d0 = 0.08, nu_0 = 1  assumed for any law on any muscle beforehand; both were chosen so
 //      that intervals hold on seven muscles (docs/theory/static-models.md)
 //
-// kappa_d is the scale of a normal law of errors with a conjugate prior; few muscles have more than
-// two lengths between their ends, and a quantile of two says nothing. Beyond the longest length
-// nothing is told where no mount is within 1 % of the rest length: the bladder's first pull is
-// steepest there, and no shorter one shows it (of five muscles 100 of 201 forces lay in 95 %).
+// kappa_d is the scale of a normal distribution of errors with a conjugate prior; few muscles have
+// more than two lengths between their ends, and two values give no quantile. Beyond the longest
+// length no interval is given if no mount is within 1 % of the rest length: the bladder's first
+// pull is steepest there, and shorter lengths do not show it (for five muscles only 100 of 201
+// forces were within the 95 % interval).
 #pragma once
 
 #include <cstddef>
@@ -46,59 +47,61 @@
 
 namespace sinew::identify {
 
-// Quantiles of one kind of guess. Infinite where nothing of the kind was left out.
+// Quantiles of one kind of prediction; infinite if no point of this kind was left out.
 struct Quantiles {
   double q68 = std::numeric_limits<double>::infinity();
   double q95 = std::numeric_limits<double>::infinity();
-  std::size_t points = 0;  // that were left out
+  std::size_t points = 0;  // number of points that were left out
 };
 
-// Which kind of guess a prediction is.
+// Kind of a prediction.
 enum class Guess { inside, beyond, other_muscle };
 
-// All three kinds, of one law on some data.
+// Quantiles of all three kinds, for one law on some data.
 struct StaticSpread {
   Quantiles inside, beyond, other_muscle;
 
-  // Half-widths between lengths: t c F, for each a  [N].
+  // Half-widths between lengths, per share of the rest length: q_t kappa_d F_max [N].
   double between_68 = 0, between_95 = 0;
 
-  // What the worst of the muscles that were left out was missed by, in shares of its own largest
-  // force, and |ln| of the greatest ratio to the rest length that was next to it  [-]. 0: none was.
+  // Largest error of the muscles that were left out, as a share of the muscle's own largest force,
+  // and the greatest |ln| of the ratio to the nearest other rest length [-]. 0: no muscle was left
+  // out.
   double other_share_68 = 0, other_share_95 = 0, other_reach = 0;
 };
 
-// A length that was left out: e_k^2 and a_k above  [-].
+// A length that was left out: e_k^2 and eps_dk above [-].
 struct MissedLength {
   double square = 0, away = 0;
 };
 
-// Writes the half-widths between lengths of a law whose lengths were missed by this; the largest
-// force is F  [N].
+// Writes the half-widths between lengths of a law with these errors at lengths that were left out.
+// `largest_force` is F_max [N].
 void add_between(std::span<const MissedLength> missed, double largest_force, StaticSpread& spread);
 
-// Points that a fit had not seen: what it missed them by, and what it expected to.
+// Points that were left out of a fit: their errors and their predicted deviations.
 struct Unseen {
-  std::vector<double> residuals, widths;  // predicted - measured; w  [N]
+  std::vector<double> residuals, widths;  // predicted - measured; sigma_F [N]
 
-  // Adds the points of the other to its own.
+  // Appends the points of `other`.
   void add(const Unseen& other);
 };
 
-// Returns what a fit makes of points that it had not seen. A slack point, measured and predicted,
-// has no width (NaN): that it was guessed right says nothing of points that pull.
+// Applies a fit to points that were left out of it. A point that is slack both measured and
+// predicted has no width (NaN): its small error is not evidence about points that pull.
 Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,
                  std::span<const StaticPoint> points);
 
-// Returns w of each point  [N]. Directions that the data do not determine do not count: q does.
+// Returns sigma_F of each point [N]. Directions that the data do not determine are left out; q
+// includes their effect.
 std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
                            std::span<const StaticPoint> points);
 
-// Returns the quantiles of |residual|/w, of points that have a width. Fewer than 20 points have
-// none of their own: Student's factor times the root mean square stands for them.
+// Returns the quantiles of |residual|/sigma_F, of points that have a width. Fewer than 20 points:
+// Student's factor times the root mean square.
 Quantiles quantiles(const Unseen& unseen);
 
-// Returns the larger of both in each place.
+// Returns the larger value of each quantile.
 Quantiles wider(const Quantiles& a, const Quantiles& b);
 
 }  // namespace sinew::identify

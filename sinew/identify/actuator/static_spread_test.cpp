@@ -1,4 +1,4 @@
-// Intervals of predicted forces hold the share of measured ones that they say.
+// Intervals of predicted forces have the stated coverage.
 #include "sinew/identify/actuator/static_spread.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace sinew::identify::static_spread_test {
 namespace {
 
-// Measures muscles of some rest lengths: seven lengths, ten pressures, noise in N.
+// Measures muscles of some rest lengths: seven lengths, ten pressures, noise [N].
 std::vector<StaticPoint> measure(const std::vector<double>& rest_lengths, double noise,
                                  unsigned seed, double offset = 0) {
   const StaticSetting truth = test_muscle();
@@ -52,15 +52,15 @@ TEST(Spread, QuantilesAreThoseOfTheNormalDistribution) {
   EXPECT_NEAR(q.q95, 1.96, 0.045);  // 3.4 standard errors
 }
 
-// An order of few points says little of their 95th percentile; none say nothing.
+// Few points give no empirical 95th percentile; without points it is infinite.
 TEST(Spread, FewPointsTakeStudentsFactorAndNoneAreInfinite) {
   const Quantiles q = quantiles({.residuals = {1, -1, 1, -1}, .widths = {2, 2, 2, 2}});
   EXPECT_NEAR(q.q95, 0.5 * t_quantile(4), 1e-12);
   EXPECT_TRUE(std::isinf(quantiles({}).q95));
 }
 
-// Without a length left out it is the belief alone; lengths that were missed by as much as is
-// believed leave it, and narrow what Student adds; lengths that were met narrow it further.
+// Without lengths that were left out, only the prior counts; errors equal to the prior leave it
+// unchanged and reduce Student's factor; smaller errors narrow it further.
 TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
   const auto half_95 = [](const std::vector<MissedLength>& missed) {
     StaticSpread spread;
@@ -68,7 +68,7 @@ TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
     EXPECT_GT(spread.between_95, spread.between_68);
     return spread.between_95 / 1000;
   };
-  constexpr double c = 0.08;  // of the largest force, per rest length
+  constexpr double c = 0.08;  // share of the largest force per rest length
   EXPECT_NEAR(half_95({}), c * t_quantile(1), 1e-12);
   const double a = 0.04, square = std::pow(c * a, 2);
   EXPECT_NEAR(half_95({{square, a}, {square, a}}), c * t_quantile(3), 1e-12);
@@ -92,14 +92,15 @@ TEST(Spread, BetweenTwoLengthsItIsWidestHalfway) {
   EXPECT_NEAR(std::hypot(half(0), 0.25 * 0.03 * 0.5 / 0.25 * found.spread.between_95), half(0.5),
               0.1 * half(0));
 
-  // The file says the same, by and large.
+  // The file gives approximately the same.
   actuator::Prediction p = prediction_of(found, found.muscles[0]);
   EXPECT_EQ(p.lengths.size(), 7u);
   EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.91, 3e5).half_95, half(0), 0.2 * half(0));
   EXPECT_NEAR(actuator::force_interval(p, 0.25 * 0.925, 3e5).half_95, half(0.5), 0.2 * half(0.5));
 }
 
-// Of forces measured anew between the old ones, in 12 rigs: 92 to 98 % lie within 95 %.
+// New measurements of forces between the fitted ones, in 12 rigs: 92 to 98 % are within the 95 %
+// interval.
 TEST(Spread, IntervalsHoldTheShareTheySay) {
   int all = 0, in_68 = 0, in_95 = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
@@ -135,7 +136,7 @@ TEST(Spread, IntervalsGrowOutsideTheData) {
   }
 }
 
-// Leaving out a muscle leaves no trace of it: three muscles of one make are each predicted.
+// Each of three muscles of one make is predicted without using it.
 TEST(Spread, MusclesOfOneMakePredictEachOther) {
   const auto points = measure({0.15, 0.25, 0.35}, 2, 3);
   StaticData data;
@@ -148,7 +149,7 @@ TEST(Spread, MusclesOfOneMakePredictEachOther) {
   EXPECT_GT(found.spread.other_share_95, 0);
   EXPECT_NEAR(found.spread.other_reach, std::log(0.25 / 0.15), 1e-9);
 
-  // A muscle between them was not measured: its truth lies in the interval.
+  // A muscle of a length between them was not measured: its true forces are within the interval.
   const auto unseen = measure({0.2}, 0, 1);
   int in = 0;
   for (const StaticPoint& p : unseen) {

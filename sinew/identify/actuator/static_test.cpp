@@ -1,4 +1,5 @@
-// Static laws: known ones come back from noisy points, in any order and any unit; the rest is said.
+// Static laws: known ones are identified from noisy points in any order and unit; problems are
+// reported.
 #include "sinew/identify/actuator/static.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,7 @@ std::vector<Knob> knobs_named(const std::string& name) {
   return {};
 }
 
-// --- what comes back ---
+// --- known laws are recovered ---
 
 TEST(Static, WithoutNoiseTheLawComesBack) {
   const std::vector<StaticPoint> points = measured(truth(), 1, {}, many);
@@ -70,8 +71,8 @@ TEST(Static, WithoutNoiseTheLawComesBack) {
   EXPECT_LT(score(misses(fit.setting, scales_for(points), points), 540).max_percent, 0.1);
 }
 
-// A setting that is held while a logger reads it 30 times is one reading: the intervals are those
-// of the settings, within a fifth.
+// A constant setting that a logger reads 30 times is one reading: the intervals are those of the
+// settings, within a fifth.
 TEST(Static, AHeldSettingIsOneReading) {
   const std::vector<Knob> knobs = knobs_named("saturating-elastic");
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -97,8 +98,9 @@ TEST(Static, AHeldSettingIsOneReading) {
   }
 }
 
-// Force 0.3 % of full scale, pressure 0.5 kPa, length 0.1 mm: 95 % intervals of what is
-// identifiable hold the truth in 90 to 99 % of 200 trials, and the mean is right within 1 %.
+// Noise: force 0.3 % of full scale, pressure 0.5 kPa, length 0.1 mm. The 95 % intervals of
+// identifiable parameters contain the truth in 90 to 99 % of 200 trials, and the mean is correct
+// within 1 %.
 TEST(Static, IntervalsCoverTheTruth) {
   const std::vector<Knob> knobs = knobs_named("saturating-elastic");
   std::vector<int> covered(knobs.size()), seen(knobs.size());
@@ -125,8 +127,7 @@ TEST(Static, IntervalsCoverTheTruth) {
   }
 }
 
-// Two lengths do not tell how a bladder saturates: it stays where other muscles put it, and says
-// so.
+// Two lengths do not determine the saturation of a bladder: it stays at its prior, which is noted.
 TEST(Static, WhatTheDataDoNotSayIsNotIdentifiable) {
   const auto points = measured(truth(), 3, real_noise(), {0.08, 0.12, 0.16});
   const StaticFit fit = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
@@ -137,7 +138,7 @@ TEST(Static, WhatTheDataDoNotSayIsNotIdentifiable) {
             fit.unknown.end());
 }
 
-// --- what must not matter ---
+// --- invariances ---
 
 StaticResult identify(const std::vector<StaticPoint>& points, const std::string& model = "") {
   StaticOptions options;
@@ -180,7 +181,7 @@ TEST(Static, OutliersCountLittle) {
   }
 }
 
-// A slipped decimal in few points must not decide for a law that is wrong for all others.
+// A slipped decimal in a few points must not lead to a wrong law for all others.
 TEST(Static, WildPointsDoNotChangeTheChoice) {
   std::vector<StaticPoint> points = measured(truth(), 11, real_noise(), many);
   const StaticOptions options{.diameter = actuator::diameter(truth().actuator.braid, rest)};
@@ -207,9 +208,9 @@ TEST(Static, HeldOutPointsHaveNoPartInTheFit) {
   EXPECT_GT(after.report.best().held_out->rmse, before.report.best().held_out->rmse);
 }
 
-// --- which model ---
+// --- choice of the model ---
 
-// Data of a simple law are not explained by a rich one.
+// Data of a simple law are not explained by a complex one.
 TEST(Static, TheLawThatMadeTheDataIsSimpleEnough) {
   StaticSetting s = truth();
   s.actuator.bladder = {};
@@ -229,7 +230,7 @@ TEST(Static, ASaturatingBladderIsFound) {
   }
 }
 
-// Filling and venting are 2 w apart.
+// Filling and venting differ by 2 w.
 TEST(Static, HalfWidthOfTheHysteresisComesBack) {
   for (const Noise& noise : {Noise{}, real_noise()}) {
     std::vector<StaticPoint> points;
@@ -246,7 +247,7 @@ TEST(Static, HalfWidthOfTheHysteresisComesBack) {
   }
 }
 
-// Both branches of a muscle, by what a branch does to a point.
+// Returns a fit to both branches of a muscle; `branched` changes a point for its branch.
 template <class Branched>
 StaticResult of_both_branches(Branched branched) {
   std::vector<StaticPoint> points;
@@ -262,8 +263,8 @@ StaticResult of_both_branches(Branched branched) {
   return identify(points, "saturating-elastic");
 }
 
-// Friction of 2.5 % of the pressure lies within an interval of a fifth of it; without friction
-// there is none.
+// Friction of 2.5 % of the pressure is within an interval of a fifth of it; without friction
+// none is found.
 TEST(Static, HysteresisThatGrowsWithThePressureComesBack) {
   for (const double share : {0.025, 0.0}) {
     StaticSetting s = truth();
@@ -278,8 +279,8 @@ TEST(Static, HysteresisThatGrowsWithThePressureComesBack) {
   }
 }
 
-// Friction of 2.5 % of the force is a share of the pressure as far as the braid pulls: the file's
-// loop is that of the muscle within a third, and is not zero.
+// Friction of 2.5 % of the force is a share of the pressure as long as the braid pulls: the
+// hysteresis in the file is that of the muscle within a third, and not zero.
 TEST(Static, HysteresisThatGrowsWithTheForceIsSeen) {
   const StaticResult found =
       of_both_branches([](StaticPoint& p) { p.force *= 1 - 0.025 * static_cast<int>(p.branch); });
@@ -299,7 +300,7 @@ TEST(Static, HysteresisThatGrowsWithTheForceIsSeen) {
   }
 }
 
-// Three muscles of one make: what the ends take from each alike.
+// Three muscles of one make, whose ends take the same length from each.
 TEST(Static, TheRestLengthsEffectComesBack) {
   StaticSetting s = truth();
   s.end_loss = 0.02;
@@ -319,7 +320,7 @@ TEST(Static, TheRestLengthsEffectComesBack) {
   EXPECT_LT(found.report.best().fit.max_percent, 0.5);
 }
 
-// Beyond what was measured: bounded, and never less force with more pressure.
+// Beyond the measured range the force is bounded, and never falls with the pressure.
 TEST(Static, OutsideTheDataItStaysBoundedAndMonotone) {
   const auto points = measured(truth(), 13, real_noise(), many);
   for (const char* model : {"effectiveness-quadratic", "taper", "elastic-cubic", "saturating"}) {

@@ -17,8 +17,8 @@ namespace {
 using Points = std::vector<StaticPoint>;
 
 constexpr int pressure_parts = 4;
-constexpr double left_out_tolerance = 1e-6;  // of fits that only judge
-constexpr double whole_tolerance = 1e-11;    // of the fit to all points
+constexpr double left_out_tolerance = 1e-6;  // for fits that are used in cross-validation only
+constexpr double whole_tolerance = 1e-11;    // for the fit to all points
 
 double mean_square(const std::vector<double>& residuals) {
   double sum = 0;
@@ -26,7 +26,7 @@ double mean_square(const std::vector<double>& residuals) {
   return residuals.empty() ? 0 : sum / static_cast<double>(residuals.size());
 }
 
-// Of those at which the muscle pulls; 0 where it does nowhere.
+// Returns the mean square over points at which the muscle pulls; 0 if it pulls nowhere.
 double mean_square_of_pull(const Unseen& unseen) {
   std::vector<double> pull;
   for (std::size_t i = 0; i < unseen.residuals.size(); ++i)
@@ -46,8 +46,8 @@ std::set<double> muscles_in(const Points& points) {
   return out;
 }
 
-// Returns a part for each point: -1 for those at the ends, which are always fitted. Fewer than
-// three groups have nothing between their ends: each is a part then, unless there is one alone.
+// Returns a part for each point: -1 for those at the end pressures, which are always fitted. With
+// two pressures each is a part.
 std::vector<int> interior_pressures(const Points& points) {
   std::vector<int> part = pressure_groups(points);
   const int last = *std::max_element(part.begin(), part.end());
@@ -56,12 +56,12 @@ std::vector<int> interior_pressures(const Points& points) {
   return part;
 }
 
-// A length of one muscle.
+// One mounted length of one muscle.
 struct Mount {
   double length = 0, rest_length = 0;
   int group = 0;
   bool at_end = false;  // the longest or the shortest of its muscle
-  double next = 0;      // distance of the next one, of the rest length [-]; 0: it is the only one
+  double next = 0;  // distance to the nearest mount, share of the rest length [-]; 0: the only one
 };
 
 std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group) {
@@ -85,7 +85,7 @@ std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group
   return out;
 }
 
-// Returns a part for each point: those of the lowest and of the highest pressure.
+// Returns a part for each point: 0 at the lowest pressure, 1 at the highest, -1 otherwise.
 std::vector<int> end_pressures(const Points& points) {
   std::vector<int> part = pressure_groups(points);
   const int last = *std::max_element(part.begin(), part.end());
@@ -96,12 +96,12 @@ std::vector<int> end_pressures(const Points& points) {
 // Lengths that were left out one by one.
 struct LeftOutLengths {
   Unseen all;
-  // Those at which the muscle pulls, each with its whole mean square.
+  // Lengths at which the muscle pulls, with the mean square of each.
   std::vector<MissedLength> missed;
-  std::string each;  // a text for each
+  std::string each;  // text of the error of each length
 };
 
-// Returns the end lengths or those between, each predicted by all other lengths.
+// Predicts each end length, or each length between, from all other lengths.
 LeftOutLengths cross_lengths(const Tried& model, const Points& points, const StaticFit& whole,
                              bool at_end, double full_scale) {
   const std::vector<int> group = length_groups(points);
@@ -122,7 +122,7 @@ LeftOutLengths cross_lengths(const Tried& model, const Points& points, const Sta
   return out;
 }
 
-// Writes the quantiles of the muscle that was missed by most.
+// Writes the quantiles of the muscle with the largest errors.
 void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
   for (const LeftOut& m : muscles) {
     const Quantiles q = quantiles(m.unseen);
@@ -141,8 +141,8 @@ void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
   }
 }
 
-// Adds what leaving out muscles says to the notes. Returns its mean square, each muscle in shares
-// of its own largest force  [-].
+// Notes the errors on muscles that were left out. Returns the mean square, each muscle as a
+// share of its own largest force [-].
 double tell_muscles(const std::vector<LeftOut>& muscles, const std::set<double>& all, Fit& fit) {
   for (const double muscle : all)
     if (all.size() > 1 &&
@@ -226,7 +226,7 @@ std::vector<LeftOut> Tried::leave_out_muscles(const Points& points) const {
     try {
       out.push_back(leave_out(points, muscle));
     } catch (const Refusal&) {
-      continue;  // the others are too few to predict it; cross_validate() says so
+      continue;  // too few other points; cross_validate() notes it
     }
   }
   return out;
@@ -261,7 +261,7 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
                         lengths.each);
     squares.push_back(mean_square(lengths.all.residuals));
     inside.add(lengths.all);
-    if (squares.size() == 1) out.inside = quantiles(inside);  // there is one pressure
+    if (squares.size() == 1) out.inside = quantiles(inside);  // one pressure only
   }
   const double of_muscles =
       tell_muscles(muscles, muscles_in(points), fit) * full_scale * full_scale;

@@ -1,5 +1,4 @@
-// identify/actuator/static_tried.h - one static law on some points: its fit, and what it makes of
-// points that it did not see.
+// identify/actuator/static_tried.h - fit and cross-validation of one static law on some points.
 #pragma once
 
 #include <vector>
@@ -20,32 +19,33 @@ struct LeftOut {
   Score score;  // in % of its own largest force
 };
 
-// A law that is fitted to points of these muscles, by its own way. Model and scales outlive it.
+// A static law, to be fitted to points of these muscles by its own method. Keeps references to
+// model and scales.
 class Tried {
  public:
-  // Sets free what several muscles and both branches need besides. Throws Refusal where the points
-  // have too few lengths for the law.
+  // Frees the additional parameters that several muscles and both branches require. Throws Refusal
+  // if the points have too few lengths for the law.
   Tried(const StaticModel& model, const StaticScales& scales,
         const std::vector<StaticPoint>& points);
 
-  // Returns the fit; `start` is one of more points, whose scatter is kept.
+  // Returns the fit. `start` is a fit to more points, whose scatter is kept.
   StaticFit fit(const std::vector<StaticPoint>& points, const StaticFit* start = nullptr) const;
 
-  // Returns every part 0 ... parts - 1 of the points as a fit to all others predicts it. `part` has
-  // a number for each point; -1 is always fitted.
+  // Predicts every part 0 ... parts - 1 of the points by a fit to all others. `part` is the part of
+  // each point; points with -1 are always fitted.
   Unseen cross(const std::vector<StaticPoint>& points, const std::vector<int>& part, int parts,
                const StaticFit& whole) const;
 
-  // Returns each muscle as a fit to all others predicts it; not those for which the others are too
-  // few points or lengths. The law is set up anew each time, as if the muscle had never been there.
+  // Predicts each muscle by a fit to all others, except those for which the others have too few
+  // points or lengths. Scales and free parameters are set up from the others alone.
   std::vector<LeftOut> leave_out_muscles(const std::vector<StaticPoint>& points) const;
 
-  // Returns the scales that a fit is computed with: 2.3 has found its own braid.
+  // Returns the scales that a fit is computed with: the ratio method (2.3) has its own braid.
   StaticScales scales_of_fit(const StaticFit& fit) const;
 
  private:
   bool by_ratio() const;
-  // Throws Refusal where the other muscles are too few points or lengths.
+  // Throws Refusal if the other muscles have too few points or lengths.
   LeftOut leave_out(const std::vector<StaticPoint>& points, double muscle) const;
 
   const StaticModel& model_;
@@ -53,11 +53,11 @@ class Tried {
   std::vector<Knob> knobs_;
 };
 
-// Writes into `fit` what the law makes of points that it did not see, in % of full_scale: pressures
-// between the lowest and the highest in parts, lengths between the ends of each muscle one by one,
-// and, of several muscles, each muscle once; all kinds alike (cross_validated). To leave out
-// an end is to extrapolate: that is told apart. `muscles` are those of leave_out_muscles(). Returns
-// how far off it was.
+// Writes the cross-validation errors of the law into `fit`, in % of full_scale: pressures between
+// the lowest and the highest in parts, lengths between the ends of each muscle one by one, and, if
+// several, each muscle in turn; all kinds have equal weight (cross_validated). Ends that are left
+// out are extrapolations, reported separately. `muscles` are those of leave_out_muscles(). Returns
+// the distribution of the errors.
 StaticSpread cross_validate(const Tried& model, const std::vector<StaticPoint>& points,
                             const StaticFit& whole, const std::vector<LeftOut>& muscles,
                             double full_scale, Fit& fit);

@@ -1,4 +1,4 @@
-// identify/actuator/test_muscle.h - the muscle that tests of static laws measure.
+// identify/actuator/test_muscle.h - muscle that the tests of static laws measure.
 #pragma once
 
 #include "sinew/identify/actuator/static_model.h"
@@ -7,7 +7,8 @@ namespace sinew::identify {
 
 inline constexpr double test_rest_length = 0.25;  // [m]
 
-// Returns a muscle like the ones on the market: 10 mm, a bladder that saturates, a threshold.
+// Returns a muscle similar to commercial ones: 10 mm, with a bladder that saturates and a
+// threshold.
 inline StaticSetting test_muscle() {
   StaticSetting s =
       setting_of({.rest_length = test_rest_length, .full_scale = 540, .top_pressure = 6.5e5});

@@ -13,7 +13,7 @@ namespace sinew::identify {
 
 namespace {
 
-// A file given twice under another name has the same readings.
+// Checks for a file that is given twice under different names: it has the same readings.
 Check repeated(const std::vector<CheckedTable>& tables) {
   for (std::size_t i = 0; i < tables.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -27,7 +27,7 @@ Check repeated(const std::vector<CheckedTable>& tables) {
   return {"files differ", Light::green, "No file repeats another.", ""};
 }
 
-// Converters count in whole numbers.
+// Checks for forces in whole numbers, which are converter counts.
 Check whole_numbers(const std::vector<CheckedTable>& tables) {
   std::set<double> seen;
   for (const CheckedTable& t : tables)

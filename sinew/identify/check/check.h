@@ -1,18 +1,18 @@
-// identify/check/check.h - are these the data of a muscle, and what can they tell? Asked before a
-// static law is fitted.
+// identify/check/check.h - plausibility checks of muscle data, made before a static law is fitted.
 //
-// A wrong unit, a wrong label or two muscles in one table fit some law, too; the parameters are
-// then wrong without a word. What a braided muscle cannot do gives most of it away: pull harder
-// when it is shorter, contract by half, pull without pressure, or more than its braid turns
-// pressure into by the ideal law, [22] in the form of Tondu & Lopez 2000:
+// Some law fits even data with a wrong unit, a wrong label or two muscles in one table, and its
+// parameters are wrong without a warning. Most such errors show as behaviour that is impossible for
+// a braided muscle: pulling harder when shorter, contracting by half, pulling without pressure, or
+// pulling harder than the ideal law of its braid allows, [22] in the form of Tondu & Lopez 2000:
 //
 //   F = pi D^2 p / 4 (a (1 - e)^2 - b)     a = 3/tan^2(theta), b = 1/sin^2(theta)
 //
 //   F  tension [N]   D, theta  diameter [m] and angle of the braid at rest   p  gauge pressure [Pa]
 //   e  contraction [-]
 //
-// Forces that are all too small by one factor look like those of a thinner muscle: nothing in the
-// law has a size of its own but D. The diameter alone tells lbf from N, and is asked for.
+// Forces that are all too small by one factor look like those of a thinner muscle, as D is the only
+// absolute size in the law. Only the diameter distinguishes lbf from N, so the user is requested to
+// give it.
 #pragma once
 
 #include <optional>
@@ -26,58 +26,58 @@
 
 namespace sinew::identify {
 
-// Green: it was checked and is as it should be. Grey: these data do not allow the check. Yellow: a
-// suspicion, or less than a good fit needs. Red: a fit would be wrong.
+// green: checked and correct. grey: not possible with these data. yellow: a suspicion, or too few
+// data for a good fit. red: a fit would be wrong.
 enum class Light { green, grey, yellow, red };
 
-// One question that the data were asked.
+// Result of one check.
 struct Check {
   std::string name;  // "pressure unit"
   Light light = Light::green;
   std::string evidence;  // a sentence
-  std::string advice;    // what to do; may be empty where it is green or grey
+  std::string advice;    // what to do; may be empty if green or grey
 
-  // A fit does not warn of it: its own report tells it, by its notes and intervals, or these data
-  // give no reason to doubt.
+  // A fit does not repeat this as a warning: its own notes and intervals show it, or these data
+  // give no reason for doubt.
   bool told_by_fit = false;
 };
 
-// One file, and what is known beside its columns.
+// One file, and its properties that are not in the columns.
 struct CheckedTable {
   Measured table;
   StaticInput known;
 };
 
-// What is asked: tables, and the points that a fit would take from them.
+// Input of the checks: tables, and the points that a fit would take from them.
 struct CheckInput {
   std::vector<CheckedTable> tables;       // as they were read
   StaticData data;                        // their points
-  double zero = 0;                        // the largest force that was taken off [N]
+  double zero = 0;                        // largest force that was subtracted [N]
   std::vector<Check> unreadable;          // red
-  double diameter = 0;                    // of the muscle without pressure [m]; 0: not known
+  double diameter = 0;                    // diameter of the muscle without pressure [m]; 0: unknown
   double atmosphere = units::atmosphere;  // [Pa]
-  std::optional<actuator::Braid> braid;   // known from elsewhere: then one length will do
+  std::optional<actuator::Braid> braid;   // if known, one length is enough
 
-  // Adds a table with its points. Throws Refusal where no method can read it.
+  // Adds a table with its points. Throws Refusal if no method can read it.
   void add(CheckedTable table);
 
-  // The same, but what no method can read becomes a red check, "readable".
+  // Adds a table like add(), but turns a Refusal into a red check, "readable".
   void add_or_tell(CheckedTable table);
 };
 
-// Answers every question that the points allow. Those that are held out are asked, too, but do not
-// count where it is about how much was measured.
+// Makes every check that the points allow. Points that are held out are included, except where the
+// amount of data is checked.
 std::vector<Check> check_static(const CheckInput& input);
 
 // Returns "green", "grey", "yellow" or "red".
 std::string_view word(Light light);
 
-// Returns true if one of them is red.
+// Returns whether a check is red.
 bool has_red(const std::vector<Check>& checks);
 
-// Throws Refusal where checks are red, with the evidence of each and what to do, unless they are to
-// be fitted `anyway`: then they are added to the warnings of the fit's report. So are suspicions;
-// what the report tells anyway is not said twice.
+// Throws Refusal if checks are red, with the evidence and advice of each, unless `anyway`:
+// then they are added to the warnings of the fit's report. Yellow checks are added too, except
+// those that the report itself shows.
 void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string>& warnings);
 
 }  // namespace sinew::identify

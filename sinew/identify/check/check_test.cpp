@@ -1,4 +1,4 @@
-// Thirty wrong inputs, each caught under its check's name; good ones without any red.
+// Thirty wrong inputs, each detected by its check; correct ones without any red check.
 #include "sinew/identify/check/check.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ constexpr double rest = test_rest_length, kpa = 1e3;
 
 StaticSetting truth() { return test_muscle(); }
 
-// A row as a person writes it: mm, kPa, N.
+// A row in a user's units: mm, kPa, N.
 struct Row {
   double length, pressure, force, rest_length;
   std::string branch;
@@ -39,7 +39,7 @@ struct Input {
   std::vector<Input> others;  // further files
 };
 
-// The rig: mounts of a muscle, filled and vented, with the noise of its sensors.
+// The rig: mounts of a muscle, filled and vented, with sensor noise.
 Input rig(double scale = 1, unsigned seed = 1, double full = 250, double from = 50,
           std::vector<double> contractions = {0, 0.02, 0.05, 0.09, 0.14}) {
   std::mt19937_64 random(seed);
@@ -71,7 +71,7 @@ std::string text_of(const Input& in) {
   return out;
 }
 
-// Tables that the reader refuses already are told as "readable", as by the command.
+// Tables that the reader refuses become "readable", as with the command.
 std::vector<Check> checked(const Input& in) {
   CheckInput asked{.diameter = in.diameter};
   try {
@@ -238,7 +238,7 @@ TEST(Check, GoodRigsHaveNoRed) {
     in.known_rest = rest;
     in.diameter = 0.01;
     const std::vector<Check> checks = checked(in);
-    // It begins at a pressure, so that the cell's zero is not to be seen.
+    // It begins at a pressure, so the cell's zero is unknown.
     for (const Check& c : checks)
       EXPECT_EQ(c.light, c.name == "zero of force" ? Light::grey : Light::green)
           << seed << ": " << c.name << ": " << c.evidence;
@@ -248,8 +248,8 @@ TEST(Check, GoodRigsHaveNoRed) {
   EXPECT_FALSE(has_red(checked(rig(1, 7, 250, 100, {0.05, 0.08, 0.11, 0.14}))));
 }
 
-// Forces in lbf that are called N are those of a thinner muscle: the check cannot know, but tells
-// the diameter that the numbers would have in lbf, and that is the one of the forces in N.
+// Forces in lbf that are labelled N look like those of a thinner muscle: the check cannot decide
+// this, but reports the diameter for numbers in lbf, which equals the one of the forces in N.
 TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
   const auto evidence = [](double scale) {
     Input in = rig(scale);
@@ -268,7 +268,7 @@ TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
       << diameter << " is not in " << pounds;
 }
 
-// A table from the shelf.
+// Reads a shipped table.
 std::vector<Check> checked_file(const std::string& path, Source source) {
   source.path = path;
   CheckInput asked;
@@ -303,7 +303,7 @@ TEST(Check, MeasuredMusclesHaveNoRed) {
                       {"p_mean_kPa", "kPa gauge"},
                       {"l_mounted_mm", "mm"},
                       {"l_rest_mm", "mm"}};
-      // Some bins of the 398 mm muscle's raw table stand at 40 MPa.
+      // Some bins of the 398 mm muscle's raw table are at 40 MPa.
       source.where = {{"l_rest_mm", muscle},
                       {"p_bin_kPa", "0,100,150,200,250,300,350,400,450,500,550,600"}};
       const auto checks =

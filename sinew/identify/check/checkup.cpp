@@ -13,13 +13,13 @@
 
 namespace sinew::identify {
 
-// --- what a fit could determine ---
+// --- parameters that a fit could determine ---
 
 namespace {
 
-constexpr double known_share = 0.5;  // of its value: a wider interval tells its size at best
+constexpr double known_share = 0.5;  // share of the value; a wider interval gives its order at best
 
-// The measurement that tells a parameter.
+// Returns the measurement that would determine a parameter.
 std::string_view measurement_for(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> all[] = {
       {"thread_length",
@@ -41,7 +41,7 @@ std::string_view measurement_for(std::string_view name) {
   return "more mounts and more pressures";
 }
 
-// Of two alike the one that holds for any muscle of a make.
+// Returns the richest law; of two similar ones, the one that holds for any muscle of a make.
 const StaticModel& richest_law() {
   for (const StaticModel& m : static_models())
     if (m.name == "saturating-effectiveness") return m;
@@ -75,7 +75,7 @@ Determined one_determined(const Estimate& e, bool leans) {
   return out;
 }
 
-// Nothing was measured that depends on it.
+// Returns the result for a parameter on which no measurement depends.
 Determined unasked(const char* name, const char* unit, const char* words) {
   return {.name = name,
           .unit = unit,

@@ -1,4 +1,4 @@
-// What a checkup says of a muscle that is known: its noise, its parameters, and what is missing.
+// A checkup of a known muscle: its noise, its parameters, and what is missing.
 #include "sinew/identify/check/checkup.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace sinew::identify::checkup_test {
 namespace {
 
-// A table as it comes from a file.
+// A table as read from a file.
 CheckInput table_of(const std::vector<StaticPoint>& points, bool tell_branches = true) {
   std::string text = fmt::format("length [mm],pressure [kPa gauge],force [N],rest_length [mm]{}\n",
                                  tell_branches ? ",branch" : "");
@@ -56,7 +56,7 @@ TEST(Checkup, RecognisesFilesMountsAndSteps) {
   EXPECT_EQ(found.noise.readings, 0u);  // nothing is repeated
 }
 
-// The noise that was put in comes back, from repeated readings and from samples at rest alike.
+// The added noise is found from repeated readings and from samples at rest.
 TEST(Checkup, FindsTheNoise) {
   for (const double noise : {0.5, 2.0}) {
     const ForceNoise found = force_noise(table_of(TestRig{.noise = noise, .seed = 3, .runs = 4}));
@@ -83,7 +83,7 @@ TEST(Checkup, FindsTheNoise) {
   }
 }
 
-// What is told by the data holds the truth in its interval.
+// The intervals of parameters determined by the data contain the truth.
 TEST(Checkup, WhatTheDataTellHoldsTheTruth) {
   int told = 0, held = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
@@ -107,8 +107,8 @@ TEST(Checkup, WhatTheDataTellHoldsTheTruth) {
   EXPECT_GE(held, told - 2);
 }
 
-// Mounts that are all near each other tell neither braid nor bladder, and one branch no hysteresis:
-// it is said which measurement would.
+// Mounts that are close together determine neither braid nor bladder, and one branch no hysteresis:
+// the report names the measurements that would.
 TEST(Checkup, SaysWhatWouldTellTheRest) {
   std::vector<StaticPoint> points;
   add_rig({.contractions = {0.06, 0.08}, .noise = 3}, points);
@@ -122,8 +122,8 @@ TEST(Checkup, SaysWhatWouldTellTheRest) {
   EXPECT_NE(hysteresis.advice.find("on the way up and on the way down"), std::string::npos);
 }
 
-// Red checks are refused together, each with its advice; anyway they are warnings. Good data are
-// quiet.
+// Red checks are refused together, each with its advice; with `anyway` they are warnings. Good data
+// give none.
 TEST(Checkup, RefusesWhatIsRedUnlessItIsToBeFittedAnyway) {
   std::vector<std::string> warnings;
   heed(check_static(table_of(TestRig{})), false, warnings);
@@ -147,7 +147,7 @@ TEST(Checkup, RefusesWhatIsRedUnlessItIsToBeFittedAnyway) {
   EXPECT_EQ(warnings[0].substr(0, 11), "force unit:");
 }
 
-// With the braid from elsewhere one length will do.
+// With a known braid one length is enough.
 TEST(Checkup, OneLengthWillDoWhereTheBraidIsKnown) {
   CheckInput one = table_of(TestRig{.contractions = {0.05}});
   EXPECT_TRUE(has_red(check_static(one)));
@@ -155,7 +155,7 @@ TEST(Checkup, OneLengthWillDoWhereTheBraidIsKnown) {
   EXPECT_FALSE(has_red(check_static(one)));
 }
 
-// Weights are hung on a muscle at few pressures: every row has a length of its own.
+// Weights are hung on a muscle at few pressures: every row has its own length.
 TEST(Checkup, WeightsOnAMuscleAreGoodData) {
   const StaticScales scales{.rest_length = test_rest_length, .atmosphere = 101325};
   std::string text = "length [mm],pressure [kPa gauge],load [kg]\n";
@@ -175,7 +175,7 @@ TEST(Checkup, WeightsOnAMuscleAreGoodData) {
   EXPECT_TRUE(warnings.empty()) << warnings.at(0);
 }
 
-// What cannot be a length comes from Python's arrays, which nobody has read before: it is red.
+// Impossible lengths can come from Python's arrays, which no reader has checked: they are red.
 TEST(Checkup, LengthsBelowZeroAreRed) {
   for (const double sign : {-1.0, 0.0}) {
     std::vector<StaticPoint> points;

@@ -8,9 +8,9 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double one_length = 2e-4;  // of a length: readings that differ by their noise alone
+constexpr double one_length = 2e-4;  // share of the length: noise of equal readings
 
-// How far readings of the very same length are apart; others differ by their lengths, too.
+// Returns the largest distance between readings of the same length; others also differ by length.
 double gap_of(std::vector<StaticPoint> points) {
   std::ranges::stable_sort(points, {}, &StaticPoint::length);
   double out = 0;
@@ -26,7 +26,7 @@ double gap_of(std::vector<StaticPoint> points) {
   return out;
 }
 
-// Adds a run of points at one pressure as one.
+// Adds points at one pressure as their average.
 void add(const std::vector<StaticPoint>& at_one, ForceCurve& curve) {
   double pressure = 0, force = 0;
   for (const StaticPoint& p : at_one) {

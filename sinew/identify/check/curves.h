@@ -1,4 +1,4 @@
-// identify/check/curves.h - the points of static data as curves of force over pressure, one of each
+// identify/check/curves.h - points of static data as curves of force over pressure, one for each
 // muscle, length and branch.
 #pragma once
 
@@ -9,21 +9,21 @@
 
 namespace sinew::identify {
 
-// Force over pressure at one length, pressures rising; what was read at one pressure is averaged.
+// Force over pressure at one length, pressures ascending; readings at one pressure are averaged.
 struct ForceCurve {
   double rest_length = 0, length = 0;  // [m]
   Branch branch = Branch::unknown;
-  std::vector<double> pressure, force, gap;  // [Pa, N]; gap: between readings at that pressure
+  std::vector<double> pressure, force, gap;  // [Pa, N]; gap: range of the readings at that pressure
 };
 
-// Lengths within 0.2 % and pressures within 1 % of the largest are one.
+// Returns the curves. Lengths within 0.2 % and pressures within 1 % of the largest are equal.
 std::vector<ForceCurve> curves_of(std::vector<StaticPoint> points);
 
-// The force of a curve at a pressure, between its points; nothing beyond them.
+// Returns the interpolated force of a curve; empty outside its pressures.
 std::optional<double> force_at(const ForceCurve& curve, double pressure);
 
-// The gauge pressure at which a curve's straight part starts from zero force [Pa]; nothing where it
-// has fewer than three points that pull.
+// Returns the gauge pressure at which the straight part of a curve starts from zero force [Pa];
+// empty if fewer than three points pull.
 std::optional<double> threshold_of(const ForceCurve& curve);
 
 }  // namespace sinew::identify

@@ -18,25 +18,25 @@ namespace {
 using enum Knob;
 using Points = std::vector<StaticPoint>;
 
-constexpr double least_shift = 0.01;    // of a rest length; less is a ruler's error
-constexpr double own_explains = 0.35;   // of what is left, squared: within a muscle
-constexpr double make_supports = 0.25;  // the same among muscles, where the muscle itself says so
-constexpr double make_explains = 0.5;   // where it does not
-constexpr double mount_explains = 0.6;  // where one mount among four or more is doubted
-constexpr double least_misfit = 0.002;  // of the largest force: less is left by right labels
+constexpr double least_shift = 0.01;    // share of the rest length; less is reading error
+constexpr double own_explains = 0.35;   // reduction of the squared misfit, within a muscle
+constexpr double make_supports = 0.25;  // among muscles, if the muscle's own mounts agree
+constexpr double make_explains = 0.5;   // among muscles otherwise
+constexpr double mount_explains = 0.6;  // one mount among four or more
+constexpr double least_misfit = 0.002;  // share of the largest force; correct labels leave as much
 constexpr std::size_t fewest_points = 15, most_mounts = 12;  // for a check of mounts
 
-// Beside branches and what several muscles need.
+// Laws without the parameters for branches and for several muscles.
 const std::vector<Knob> label_laws[] = {
     {thread_length, turns, threshold, stiffness, saturating_tension, saturation_length},
     {thread_length, turns, threshold, eff_linear, stiffness, saturating_tension, saturation_length},
     {thread_length, turns, threshold, stiffness, saturating_tension, saturation_length, series},
 };
 
-// What becomes of the misfit when a label is not believed; the best of the laws on either side.
+// Misfit with a label and with its length fitted instead, each for the best of the laws.
 struct Doubt {
   DoubtedLabel label;
-  double believed = 0, doubted = 0;  // what is left, root mean square in shares of the force [-]
+  double believed = 0, doubted = 0;  // rms misfits as shares of the force [-]
   double shift = 0, error = 0;       // [m]
 
   double explained() const { return 1 - std::pow(doubted / believed, 2); }
@@ -62,12 +62,12 @@ std::vector<Knob> law_for(std::vector<Knob> law, const Points& points) {
   return law;
 }
 
-// One muscle or several, and what is left where every label is believed.
+// Points of one or several muscles, fitted without doubting a label.
 struct Believed {
   Points points;
   double atmosphere = 0;       // [Pa]
-  std::vector<LabelFit> fits;  // of each law
-  double rms = 1e300;          // the best law's
+  std::vector<LabelFit> fits;  // one for each law
+  double rms = 1e300;          // best law
 
   Believed(Points all, double outside) : points(std::move(all)), atmosphere(outside) {
     for (const std::vector<Knob>& law : label_laws) {
@@ -77,8 +77,8 @@ struct Believed {
   }
 };
 
-// Laws that do about as well as the best one tell the shift; how far they are apart is part of its
-// error.
+// Fits a label's length. The shift is the mean over the laws that fit about as well as the best
+// one; their disagreement is a part of its error.
 Doubt ask(const Believed& all, const DoubtedLabel& label) {
   std::vector<LabelFit> fits;
   double best = 1e300;
@@ -115,8 +115,8 @@ std::set<double> mounts_of_muscle(const Points& points) {
   return out;
 }
 
-// A muscle that its own mounts can be asked about: three of them, the longest labelled as its rest
-// length.
+// Returns whether a muscle's own mounts can check its rest length: at least three, the longest of
+// them at rest.
 bool can_be_asked(const Points& own) {
   const std::set<double> mounts = mounts_of_muscle(own);
   const double rest = own.front().rest_length;
@@ -124,7 +124,7 @@ bool can_be_asked(const Points& own) {
          at_rest(*mounts.rbegin(), rest);
 }
 
-// Which other mount, if it were off alone, would explain as much.
+// Returns the other mounts whose error alone would explain as much.
 std::string others_that_explain(const Believed& own, const Doubt& doubt) {
   std::string out;
   const std::set<double> mounts = mounts_of_muscle(own.points);
@@ -155,16 +155,16 @@ Check suspicion_of(const Doubt* own, const Doubt* make, const std::string& other
   return {"labels", Light::yellow, text + ".", advice};
 }
 
-// Returns whether each mount of a muscle can be checked: it has enough points for a law, and so few
+// Returns whether each mount of a muscle can be checked: enough points for a law, and few enough
 // mounts that one of them matters.
 bool mounts_can_be_asked(const Points& own) {
   const std::size_t mounts = mounts_of_muscle(own).size();
   return mounts >= 4 && mounts <= most_mounts && own.size() >= fewest_points;
 }
 
-// The mount that, with another length, goes with all others best, and better than the doubted rest
-// length does, if there is one; nothing where none does, or several do alike. At the ends it is
-// rather the law that is wrong.
+// Returns a check of the mount that with another length fits the others best, if it explains more
+// than the doubted rest length and clearly more than any other mount. An end mount is not reported:
+// there the law is more likely wrong.
 std::optional<Check> mount_off(const Believed& own, const Doubt* rest) {
   if (!mounts_can_be_asked(own.points) || own.rms < least_misfit) return {};
   const std::set<double> mounts = mounts_of_muscle(own.points);
@@ -185,7 +185,7 @@ std::optional<Check> mount_off(const Believed& own, const Doubt* rest) {
       "Measure that length again."};
 }
 
-// Which muscles of a make follow the others with another rest length only.
+// Fits the rest length of each muscle, as if the others of its make were right.
 std::vector<Doubt> doubts_of_make(const Points& points, double atmosphere) {
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
@@ -196,7 +196,7 @@ std::vector<Doubt> doubts_of_make(const Points& points, double atmosphere) {
   return out;
 }
 
-// Muscles of whom any one would explain what is left.
+// Returns a check that lists the muscles each of which alone would explain the misfit.
 Check one_of_them(const std::vector<const Doubt*>& doubts) {
   std::string text = "The muscles do not follow one law. ";
   for (std::size_t i = 0; i < doubts.size(); ++i)
@@ -207,7 +207,7 @@ Check one_of_them(const std::vector<const Doubt*>& doubts) {
           "Measure the lengths of these muscles without pressure and load again."};
 }
 
-// What the muscles of a make say of each other, where none has said anything of itself.
+// Adds the check of muscles against each other, used if no muscle's own mounts gave a suspicion.
 void add_make(const std::vector<Doubt>& make, bool asked, std::vector<Check>& out) {
   std::vector<const Doubt*> likely;
   bool sure = false;
@@ -236,7 +236,7 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
   Points points = few_points(data.points);
   if (points.empty()) return;
   const bool has_label = points.front().rest_length > 0;
-  if (!has_label) {  // the longest mount takes its place, as in a fit
+  if (!has_label) {  // the longest mount is used, as in a fit
     const double longest = std::ranges::max(points, {}, &StaticPoint::length).length;
     for (StaticPoint& p : points) p.rest_length = longest;
   }

@@ -16,14 +16,14 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::size_t most_pressures = 6;  // of a curve
-constexpr double slack_share = 0.02;       // of a muscle's largest force: below, it may be slack
-constexpr double usual_misfit = 0.01;      // that the priors are weighed with
-constexpr double far_misfit = 0.04;        // beyond it points count less
-constexpr double gain_deviation = 0.1;     // of g
-constexpr double widest_shift = 0.1;       // of a rest length
+constexpr std::size_t most_pressures = 6;  // per curve
+constexpr double slack_share = 0.02;    // share of a muscle's largest force; below it may be slack
+constexpr double usual_misfit = 0.01;   // scatter that sets the weight of the priors
+constexpr double far_misfit = 0.04;     // points beyond it have less weight
+constexpr double gain_deviation = 0.1;  // prior deviation of g
+constexpr double widest_shift = 0.1;    // share of the rest length
 
-// The residuals of points over knobs, shift and gains, in this order.
+// Residuals over free parameters, shift and gains, in this order.
 class LabelProblem {
  public:
   LabelProblem(const std::vector<StaticPoint>& points, const std::vector<Knob>& knobs,
@@ -49,7 +49,7 @@ class LabelProblem {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   std::size_t count() const { return points_.size() + parameters_.size(); }
 
-  // Where the fit that believes the labels has ended.
+  // Returns the start: the solution of the fit without shift.
   std::vector<std::vector<double>> starts(const LabelFit& from) const {
     std::vector<double> out = from.law;
     if (doubted_) out.push_back(0);
@@ -57,7 +57,7 @@ class LabelProblem {
     return {out};
   }
 
-  // Two braids of different angles to begin with.
+  // Returns two starts, with braids of different angles.
   std::vector<std::vector<double>> starts() const {
     std::vector<double> likely;
     for (const Parameter& p : parameters_) likely.push_back(p.start);
@@ -118,11 +118,11 @@ class LabelProblem {
     }
   }
 
-  const std::vector<StaticPoint>& points_;  // by rest length
+  const std::vector<StaticPoint>& points_;  // sorted by rest length
   std::vector<Knob> knobs_;
   std::optional<DoubtedLabel> doubted_;
   StaticScales scales_;
-  std::map<double, double> full_;  // of each muscle its largest force [N]
+  std::map<double, double> full_;  // largest force of each muscle [N]
   std::vector<Parameter> parameters_;
 };
 

@@ -1,5 +1,5 @@
-// A label that is wrong is named with the length that it should have; right ones are left in peace,
-// whichever law the muscle follows.
+// A wrong label is named with the correct length; correct ones are not reported, for any law of the
+// muscle.
 #include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@ Check only_check(const std::vector<StaticPoint>& points) {
   return out.at(0);
 }
 
-// Labelled 4 mm too short or too long, of 250 mm. The fit that does not believe the
-// label finds those 4 mm, within twice the error that it states.
+// Labelled 4 mm too short or too long, of 250 mm. The fit with a doubted label finds these 4 mm,
+// within twice its stated error.
 TEST(Label, AMuscleIsNamedByItsOwnMounts) {
   for (unsigned seed = 1; seed <= 5; ++seed)
     for (const double wrong : {-0.004, 0.004}) {
@@ -53,7 +53,7 @@ TEST(Label, AMuscleIsNamedByItsOwnMounts) {
     }
 }
 
-// One of five mounts is written down 2 % of the rest length off.
+// One of five mounts has a length error of 2 % of the rest length.
 TEST(Label, AMountIsNamedByTheOthers) {
   for (const double wrong : {-0.005, 0.005}) {
     std::vector<StaticPoint> points;
@@ -69,7 +69,7 @@ TEST(Label, AMountIsNamedByTheOthers) {
   }
 }
 
-// Without a mount at rest its own mounts say nothing of a rest length; those of its make do.
+// Without a mount at rest, only other muscles of the make show an error of the rest length.
 TEST(Label, AMuscleIsNamedAmongItsMake) {
   for (const double wrong : {0.97, 1.03}) {
     std::vector<StaticPoint> points;
@@ -89,8 +89,7 @@ TEST(Label, AMuscleIsNamedAmongItsMake) {
   }
 }
 
-// Muscles that end in fittings which give way, whose bladder follows another law, or that have
-// caps.
+// Muscles with fittings that give way, with another bladder law, or with caps.
 std::vector<StaticSetting> all_kinds() {
   StaticSetting gives_way = test_muscle(), cubic = test_muscle(), capped = test_muscle();
   gives_way.actuator.series.compliance = 1 / 9e4;
@@ -136,7 +135,7 @@ TEST(Label, WhatCannotBeAskedIsGrey) {
   EXPECT_EQ(only_check(points).light, Light::grey);
 }
 
-// Whether a rest length is given or not, and whether a mount is at rest or not.
+// With and without a rest length, and with and without a mount at rest.
 TEST(Label, AMountThatIsOffAmongSixIsNamed) {
   for (const double longest : {0.0, 0.04})
     for (const bool labelled : {true, false})
@@ -162,7 +161,7 @@ TEST(Label, AMountThatIsOffAmongSixIsNamed) {
       }
 }
 
-// The bins of measured muscles; `as` gives one of them another label.
+// Reads the bins of measured muscles; `as` is another label for one of them.
 std::vector<StaticPoint> bins(const std::string& file, double of = 0, double as = 0) {
   Source source;
   source.path = file;
@@ -184,8 +183,8 @@ std::vector<StaticPoint> bins(const std::string& file, double of = 0, double as 
   return data.points;
 }
 
-// Measured muscles: 225 mm is probably 228 mm, its mounts being kinks of 9 and 19 mm of it. Nothing
-// else is suspected, nor that one once it has the other label.
+// Measured muscles: the one labelled 225 mm is probably 228 mm, judged by its mounts at 9 and 19 mm
+// of kink. No other is suspected, nor this one with the other label.
 TEST(Label, TheMeasuredMuscleThatIsProbably228MmIsNamedAndNoOther) {
   const char* shared = std::getenv("SINEW_DATA_DIR");
   if (shared == nullptr || !std::filesystem::exists(std::string(shared) + "/psu_20mm"))

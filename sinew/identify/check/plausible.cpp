@@ -1,4 +1,4 @@
-// Checks how the curves of the mounts lie to each other, and counts what they can tell.
+// Checks the curves of the mounts against each other, and counts the data.
 #include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ double strongest(const std::vector<ForceCurve>& curves) {
   return out;
 }
 
-// Two curves at the pressures that they share: how many there are, at how many the second pulls
-// more or less by at least a given force, and the mean of second minus first.
+// Comparison of two curves at their common pressures: their number, the number at which the second
+// pulls more or less by at least a given force, and the mean difference.
 struct Between {
   int shared = 0, above = 0, below = 0;
   double mean = 0;  // second minus first [N]
@@ -44,7 +44,7 @@ Between between(const ForceCurve& first, const ForceCurve& second, double least)
   return out;
 }
 
-// A muscle pulls less where it is shorter, at every pressure.
+// Checks that a muscle pulls less where it is shorter, at every pressure.
 Check mounts_in_order(const std::vector<ForceCurve>& curves) {
   const double least = 0.02 * strongest(curves);
   Check worst{"mounts in order", Light::grey,
@@ -69,11 +69,11 @@ Check mounts_in_order(const std::vector<ForceCurve>& curves) {
   return worst;
 }
 
-// The shortest length at which it still pulls with 5 % of its largest force says how far it
-// contracts. The tension of [22] ends at a contraction of 1 - 1/(sqrt 3 cos(theta)), which is below
-// 0.423 for every angle theta of a braid.
+// Checks the contraction at the shortest length at which the muscle still pulls with 5 % of its
+// largest force. The tension of [22] ends at a contraction of 1 - 1/(sqrt 3 cos(theta)), which is
+// below 0.423 for every angle theta of a braid.
 Check contraction(const std::vector<ForceCurve>& curves) {
-  std::map<double, std::pair<double, double>> pulling;  // of each muscle: shortest, longest [m]
+  std::map<double, std::pair<double, double>> pulling;  // shortest and longest of each muscle [m]
   const double least = 0.05 * strongest(curves);
   for (const ForceCurve& c : curves) {
     auto& [shortest, longest] = pulling.try_emplace(c.rest_length, 1e300, 0.0).first->second;
@@ -95,7 +95,7 @@ Check contraction(const std::vector<ForceCurve>& curves) {
   return {"contraction", Light::green, text, ""};
 }
 
-// Venting pulls more than filling did at the same pressure.
+// Checks that venting pulls more than filling at the same pressure.
 Check branches(const std::vector<ForceCurve>& curves) {
   double difference = 0;
   int pairs = 0;
@@ -122,7 +122,7 @@ Check branches(const std::vector<ForceCurve>& curves) {
     return {"branches", Light::grey,
             "Not checked: no reading is repeated, and no length was measured on both branches.",
             "Read some points twice, or measure on the way up and down."};
-  // Where both branches are told, readings are apart by their noise alone.
+  // If both branches are given, readings differ by noise alone.
   const double usual = pairs > 0 ? 0.15 : 0.03;
   if (gap > usual * force)
     return {"branches", Light::yellow,
@@ -165,7 +165,7 @@ auto is_of(Branch branch) {
   return [=](const StaticPoint& p) { return p.branch == branch; };
 }
 
-// How many pressures there are on the way up or down, whichever has more.
+// Returns the number of pressures on the branch that has most.
 std::size_t pressures_of(const std::vector<StaticPoint>& points) {
   int most = 0;
   for (const Branch branch : {Branch::vent, Branch::unknown, Branch::fill}) {
@@ -224,11 +224,11 @@ void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<C
 
 namespace {
 
-constexpr double highest_pressure = 1.2e6;  // pneumatic muscles end at 0.6 to 1 MPa [Pa]
+constexpr double highest_pressure = 1.2e6;  // pneumatic muscles are limited to 0.6 to 1 MPa [Pa]
 constexpr double low_pressure = 1.5e5;      // 20 psi; few muscles are measured below [Pa]
 constexpr double newtons_per_lbf = 4.448222;
 constexpr double ambient = 101325;    // [Pa]
-constexpr double braid_factor = 8.2;  // a - b in check.h, of a braid at 25 degrees [-]
+constexpr double braid_factor = 8.2;  // a - b in check.h, for a braid at 25 degrees [-]
 
 // Extremes of the points.
 struct Reach {
@@ -271,7 +271,7 @@ Check pressure_unit(const Reach& r) {
           ""};
 }
 
-// Absolute readings begin at the atmosphere, and so does the force.
+// Checks for absolute pressures: readings, and the force, then begin at the atmosphere.
 Check gauge_or_absolute(const StaticData& data, const Reach& r) {
   double longest = 0, threshold = -1e300, first = 0, rest = 0;
   for (const StaticPoint& p : data.points) rest = std::max(rest, p.rest_length);
@@ -315,7 +315,7 @@ Check sign_of_force(const StaticData& data, const Reach& r) {
   return {"sign of force", Light::green, "The muscle pulls.", ""};
 }
 
-// A muscle hardly pulls at the lowest pressure: a force there is a zero that was not taken off.
+// Checks the zero: at the lowest pressure a muscle hardly pulls, so a force there is an offset.
 Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   if (std::abs(taken_off) > 0.02 * (r.strongest - r.weakest))
     return {
@@ -343,7 +343,8 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   return {"zero of force", Light::green, text, ""};
 }
 
-// The force of the longest mount at the highest pressure against the ideal law at full length.
+// Compares the force of the longest mount at the highest pressure with the ideal law at full
+// length.
 Check cross_section(const Reach& r, double diameter) {
   const double implied = std::sqrt(4 * std::max(0.0, r.strongest) /
                                    (std::numbers::pi * std::max(1.0, r.top)) / braid_factor);
@@ -363,7 +364,7 @@ Check cross_section(const Reach& r, double diameter) {
     return {"force unit", Light::green, against, ""};
   }
   if (implied < 0.002 || implied > 0.09) return {"force unit", Light::red, text + ".", advice};
-  // Nothing but the diameter tells a thick muscle in lbf from a thin one in N: see check.h.
+  // Only the diameter distinguishes a thick muscle in lbf from a thin one in N: see check.h.
   return {"force unit", Light::yellow,
           fmt::format("{}, of {:.3g} mm if the numbers are lbf; nothing here decides which.", text,
                       1e3 * implied * std::sqrt(newtons_per_lbf)),
@@ -399,7 +400,7 @@ Check rest_length(const StaticData& data) {
       "The longest mount, {:.4g} mm, is {:.4g} % of the rest "
       "length, {:.4g} mm.",
       1e3 * length, 100 * most, 1e3 * rest);
-  // Makers let their muscles be stretched by 3 % in a frame.
+  // Makers permit a stretch of 3 % in a frame.
   if (most > 1.03)
     return {
         "rest length", Light::red, text,

@@ -1,4 +1,5 @@
-// identify/check/plausible.h - what a braided muscle cannot do, asked of points at rest.
+// identify/check/plausible.h - checks of points at rest for behaviour impossible for a braided
+// muscle.
 #pragma once
 
 #include <vector>
@@ -7,25 +8,25 @@
 
 namespace sinew::identify {
 
-// Adds the answers: units, signs, zeros and lengths, then how the curves lie to each other. `zero`
-// is what was taken off the forces already [N].
+// Add checks: units, signs, zeros and lengths, and the curves compared with each other. `zero` is
+// the force that was already subtracted [N].
 void add_unit_checks(const StaticData& data, double diameter, double zero, std::vector<Check>& out);
 void add_curve_checks(const StaticData& data, std::vector<Check>& out);
 
-// Adds how many lengths, pressures and branches there are among what is to be fitted. One length is
-// enough where the braid is known from elsewhere.
+// Adds checks of the number of lengths, pressures and branches among the fitted points. One
+// length is enough if the braid is known.
 void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<Check>& out);
 
 // --- labels of lengths ---
 
-// Adds the answers about the labels of muscles and mounts. Two kinds of evidence:
+// Adds checks of the labels of muscles and mounts. Two kinds of evidence:
 //
-//   - Within a muscle the mount at rest pulls as another length would, beside the other mounts.
-//   - Among muscles of one make one follows the others' law with another rest length only.
+//   - Within a muscle, the mount at rest pulls like another length would, compared with the others.
+//   - Among muscles of one make, one fits the others' law only with another rest length.
 //
-// Each is a suspicion: a law that fits better with another length can be a law that is too simple,
-// too. It must explain a good part of what is left, beyond its interval and by more than 1 %. Of
-// two muscles nobody can say which one is mislabelled: their make is not asked.
+// Each gives a suspicion only: a law that fits better with another length may also be too simple.
+// The other length must explain a large part of the misfit, beyond its interval, and differ by more
+// than 1 %. For two muscles the comparison cannot show which one is mislabelled, and is not made.
 void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out);
 
 }  // namespace sinew::identify

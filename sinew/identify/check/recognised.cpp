@@ -82,17 +82,17 @@ Recognised recognise(const CheckInput& input) {
 
 namespace {
 
-constexpr std::size_t rest_window = 25;  // samples that a line is laid through
-constexpr double same_length = 2e-3;     // of the longest: readings of one mount
-constexpr double same_pressure = 0.01;   // of the highest: readings of one step
+constexpr std::size_t rest_window = 25;  // samples of a straight line
+constexpr double same_length = 2e-3;     // share of the longest: readings of one mount
+constexpr double same_pressure = 0.01;   // share of the highest: readings of one step
 
-// Squares about something, and how many of them are free.
+// Sum of squares of residuals, with its degrees of freedom.
 struct Squares {
   double sum = 0, freedom = 0;
   std::size_t readings = 0;
 };
 
-// Adds what values leave of a straight line over x; of their mean where all x are one.
+// Adds the residuals about a straight line over x, or about the mean if all x are equal.
 void add_about_line(std::span<const double> x, std::span<const double> y, Squares& out) {
   const auto n = static_cast<double>(y.size());
   double mx = 0, my = 0, sxy = 0, sxx = 0;
@@ -109,10 +109,10 @@ void add_about_line(std::span<const double> x, std::span<const double> y, Square
   out.readings += y.size();
 }
 
-// Adds samples that rest together, in windows. One that scatters far more than most does not rest:
-// for example, the muscle reaches an end of its travel there.
+// Adds samples at rest, in windows. A window that scatters far more than most is left out: the
+// muscle may have reached an end of its travel there.
 void add_rests(const Measured& m, Squares& out) {
-  constexpr double far_more = 3;  // times the middle scatter
+  constexpr double far_more = 3;  // times the median scatter
   const bool weighs = m.has("load");
   const std::vector<double>& force = m[weighs ? "load" : "force"];
   const std::vector<bool> rests = settled_samples(m["time"], m["pressure"]).sample;
@@ -137,8 +137,8 @@ void add_rests(const Measured& m, Squares& out) {
   }
 }
 
-// Readings of one muscle, length and branch, by pressure, whose pressures are one: each about their
-// line, as they are not quite one.
+// Adds readings of one muscle, length and branch, sorted by pressure, in groups of nearly equal
+// pressure, each about its line.
 void add_repeated(const std::vector<StaticPoint>& sorted, double near, Squares& out) {
   for (std::size_t i = 0; i < sorted.size();) {
     std::size_t end = i;
@@ -190,7 +190,7 @@ ForceNoise force_noise(const CheckInput& input) {
   const bool records = recorded.freedom > 0;
   const Squares squares = records ? recorded : of_tables(input.data.points);
   ForceNoise out;
-  // Readings that differ by the last digits of a number alone are copies.
+  // Readings that differ only in the last digits of a number are copies.
   if (!(squares.freedom >= 3) || !(strongest > 0) ||
       !(std::sqrt(squares.sum / squares.freedom) > 1e-9 * strongest))
     return out;

@@ -1,5 +1,5 @@
-// identify/check/recognised.h - what was read, as a person would check it at a glance: files with
-// their columns, muscles with their mounts, and how far force readings scatter.
+// identify/check/recognised.h - overview of what was read, for a quick check by the user: files
+// with their columns, muscles with their mounts, and the noise of the force.
 #pragma once
 
 #include <string>
@@ -15,49 +15,49 @@ struct RecognisedColumn {
   std::string name, lowest, highest;
 };
 
-// A file.
+// A file that was read.
 struct RecognisedFile {
   std::string file;
   std::size_t rows = 0;
-  bool is_recording = false;  // it has times; else it is a table of points
+  bool is_recording = false;  // has times; false: a table of points
   double settled = 1;         // share of a recording's samples that are at rest
   std::vector<RecognisedColumn> columns;
 };
 
-// A muscle at one length.
+// Points of a muscle at one length.
 struct RecognisedMount {
-  double rest_length = 0, length = 0;  // of the muscle, 0: not known; as mounted [m]
-  std::string branches;                // "fill, vent"; empty: not told
-  std::size_t points = 0;              // that a fit takes
-  int pressures = 0;                   // steps among them
+  double rest_length = 0, length = 0;  // rest length of the muscle, 0: unknown; mounted length [m]
+  std::string branches;                // e.g. "fill, vent"; empty: unknown
+  std::size_t points = 0;              // points that a fit takes
+  int pressures = 0;                   // pressure steps among them
   double lowest = 0, highest = 0;      // gauge [Pa]
   double strongest = 0;                // largest force [N]
   std::size_t held_out = 0;            // points that are not fitted
 };
 
-// How far readings of one state scatter.
+// Scatter of force readings of one state.
 struct ForceNoise {
-  double deviation = 0;      // standard, of one reading [N]
-  double share = 0;          // of the largest force [-]
-  std::size_t readings = 0;  // that tell it; 0: none does
+  double deviation = 0;      // standard deviation of one reading [N]
+  double share = 0;          // share of the largest force [-]
+  std::size_t readings = 0;  // number of readings used; 0: unknown
   std::string from;          // "settled samples" or "repeated readings"
 };
 
-// What was read, in the order of the files; mounts by muscle, the longest last.
+// Overview in the order of the files; mounts by muscle, the longest last.
 struct Recognised {
   std::vector<RecognisedFile> files;
   std::vector<RecognisedMount> mounts;
   ForceNoise noise;
 };
 
-// Returns what the tables and their points are. Throws nothing for what they hold.
+// Returns the overview of the tables and their points. Bad data throw nothing.
 Recognised recognise(const CheckInput& input);
 
 // --- noise of the force ---
 
-// Returns it from the samples of recordings that have settled, each against a straight line through
-// those of its neighbours that it rests with; else from readings of a table that repeat a length,
-// pressure and branch, each against the others. The larger kind of data speaks.
+// Returns the noise from settled samples of recordings, each compared with a straight line through
+// its neighbours at rest, or from readings of a table that repeat a length, pressure and branch,
+// each compared with the others. The kind with more data is used.
 ForceNoise force_noise(const CheckInput& input);
 
 }  // namespace sinew::identify

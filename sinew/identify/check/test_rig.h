@@ -1,4 +1,4 @@
-// identify/check/test_rig.h - measured muscles that tests make: mounts that are filled and vented,
+// identify/check/test_rig.h - simulated measurements for tests: mounts that are filled and vented,
 // with the noise of a force cell.
 #pragma once
 
@@ -10,18 +10,18 @@
 
 namespace sinew::identify {
 
-// A muscle and what is written down of it.
+// A muscle and its labels.
 struct TestRig {
-  StaticSetting setting = test_muscle();  // of a muscle of test_rest_length, whose like it is
+  StaticSetting setting = test_muscle();  // scaled from test_rest_length to rest_length
   double rest_length = test_rest_length;  // [m]
-  double label = test_rest_length;        // of its rest length and of its mount at rest [m]
+  double label = test_rest_length;  // labelled rest length, and label of its mount at rest [m]
   std::vector<double> contractions = {0, 0.02, 0.05, 0.09, 0.14};
   double noise = 1;  // [N]
   unsigned seed = 1;
   int runs = 1;
 };
 
-// Adds its points: 50 to 650 kPa on the way up and down.
+// Appends its points: 50 to 650 kPa, rising and falling.
 inline void add_rig(const TestRig& rig, std::vector<StaticPoint>& out) {
   std::mt19937_64 random(rig.seed);
   std::normal_distribution<double> normal;

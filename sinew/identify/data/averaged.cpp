@@ -17,20 +17,20 @@ namespace sinew::identify {
 
 namespace {
 
-// Holds the group of each row; the groups are counted from 0 in the order of the rows.
+// Group of each row; groups are numbered from 0 in the order of the rows.
 struct RowGroups {
   std::vector<std::size_t> of_row;
   std::size_t count = 0;
 };
 
-// A column by which rows are grouped: a quantity by the cells of its range, a label by its value.
+// A column by which rows are grouped: a quantity by cells of its range, a label by its value.
 struct Setting {
   std::span<const double> values;
   bool is_label = false;
 };
 
-// Returns groups of rows that have the same labels, and the same cell of each quantity, whose range
-// has so many steps.
+// Returns groups of rows with the same labels and the same cell of each quantity, whose range is
+// divided into `steps` cells.
 RowGroups cells_of(const std::vector<Setting>& settings, std::size_t rows, double steps) {
   RowGroups out{std::vector<std::size_t>(rows), 1};
   for (const auto& [values, is_label] : settings) {
@@ -48,8 +48,8 @@ RowGroups cells_of(const std::vector<Setting>& settings, std::size_t rows, doubl
   return out;
 }
 
-// Returns the root mean square of what values differ from the averages of their groups by, in
-// shares of the largest.
+// Returns the root mean square deviation of values from their group's average, as a share of the
+// largest value.
 double scatter_within(const RowGroups& groups, std::span<const double> values) {
   std::vector<double> sum(groups.count), count(groups.count);
   for (std::size_t row = 0; row < values.size(); ++row) {
@@ -65,7 +65,7 @@ double scatter_within(const RowGroups& groups, std::span<const double> values) {
   return freedom > 0 && largest(values) > 0 ? std::sqrt(squares / freedom) / largest(values) : 0;
 }
 
-// Replaces the rows by the averages of their groups; each has the line of its group's first row.
+// Replaces the rows by the averages of their groups, with the line of the group's first row.
 void average(const RowGroups& groups, Measured& data) {
   std::vector<double> count(groups.count);
   std::vector<int> lines;
@@ -117,7 +117,7 @@ Measured settings_averaged(Measured data, std::string_view response) {
 QuickChange quickest_change(std::span<const double> time, std::span<const double> values) {
   const double half = 0.5 * (largest(values) - smallest(values));
   QuickChange out{time.front(), time.back() - time.front()};
-  std::deque<std::size_t> highest, lowest;  // of the rows from `first` on
+  std::deque<std::size_t> highest, lowest;  // rows of the maximum and minimum since `first`
   std::size_t first = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     while (!highest.empty() && values[highest.back()] <= values[i]) highest.pop_back();
@@ -141,7 +141,7 @@ Measured times_averaged(Measured data, std::size_t most,
   std::size_t each = (rows + most - 1) / most;
   std::string kept;
   if (quickest) {
-    constexpr double averages = 100;  // in the change
+    constexpr double averages = 100;  // during the change
     const std::vector<double>& time = data["time"];
     const double step = (time.back() - time.front()) / static_cast<double>(rows - 1);
     const double longest = std::max(1.0, quickest->duration / (averages * step));

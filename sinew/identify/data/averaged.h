@@ -1,5 +1,5 @@
-// identify/data/averaged.h - long tables as averages of their rows: a million rows of a sensor show
-// no more of a law than some thousands of averages, and take hundreds of times as long to fit.
+// identify/data/averaged.h - averaging of long tables: a million rows of a sensor determine a law
+// no better than some thousands of averages, and take hundreds of times as long to fit.
 #pragma once
 
 #include <cstddef>
@@ -12,35 +12,35 @@
 
 namespace sinew::identify {
 
-// Longer tables are averaged, to at most this many rows.
+// Longer tables are averaged, to at most `averaged_rows` rows.
 inline constexpr std::size_t most_rows = 4000, averaged_rows = 2000;
 
-// Returns a table of more than 4000 rows without a time as averages, with a note that counts them:
-// of the rows of each setting, which are those with the same rest length and branch in one cell of
+// Returns a table of more than 4000 rows without a time as averages over settings, with a note of
+// their number. The rows of a setting have the same rest length and branch, and are in one cell of
 // a grid over all other columns but `response`. The grid divides the range of each column into 4096
-// equal steps, or half as many until there are at most 2000 settings. The note has the scatter of
-// the response within a setting, too. Other tables are returned as they are.
+// equal steps, halved until there are at most 2000 settings. The note also states the scatter of
+// the response within settings. Other tables are returned unchanged.
 Measured settings_averaged(Measured data, std::string_view response);
-// Does the same for rows of two kinds, of which no average is mixed; `kinds` has the kind of each
-// row and then that of each average. Empty: there is one kind.
+// Averages rows of two kinds, never of both together. `kinds` is the kind of each row, on
+// return that of each average. Empty: one kind.
 Measured settings_averaged(Measured data, std::string_view response, std::vector<bool>& kinds);
 
-// When something changes, and in what time  [s].
+// Start and duration of a change [s].
 struct QuickChange {
   double from = 0, duration = 0;
 };
 
-// Returns the shortest stretch of time in which values change by half of their range. `time`
-// ascends, and there are as many values, two at least.
+// Returns the shortest interval in which the values change by half of their range. `time` ascends
+// and has the size of `values`, at least two.
 QuickChange quickest_change(std::span<const double> time, std::span<const double> values);
 
-// Returns a recording of more than `most` rows as averages of as many consecutive rows each as
-// leave no more than `most`, with a note; a shorter one is returned as it is. With a quickest
-// change, no average lasts longer than a hundredth of it, and where that leaves more than `most`,
-// only so many are kept, from shortly before the change on.
+// Returns a recording of more than `most` rows as averages of equally many consecutive rows, at
+// most `most` of them, with a note; a shorter one unchanged. If `quickest` is given, no average is
+// longer than a hundredth of its duration; should that leave more than `most`, only the part that
+// begins shortly before the change is kept.
 Measured times_averaged(Measured data, std::size_t most,
                         const std::optional<QuickChange>& quickest = {});
-// Uses the quickest change of one of its columns.
+// Averages a recording by the quickest change of the column `watched`.
 Measured times_averaged(Measured data, std::size_t most, std::string_view watched);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-// Long tables are averaged within their settings, recordings over their time; short ones stay.
+// Long tables are averaged within their settings, recordings over time; short ones are unchanged.
 #include "sinew/identify/data/averaged.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Measured table_of(std::vector<Column> columns) {
   return out;
 }
 
-// Reads a force of 1 N per Pa, noise of 1 N, at 50 pressures of two lengths.
+// Simulates a force of 1 N per Pa with noise of 1 N, at 50 pressures of two lengths.
 Measured sweep(std::size_t rows) {
   std::mt19937 random(2);
   std::normal_distribution<double> noise(0, 1);
@@ -106,7 +106,7 @@ TEST(Averaged, ARecordingKeepsItsQuickestChange) {
             "averages hide its changes");
 }
 
-// Two muscles that differ by 2 mm stay two, whatever is averaged of each.
+// Two muscles that differ by 2 mm are not averaged together.
 TEST(Averaged, LabelsAreKept) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> share(0, 1);

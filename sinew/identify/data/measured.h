@@ -1,5 +1,5 @@
-// identify/data/measured.h - the tables that methods of identification read: those of
-// sinew/recording, under the names that the methods use.
+// identify/data/measured.h - tables that the identification methods read: those of sinew/recording
+// under the names that the methods use.
 #pragma once
 
 #include "sinew/recording/measured.h"

@@ -14,7 +14,7 @@ namespace sinew::identify {
 
 namespace {
 
-// Samples in plateaus of at least `shortest` equal samples at `extreme`.
+// Returns the number of samples in plateaus of at least `shortest` equal samples at `extreme`.
 std::size_t in_plateaus(std::span<const double> values, double extreme, std::size_t shortest) {
   std::size_t total = 0, run = 0;
   const auto close = [&] {
@@ -32,7 +32,7 @@ std::size_t in_plateaus(std::span<const double> values, double extreme, std::siz
   return total;
 }
 
-// Share of the neighbors that differ, away from both extremes.
+// Returns the share of neighbouring samples that differ, away from both extremes.
 double restlessness(std::span<const double> values, double low, double high) {
   std::size_t pairs = 0, different = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {

@@ -1,5 +1,4 @@
-// A column gives away something about its sensor: an end that was met, a slip of the pen, no
-// change.
+// Sensor problems are found in a column: clipping, typing errors, no change.
 #include "sinew/identify/data/quality.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +24,7 @@ TEST(Quality, ASensorAtItsEndRepeatsItselfAndNoiseDoesNot) {
   EXPECT_TRUE(clipping(clipped).clipped);
   EXPECT_GT(clipping(clipped).at_top, 150u);
 
-  // Slack at exactly zero, and coarse steps that rest on every value, are no clipping.
+  // Slack at exactly zero, and coarse steps with repeated values, are not clipping.
   std::vector<double> slack(noisy), steps;
   for (double& x : slack) x = std::max(x - 20, 0.0);
   for (int i = 0; i < 500; ++i) steps.push_back(i / 50);

@@ -7,7 +7,7 @@ namespace sinew::identify {
 
 namespace {
 
-// Coefficients of the parabola through samples, about the first's time.
+// Sums for a least squares parabola through samples; t = 0 is the sample of interest.
 struct Sums {
   double s[5] = {}, y[3] = {};
 
@@ -19,7 +19,7 @@ struct Sums {
     }
   }
 
-  // Slope and twice the bend at t = 0, by Cramer's rule.
+  // Returns first and second derivative at t = 0, by Cramer's rule.
   std::array<double, 2> rates() const {
     const double d = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) +
                      s[2] * (s[1] * s[3] - s[2] * s[2]);

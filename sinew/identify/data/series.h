@@ -1,5 +1,4 @@
-// identify/data/series.h - what is made of samples over time: rates that do not lag, and the same
-// series a little later.
+// identify/data/series.h - operations on time series: derivatives without lag, and delay.
 #pragma once
 
 #include <span>
@@ -7,17 +6,17 @@
 
 namespace sinew::identify {
 
-// How fast something changes, and how fast that does.
+// First and second derivative of a series.
 struct Rates {
   std::vector<double> first, second;  // per second, per second squared
 };
 
-// Returns slope and twice the bend, at each sample, of the parabola of least squares through the
-// samples within `window`/2 of it, two on either side at least  [s].
+// Returns the derivatives at each sample, of the least squares parabola through the samples within
+// `window`/2 [s], at least two on either side.
 Rates rates_of(std::span<const double> time, std::span<const double> values, double window);
 
-// Writes the values at `time` - `delay` of a series that is sampled at `time`: cubic between
-// samples, constant beyond its ends.
+// Writes the values at `time` - `delay` of a series sampled at `time`: cubic between samples,
+// constant beyond its ends.
 void delayed(std::span<const double> time, std::span<const double> values, double delay,
              std::span<double> out);
 

@@ -1,4 +1,4 @@
-// Rates of what has them in closed form, and series that come later.
+// Derivatives of functions with a closed form, and delayed series.
 #include "sinew/identify/data/series.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace sinew::identify::series_test {
 namespace {
 
-// A parabola is its own: uneven steps and ends make no difference.
+// The fit of a parabola is exact, also with uneven steps and at the ends.
 TEST(Series, RatesOfAParabolaAreExact) {
   std::vector<double> time, values;
   for (int i = 0; i < 60; ++i) {

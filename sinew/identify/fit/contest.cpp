@@ -12,7 +12,7 @@ namespace {
 
 using Rowset = std::vector<std::size_t>;
 
-// Returns the problem of fitting the candidate to those rows.
+// Returns the problem of fitting the candidate to these rows.
 FitProblem problem_of(const Candidate& candidate, const std::vector<double>& measured,
                       const Rowset& rows) {
   auto residuals = [predict = candidate.predict, measured, rows,
@@ -34,7 +34,7 @@ void start_at(const Solution& solution, FitProblem& problem) {
     problem.parameters[i].start = solution.values[i];
 }
 
-// Returns what the law misses every row by.
+// Returns predicted - measured at every row.
 std::vector<double> misses(const Candidate& candidate, const std::vector<double>& measured,
                            std::span<const double> p) {
   std::vector<double> out(measured.size());
@@ -49,8 +49,8 @@ std::vector<double> at(const std::vector<double>& values, const Rowset& rows) {
   return out;
 }
 
-// Returns what the law misses the rows by that each split hides from it. A split that hides no
-// fitted row needs no fit.
+// Returns the residuals of the rows that each split leaves out. A split that leaves out no fitted
+// row needs no fit.
 std::vector<double> unseen(const Candidate& candidate, const Trial& trial, const Rowset& rows,
                            const Solution& whole) {
   std::vector<double> out;

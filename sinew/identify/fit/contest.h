@@ -1,9 +1,9 @@
-// identify/fit/contest.h - the laws of a method are compared: each is fitted to the rows,
-// predicts rows that it was not fitted to, and is scored on both.
+// identify/fit/contest.h - comparison of the laws of a method: each is fitted to the rows, predicts
+// rows that it was not fitted to, and is scored on both.
 //
-// A candidate is a formula over the rows with its free parameters. All else is the same for every
-// method and is here: the search from several starts, the scores, the band that holds what was not
-// fitted, the refusal of parameters at their bounds, and the profiles (fit.h: conclude()).
+// A candidate is a formula over the rows with its free parameters. All else is common to the
+// methods and is here: the search from several starts, the scores, the band that contains rows left
+// out of the fit, the refusal of parameters at their bounds, and the profiles (fit.h: conclude()).
 #pragma once
 
 #include <functional>
@@ -18,45 +18,45 @@
 
 namespace sinew::identify {
 
-// Writes what a law has at every row, of the parameters p. Returns false where it has no answer.
-// The things it refers to must live until conclude() returns.
+// Writes the value of a law at every row, for the parameters p. Returns false if the law is not
+// defined there. Objects that it refers to must live until conclude() returns.
 using Prediction = std::function<bool(std::span<const double> p, std::span<double> values)>;
 
-// A law of a contest.
+// A law to be compared.
 struct Candidate {
   std::string model, law, source;  // as in Fit
   std::vector<Parameter> parameters;
   Prediction predict;
-  std::vector<std::vector<double>> starts;  // the best counts; empty: the parameters' own
+  std::vector<std::vector<double>> starts;  // the best solution is used; empty: Parameter::start
   SolverOptions options;
-  std::vector<std::string_view> may_be_at_bound;  // parameters that mean something there
-  std::string refused;                            // known before a fit; empty: it is fitted
+  std::vector<std::string_view> may_be_at_bound;  // parameters with a meaning there
+  std::string refused;                            // reason known before a fit; empty: it is fitted
 };
 
-// Rows that a law is fitted to, by number, and rows that it then predicts.
+// Indices of rows that a law is fitted to, and of rows that it then predicts.
 struct Split {
   std::vector<std::size_t> fitted, unseen;
 };
 
-// Returns a split for each part, in which its rows are unseen. `part` has the part of each row.
+// Returns a split for each part that leaves out its rows. `part` is the part of each row.
 std::vector<Split> each_part_unseen(std::span<const int> part);
-// Returns a split for each row, which is unseen in it.
+// Returns a split for each row that leaves it out.
 std::vector<Split> each_row_unseen(std::size_t rows);
 
-// Holds the rows that all candidates are fitted to and tried on.
+// Rows that all candidates are fitted to and tested on.
 struct Trial {
   std::vector<double> measured;   // at every row
-  std::vector<std::size_t> rows;  // those that are fitted; empty: all
+  std::vector<std::size_t> rows;  // fitted rows; empty: all
   std::vector<Split> splits;
 
-  // The splits make errors for the choice (Fit::cross_validated), rather than one score of rows
-  // that were held out (Fit::held_out).
+  // true: the splits give the errors for the choice (Fit::cross_validated); false: they give one
+  // score of held-out rows (Fit::held_out).
   bool cross_validates = false;
-  std::string band_where;  // the band holds there: "while the pressure rests"; empty: everywhere
+  std::string band_where;  // condition of the band, e.g. "while the pressure rests"; empty: none
 };
 
-// Fits the candidates on all cores and appends them to the report, whose full scale is set; what a
-// Refusal stops is refused. `done` counts the laws that have been tried.
+// Fits the candidates on all cores and appends them to the report, whose full scale is set. A
+// candidate that throws Refusal is entered as refused. `done` counts the laws that have been tried.
 void contend(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
              host::Tally* done = nullptr);
 

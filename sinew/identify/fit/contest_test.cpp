@@ -8,7 +8,7 @@
 namespace sinew::identify::contest_test {
 namespace {
 
-// Powers of x up to that one, fitted to rows at x.
+// Returns a law of powers of x up to `degree`.
 Candidate polynomial(const std::vector<double>& x, int degree) {
   Candidate out{.model = "degree " + std::to_string(degree)};
   for (int k = 0; k <= degree; ++k)
@@ -43,7 +43,7 @@ Report report_of(const Line& data) {
   return {.full_scale = 1, .rows = {.x = "x", .x_unit = "1", .at = data.x, .measured = data.y}};
 }
 
-// Leaving one row out has a closed form: its residual over 1 - its leverage, for a mean 1 - 1/n.
+// Leave-one-out has a closed form: the residual over 1 - leverage, which is 1 - 1/n for a mean.
 TEST(Contest, LeavesEachRowOutOnce) {
   const Line data = line(10);
   Report report = report_of(data);
@@ -51,7 +51,7 @@ TEST(Contest, LeavesEachRowOutOnce) {
   const Fit& fit = report.fits[0];
   EXPECT_NEAR(fit.held_out->rmse, fit.fit.rmse / (1 - 0.1), 1e-7);
   EXPECT_FALSE(fit.cross_validated.has_value());
-  EXPECT_FALSE(fit.band.has_value());  // 95 % of ten is not to be had
+  EXPECT_FALSE(fit.band.has_value());  // ten rows give no 95 % band
 }
 
 TEST(Contest, TheSimplestLawThatPredictsIsChosenAndPinned) {
@@ -70,8 +70,8 @@ TEST(Contest, TheSimplestLawThatPredictsIsChosenAndPinned) {
   EXPECT_EQ(unseen[1], "what happens outside the x that was measured, 0 to 5.9");
 }
 
-// Rows that are not fitted are predicted all the same, and a split that hides none of the fitted
-// ones takes the whole fit.
+// Rows that are not fitted are predicted too, and a split that leaves out no fitted row uses the
+// whole fit.
 TEST(Contest, ScoresRowsOfItsOwnThatNoFitSees) {
   const Line data = line(20);
   Trial trial{.measured = data.y};

@@ -22,7 +22,8 @@ bool usable(const Fit& fit) { return fit.refused.empty(); }
 
 enum class By { cross_validation, held_out, fit };
 
-// Errors below this are one, so that a kind that a law meets exactly does not decide alone  [%].
+// Smaller errors count as this [%], so that a kind of parts that a law fits exactly does not decide
+// alone.
 constexpr double exact = 1e-3;
 
 double error_of(const Fit& fit, By by) {
@@ -35,7 +36,7 @@ double error_of(const Fit& fit, By by) {
   return by == By::held_out ? fit.held_out->rmse_percent : fit.fit.rmse_percent;
 }
 
-// What all usable fits have.
+// Returns the best measure of error that all usable fits have.
 By measure(const Report& report) {
   bool cross = true, held_out = true;
   for (const Fit& fit : report.fits) {
@@ -46,7 +47,7 @@ By measure(const Report& report) {
   return cross ? By::cross_validation : held_out ? By::held_out : By::fit;
 }
 
-// Returns the fits that may be chosen; all that are usable where each has a reason not to be.
+// Returns the fits that may be chosen; all usable ones if each has a reason not to be.
 std::vector<const Fit*> eligible(const Report& report) {
   std::vector<const Fit*> all, out;
   for (const Fit& fit : report.fits) {
@@ -58,7 +59,7 @@ std::vector<const Fit*> eligible(const Report& report) {
   return all;
 }
 
-// Is it about as good as the best one at every kind of parts?
+// Returns whether the fit is about as good as the best one for every kind of parts.
 bool costs_no_kind(const Fit& fit, const Fit& best, By by, double tolerance, double negligible) {
   if (by != By::cross_validation) return true;
   for (std::size_t k = 0; k < std::min(fit.kinds.size(), best.kinds.size()); ++k)
@@ -66,7 +67,7 @@ bool costs_no_kind(const Fit& fit, const Fit& best, By by, double tolerance, dou
   return true;
 }
 
-// Says how close the fits behind the chosen one are; `fits` are in ascending order of their errors.
+// Describes how close the next fits are to the chosen one; `fits` are in ascending order of error.
 std::string runners_up(const std::vector<const Fit*>& fits, const Fit& chosen, By by) {
   constexpr std::size_t most = 3;
   std::string out;
@@ -80,7 +81,7 @@ std::string runners_up(const std::vector<const Fit*>& fits, const Fit& chosen, B
   return error_of(chosen, by) > 0 ? out : "";
 }
 
-// Each reason once, with the models that it stands for.
+// Throws Refusal with each reason once, and the models that have it.
 [[noreturn]] void refuse_all(const Report& report) {
   std::string all;
   for (std::size_t i = 0; i < report.fits.size(); ++i) {
@@ -136,8 +137,8 @@ void choose(Report& report, double tolerance, double negligible) {
 
 namespace {
 
-// Returns whether a profile leads to a smaller error than that of the chosen values. Where outliers
-// count less, or more is known than the data, the error is not what was made small.
+// Returns whether a profile finds a smaller error than that of the solution. Not tested with robust
+// loss or priors, which minimise another quantity.
 bool finds_better(const FitProblem& problem, const std::optional<Profile>& profile) {
   constexpr double less = 0.99;
   return profile && problem.data == 0 && problem.options.outlier == 0 && problem.wishes.empty() &&
@@ -171,8 +172,7 @@ void add_profiles(Report& report) {
   for (Fit& each : report.fits) each.again.reset();
 }
 
-// Writes the errors by group, in the order in which the groups come, if there are two groups at
-// least.
+// Writes the errors by group, in the order of their first rows, if there are at least two groups.
 void add_errors_by_group(Report& report) {
   const std::vector<std::string>& group = report.rows.group;
   const std::vector<double>& residuals = report.best().residuals;
@@ -191,8 +191,8 @@ void add_errors_by_group(Report& report) {
   report.errors.push_back(std::move(by));
 }
 
-// Returns the laws whose error, by which the choice goes, is at most a tenth more than the chosen
-// one's.
+// Returns the laws whose error, by the measure of the choice, is at most a tenth larger
+// than that of the chosen one.
 std::vector<std::string> hardly_worse(const Report& report) {
   std::vector<std::string> out;
   const By by = measure(report);
@@ -327,7 +327,7 @@ Json to_json(const Fit& fit) {
   return out;
 }
 
-// A part by its name, or by its value in the unit that stands above.
+// Writes a part by its name, or by its value in ErrorBy::unit.
 Json to_json(const ErrorBy& by) {
   Json out{{"by", by.what}};
   if (!by.unit.empty()) out["unit"] = by.unit;
@@ -340,7 +340,7 @@ Json to_json(const ErrorBy& by) {
   return out;
 }
 
-// Rows that have an explanation of their own; the others are but counted.
+// Writes the number of omitted rows, and each row that has an explanation.
 Json to_json(const Omitted& omitted, const Report& report) {
   Json out{{"reason", omitted.reason},
            {"told_by", omitted.told_by},
@@ -375,7 +375,7 @@ Json to_json(const Further& further) {
   return out;
 }
 
-// Adds what there is beside the models; a key that does not apply is absent.
+// Adds the parts beyond the models; a key that does not apply is absent.
 void add_evidence(const Report& report, Json& out) {
   for (const ErrorBy& by : report.errors) out["errors"].push_back(to_json(by));
   for (const Omitted& omitted : report.left_out)
@@ -404,7 +404,7 @@ Json to_json(const Report& report) {
   out["not_pinned"] = not_pinned(report);
   out["does_not_show"] = does_not_show(report);
 
-  // The chosen one once more, where a program looks first.
+  // The chosen model again at top level, where programs find it first.
   const Json best = to_json(report.best());
   for (const char* key :
        {"model", "parameters", "fit", "held_out", "cross_validated", "extrapolated", "band"})

@@ -1,5 +1,5 @@
-// identify/fit/fit.h - what an identification found: every model that was tried, how well it fits
-// what it saw and what it did not see, and which one was chosen by which rule.
+// identify/fit/fit.h - result of an identification: every model that was tried, its errors on
+// fitted and on left-out data, and the choice with its rule.
 #pragma once
 
 #include <memory>
@@ -17,115 +17,115 @@
 
 namespace sinew::identify {
 
-// A fit that can be made again with a parameter at another value.
+// A fit that can be repeated with a parameter held at another value.
 struct Refit {
   FitProblem problem;
   Solution solution;
 };
 
 struct Fit {
-  std::string model;   // its name, as the setting model takes it
+  std::string model;   // name, as in the setting `model`
   std::string law;     // "F = Eff(p) p b^2/(4 pi n^2) (3 L^2/b^2 - 1)"
-  std::string source;  // of the law
+  std::string source;  // source of the law
   std::vector<Estimate> parameters;
   Score fit;
   std::optional<Score> held_out;
-  // Parts of what was fitted, predicted by the rest; a method's own way, told in `notes`.
+  // Error of parts of the fitted data, each predicted from the rest; `notes` describe the parts.
   std::optional<Score> cross_validated;
-  // Errors of each kind of parts: pressures, lengths, muscles [%]; none: there is one kind. Each
-  // kind has a scatter of its own in every law (a length that is a little off, say), so the choice
-  // goes by their geometric mean, as the likelihood of unknown scatters does.
+  // Errors of each kind of parts: pressures, lengths, muscles [%]; empty: one kind. Each kind has
+  // its own scatter in every law (a small length error, for instance), so the choice uses the
+  // geometric mean, which corresponds to the likelihood with unknown scatters.
   std::vector<double> kinds;
-  // The ends of the data, predicted by what lies between them. It has no part in the choice: a
-  // law that ends badly may be the best one where it is used.
+  // Error at the ends of the data, predicted from what lies between. It does not affect the choice:
+  // a law with large errors there may be the best one where it is used.
   std::optional<Score> extrapolated;
-  // Half-widths about the model at every row; absent: not told, or by Report::curves.
+  // Half-widths about the model at every row; empty: unknown, or given by Report::curves.
   std::optional<Band> band;
-  std::vector<double> residuals;       // predicted - measured, of Report::rows; empty: unknown
-  std::vector<std::string> notes;      // remarks about this fit
-  std::string refused;                 // why this model cannot be had from the data; empty: it can
-  std::string not_chosen;              // why it is shown and not chosen: a parameter at its bound
-  std::shared_ptr<const Refit> again;  // until the choice; empty: it has no profiles
+  std::vector<double> residuals;   // predicted - measured, for Report::rows; empty: unknown
+  std::vector<std::string> notes;  // remarks about this fit
+  std::string refused;             // why the data cannot give this model; empty: fitted
+  std::string not_chosen;          // why it is shown but not chosen, e.g. a parameter at its bound
+  std::shared_ptr<const Refit> again;  // until the choice; null: no profiles
 };
 
-// What was measured, for a picture of it: the report's quantity at another one.
+// Measured data as shown in a figure: the report's quantity over another one.
 struct Rows {
   std::string x, x_unit;             // "pressure", "Pa gauge"
-  std::string unit;                  // of what was measured; empty: Report::unit
+  std::string unit;                  // unit of `measured`; empty: Report::unit
   std::vector<double> at, measured;  // [x_unit], [unit]
-  std::vector<std::string> group;    // of each row: "205 mm"; empty: all are one
-  std::vector<int> order;            // of each row its group's place; empty: as they come
-  std::vector<bool> held_out;        // of each row; empty: none is
-  std::vector<bool> venting;         // of each row, drawn as a triangle; empty: none is
+  std::vector<std::string> group;    // group of each row, e.g. "205 mm"; empty: one group
+  std::vector<int> order;            // rank of each row's group; empty: order of the rows
+  std::vector<bool> held_out;        // for each row; empty: none
+  std::vector<bool> venting;         // for each row, drawn as a triangle; empty: none
 
-  // More than x and the group changes from row to row: no curve leads through them.
+  // Other quantities than x and the group vary from row to row, so no curve connects the rows.
   bool scattered = false;
 
   std::size_t size() const { return at.size(); }
 };
 
-// Models of one quantity beside each other, and which one was chosen.
+// Models of one quantity in comparison, and the chosen one.
 struct Report {
-  std::string subject;        // "static model of DMSP-10-250"
-  std::string title;          // of its page, in words; empty: the subject
-  std::string quantity;       // what the residuals are: "force"
-  std::string unit;           // and their SI unit
-  double full_scale = 0;      // what 100 % is, in `unit`
-  std::string full_scale_is;  // "the largest force measured"
-  std::string held_out_is;    // "every second pressure"; empty where nothing was held out
+  std::string subject;        // e.g. "static model of DMSP-10-250"
+  std::string title;          // title of its page; empty: the subject
+  std::string quantity;       // quantity of the residuals, e.g. "force"
+  std::string unit;           // SI unit of the quantity
+  double full_scale = 0;      // value of 100 %, in `unit`
+  std::string full_scale_is;  // e.g. "the largest force measured"
+  std::string held_out_is;    // e.g. "every second pressure"; empty: nothing was held out
   std::vector<Fit> fits;
   std::size_t chosen = 0;
-  std::string rule;  // by which it was chosen, with the numbers that decided
+  std::string rule;  // rule of the choice, with the values that decided
   Rows rows;
-  std::vector<PredictedCurve> curves;  // of the chosen one; empty: its intervals are not known
-  std::vector<Omitted> left_out;       // by reason
-  std::vector<ErrorBy> errors;         // of the chosen one, over all rows
-  std::vector<Further> further;        // of each muscle that a plan can be made for
+  std::vector<PredictedCurve> curves;  // chosen model; empty: its intervals are unknown
+  std::vector<Omitted> left_out;       // one entry per reason
+  std::vector<ErrorBy> errors;         // chosen model, over all rows
+  std::vector<Further> further;        // for each muscle that can be planned
   std::vector<std::string> notes, warnings;
-  std::vector<std::string> unseen;  // what such data cannot show: "how fast the valve switches"
+  std::vector<std::string> unseen;  // not shown by such data, e.g. "how fast the valve switches"
 
-  // Returns the chosen one.
+  // Returns the chosen fit.
   const Fit& best() const { return fits[chosen]; }
 };
 
-// The simplest model (fewest free parameters) whose cross-validated error - without one the
-// held-out error, without that its fit - is within `tolerance` (relative) of the smallest, or
-// within `negligible` [%]: errors below it say nothing, for instance the converter's steps. Where
-// there are kinds of parts, it is within the tolerance of that model in each of them as well: what
-// is simpler must not cost one kind what it gains in another. Refused
-// models do not count, those with a reason not to be chosen only where no other is left, which is
-// warned of. Writes `chosen` and `rule`, which tells how close the next ones are. Throws Refusal
-// where every model was refused.
+// Chooses the model with the fewest free parameters among those whose error is within `tolerance`
+// (relative) of the smallest or below `negligible` [%], an error without significance such as a
+// converter's step. The error is the cross-validated one, else the held-out one, else that of the
+// fit. If there are kinds of parts, the model must also be within the tolerance of the best one
+// for each kind, so that a simpler model does not trade one kind for another. Refused models are
+// excluded; those with a reason not to be chosen are used only if no other is left, with a warning.
+// Writes `chosen` and `rule`, which includes the errors of the next models. Throws Refusal if every
+// model was refused.
 void choose(Report& report, double tolerance = 0.1, double negligible = 0);
 
-// Chooses, and adds what every method reports of its choice: profiles of the parameters, and errors
-// by group where the rows have groups and the method has no errors of its own.
+// Chooses, and adds the common parts of a report: profiles of the parameters, and errors by group
+// if the rows have groups and the method has no errors of its own.
 void conclude(Report& report, double tolerance = 0.1, double negligible = 0);
 
-// Returns the parameters of the chosen law that the data do not pin, by name.
+// Returns the names of the chosen law's parameters that the data do not pin.
 std::vector<std::string> not_pinned(const Report& report);
 
-// Returns what the report does not show, as a list: the method's own, then what follows from the
-// profiles, from what was left out, from the rows and from the other laws.
+// Returns a list of what the report does not show: the method's own items, then those that
+// follow from the profiles, the omitted rows, the rows and the other laws.
 std::vector<std::string> does_not_show(const Report& report);
 
-// Writes into `not_chosen` which of the fit's parameters stand at the bounds of their ranges, but
-// for those that are named: there the law is not the one that its name says, or the data know
-// nothing of it.
+// Writes into `not_chosen` which parameters of the fit are at the bounds of their ranges, except
+// those named in `but_for`: at a bound the law degenerates to another one, or the data do not
+// determine the parameter.
 void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for = {});
 
-// Throws Refusal if the chosen model leaves a larger error than that where it was fitted: then the
-// data are of something else, or not what their columns say.
+// Throws Refusal if the error of the chosen model on its fitted data exceeds `percent`: then the
+// data are of something else, or the columns are mislabelled.
 void refuse_unexplained(const Report& report, double percent, const std::string& try_this);
 
 // --- a report for programs ---
 
-// Returns format sinew.identification/1: the report with its models, and the chosen one once more
-// where a program looks first. Values are in the units that stand beside them; what is not known,
-// as the interval of a value at its bound, is null.
+// Returns the report in format sinew.identification/1: all models, and the chosen one again at
+// top level. Values are in the stated units; unknown ones, such as the interval of a value at its
+// bound, are null.
 Json to_json(const Report& report);
 
-// Returns the value, or null where it is not finite: JSON has no infinity.
+// Returns the value, or null if it is not finite: JSON has no infinity.
 Json finite_or_null(double value);
 
 }  // namespace sinew::identify

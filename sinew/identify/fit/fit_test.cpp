@@ -1,4 +1,4 @@
-// The choice among models follows its rule, and refusals say why once.
+// The choice among models follows its rule, and each reason of refusals is given once.
 #include "sinew/identify/fit/fit.h"
 
 #include <gtest/gtest.h>
@@ -32,15 +32,15 @@ TEST(Choice, IsTheFewestParametersAmongTheGoodOnes) {
   EXPECT_EQ(r.best().model, "two");
   choose(r, 0.01);
   EXPECT_EQ(r.best().model, "five");
-  choose(r, 0.01, 2.5);  // all below what says nothing
+  choose(r, 0.01, 2.5);  // all errors are negligible
   EXPECT_EQ(r.best().model, "one");
   r.fits[1].refused = "for a reason";
   choose(r);
   EXPECT_EQ(r.best().model, "five");
 }
 
-// Pressures are told to 1 %, lengths to 3 %, by laws that are alike there: what halves the first
-// counts, and a simpler law that is as good in the mean is not taken if it loses that.
+// The scatter is 1 % for pressures and 3 % for lengths, in all laws: halving the first counts, and
+// a simpler law with the same mean is not chosen if it loses that.
 TEST(Choice, CountsEveryKindOfPartsByItsOwnScatter) {
   Report r{.fits = {model("two", 2, 2.2), model("three", 3, 2.2), model("four", 4, 2.2)}};
   for (Fit& fit : r.fits) fit.cross_validated = fit.fit;
@@ -52,7 +52,7 @@ TEST(Choice, CountsEveryKindOfPartsByItsOwnScatter) {
   r.fits[1].kinds = {0.65, 2.35};  // the same mean, but lengths at the cost of pressures
   choose(r);
   EXPECT_EQ(r.best().model, "four");
-  r.fits[0].kinds = {1e-9, 1.5};  // what is met exactly does not decide alone
+  r.fits[0].kinds = {1e-9, 1.5};  // an exact fit of one kind does not decide alone
   r.fits[1].kinds = {1e-12, 1.5};
   choose(r);
   EXPECT_EQ(r.best().model, "two");
@@ -68,7 +68,7 @@ TEST(Choice, TellsHowCloseTheNextOnesAre) {
       << r.rule;
 }
 
-// A law with a parameter at the end of its range is another law, or the data say nothing of it.
+// A law with a parameter at the end of its range is another law, or is not determined.
 TEST(Choice, LeavesOutWhatStandsAtItsBounds) {
   Report r{.fits = {model("one", 1, 2.0), model("two", 2, 1.0)}};
   r.fits[1].parameters[0] = {.name = "gain", .at_bound = true};
@@ -82,7 +82,7 @@ TEST(Choice, LeavesOutWhatStandsAtItsBounds) {
   EXPECT_TRUE(r.warnings.empty());
 
   r.fits[0].not_chosen = "slope at the bound of its range";
-  choose(r);  // something is better than nothing, and it is told
+  choose(r);  // the only choice, with a warning
   EXPECT_EQ(r.best().model, "two");
   ASSERT_EQ(r.warnings.size(), 1u);
   EXPECT_EQ(r.warnings[0],

@@ -21,13 +21,13 @@ namespace sinew::identify {
 
 namespace {
 
-// --- what is known of a solution besides its values. least_squares.cpp ---
+// --- uncertainty of a solution ---
 
-// The residuals over scaled parameters, for Ceres and for the covariance alike.
+// Residuals over scaled parameters, for Ceres and for the covariance.
 class Scaled {
  public:
-  // `count` residuals; `difference` is the derivatives' step, in the parameters' scales, where
-  // `slopes` is empty.
+  // `count` is the number of residuals, `difference` the step of numerical derivatives in the
+  // parameters' scales, if `slopes` is empty.
   Scaled(const Residuals& residuals, const Slopes& slopes, std::size_t count,
          std::span<const Parameter> parameters, double difference)
       : residuals_(residuals),
@@ -37,21 +37,21 @@ class Scaled {
         difference_(difference),
         p_(parameters.size()) {}
 
-  // How many residuals and parameters there are, and the bounds of one in its scale.
+  // Return the number of residuals and of parameters, and the bounds of one in its scale.
   std::size_t count() const { return count_; }
   std::size_t size() const { return parameters_.size(); }
   double low(std::size_t i) const { return parameters_[i].low / parameters_[i].scale; }
   double high(std::size_t i) const { return parameters_[i].high / parameters_[i].scale; }
 
-  // Writes the residuals at u. False where the model has no answer, or none in numbers, or where
-  // the search is stopped.
+  // Writes the residuals at u. Returns false if the model is undefined or not finite there, or the
+  // search is stopped.
   bool operator()(const double* u, double* r) const {
     set_parameters(u);
     const std::span<double> out(r, count_);
     return !host::is_stopped() && residuals_(p_, out) && are_finite(out);
   }
 
-  // Writes the residuals at u and d r/d u. False where the model has no answer.
+  // Writes the residuals at u and d r/d u. Returns false if the model is undefined there.
   bool linearised(const std::vector<double>& u, double* r, Matrix& by) const {
     if (!slopes_) {
       if (!(*this)(u.data(), r)) return false;
@@ -69,7 +69,7 @@ class Scaled {
     return by.is_finite();
   }
 
-  // d r/d u_i: central, at a bound one-sided. False where the model has no answer.
+  // Writes d r/d u_i by central differences, one-sided at a bound. Returns false if undefined.
   bool column(const std::vector<double>& u, std::size_t i, double* out) const {
     const double step = difference_ * std::max(1.0, std::abs(u[i]));
     std::vector<double> at = u, above(count_), below(count_);
@@ -101,10 +101,10 @@ class Scaled {
   mutable std::vector<double> p_;
 };
 
-// A direction that moves the residuals less than this share of what the best seen one does.
+// A direction counts as undetermined if its singular value is below this share of the largest.
 constexpr double unseen_below = 1e-8;
 
-// 1 + 2 sum of the autocorrelation, up to where it is lost in noise.
+// Returns 1 + 2 sum of the autocorrelation, up to the lag at which noise dominates.
 double inflation_of(std::span<const double> r) {
   const std::size_t n = r.size();
   double mean = 0, c0 = 0;
@@ -121,7 +121,7 @@ double inflation_of(std::span<const double> r) {
   return sum;
 }
 
-// What is known about the solution at u: everything but the values.
+// Computes everything about the solution at u except its values.
 class Uncertainty {
  public:
   Uncertainty(const Scaled& model, std::span<const Parameter> parameters,
@@ -185,13 +185,14 @@ class Uncertainty {
     if (options_.correlated) out.inflation = inflation_of(out.residuals);
   }
 
-  // Of the free scaled parameters; infinite where the data say nothing.
+  // Returns the covariance of the free scaled parameters; infinite where the data determine
+  // nothing.
   Matrix covariance(const Matrix& jacobian, const std::vector<std::size_t>& free,
                     Solution& out) const {
     const std::size_t n = jacobian.columns();
     Matrix cov(n, n);
     if (n == 0) return cov;
-    // By the triangle of its QR: squaring J would lose half the digits.
+    // The triangle of a QR decomposition is used: squaring J would lose half the digits.
     const Axes seen = singular_axes(triangle_of(jacobian));
     const double s2 = out.standard_deviation * out.standard_deviation * out.inflation;
     for (std::size_t k = 0; k < n; ++k) {
@@ -209,7 +210,7 @@ class Uncertainty {
     return cov;
   }
 
-  // "0.71 scale - 0.71 moment_arm", in the parameters' scales.
+  // Returns a combination such as "0.71 scale - 0.71 moment_arm", in the parameters' scales.
   std::string combination(std::span<const double> v, const std::vector<std::size_t>& free) const {
     std::string out;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -251,8 +252,7 @@ class Uncertainty {
   const SolverOptions& options_;
 };
 
-// Fills in everything of `out` but values and residuals, which are those at the scaled parameters
-// u.
+// Fills in all of `out` except values and residuals, which are those at the scaled parameters u.
 void add_uncertainty(const Scaled& model, std::span<const Parameter> parameters,
                      const SolverOptions& options, const std::vector<double>& u, Solution& out) {
   Uncertainty(model, parameters, options).describe(u, out);
@@ -275,7 +275,7 @@ class Cost final : public ceres::CostFunction {
         for (std::size_t i = 0; i < model_.size(); ++i) *row++ = by(k, i);
     }
     if (!host::is_stopped()) return found;
-    // Nothing is left to improve, so that Ceres ends without a message.
+    // Zero residuals leave nothing to improve, so that Ceres ends without a message.
     std::fill_n(r, model_.count(), 0.0);
     if (row) std::fill_n(jacobians[0], model_.count() * model_.size(), 0.0);
     return true;
@@ -285,8 +285,8 @@ class Cost final : public ceres::CostFunction {
   const Scaled& model_;
 };
 
-// The loss acts on every residual by itself; Ceres would apply it to the whole block. So the
-// residuals become sqrt(rho(r^2)) of the same sign: log1p is Cauchy's rho.
+// Applies the loss to each residual: Ceres would apply it to the whole block. Residuals become
+// sqrt(rho(r^2)) with their sign; log1p is Cauchy's rho.
 Residuals with_loss(const Residuals& residuals, double outlier) {
   if (outlier <= 0) return residuals;
   return [&residuals, outlier](std::span<const double> p, std::span<double> r) {
@@ -304,7 +304,7 @@ Slopes with_loss(const Slopes& slopes, double outlier) {
   if (outlier <= 0 || !slopes) return slopes;
   return [&slopes, outlier](std::span<const double> p, std::span<double> r, std::span<double> by) {
     if (!slopes(p, r, by)) return false;
-    std::vector<double> share;  // of a derivative that is left
+    std::vector<double> share;  // remaining share of each derivative
     for (double& x : r) {
       const double s = x / outlier, root = std::sqrt(std::log1p(s * s));
       share.push_back(root > 0 ? std::abs(s) / ((1 + s * s) * root) : 1);
@@ -337,7 +337,7 @@ const Estimate& Solution::operator[](std::string_view name) const {
 
 namespace {
 
-// Cornish and Fisher's expansion of Student's quantile about the normal one, z.
+// Returns Student's quantile from the normal one, z, by the expansion of Cornish and Fisher.
 double expanded(double z, double freedom) {
   const double v = freedom, z2 = z * z;
   return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
@@ -349,7 +349,7 @@ double expanded(double z, double freedom) {
 double t_quantile_68(int freedom) { return expanded(0.994457883209753, freedom); }
 
 double t_quantile(int freedom) {
-  // The expansion says too little of the first ones.
+  // The expansion is too small for few degrees of freedom.
   constexpr double exact[] = {12.7062, 4.30265, 3.18245, 2.77645, 2.57058};
   if (freedom < 1) return unbounded;
   if (freedom <= 5) return exact[freedom - 1];
@@ -384,7 +384,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
   if (!parameters.empty()) {
     ceres::Problem problem;
     problem.AddParameterBlock(u.data(), static_cast<int>(u.size()));
-    problem.AddResidualBlock(new Cost(model), nullptr, u.data());  // which owns the cost
+    problem.AddResidualBlock(new Cost(model), nullptr, u.data());  // the problem owns the cost
     for (std::size_t i = 0; i < u.size(); ++i) {
       const int index = static_cast<int>(i);
       if (std::isfinite(model.low(i)))

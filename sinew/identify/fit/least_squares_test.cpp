@@ -1,4 +1,4 @@
-// Estimates, their intervals, and what is not determined: against closed forms and by counting.
+// Estimates, intervals and undetermined parameters, compared with closed forms and by counting.
 #include "sinew/identify/fit/least_squares.h"
 
 #include <gtest/gtest.h>

@@ -40,7 +40,7 @@ TEST(Matrix, BasisTimesTriangleIsTheMatrix) {
   }
 }
 
-// a'a v = s^2 v of each right vector; the same axes belong to a'a, whose values are the squares.
+// a'a v = s^2 v for each right vector; the axes of a'a are the same, with squared values.
 TEST(Matrix, SingularAxesAreThoseOfTheSquare) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Matrix a = random_matrix(4, 4, seed), normal = transposed_product(a, a);
@@ -88,7 +88,7 @@ TEST(Matrix, WhatIsNotDeterminedHasNoInverse) {
   EXPECT_FALSE(inverse_of_positive(transposed_product(a, a), 1e-14));
 }
 
-// Moore and Penrose's four conditions, of a matrix that has no inverse.
+// The four Moore-Penrose conditions, for a singular matrix.
 TEST(Matrix, ThePseudoInverseKeepsItsFourConditions) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Matrix factor = random_matrix(5, 3, seed);

@@ -11,17 +11,17 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::size_t middle = 2;  // the factor 1
+constexpr std::size_t middle = 2;  // index of the factor 1
 
-// A smaller value than this share of its scale is near zero.
+// A value smaller than this share of its scale is near zero.
 constexpr double smallest_share = 0.05;
 
 bool is_near_zero(const Parameter& p, double value) {
   return std::abs(value) < smallest_share * p.scale;
 }
 
-// Returns a parameter's value moved by a factor within its bounds, and whether it gets a quarter of
-// the way.
+// A parameter's value moved by a factor, within its bounds, and whether it reaches a quarter of the
+// way.
 struct Moved {
   double to = 0;
   bool is_far = false;
@@ -40,13 +40,13 @@ double loss_of(const FitProblem& problem, std::span<const double> residuals) {
   return sum;
 }
 
-// The first steps show whether a loss is far beyond the limit, where its size does not matter.
+// The first steps show whether a loss is far beyond the limit, where its size is irrelevant.
 constexpr double far_beyond = Profile::most * Profile::most;
 constexpr int first_steps = 8, more_steps = 60;
 
-// Fits the others from `values`, with one parameter at `value`, and leaves the values there.
-// Returns the loss, or a larger one where that is far beyond `limit`; infinite where the law has no
-// answer.
+// Fits the other parameters from `values` with one held at `value`, and writes the result to
+// `values`. Returns the loss, or an upper bound if it is far beyond `limit`; infinite if the law is
+// undefined.
 double loss_with(const FitProblem& problem, std::size_t which, double value, double limit,
                  std::vector<double>& values) {
   std::vector<Parameter> parameters = problem.parameters;
@@ -91,7 +91,7 @@ std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
   host::side_by_side(2 * n, [&](std::size_t k) {
     const std::size_t i = k / 2;
     if (!out[i]) return;
-    // The others follow in two steps, each from where they were.
+    // The value moves in two steps; the other parameters start from those of the step before.
     const FitProblem own = problem;
     std::vector<double> values = solution.values;
     for (std::size_t step = 1; step <= 2; ++step) {

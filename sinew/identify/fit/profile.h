@@ -1,5 +1,5 @@
-// identify/fit/profile.h - whether the data pin a parameter: how much more a law misses them by
-// with another value of that parameter, when all the others are fitted again.
+// identify/fit/profile.h - profiles of parameters: growth of a law's error when one parameter is
+// held at another value and all others are fitted again.
 //
 //   error at x   sqrt(S(x)/S)            S(x): smallest sum of squares with the parameter at x,
 //                                        S: the smallest of all
@@ -9,11 +9,10 @@
 //   s, i         standard deviation of the residuals and inflation of its square by correlation,
 //                as in least_squares.h
 //
-// So a parameter is pinned if its 95 % interval holds neither half nor twice its value. The
-// interval of least_squares.h takes the law for a straight line, and this one does not. A side on
-// which a bound leaves less than a quarter of that way is not judged: at a bound near zero, such as
-// that of a friction, the other side counts. At another bound nothing is pinned, as the data would
-// have the value beyond it.
+// So a parameter is pinned if its 95 % interval contains neither half nor twice its value. The
+// interval of least_squares.h linearises the law; this one does not. A side on which a bound leaves
+// less than a quarter of the way is not judged: at a bound near zero, such as that of a friction,
+// only the other side counts. At any other bound nothing is pinned, as the optimum is beyond it.
 #pragma once
 
 #include <cstddef>
@@ -25,18 +24,18 @@
 
 namespace sinew::identify {
 
-// A problem of least squares that can be solved again.
+// A least squares problem that can be solved again.
 struct FitProblem {
-  Residuals residuals;  // each thread calls a copy; what it refers to lives until conclude()
+  Residuals residuals;  // each thread calls a copy; its references live until conclude()
   std::size_t count = 0;
   std::vector<Parameter> parameters;
   SolverOptions options;
   Wishes wishes;
-  std::size_t data = 0;  // as many residuals are of data, the rest of what was known; 0: all are
+  std::size_t data = 0;  // number of residuals of data, the rest are priors; 0: all are data
 };
 
-// Returns the profile of each parameter of a solution; nothing for those that are frozen or
-// tied, and where there are no more residuals than parameters. All cores work on it.
+// Returns the profile of each parameter of a solution; empty for frozen and tied ones, and if
+// there are no more residuals than parameters. Uses all cores.
 std::vector<std::optional<Profile>> profiles_of(const FitProblem& problem,
                                                 const Solution& solution);
 

@@ -9,7 +9,7 @@
 namespace sinew::identify::profile_test {
 namespace {
 
-// The problem of finding a + b x from 21 places with noise.
+// The problem of a + b x at 21 places with noise.
 FitProblem line(double a, double b, double noise = 0.1) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, noise);
@@ -32,7 +32,7 @@ Solution solved(const FitProblem& p) {
   return least_squares(p.residuals, p.count, p.parameters, p.options);
 }
 
-// Of a straight line the profile has a closed form: S(x) = S + ((x - value)/error)^2 s^2.
+// For a straight line the profile has a closed form: S(x) = S + ((x - value)/error)^2 s^2.
 TEST(Profiles, OfALinearLawAreParabolas) {
   const FitProblem problem = line(0.3, 0.2);
   const Solution s = solved(problem);
@@ -58,7 +58,7 @@ TEST(Profiles, OfWeakDataPinNothing) {
   for (const auto& profile : profiles_of(problem, solved(problem))) EXPECT_FALSE(profile->pinned);
 }
 
-// Of a product each factor may be anything, as the other one makes up for it.
+// Each factor of a product is arbitrary, as the other compensates.
 TEST(Profiles, OfAProductPinNoneOfItsFactors) {
   FitProblem problem = line(1, 3, 1e-3);
   problem.residuals = [linear = problem.residuals](std::span<const double> p, std::span<double> r) {
@@ -73,7 +73,7 @@ TEST(Profiles, OfAProductPinNoneOfItsFactors) {
   }
 }
 
-// The data alone count: what a prior knows is no evidence.
+// Only data count: a prior is no evidence.
 TEST(Profiles, CountNoPriors) {
   FitProblem problem = line(0.3, 0.2, 2);
   problem.residuals = [data = problem.residuals](std::span<const double> p, std::span<double> r) {
@@ -104,7 +104,7 @@ TEST(Profiles, AreNoneOfFrozenValuesAndOfNoFreedom) {
   EXPECT_FALSE(profiles_of(exact, solved(exact))[0].has_value());
 }
 
-// Of a friction at its bound 0 the free side counts. Another bound pins nothing.
+// At a bound of 0, as of a friction, only the free side counts. Another bound pins nothing.
 TEST(Profiles, AtABoundTheFreeSideCounts) {
   for (const double low : {0.0, 0.5}) {
     FitProblem problem = line(1, low - 0.05, 0.01);

@@ -17,7 +17,7 @@ namespace sinew::identify {
 Provenance::Provenance(config::Origins start, std::string_view file)
     : origins_(std::move(start)), elsewhere_(fmt::format("where none stands: as in {}", file)) {}
 
-// A new origin, in place of one that the path has already.
+// Adds an origin, replacing an existing one of the same path.
 config::Origin& Provenance::put(std::string_view path) {
   std::erase_if(origins_, [path](const config::Origin& o) { return o.path == path; });
   return origins_.emplace_back(config::Origin{.path = std::string(path)});
@@ -101,7 +101,7 @@ actuator::Actuator without_idle_digits(actuator::Actuator a) {
        {&p.inside_68, &p.inside_95, &p.between_68, &p.between_95, &p.beyond_68, &p.beyond_95,
         &p.above_68, &p.above_95, &p.other_68, &p.other_95, &p.other_reach})
     *width = with_digits(*width, of_widths);
-  // The mesh at its widest is no longer than it is straight.
+  // The widest mesh must not exceed the long end.
   a.long_end.length = std::max(a.long_end.length, actuator::shortest_length(a));
   return a;
 }
@@ -112,12 +112,12 @@ std::string actuator_file(actuator::Actuator actuator, const Provenance& provena
   std::vector<actuator::Actuator> one{std::move(actuator)};
   actuator::fields(writer, one);
 
-  // A file alone has at its root what an experiment has in actuator.<name>.
+  // A file of one actuator has at its root the keys of actuator.<name> in an experiment.
   config::Node root = config::make_table("");
   root.put(config::make_text("format", "sinew.actuator/1"));
   root.put(config::make_text("name", name));
   for (config::Node child : writer.root().find("actuator")->find(name)->children) {
-    child.erase("trapezoids");  // thread_length and turns say it all
+    child.erase("trapezoids");  // redundant with thread_length and turns
     if (child.is_table()) child.put(config::make_text("source", provenance.elsewhere()));
     root.put(std::move(child));
   }

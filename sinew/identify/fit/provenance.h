@@ -1,5 +1,5 @@
-// identify/fit/provenance.h - identified values as parameter files: each with its source and how
-// far it can be trusted, as the origins that config::Writer prints.
+// identify/fit/provenance.h - identified values as parameter files, each with its source and
+// uncertainty as the origins that config::Writer prints.
 #pragma once
 
 #include <string>
@@ -15,22 +15,22 @@ namespace sinew::identify {
 class Provenance {
  public:
   Provenance() = default;
-  // What is not identified keeps the origin that it has in `file`.
+  // Starts from the origins of `file`, which remain for values that are not identified.
   Provenance(config::Origins start, std::string_view file);
 
-  // The value at `path` was fitted. Its uncertainty is half the 95 % interval, in its own unit; one
-  // that is not identifiable says so in its source.
+  // Records a fitted value at `path`. Its uncertainty is half the 95 % interval, in its own unit;
+  // the source of an unidentifiable value states that.
   void fitted(std::string_view path, const Estimate& estimate, std::string_view source);
-  // One that has an uncertainty but was not fitted alone; NaN: none is known.
+  // Records a value with an uncertainty that was not fitted alone; NaN: unknown uncertainty.
   void fitted(std::string_view path, std::string_view unit, double uncertainty,
               std::string_view source);
-  // Taken over, assumed or guessed.
+  // Record a value that was taken from elsewhere, or guessed.
   void given(std::string_view path, std::string_view source);
   void guessed(std::string_view path, std::string_view source);
 
-  // Returns where each value came from, as a file tells it.
+  // Returns the origin of each value, as a file states it.
   const config::Origins& origins() const { return origins_; }
-  // Of keys that no origin names.
+  // Returns the source of keys without an origin.
   const std::string& elsewhere() const { return elsewhere_; }
 
  private:
@@ -40,21 +40,21 @@ class Provenance {
   std::string elsewhere_ = "where none stands: not identified, does nothing";
 };
 
-// Returns the number with so many significant digits at most: of an infinite one or none itself.
+// Returns the number with at most this many significant digits; infinity and NaN unchanged.
 double with_digits(double number, int digits);
 
-// Returns the actuator with ten digits of what an identification makes of it and four of how far
-// forces lie from it. No measurement tells more, and a file would show the rest in whatever unit
-// has a digit fewer (config/quantity.h).
+// Returns the actuator with ten digits of identified values and four of prediction errors.
+// Measurements do not justify more, and a file would print the rest in whichever unit has a digit
+// fewer (config/quantity.h).
 actuator::Actuator without_idle_digits(actuator::Actuator actuator);
 
-// A file of format sinew.actuator/1; paths begin with "actuator.<name>.".
+// Returns a file of format sinew.actuator/1; paths begin with "actuator.<name>.".
 std::string actuator_file(actuator::Actuator actuator, const Provenance& provenance);
 
-// --- parameter files that are a part of a robot ---
+// --- parameter files that are part of a robot ---
 
-// Returns the beginning of a robot's file at `out` that adds to the one at `base`; empty: to none.
-// Throws config::Error where both are the same file.
+// Returns the beginning of a robot's file at `out` that extends the one at `base`, if not empty.
+// Throws config::Error if both are the same file.
 config::Node robot_over(const std::string& base, const std::string& out);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-// Identified values as files: in the units of their laws, and read back as they were told.
+// Identified values as files: in SI units, and read back unchanged.
 #include "sinew/identify/fit/provenance.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ TEST(Digits, AreThoseThatAreAskedFor) {
   EXPECT_TRUE(std::isinf(with_digits(std::numeric_limits<double>::infinity(), 4)));
 }
 
-// Whatever number comes out of a fit, the file has it in SI: sixteen digits would stand in the unit
-// that has one less of them, "0.000458414332647958 in/lbf".
+// Files are in SI for any number: with sixteen digits another unit might need one digit less and be
+// used, "0.000458414332647958 in/lbf".
 TEST(Digits, FilesAreInUnitsOfSi) {
   actuator::Actuator a = actuator::thesis_actuator();
   a.name = "m";

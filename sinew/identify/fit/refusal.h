@@ -1,5 +1,5 @@
-// identify/fit/refusal.h - "these data cannot support this model": no fault of the file's form, and
-// no reason to print a number nobody should use.
+// identify/fit/refusal.h - error for data that cannot support a model: the file is well-formed, but
+// a result would be useless.
 #pragma once
 
 #include <stdexcept>
@@ -7,15 +7,15 @@
 
 namespace sinew::identify {
 
-// what() reads `subject: found …; expected …; try …`.
+// Thrown by identifications. what() reads `subject: found …; expected …; try …`.
 class Refusal : public std::runtime_error {
  public:
-  // Makes the words of these four; `try_this` may be empty.
+  // Builds the message from four parts; `try_this` may be empty.
   Refusal(const std::string& subject, const std::string& found, const std::string& expected,
           const std::string& try_this)
       : std::runtime_error(subject + ": found " + found + "; expected " + expected +
                            (try_this.empty() ? "" : "; try " + try_this)) {}
-  // In words that somebody has already found.
+  // Uses a complete message.
   explicit Refusal(const std::string& words) : std::runtime_error(words) {}
 };
 

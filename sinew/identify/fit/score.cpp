@@ -62,7 +62,7 @@ ErrorBy error_by(std::string what, std::string unit, std::span<const double> res
                  std::span<const int> part, std::span<const double> value, double full_scale) {
   struct Part {
     std::vector<double> residuals;
-    double first = 0, sum = 0;  // of the values; the sum is that of what they differ by
+    double first = 0, sum = 0;  // first value, and sum of the differences from it
   };
   std::map<int, Part> parts;
   for (std::size_t i = 0; i < residuals.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace sinew::identify::score_test {
 namespace {
 
-// Some residuals of rows at five lengths, in no order.
+// Residuals of rows at five lengths, in random order.
 struct SomeRows {
   std::vector<double> residuals, length;
   std::vector<int> part;
@@ -24,8 +24,8 @@ struct SomeRows {
   }
 };
 
-// A further residual of the same kind lies within it as often as it says, and of few it is the
-// largest one.
+// A further residual of the same kind is within the half-width with the stated probability; for few
+// residuals it is the largest one.
 TEST(HalfWidth, HoldsAFurtherResidualAsOftenAsItSays) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0, 2);
@@ -65,7 +65,7 @@ TEST(ErrorBy, PartsHaveEachRowOnce) {
   EXPECT_EQ(points, rows.residuals.size());
 }
 
-// n rms^2 = sum over parts n_i rms_i^2, and the worst of all is the worst of a part.
+// n rms^2 = sum over parts n_i rms_i^2, and the maximum is that of a part.
 TEST(ErrorBy, SquaresOfThePartsAddToThoseOfTheWhole) {
   const SomeRows rows;
   const Score whole = score(rows.residuals, 100);
@@ -90,7 +90,7 @@ TEST(ErrorBy, OfNoRowsThereIsNoPart) {
   EXPECT_TRUE(error_by("length", "m", {}, {}, {}, 100).parts.empty());
 }
 
-// A prediction of 2 y + 1 for y = 0, 1, 2, 3 is perfectly correlated, and far off.
+// A prediction 2 y + 1 for y = 0, 1, 2, 3 is perfectly correlated, with large errors.
 TEST(Score, ComparesWithHowMuchTheMeasuredValuesVary) {
   const std::vector<double> measured{0, 1, 2, 3}, residuals{1, 2, 3, 4};
   const Score s = score(residuals, 3, measured);

@@ -25,7 +25,7 @@ std::string setting_of(Wish::Kind kind) {
   config::fail({setting_of(wish.kind), 0, 0}, "", config::in_quotes(wish.text), expected, try_this);
 }
 
-// "3.5±0.2 N s/m" and "3.5 N s/m ± 0.2 N s/m" mean the same.
+// Splits value and deviation: "3.5±0.2 N s/m" and "3.5 N s/m ± 0.2 N s/m" are equivalent.
 void split_prior(Wish& wish) {
   for (const std::string_view mark : {"±", "+-", "+/-"}) {
     const std::size_t at = wish.value.find(mark);
@@ -53,7 +53,7 @@ Wish parse_wish(Wish::Kind kind, const std::string& text) {
   return out;
 }
 
-// In SI; "0.3 SI" is in the unit already.
+// Returns the number in SI; "0.3 SI" is in the SI unit already.
 double number_of(const Wish& wish, const std::string& text, std::string_view unit,
                  const config::Range& range) {
   const std::string name = setting_of(wish.kind);
@@ -78,7 +78,7 @@ double deviation_of(const Wish& wish, const Parameter& p) {
                    config::above_zero(unbounded, "a standard deviation"));
 }
 
-// Is the name the parameter's, or that of its kind: "delay" for "delay of a.csv"?
+// Returns whether `name` is the parameter's or that of its kind: "delay" for "delay of a.csv".
 bool names(std::string_view name, std::string_view parameter) {
   return parameter == name ||
          (parameter.starts_with(name) && parameter.substr(name.size()).starts_with(" of "));
@@ -94,12 +94,12 @@ const Parameter& named(const Wish& wish, std::string_view name, std::span<const 
                "a parameter: " + config::either(there), config::closest_in_quotes(name, there));
 }
 
-// The problem that is left for the solver, and the way back.
+// The problem without frozen and tied parameters, and the mapping back to all parameters.
 struct Reduced {
   std::vector<Parameter> parameters;
-  std::vector<int> place;  // of each parameter in the above; -1: frozen
+  std::vector<int> place;  // index of each parameter in `parameters`; -1: frozen
   std::vector<double> frozen;
-  std::vector<std::string> known;  // what is wished, in words
+  std::vector<std::string> known;  // constraints in words
   struct Prior {
     std::size_t place;
     double value, deviation;
@@ -158,7 +158,8 @@ Reduced reduce(std::span<const Parameter> parameters, const Wishes& wishes) {
   return out;
 }
 
-// Derivatives by what is left to the solver: of tied parameters the sum, of the first priors each.
+// Returns derivatives by the reduced parameters: summed for tied ones, and with rows for the first
+// priors.
 Slopes slopes_of(const Slopes& slopes, std::size_t count, const Reduced& reduced,
                  std::size_t priors, double weight) {
   return [&slopes, count, &reduced, priors, weight](std::span<const double> p, std::span<double> r,
@@ -195,7 +196,7 @@ Solution solve_reduced(const Residuals& residuals, std::size_t count, const Redu
   return least_squares(all, count + priors, reduced.parameters, own);
 }
 
-// How the prior and what the data made of it compare.
+// Compares a prior with the estimate, in words.
 std::string compared(const Reduced::Prior& prior, const Estimate& e) {
   const double away = std::abs(e.value - prior.value) / prior.deviation;
   if (away > 3) return fmt::format(", {:.1f} of its deviations away", away);
@@ -203,7 +204,7 @@ std::string compared(const Reduced::Prior& prior, const Estimate& e) {
   return "";
 }
 
-// The solution in all parameters.
+// Returns the solution in all parameters.
 Solution restored(Solution s, std::size_t count, std::span<const Parameter> parameters,
                   const Reduced& reduced) {
   Solution out = s;
@@ -289,7 +290,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
   if (wishes.empty()) return least_squares(residuals, count, parameters, options);
   const Reduced reduced = reduce(parameters, wishes);
   Solution s = solve_reduced(residuals, count, reduced, 0, options);
-  // How much a residual weighs shows only once the data were fitted, without the prior.
+  // The scatter of the data, which sets the weight of a prior, follows from a fit without it.
   const double weight = s.standard_deviation * std::sqrt(s.inflation);
   if (weight > 0 && !reduced.priors.empty())
     s = solve_reduced(residuals, count, reduced, weight, options);

@@ -1,15 +1,15 @@
-// identify/fit/wish.h - what somebody knows of parameters before the data are asked.
+// identify/fit/wish.h - constraints and priors of parameters that are known before the fit.
 //
-//   freeze   p = value                     no parameter any more
+//   freeze   p = value                     not a free parameter
 //   tie      p = q                         one parameter for both
 //   prior    p = value +- deviation        one more residual, s sqrt(i) (p - value)/deviation
 //
 //   s, i     standard deviation of the residuals and the inflation of its variance
-//   (least_squares.h),
-//            from a fit without the prior
+//            (least_squares.h), from a fit without the prior
 //
-// So a prior weighs what an independent measurement with that standard deviation weighs. A wish for
-// "delay" is one for "delay of a.csv" and "delay of b.csv" too, where these have none of their own.
+// So a prior weighs as much as an independent measurement with that standard deviation. A
+// constraint on "delay" also applies to "delay of a.csv" and "delay of b.csv", unless these have
+// their own.
 #pragma once
 
 #include <span>
@@ -21,39 +21,39 @@
 
 namespace sinew::identify {
 
-// Wishes as people write them.
+// Constraints as users write them.
 struct WishTexts {
   std::vector<std::string> freeze;  // "viscous=3.5 N s/m"
   std::vector<std::string> prior;   // "viscous=3.5 N s/m ± 0.2 N s/m", or +- for ±
   std::vector<std::string> tie;     // "delay of b.csv=delay of a.csv"
 };
 
-// One of them. A value is a quantity in a unit of its own, or "0.3 SI" in the parameter's SI unit.
+// One constraint. A value is a quantity with its unit, or "0.3 SI" in the parameter's SI unit.
 struct Wish {
-  // A wish is a value that stays, one that is likely, or another parameter to be equal to.
+  // A fixed value, a prior, or equality with another parameter.
   enum class Kind { freeze, prior, tie };
   Kind kind = Kind::freeze;
-  std::string text;       // as it was written
-  std::string name;       // of the parameter
-  std::string value;      // of a tie: the other parameter's name
-  std::string deviation;  // of a prior: its standard deviation
+  std::string text;       // original text
+  std::string name;       // name of the parameter
+  std::string value;      // for a tie: the other parameter's name
+  std::string deviation;  // for a prior: its standard deviation
 };
 
-// What is wished of the parameters of a method, whichever of its laws has them.
+// Constraints on the parameters of a method, for all of its laws.
 class Wishes {
  public:
   Wishes() = default;
-  // Throws config::Error for a text that is no wish, and for two of one parameter.
+  // Throws config::Error for a text that is not a constraint, and for two of one parameter.
   explicit Wishes(const WishTexts& texts);
 
-  // Throws config::Error where a wish names none of `all`, the parameters of all laws, or where its
-  // value has another unit or lies outside the parameter's range.
+  // Throws config::Error if a constraint names none of `all`, the parameters of all laws, or if its
+  // value has another unit or is outside the parameter's range.
   void check(std::span<const Parameter> all) const;
 
-  // Returns the wish for the parameter: its own, else that of its kind; null: none.
+  // Returns the constraint on the parameter: its own, else that of its kind; null: none.
   const Wish* of(std::string_view parameter) const;
 
-  // Returns the same wishes, and that the parameter is frozen at the value [SI].
+  // Returns the same constraints with the parameter frozen at the value [SI].
   Wishes with_frozen(const std::string& parameter, double value) const;
 
   bool empty() const { return all_.empty(); }
@@ -62,14 +62,14 @@ class Wishes {
   std::vector<Wish> all_;
 };
 
-// The same as least_squares() without, where nothing is wished. Estimates, values and covariance
-// are those of all parameters; frozen and tied ones have `free` = false. A wish for a parameter
-// that is not there counts for nothing.
+// Minimises the residuals under constraints. Estimates, values and covariance are those of all
+// parameters; frozen and tied ones have `free` = false. A constraint on a parameter that does not
+// exist is ignored.
 Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const Wishes& wishes,
                        const SolverOptions& options = {});
 
-// Returns how many of the estimates were free.
+// Returns the number of free estimates.
 std::size_t free_count(std::span<const Estimate> estimates);
 
 }  // namespace sinew::identify

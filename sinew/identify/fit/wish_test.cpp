@@ -1,5 +1,5 @@
-// What is known beforehand: frozen and tied parameters against closed forms, a prior against what a
-// measurement of its weight would do, and what is no wish.
+// Constraints: frozen and tied parameters compared with closed forms, a prior compared with a
+// measurement of its weight, and invalid constraints.
 #include "sinew/identify/fit/wish.h"
 
 #include <gtest/gtest.h>
@@ -91,11 +91,11 @@ TEST(Wish, TiedParametersAreOne) {
   EXPECT_EQ(free_count(s.estimates), 1u);
 }
 
-// The same as one more point that says a, with the standard deviation of the prior.
+// Equals one more point that measures a, with the standard deviation of the prior.
 TEST(Wish, APriorWeighsAsAMeasurementOfItsDeviation) {
   const Data data(3);
   const Solution s = data.solve(Wishes({.prior = {"a=1.7±0.02 N"}}));
-  const double alone = data.solve({}).standard_deviation;  // of the data without the prior
+  const double alone = data.solve({}).standard_deviation;  // for the data without the prior
   const double n = 40, w = alone * alone / (0.02 * 0.02), s2 = std::pow(s.standard_deviation, 2);
   const double mx = data.sum([](double x, double) { return x; }),
                my = data.sum([](double, double y) { return y; }),
@@ -142,7 +142,7 @@ TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
   EXPECT_EQ(checked({.tie = {"a=b"}}), "tie: found \"a=b\"; expected another parameter in N");
 }
 
-// Frozen, tied and likely values leave derivatives in closed form that are those of the rest.
+// With frozen and tied parameters and priors, closed-form derivatives match numerical ones.
 TEST(Wishes, TakeDerivativesInClosedFormAlong) {
   const std::vector<Parameter> parameters = {{.name = "a", .unit = "1", .start = 1},
                                              {.name = "b", .unit = "1", .start = 1},

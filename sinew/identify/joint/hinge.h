@@ -1,6 +1,5 @@
-// identify/joint/hinge.h - how a muscle's tendon runs over a joint: its moment arm and the
-// muscle's shortening, over the joint's angle q (Delta theta) from rest, positive where it
-// shortens.
+// identify/joint/hinge.h - path of a muscle's tendon over a joint: its moment arm and the muscle's
+// shortening over the joint's angle q (Delta theta) from rest, positive where it shortens.
 //
 //   round   r(q) = r                          DL(q) = r q
 //   hinge   r(q) = l_a l_d sin(theta_h)/l_D   DL(q) = l_D(q = 0) - l_D,  theta_h = theta_h0 - q
@@ -17,13 +16,13 @@
 
 namespace sinew::identify {
 
-// How a muscle is led over a joint: round a cam, or straight between two points.
+// Path of a muscle over a joint: round a cam, or straight between two points.
 class Hinge {
  public:
-  // A cam of that radius  [m].
+  // Returns a cam with this radius [m].
   static Hinge round(double arm) { return Hinge(arm, 0, 0, 0); }
 
-  // `ratio` is a sin(angle)/arm, above 1; 0 < angle < pi.
+  // `ratio` is l_a sin(angle)/arm, above 1; 0 < angle < pi.
   static Hinge points(double arm, double ratio, double angle) {
     const double s = std::sin(angle), origin = ratio * arm / s;
     const double insertion =
@@ -31,20 +30,20 @@ class Hinge {
     return Hinge(arm, origin, insertion, angle);
   }
 
-  // Returns the moment arm at that angle from rest  [m].
+  // Returns the moment arm at this angle from rest [m].
   double arm(double q) const {
     if (origin_ == 0) return arm_;
     const double phi = angle_ - q;
     return origin_ * insertion_ * std::sin(phi) / distance(phi);
   }
 
-  // Returns by how much the muscle is shorter there than at rest  [m].
+  // Returns the shortening at this angle relative to rest [m].
   double shortening(double q) const {
     return origin_ == 0 ? arm_ * q : distance(angle_) - distance(angle_ - q);
   }
 
-  double origin() const { return origin_; }        // a [m]
-  double insertion() const { return insertion_; }  // d [m]
+  double origin() const { return origin_; }        // l_a [m]
+  double insertion() const { return insertion_; }  // l_d [m]
 
  private:
   Hinge(double arm, double origin, double insertion, double angle)

@@ -27,15 +27,17 @@ namespace sinew::identify {
 
 namespace {
 
-// --- the poses of a joint, for a picture of the models ---
+// --- poses of a joint as rows of a report ---
 
-// What the muscles hold less the load's torque, from the sum of both as they turn the joint.
+// Converts residuals, which are sums of the load's and the muscles' torques, to predicted -
+// measured.
 std::vector<double> told_from(std::vector<double> sums) {
   for (double& sum : sums) sum = -sum;
   return sums;
 }
 
-// The load's torque at every pose; what `others` has was not fitted, if it is a file of its own.
+// Returns the load's torque at every pose; those of `others` are held out if they are a separate
+// file.
 Rows rows_of(const Measured& data, const JointTorque& joint,
              const std::optional<Measured>& held_out, const JointTorque& others) {
   Rows out;
@@ -43,7 +45,7 @@ Rows rows_of(const Measured& data, const JointTorque& joint,
   out.x_unit = "rad";
   out.at = data["angle"];
   out.measured = joint.torque();
-  out.scattered = true;  // so are pressures
+  out.scattered = true;  // pressures vary as well
   if (!held_out) return out;
   const std::vector<double>& angle = (*held_out)["angle"];
   out.held_out.assign(out.size(), false);
@@ -53,19 +55,19 @@ Rows rows_of(const Measured& data, const JointTorque& joint,
   return out;
 }
 
-// --- which values of a joint are parameters under a model, and from ---
+// --- parameters of a joint under a model ---
 
-// Returns the value that a parameter is.
+// Accesses the value of a parameter.
 using JointPlace = std::function<double&(JointValues&)>;
 
-// A parameter that is searched, and where its value belongs.
+// A parameter of the search, with access to its value.
 struct JointSlot {
   Parameter parameter;
   JointPlace place;
 };
 
-// What moves and what the torque's sensors add: of the first recording no gain, unless the force is
-// known.
+// Adds parameters of motion and of the torque sensors. The first recording has no gain, unless the
+// force is known.
 void add_sensors(const JointTorque& joint, const JointSetup& setup, std::vector<JointSlot>& out) {
   const double most = joint.largest_torque();
   const auto add = [&](std::string name, const char* unit, double low, double high, double scale,
@@ -92,7 +94,7 @@ void add_sensors(const JointTorque& joint, const JointSetup& setup, std::vector<
   }
 }
 
-// Returns the parameters of the model; what the setup knows is none.
+// Returns the parameters of the model, without those that the setup gives.
 std::vector<JointSlot> joint_slots(const JointLaw& law, const JointTorque& joint,
                                    const JointSetup& setup) {
   const double longest = setup.actuator.braid.thread_length;
@@ -120,7 +122,7 @@ std::vector<JointSlot> joint_slots(const JointLaw& law, const JointTorque& joint
   return out;
 }
 
-// Returns what the setup knows, and the values with these parameters.
+// Returns the values with those of the setup and these parameters.
 JointValues joint_known(const JointTorque& joint, const JointSetup& setup) {
   JointValues v;
   v.bias.assign(joint.recordings(), 0.0);
@@ -137,8 +139,7 @@ JointValues joint_with(JointValues v, const std::vector<JointSlot>& slots,
   return v;
 }
 
-// Short and long arms, short and long muscles.
-// Returns starts of the parameters: short and long arms, short and long muscles.
+// Returns start values: short and long arms, short and long muscles.
 std::vector<std::vector<double>> joint_starts(const std::vector<JointSlot>& slots,
                                               const JointTorque& joint, const JointSetup& setup) {
   const double longest = setup.actuator.long_end.length > 0 ? setup.actuator.long_end.length
@@ -162,16 +163,16 @@ std::vector<std::vector<double>> joint_starts(const std::vector<JointSlot>& slot
   return out;
 }
 
-// --- which products of a joint's parameters the data determine, and ---
+// --- products of a joint's parameters that the data determine ---
 
-// Not of its sensors, and not of its friction.
+// Returns whether the parameter is not of the sensors, the friction or the damping.
 bool of_the_joint(std::string_view name) {
   for (const std::string_view other : {"torque_", "friction", "damping", "delay"})
     if (name.starts_with(other)) return false;
   return true;
 }
 
-// Returns the principal axes of the parameters' relative errors, best determined first, of those
+// Returns the principal axes of the relative errors, best determined first, for the
 // parameters that are positive and within their bounds.
 std::vector<Combination> combinations_of(const Solution& s) {
   std::vector<std::size_t> which;
@@ -229,11 +230,11 @@ constexpr std::array columns{
     Wanted{.name = "load", .unit = "kg", .optional = true, .doc = "hanging at the lever"},
     Wanted{.name = "time", .unit = "s", .optional = true, .doc = "of a joint that moves"}};
 
-// A parameter with a wider 95 % interval, relative to itself, counts as not determined.
+// A parameter with a wider 95 % interval, relative to its value, is not determined.
 constexpr double widest_interval = 0.25;
-// Steps of the derivatives of a joint that moves, whose dry friction has edges.
+// Step of derivatives for a moving joint, whose dry friction has kinks.
 constexpr double across_kinks = 0.01;
-// Excursion below which arm and force are one.
+// Excursion below which arm and force are not separable.
 constexpr double least_excursion = 5 * std::numbers::pi / 180;
 
 constexpr std::array laws{
@@ -248,7 +249,7 @@ constexpr std::array laws{
 using Law = JointLaw;
 using Values = JointValues;
 
-// Throws config::Error for a wish of what no law has.
+// Throws config::Error for a constraint on a parameter that no law has.
 void check_wishes(const JointTorque& joint, const JointSetup& setup, const Wishes& wishes) {
   std::vector<Parameter> all;
   for (const Law& law : laws)
@@ -259,11 +260,11 @@ void check_wishes(const JointTorque& joint, const JointSetup& setup, const Wishe
 struct Solved {
   Values values;
   Solution solution;
-  std::string ambiguous;  // another answer that fits as well
+  std::string ambiguous;  // another solution that fits as well
   std::shared_ptr<const Refit> again;
 };
 
-// Is it one that a muscle's force or arm hangs on?
+// Returns whether the parameter affects a muscle's force or arm.
 bool of_muscles(std::string_view name) {
   for (const std::string_view one : {"moment_arm", "flexor_length", "extensor_length", "c0", "c1"})
     if (name == one) return true;
@@ -274,8 +275,8 @@ double square_sum(const Solution& s) {
   return s.rms * s.rms * static_cast<double>(s.residuals.size());
 }
 
-// Something that matters is elsewhere although the residuals cannot tell, by ten times the noise's
-// variance.
+// Returns a description of another solution with a different muscle parameter, if the residuals do
+// not exclude it: by less than ten times the noise's variance. Empty if no other exists.
 std::string another_answer(const Solution& best, const Solution& other) {
   const double s2 = best.standard_deviation * best.standard_deviation;
   if (square_sum(other) - square_sum(best) > 10 * s2 + 1e-9 * square_sum(best)) return "";
@@ -328,7 +329,8 @@ std::string error_text(const Combination& c) {
   return fmt::format("{} +- {:.2g} %", c.text, 100 * c.relative_error);
 }
 
-// What the data cannot tell apart; empty where everything that matters is determined.
+// Returns the parameters that the data do not separate; empty if all muscle parameters are
+// determined.
 std::string inseparable(const Solved& solved) {
   const Solution& s = solved.solution;
   std::string which;
@@ -379,7 +381,7 @@ void refuse_unusable(const Measured& data, const JointTorque& joint, const Joint
                   "the sign of torque, the other flexion=SENSE, or down=ANGLE");
 }
 
-// What the sensors' settings ask for is there.
+// Throws Refusal if columns are missing that the sensor settings need.
 void refuse_without_torque(const Measured& data, const JointSetup& setup) {
   if ((setup.torque_bias || setup.torque_gain || setup.moving) && !data.has("torque"))
     throw Refusal(data.file, "no torque", "one, whose sensor has a bias, a gain or a delay",
@@ -393,7 +395,8 @@ void refuse_without_torque(const Measured& data, const JointSetup& setup) {
                   "keep_force=true, or another recording");
 }
 
-// The last third of each recording: of a motion, samples beside each other say the same.
+// Splits off the last third of each recording, as neighbouring samples of a motion are not
+// independent.
 std::pair<Measured, Measured> last_thirds(const Measured& data) {
   std::vector<std::size_t> keep, out;
   const std::vector<double>* of = data.has("recording") ? &data["recording"] : nullptr;
@@ -419,7 +422,7 @@ std::vector<double> residuals_of(const Law& law, const JointTorque& joint, const
   return r;
 }
 
-// One law, fitted to all rows and scored on what is held out.
+// Fits one law to all rows and scores it on those that are held out.
 Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
               const JointTorque& others, bool refit, const JointSetup& setup, const Wishes& wishes,
               double full_scale, Solved& solved) {
@@ -442,7 +445,7 @@ Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
   return fit;
 }
 
-// Arms over the angles that were measured.
+// Writes the arms over the measured angles.
 void put_cam(const Measured& data, const JointTorque& joint, const Hinge& cord, double rest,
              JointResult& out) {
   const double low = smallest(data["angle"]), high = largest(data["angle"]);
@@ -467,7 +470,7 @@ void refuse_if_all_are(const Report& report, const std::string& file) {
                 "larger excursions, moment_arm=LENGTH, flexor_length=LENGTH, or keep_force=true");
 }
 
-// A recording that is held out has a number that no fitted one has.
+// Gives a held-out recording a number that no fitted one has.
 std::optional<Measured> as_another(std::optional<Measured> held_out, std::size_t number) {
   if (!held_out) return held_out;
   held_out->columns.push_back(
@@ -527,7 +530,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   std::vector<const Law*> tried;
   for (const Law& law : laws) {
     if (!model.empty() && model != law.name) continue;
-    if (setup.keep_force && law.pressure) continue;  // the force is what it is
+    if (setup.keep_force && law.pressure) continue;  // the force is given
     tried.push_back(&law);
   }
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));

@@ -1,4 +1,5 @@
-// A joint whose torque has a zero, a gain and a delay, in several recordings, at rest or moving.
+// A joint whose torque sensor has a zero, a gain and a delay, in several recordings, at rest or
+// moving.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi, atmosphere = actuator::thesis_atmosphere;
 constexpr double arm = 0.022, mount = 0.083, c0 = 0.97, rest = 4.0;
 
-// Returns the torque of a flexor round a cam, [22]; it raises the angle.
+// Returns the torque of a flexor round a cam, [22], that raises the angle.
 double pull(double q, double gauge) {
   const actuator::Braid braid = actuator::thesis_actuator().braid;
   const double length = mount - arm * q, b = braid.thread_length, n = braid.turns;
@@ -76,11 +77,11 @@ JointSetup two_sensors() {
   JointSetup s = setup();
   s.torque_bias = s.torque_gain = true;
   s.recordings = {"a.csv", "b.csv"};
-  s.moment_arm = arm;  // zeros and a gain leave too little for all three of a muscle
+  s.moment_arm = arm;  // with zeros and a gain not all three values of a muscle are determined
   return s;
 }
 
-// In 95 % of the trials, give or take what 160 of them scatter.
+// In 95 % of the trials, within the scatter of 160 trials.
 TEST(JointSensors, ZerosAndTheGainOfASecondRigAreFound) {
   const std::pair<const char*, double> truth[] = {{"torque_bias of a.csv", 0.3},
                                                   {"torque_bias of b.csv", -0.2},
@@ -102,7 +103,7 @@ TEST(JointSensors, ZerosAndTheGainOfASecondRigAreFound) {
   EXPECT_LE(held, 159);
 }
 
-// It has a zero that nobody knows, and is predicted all the same.
+// Its zero is unknown, and it is predicted with a fitted one.
 TEST(JointSensors, ARecordingThatIsHeldOutHasItsOwnZero) {
   const Measured data = two_recordings({.bias = 0.3}, {.bias = -0.2, .gain = 1.15});
   Measured third = data;
@@ -113,7 +114,7 @@ TEST(JointSensors, ARecordingThatIsHeldOutHasItsOwnZero) {
   EXPECT_LT(predicted.report.best().held_out->rmse, 0.03);
 }
 
-// The gain of the only recording is that of the force: told once the force is known.
+// The gain of a single recording equals that of the force: it is determined if the force is known.
 TEST(JointSensors, AGainAloneNeedsAKnownForce) {
   Measured data = two_recordings({.gain = 1.1}, {.gain = 1.1});
   for (double& k : data.columns[3].values) k = 0;

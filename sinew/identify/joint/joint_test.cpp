@@ -1,5 +1,5 @@
-// Force law and arm of a joint from angles, pressures and loads: back from joints that are known,
-// and an answer of its own where they cannot be separated.
+// Force law and arm of a joint from angles, pressures and loads: known joints are recovered, and
+// inseparable parameters are reported.
 #include "sinew/identify/joint/joint.h"
 
 #include <gtest/gtest.h>
@@ -22,16 +22,16 @@ constexpr double pi = std::numbers::pi, atmosphere = actuator::thesis_atmosphere
 struct Truth {
   double arm = 0.022, flexor = 0.083, extensor = 0.084;
   double c0 = 0.97, c1 = -1.5e-7;
-  double origin = 0, origin_angle = 0;  // of a hinge
+  double origin = 0, origin_angle = 0;  // for a hinge
   double sign = 1, rest = 4.0, half_range = 0.55;
 };
 
-// [22] and the cosine rule, written out once more.
+// [22] and the cosine rule, implemented independently.
 double pull(const Truth& t, double mount, double q, double gauge) {
   const actuator::Braid braid = actuator::thesis_actuator().braid;
   double arm = t.arm, shortening = t.arm * q;
   if (t.origin > 0) {
-    // d by bisection from the arm at rest.
+    // d by bisection, from the arm at rest.
     const auto distance = [&](double d, double phi) {
       return std::sqrt(t.origin * t.origin + d * d - 2 * t.origin * d * std::cos(phi));
     };
@@ -49,7 +49,8 @@ double pull(const Truth& t, double mount, double q, double gauge) {
   return arm * std::max(0.0, force * (t.c0 + t.c1 * gauge));
 }
 
-// Poses at random pressures; the load that holds them, read with an error of `noise` [N m].
+// Poses at random pressures, with the load that balances them, measured with an error of `noise` [N
+// m].
 Measured poses(const Truth& t, bool pair, double noise, unsigned seed, int count = 120) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> where(-t.half_range, t.half_range), gauge(1e5, 6.5e5);
@@ -102,7 +103,7 @@ TEST(Hinge, ArmIsTheSlopeOfTheShortening) {
   }
 }
 
-// From far away the cosine rule's points give a hinge whose arm goes with the sine alone.
+// With a distant origin, the arm of a hinge follows the sine alone.
 TEST(Hinge, FromFarAwayTheArmIsTheInsertionTimesTheSine) {
   const Hinge h = Hinge::points(0.02, 1e6, pi / 2);
   for (const double q : {-0.5, 0.0, 0.5}) EXPECT_NEAR(h.arm(q), 0.02 * std::sin(pi / 2 - q), 1e-6);
@@ -135,8 +136,8 @@ TEST(Joint, TheModelIsChosenByWhatItDidNotSee) {
   }
 }
 
-// An arm that changes with the angle and an unknown force law are too much for torques; with the
-// force law known the points come out.
+// An arm that changes with the angle and an unknown force law are not both determined by torques;
+// with a known force law the points are found.
 TEST(Joint, AttachmentPointsNeedAKnownForceLaw) {
   const Truth t{.c1 = 0, .origin = 0.06, .origin_angle = 1.2};
   JointSetup s = setup_of(t);
@@ -173,7 +174,7 @@ TEST(Joint, IntervalsCoverTheTruthIn200Trials) {
   }
 }
 
-// A small excursion at one length: torque is arm times force, and that is all.
+// With a small excursion at one length the torque determines only arm times force.
 TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
   const Truth t{.half_range = 0.06};
   const std::string text = refused(poses(t, false, 0.05, 2), setup_of(t), "round");
@@ -182,7 +183,7 @@ TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
   EXPECT_NE(text.find("moment_arm^"), std::string::npos) << text;
   EXPECT_NE(text.find("c0^"), std::string::npos) << text;
 
-  // With a known arm, or a known force law, the rest can be had.
+  // With a known arm, or a known force law, the rest is determined.
   JointSetup arm = setup_of(t);
   arm.moment_arm = t.arm;
   const JointResult with_arm = identify_joint(poses(t, false, 0.01, 2), {}, arm, "round_pressure");
@@ -197,7 +198,7 @@ TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
   EXPECT_NEAR(with_force.moment_arm, t.arm, 0.1 * t.arm);
 }
 
-// Small excursions tell one product only; what is known of the arm tells the rest.
+// Small excursions determine one product only; a prior on the arm gives the rest.
 TEST(Joint, APriorOnTheArmTellsWhatTorquesCannot) {
   const Truth t{.c1 = 0, .half_range = 0.06};
   const Measured data = poses(t, false, 0.002, 9);
@@ -221,7 +222,7 @@ TEST(Joint, WhatIsWellDeterminedComesFirst) {
   EXPECT_LT(r.combinations[0].relative_error, 0.1 * r.combinations[2].relative_error);
 }
 
-// A hanging mass is a torque like any other.
+// A hanging mass is equivalent to its torque.
 TEST(Joint, AMassOnALeverSaysTheSameAsItsTorque) {
   const Truth t{.rest = 1.5 * pi + 0.9};
   Measured by_torque = poses(t, false, 0, 4), by_load = by_torque;
@@ -273,7 +274,8 @@ TEST(Joint, WhatCannotBeUsedIsTold) {
   says(no_pressure, setup_of(t), "no pressure");
 }
 
-// Intervals of 90 to 99 in 100 trials with other noise and other poses hold each parameter.
+// In 90 to 99 of 100 trials with other noise and other poses the interval contains the truth, for
+// each parameter.
 TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
   constexpr int trials = 100;
   std::map<std::string, int> held;
@@ -301,8 +303,8 @@ TEST(Joint, IntervalsHoldTheTruthInNineOfTenTrials) {
   }
 }
 
-// A load in grams that is called kilograms, a pressure of the other muscle: the numbers that fit
-// lie at the bounds of all ranges, so that no covariance is left. The result is words or numbers.
+// A load in grams labelled kilograms, or the pressure of the other muscle: the fitted values are at
+// the bounds of all ranges, so that no covariance remains. The result must be a message or numbers.
 TEST(Joint, AnyColumnThatIsAThousandTimesOffOrExchangedIsAnswered) {
   const Measured right = poses({}, true, 1e-3, 39, 12);
   const auto is_answered = [](const Measured& data) {

@@ -79,8 +79,8 @@ void JointTorque::residuals(const JointLaw& law, const JointValues& v, std::span
   const Hinge cord = hinge(law, v);
   actuator::Actuator a = setup_.actuator;
   a.effectiveness = effectiveness(v);
-  a.long_end.stiffness = 0;  // threads that stretch have a scale of their own, not these torques'
-  std::vector<double> needed(rows());  // of the load, to hold the muscles
+  a.long_end.stiffness = 0;            // threads that stretch would add a scale
+  std::vector<double> needed(rows());  // load torque that balances the muscles
   for (std::size_t i = 0; i < rows(); ++i) {
     const double q = sign_ * (angle_[i] - setup_.rest_angle);
     double pull = 0;
@@ -108,7 +108,7 @@ void JointTorque::residuals(const JointLaw& law, const JointValues& v, std::span
   }
 }
 
-// A recording that nobody fitted has a zero of its own.
+// Returns the bias; that of a recording that was not fitted is the mean of its residuals.
 double JointTorque::bias_of(const JointValues& v, std::size_t from, std::size_t to,
                             std::size_t recording, std::span<const double> needed) const {
   if (recording < v.bias.size()) return v.bias[recording];

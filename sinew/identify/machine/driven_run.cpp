@@ -27,13 +27,13 @@ using signals::Tick;
 using Of = RunChannel::Of;
 using Kind = robot::Sensor::Kind;
 
-constexpr double rounding_variance = 1.0 / 12;  // of a whole number [count^2]
+constexpr double rounding_variance = 1.0 / 12;  // rounding to a whole number [count^2]
 
 Tick nearest_tick(std::int64_t time_ns) {
   return (time_ns + signals::tick_nanoseconds / 2) / signals::tick_nanoseconds;
 }
 
-// What a sensor measures; nothing for one of something that stands still.
+// Returns the channel of a sensor; empty for a quantity that cannot move.
 std::optional<RunChannel> channel_of(const Experiment& e, const robot::Sensor& sensor) {
   const int joint = robot::find_joint(e.robot, sensor.of);
   const int muscle = robot::find_muscle(e.robot, sensor.of);
@@ -56,7 +56,7 @@ std::optional<RunChannel> channel_of(const Experiment& e, const robot::Sensor& s
   return out;
 }
 
-// Returns the topic of the sensor's quantity, as a recording has it; empty: it has none.
+// Returns the topic of the sensor's quantity in a recording; empty if it has none.
 std::string topic_of(const Experiment& e, const RunChannel& c) {
   if (c.of == Of::angle) return robot::topic_of_joint(e.robot, c.index) + "/angle";
   if (c.of == Of::rate) return robot::topic_of_joint(e.robot, c.index) + "/velocity";
@@ -65,7 +65,7 @@ std::string topic_of(const Experiment& e, const RunChannel& c) {
   return "/cylinder/position";
 }
 
-// A channel of the quantity itself, in SI as its topic is told.
+// Turns a sensor's channel into one of the quantity itself, in the SI unit of its topic.
 RunChannel quantity_channel(const Experiment& e, RunChannel c, const signals::Series& series) {
   c.name = series.topic.name;
   c.unit = series.topic.fields[0].unit;
@@ -79,11 +79,11 @@ RunChannel quantity_channel(const Experiment& e, RunChannel c, const signals::Se
   return c;
 }
 
-// The ticks at which a sensor's conversions begin and are read, within a period.
+// Ticks at which a sensor's conversions begin and are read, within a period.
 struct Converted {
   Tick start = 0, read = 0, period = 100;
 
-  // Returns the start of the last conversion that was read by then; below 0: there was none.
+  // Returns the start of the last conversion read at or before the row; negative: none.
   Tick last_before(Tick row) const {
     const Tick into = ((row - read) % period + period) % period;
     return row - into - (read - start);
@@ -95,20 +95,20 @@ void add_samples(const signals::Series& series, const Converted* scan, RunChanne
     const double value = series.columns[0][i];
     const Tick row = nearest_tick(series.time_ns[i]);
     const Tick at = scan ? scan->last_before(row) : row;
-    // A row that comes more often than a conversion repeats what it was.
+    // Rows between conversions repeat the last value.
     if (!std::isfinite(value) || at < 0 || (!c.at.empty() && at <= c.at.back())) continue;
     c.at.push_back(at);
     c.value.push_back(value);
   }
 }
 
-// What stands at the converter's end for long says only that it is beyond it.
+// Leaves out long runs at the limits of the converter, where the value is unknown.
 void leave_out_ends(RunChannel& c) {
-  constexpr std::size_t around = 10;  // so many samples before and behind
+  constexpr std::size_t around = 10;  // samples kept at each side
   const std::size_t n = c.value.size();
   std::vector<bool> out(n, false);
   const auto at_end = [&](std::size_t i) { return c.value[i] <= c.bottom || c.value[i] >= c.top; };
-  std::size_t run = 0;  // samples at an end up to here
+  std::size_t run = 0;  // length of the run at a limit
   for (std::size_t i = 0; i < n; ++i) {
     run = at_end(i) ? run + 1 : 0;
     if (run >= 2 * around + 1) out[i - around] = true;
@@ -123,18 +123,18 @@ void leave_out_ends(RunChannel& c) {
   c.value.resize(kept);
 }
 
-// The spread of a recording's noise, from its third differences: what moves slowly leaves none.
+// Returns the noise of a recording from its third differences, in which slow motion vanishes.
 double noise_of(const std::vector<double>& v) {
   std::vector<double> d;
   for (std::size_t i = 3; i < v.size(); ++i)
     d.push_back(std::abs(v[i] - 3 * v[i - 1] + 3 * v[i - 2] - v[i - 3]));
   if (d.empty()) return 0;
   std::ranges::nth_element(d, d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2));
-  constexpr double median = 0.6745;  // of |x| of a unit normal; the weights' squares add up to 20
+  constexpr double median = 0.6745;  // |x| of a unit normal; squared weights sum to 20
   return d[d.size() / 2] / (median * std::sqrt(20.0));
 }
 
-// Pressures that instruments measured, where the robot has no sensor of them.
+// Adds pressures measured by external instruments, if the robot has no sensor for them.
 void add_instruments(const Experiment& e, const signals::Table& recorded,
                      std::vector<RunChannel>& out) {
   for (std::size_t m = 0; m < e.robot.muscles.size(); ++m) {
@@ -145,7 +145,7 @@ void add_instruments(const Experiment& e, const signals::Table& recorded,
     if (!series || sensed || series->time_ns.size() < 4) continue;
     RunChannel c = quantity_channel(e, {.of = Of::pressure, .index = m}, *series);
     add_samples(*series, nullptr, c);
-    constexpr double least = 100;  // a gauge of a laboratory [Pa]
+    constexpr double least = 100;  // accuracy of a laboratory gauge [Pa]
     c.noise = std::max(least, noise_of(c.value));
     out.push_back(std::move(c));
   }
@@ -164,12 +164,12 @@ double RunChannel::quantity(const plant::Truth& truth, const robot::Robot& robot
 
 double RunChannel::expected(double quantity) const {
   const double mean = at_zero + per_unit * quantity;
-  // The mean of max(bottom, x), x normal about `mean`, and the same from above.
-  const auto excess = [](double z) {  // of a unit normal above -z
+  // Mean of max(bottom, x), with x normal about `mean`, and the same at the upper limit.
+  const auto excess = [](double z) {  // mean of max(0, x), x normal about z
     const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
     return z * 0.5 * std::erfc(-z / std::numbers::sqrt2) + density;
   };
-  constexpr double far = 6;  // in standard deviations: nothing is cut
+  constexpr double far = 6;  // in standard deviations: no clipping
   if (mean < bottom + far * noise) return bottom + noise * excess((mean - bottom) / noise);
   if (mean > top - far * noise) return top - noise * excess((top - mean) / noise);
   return mean;
@@ -188,7 +188,7 @@ std::vector<RunChannel> run_channels(const Experiment& e, const signals::Table& 
       if (one.channel.index == s) converted = {one.start, one.read, scan.period};
     const signals::Series* counts = recorded.find("/sensor/" + c->name + "/count");
     const signals::Series* quantity = recorded.find(topic_of(e, *c));
-    // Counts that were made from a recording's quantities go by scales that nobody measured.
+    // Counts that were computed from recorded quantities use assumed scales.
     const bool made = counts && imported && counts->topic.description.starts_with("from /");
     if (counts && !(made && quantity)) {
       add_samples(*counts, imported ? nullptr : &converted, *c);
@@ -197,7 +197,7 @@ std::vector<RunChannel> run_channels(const Experiment& e, const signals::Table& 
       add_samples(*quantity, nullptr, *c);
     }
     leave_out_ends(*c);
-    // Counts that are always the same are of something that stands still: they say nothing.
+    // A constant reading carries no information.
     if (std::ranges::adjacent_find(c->value, std::not_equal_to<>()) != c->value.end())
       out.push_back(std::move(*c));
   }
@@ -213,7 +213,8 @@ using experiment::Experiment;
 
 namespace {
 
-// Do all edges stand at the rows of a table? It then knows them to one of its rows.
+// Returns whether all edges coincide with rows of a table: their times are then only known to a
+// row.
 bool is_of_rows(const signals::Series& edges, const std::vector<RunChannel>& channels) {
   return std::ranges::all_of(edges.time_ns, [&](std::int64_t time) {
     const signals::Tick at = time / signals::tick_nanoseconds;
@@ -221,8 +222,8 @@ bool is_of_rows(const signals::Series& edges, const std::vector<RunChannel>& cha
   });
 }
 
-// Adds the edge from which a valve is open to the end although its duty is zero: the vent that ends
-// a run is in no duty, and a table has it to one of its rows.
+// Adds the edge from which a valve stays open to the end although its duty is zero: the final
+// vent is not in the duties, and its time is only known to a row of the table.
 void add_last_vent(const signals::Series& open, const signals::Series& duty, std::size_t valve,
                    std::vector<signals::Edge>& out) {
   constexpr std::size_t rows = 3;  // more than a pulse
@@ -288,7 +289,7 @@ bool DrivenRun::drive(const Experiment& e, double until, Visit visit) const {
     if (t > until) break;
     for (; edge < edges_.size() && edges_[edge].at <= i.at; ++edge)
       (void)machine.port().drive(edges_[edge]);
-    // Several sensors may be sampled at once.
+    // Several sensors may be sampled at the same instant.
     if (i.at != shown) truth = machine.truth(t);
     shown = i.at;
     if (machine.failure() || !visit(i, truth)) return false;

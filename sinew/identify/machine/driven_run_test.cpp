@@ -10,7 +10,7 @@
 namespace sinew::identify::driven_run_test {
 namespace {
 
-// By the machine that was run every reading is its mean and the sensor's own noise.
+// For the machine that was run, every reading is its mean plus the sensor's noise.
 TEST(DrivenRun, LeavesTheSensorsNoiseAlone) {
   for (const char* name : {"one-joint", "leg-in-air", "walk-test-1", "walk-with-pressures"}) {
     const experiment::Experiment e = shipped(name);
@@ -26,7 +26,7 @@ TEST(DrivenRun, LeavesTheSensorsNoiseAlone) {
         sum += left;
       }
       const auto n = static_cast<double>(c.value.size());
-      // The converter's ends cut noise away, and what does not move has none.
+      // Converter limits clip the noise, and a constant reading has none.
       EXPECT_LT(std::sqrt(squares / n), 1 + 4 / std::sqrt(2 * n)) << name << " " << c.name;
       EXPECT_LT(std::abs(sum), 4.5 * std::sqrt(n)) << name << " " << c.name;
     }
@@ -34,7 +34,7 @@ TEST(DrivenRun, LeavesTheSensorsNoiseAlone) {
   }
 }
 
-// A mean of what is cut at an end: half of a normal distribution above 0 has the mean 1/sqrt(2 pi).
+// The mean of a clipped reading: half of a normal distribution above 0 has the mean 1/sqrt(2 pi).
 TEST(RunChannel, CutsNoiseAtTheConvertersEnds) {
   RunChannel c{.at_zero = 10, .per_unit = 2, .noise = 0.5, .bottom = 0, .top = 4095};
   const double half = 0.5 / std::sqrt(2 * 3.14159265358979);
@@ -45,7 +45,7 @@ TEST(RunChannel, CutsNoiseAtTheConvertersEnds) {
   EXPECT_EQ(c.expected(100), 210);
 }
 
-// Any number of simulations at once, the same bits.
+// Parallel simulations give the same bits.
 TEST(DrivenRun, ChangesWithTheMachinesNumbers) {
   experiment::Experiment e = shipped("one-joint");
   const DrivenRun driven(e, recorded(e), false);

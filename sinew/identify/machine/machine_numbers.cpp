@@ -21,7 +21,7 @@ using experiment::Experiment;
 constexpr std::array<std::string_view, 5> group_names = {"friction", "damping", "dead-time",
                                                          "volume", "leak"};
 
-// The visitor of units/field.h that notes where numbers stand.
+// Visitor of units/field.h that collects the parameters with their addresses.
 class NumberFinder {
  public:
   using Field = units::Field;
@@ -47,7 +47,7 @@ class NumberFinder {
     });
   }
 
-  // These hold no number that a fit could change by itself.
+  // Fields without a parameter that a fit could change alone.
   void numbers(const Field&, std::vector<double>&) {}
   void polynomial(const Field&, std::vector<double>&, std::string_view) {}
   void integer(const Field&, int&) {}
@@ -170,7 +170,7 @@ double machine_scale(const Experiment& e, const MachineNumber& number) {
   if (number.unit == "rad") return 0.1;
   const double value = std::abs(*number.value);
   if (value > 0 && std::isfinite(value)) return value;
-  // A leak that would empty ten cubic centimetres in about two minutes, by wall or by hole.
+  // A leak that empties ten cubic centimetres in about two minutes, as conductance or as area.
   constexpr double volume = 1e-5, time = 100;
   const double conductance = volume / (287.0 * e.air.temperature * time);
   if (number.key.ends_with("leak.conductance")) return conductance;

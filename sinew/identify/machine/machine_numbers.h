@@ -1,9 +1,9 @@
-// identify/machine/machine_numbers.h - the numbers of a machine's description by their keys, as the
-// field tables name them: joint.hip.damping, valve.inlet.opening_delay,
+// identify/machine/machine_numbers.h - parameters of a machine's description by their
+// keys, as the field tables name them: joint.hip.damping, valve.inlet.opening_delay,
 // muscle.knee_flexor.leak.area.
 //
-// A fit sets them in a copy of the description that it simulates. Which ones it searches by default
-// are groups, by what a run of a robot can show:
+// A fit sets them in a copy of the description that it simulates. The parameters that it
+// searches by default are in groups, by what a run of a robot can show:
 //
 //   friction    joint.<name>.dry_friction, of a driven joint; trolley.drag, cylinder.friction where
 //               these move
@@ -23,25 +23,25 @@
 
 namespace sinew::identify {
 
-// A number of a description, and what its field table says of it.
+// A parameter of a description, with the properties from its field table.
 struct MachineNumber {
   std::string key;           // "joint.hip.damping"
   std::string unit;          // SI
-  double low = 0, high = 0;  // that its field may have
-  double* value = nullptr;   // in the description that it was found in
+  double low = 0, high = 0;  // range of its field
+  double* value = nullptr;   // address in the description
 };
 
-// Returns all numbers of the machine and of its start; they point into the description.
+// Returns all parameters of the machine and of its start, with pointers into the description.
 std::vector<MachineNumber> machine_numbers(experiment::Experiment& experiment);
 
-// Returns the keys that `asked` names: keys, and groups for those of their keys that the machine
-// has. Where nothing is asked, those of all groups. Each key stands there once.
-// Throws config::Error for a word that is neither, and for a group without a key.
+// Returns the keys for the words in `asked`: keys, and groups for those of their keys that
+// the machine has. Empty: all groups. Each key is returned once. Throws config::Error for a
+// word that is neither, and for a group without a key.
 std::vector<std::string> machine_keys(experiment::Experiment& experiment,
                                       const std::vector<std::string>& asked);
 
-// Returns what a change of that number is that matters, in its unit: a share of its value, and
-// where that is 0 a size that its group knows; > 0.
+// Returns the size of a significant change of the parameter, in its unit: a share of its value, or
+// if that is 0 a typical size of its group; > 0.
 double machine_scale(const experiment::Experiment& experiment, const MachineNumber& number);
 
 }  // namespace sinew::identify

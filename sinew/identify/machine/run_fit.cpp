@@ -21,7 +21,7 @@ namespace {
 
 using experiment::Experiment;
 
-constexpr double more_than_noise = 1.5;  // rms of what is left, in noises
+constexpr double more_than_noise = 1.5;  // rms of the residuals, in units of the noise
 
 std::vector<Parameter> parameters_of(Experiment& e, const std::vector<std::string>& keys) {
   const std::vector<MachineNumber> all = machine_numbers(e);
@@ -57,7 +57,7 @@ void check_options(const RunFitOptions& options, const std::vector<std::string>&
                    fmt::format("one of {}", fmt::join(keys, ", ")), "to fit it too");
 }
 
-// Rows of the page, and how well each channel is met.
+// Writes the rows of the page, and the score of each channel.
 void score_channels(const DrivenRun& run, double until, double from,
                     const std::vector<double>& mean, RunFitResult& out) {
   Rows& rows = out.report.rows;
@@ -93,7 +93,7 @@ void tell_channels(const RunFitResult& out, Fit& fit) {
         c.held_out > 0 && fit.fit.points > 0 ? fmt::format(", held out {:.3g}", c.held_out) : ""));
 }
 
-// What stands in the way of believing it.
+// Warns of reasons to doubt the result.
 void warn(const RunFitResult& out, Report& report, double rms) {
   if (rms > more_than_noise)
     report.warnings.push_back(fmt::format(
@@ -112,9 +112,9 @@ void warn(const RunFitResult& out, Report& report, double rms) {
     report.warnings.push_back("not determined by this run: " + direction);
 }
 
-// Takes the intervals away where they would be false. In a hundred runs in the air derivatives over
-// both steps agreed within 0.02, mostly within 0.001; of walks they differed by 0.03 to 0.9, and by
-// how little they ever did, no search of six ended where the truth was: a landing is enough.
+// Removes intervals that would be wrong. In a hundred runs in the air derivatives over both steps
+// agreed within 0.02, mostly within 0.001. In walks they differed by 0.03 to 0.9, and however small
+// the difference, none of six searches ended at the true values: a single landing is enough.
 void judge_intervals(const DrivenRun& run, double until, double roughness, RunFitResult& out,
                      std::vector<Estimate>& estimates) {
   constexpr double smooth = 0.05;
@@ -139,7 +139,7 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
   }
 }
 
-// A machine's numbers, and what is left there.
+// Values of the searched parameters, and the residuals there.
 struct RunPlace {
   std::vector<double> p, left;
   bool answered = false;
@@ -148,10 +148,10 @@ struct RunPlace {
       : p(std::move(numbers)), left(residuals.count()), answered(residuals(p, left)) {}
 };
 
-// Do the readings move where number i alone is another than at the place?
+// Returns whether the readings change if parameter i alone is changed.
 bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::size_t i,
                     const RunPlace& place) {
-  constexpr double enough = 0.1;  // sum of squares, in noises
+  constexpr double enough = 0.1;  // sum of squares, in units of the noise
   if (!place.answered) return false;
   std::vector<double> p = place.p, there(residuals.count());
   const std::vector<double>& at = place.left;
@@ -166,8 +166,8 @@ bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::si
   return false;
 }
 
-// Numbers are not searched where no reading moves as one of them becomes twice as large. A valve
-// whose every pulse is lost has no closing delay to be seen, so that dead times are asked again
+// Returns the parameters that affect any reading; the others are listed in `not_felt`. The closing
+// delay of a valve whose pulses are all lost has no effect, so dead times are tested a second time
 // with all of them halved.
 std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Parameter>& all,
                             std::vector<std::string>& not_felt) {
@@ -192,8 +192,8 @@ std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Par
   return out;
 }
 
-// Fits the numbers to the run up to `until` [s]: writes the machine, what is known of its numbers,
-// and what the search took. Returns the rms of what is left there, in noises.
+// Fits the parameters to the run up to `until` [s]: writes the machine, the estimates and the
+// effort of the search. Returns the rms of the residuals there, in units of the noise.
 double search_numbers(const Experiment& e, const DrivenRun& run, const RunFitOptions& options,
                       double until, std::vector<Parameter> parameters, RunFitResult& out) {
   parameters = felt(RunResiduals(e, run, parameters, options, until), parameters, out.undetermined);
@@ -261,11 +261,11 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
   return out;
 }
 
-// --- what was found, as a robot's file and as numbers ---
+// --- the result as a robot's file and as JSON ---
 
 namespace {
 
-// Puts a node at "joint.hip.damping", with the tables on the way.
+// Puts a node at a path such as "joint.hip.damping", creating the tables on the way.
 void put_at(config::Node& root, std::string_view path, config::Node leaf) {
   const std::size_t dot = path.find('.');
   if (dot == path.npos) {

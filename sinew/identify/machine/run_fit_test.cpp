@@ -17,8 +17,8 @@ const Estimate& estimate(const RunFitResult& found, const std::string& key) {
   throw std::out_of_range(key);
 }
 
-// A truth that is injected is found again, in noisy counts of three sensors, and held by intervals
-// that are no wider than they have to be.
+// Changed parameters are found in noisy counts of three sensors, and are within intervals that are
+// no wider than necessary.
 TEST(RunFit, FindsFrictionAndADeadTimeOfOneJoint) {
   const experiment::Experiment start = shipped("one-joint");
   const std::map<std::string, double> truth = {{"joint.lever.dry_friction", 0.07},
@@ -42,7 +42,7 @@ TEST(RunFit, FindsFrictionAndADeadTimeOfOneJoint) {
   EXPECT_TRUE(found.undetermined.empty());
 }
 
-// A leg that hangs in the air moves its trolley by nothing that a sensor reads.
+// A leg that hangs in the air does not move its trolley measurably.
 TEST(RunFit, SaysWhatNoReadingDependsOn) {
   const experiment::Experiment e = shipped("leg-in-air");
   const DrivenRun driven(e, recorded(e), false);
@@ -52,8 +52,8 @@ TEST(RunFit, SaysWhatNoReadingDependsOn) {
   EXPECT_EQ(found.report.best().parameters.size(), 1u);
 }
 
-// A valve that loses every pulse has a closing delay that nothing depends on. Here it does so at
-// the start of the search, by a tick, and did not where the run was recorded.
+// A valve that loses every pulse has a closing delay without effect. Here it does so at the
+// start of the search, by a tick, but not in the recorded run.
 TEST(RunFit, FindsADelayThatOnlyAnotherDelayMakesFelt) {
   experiment::Experiment start = shipped("one-joint");
   const std::string opens = "valve.exhaust.opening_delay", closes = "valve.exhaust.closing_delay";
@@ -81,8 +81,9 @@ TEST(RunFit, FindsADelayThatOnlyAnotherDelayMakesFelt) {
   }
 }
 
-// A walk's readings jump with its numbers, so an interval would be false: it gives none, says why,
-// and the robot's file has no uncertainty. The number itself is nearer than at the start.
+// A walk's readings jump with its parameters, so an interval would be wrong: none is given, with
+// the reason, and the robot's file has no uncertainty. The value itself is nearer than at the
+// start.
 TEST(RunFit, GivesNoIntervalsOfAWalk) {
   experiment::Experiment start = shipped("walk-test-1", {"sequence.repeat=1"});
   const DrivenRun driven(start, recorded(start), false);
@@ -115,7 +116,7 @@ TEST(RunFit, GivesIntervalsInTheAirAndSaysSo) {
   EXPECT_FALSE(out.contains("no_intervals_because"));
 }
 
-// What is known beforehand stays what it is.
+// Frozen parameters are not changed.
 TEST(RunFit, DoesNotSearchWhatIsFrozen) {
   const experiment::Experiment e = shipped("one-joint", {"sequence.repeat=1"});
   const DrivenRun driven(e, recorded(e), false);
@@ -142,7 +143,7 @@ TEST(RunFit, IsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(one.simulations, three.simulations);
 }
 
-// What is known beforehand is one reading more: it pulls, and narrows.
+// A prior acts as one more reading: it attracts the estimate, and narrows the interval.
 TEST(RunFit, APriorNarrowsWhatTheRunLeavesWide) {
   const experiment::Experiment e = shipped("one-joint");
   const DrivenRun driven(e, recorded(e), false);

@@ -12,8 +12,8 @@ namespace sinew::identify {
 
 namespace {
 
-// By how much the readings' derivatives over a longer step differ from these, as a share of them;
-// the median of the numbers.
+// Returns the relative difference of the readings' derivatives over a longer step; the median over
+// the parameters.
 double roughness(const RunResiduals& residuals, std::span<const Parameter> parameters,
                  const RunSearched& at, int threads, const RunTangent& near) {
   RunTangent far;
@@ -32,7 +32,7 @@ double roughness(const RunResiduals& residuals, std::span<const Parameter> param
   return *middle;
 }
 
-// The numbers whose columns a run sees, those with cells behind the others.
+// Returns the parameters that the run determines, those with cells last.
 std::vector<std::size_t> seen_columns(const Matrix& j, std::span<const RunCell> cells) {
   constexpr double unseen = 1e-9, has_part = 1e-3;
   const auto [stretch, axes] = singular_axes(triangle_of(j));
@@ -48,8 +48,8 @@ std::vector<std::size_t> seen_columns(const Matrix& j, std::span<const RunCell> 
   return plain;
 }
 
-// Returns what the tangent at a place says of those numbers, in units of the residuals; these
-// become what is left where it ends.
+// Returns the distribution of those parameters from the tangent at a solution, in units of the
+// residuals; the residuals become those at its minimum.
 RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const RunSearched& at,
                   const std::vector<std::size_t>& columns) {
   const std::size_t m = columns.size();
@@ -73,8 +73,8 @@ RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const Ru
   return out;
 }
 
-// Writes the deviation of what is left in readings that no converter's end cuts. Returns its
-// freedom.
+// Writes the standard deviation of residuals of readings that are not clipped. Returns the
+// degrees of freedom.
 int set_deviation(const RunResiduals& residuals, std::span<const double> left, int numbers,
                   RunJudged& out) {
   double squares = 0;
@@ -89,7 +89,7 @@ int set_deviation(const RunResiduals& residuals, std::span<const double> left, i
   return freedom;
 }
 
-// The estimates of all numbers, by the intervals of those that are seen.
+// Writes the estimates of all parameters, from the intervals of those that are determined.
 void write_estimates(std::span<const Parameter> parameters, const RunSearched& at,
                      const std::vector<std::size_t>& columns, const RunPiece& best,
                      const std::vector<RunCell>& middle, RunJudged& out) {
@@ -155,7 +155,7 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
   return out;
 }
 
-// --- directions that the readings leave open ---
+// --- undetermined directions ---
 
 std::vector<std::string> open_directions(RunJudged& judged, std::span<const Parameter> parameters) {
   constexpr double half_width = 1.96, part = 0.2;
@@ -176,7 +176,7 @@ std::vector<std::string> open_directions(RunJudged& judged, std::span<const Para
     else
       out.push_back(parameters[i].name + ": only together with others");
   }
-  // The axes of what is uncertain, each number in its own size.
+  // The principal axes of the uncertainty, with each parameter in its own scale.
   const std::size_t m = seen.size();
   Matrix c(m, m);
   for (std::size_t a = 0; a < m; ++a)

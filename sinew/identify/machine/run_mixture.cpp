@@ -13,10 +13,10 @@ namespace sinew::identify {
 namespace {
 
 constexpr double normal_width = 1.959963984540054;
-constexpr double outside = 6;  // standard deviations; a box beyond them cuts nothing
+constexpr double outside = 6;  // standard deviations; a box beyond them has no effect
 constexpr int draws_of_a_piece = 4096;
 
-// Uniform and normal numbers that are the same with every library.
+// Uniform and normal random numbers, equal for every standard library.
 class Draws {
  public:
   double uniform() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53; }
@@ -25,10 +25,10 @@ class Draws {
     return radius * std::cos(2 * std::numbers::pi * uniform());
   }
 
-  // Draws a unit normal between the two, and multiplies `weight` with the share that lies there.
+  // Draws a unit normal within limits, and multiplies `weight` by the probability of the interval.
   double normal_between(double low, double high, double& weight) {
     if (low < -outside && high > outside) return normal();
-    const bool mirrored = low > 0;  // the tail below zero has the digits
+    const bool mirrored = low > 0;  // the lower tail is more accurate
     if (mirrored) std::tie(low, high) = std::pair(-high, -low);
     const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
     const double first = below(low), share = below(high) - first;
@@ -47,7 +47,7 @@ class Draws {
   std::mt19937_64 random_{1};
 };
 
-// Draws of all pieces together: a row of numbers each, and its weight.
+// Draws of all pieces: a row of parameters each, and its weight.
 struct Drawn {
   std::vector<std::vector<double>> at;
   std::vector<double> weight;
@@ -91,7 +91,7 @@ bool is_cut(const RunPiece& piece) {
   return false;
 }
 
-// The middle 95 % of number i, or those that reach up to its value.
+// Returns the middle 95 % of parameter i, or the 95 % that reach up to its value.
 RunCell middle_of(const Drawn& drawn, std::size_t i, double value) {
   constexpr double tail = 0.025;
   std::vector<std::size_t> order(drawn.at.size());

@@ -1,14 +1,14 @@
-// identify/machine/run_mixture.h - what is known of numbers where several normal distributions
-// hold, each within a box of its own: dead times have cells (run_search.h), and what the readings
-// say is another distribution in each that the run does not rule out.
+// identify/machine/run_mixture.h - distribution of parameters as a mixture of normal distributions,
+// each within its own box: dead times have cells (run_search.h), and in each cell that the run does
+// not exclude the readings give another distribution.
 //
 //   p(x)  ~  sum over the pieces of  exp(-c) exp(-|z|^2/2)  within the piece's box
 //
 //   x = middle + spread z      z of unit normals, spread upper triangular
-//   c                          what is left in the piece's own best place, half a sum of squares
+//   c                          half the sum of squares at the piece's own minimum
 //
-// The middle 95 % of each number come from seeded draws, number after number within what the box
-// leaves of it, with the box's share as weight (Geweke, Hajivassiliou, Keane).
+// The middle 95 % of each parameter come from seeded draws, parameter after parameter within the
+// remaining box, weighted with the box's probability (Geweke, Hajivassiliou, Keane).
 #pragma once
 
 #include <span>
@@ -23,13 +23,13 @@ namespace sinew::identify {
 struct RunPiece {
   std::vector<double> middle;
   Matrix spread;             // its diagonal > 0
-  std::vector<RunCell> box;  // of each number
+  std::vector<RunCell> box;  // for each parameter
   double cost = 0;           // c
 };
 
-// Returns the middle 95 % of each number, where a distribution's are its middle -+ `width` standard
-// deviations. Where `value` is none of them, as the end of a box that holds it, they are those 95 %
-// that reach up to it. There is a piece at least.
+// Returns the middle 95 % of each parameter; for a single distribution they are its middle -+
+// `width` standard deviations. If they do not contain `value`, such as a value at the end of its
+// box, they are the 95 % that reach up to it. `pieces` must not be empty.
 std::vector<RunCell> middle_of_pieces(std::span<const RunPiece> pieces,
                                       std::span<const double> value, double width);
 

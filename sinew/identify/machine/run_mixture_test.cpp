@@ -1,4 +1,4 @@
-// Says what boxes leave of normal distributions.
+// Intervals of normal distributions that are limited by boxes.
 #include "sinew/identify/machine/run_mixture.h"
 
 #include <gtest/gtest.h>
@@ -10,12 +10,12 @@ namespace {
 
 constexpr double width = 1.959963984540054;
 
-// Returns the intervals of two numbers whose values are in the middle of what is known.
+// Returns the intervals of two parameters whose values are in the middle of the distribution.
 std::vector<RunCell> middle(std::span<const RunPiece> pieces, double value = 0.5) {
   return middle_of_pieces(pieces, std::vector<double>{value, value}, width);
 }
 
-// Two numbers of which the readings know the difference to 0.01 and the sum to 1.
+// Two parameters whose difference is determined to 0.01 and whose sum to 1.
 RunPiece bound_pair(double low, double high, double cost = 0) {
   RunPiece out{.middle = {0, 0}, .spread = Matrix(2, 2), .cost = cost};
   out.spread(0, 0) = 0.01;
@@ -31,7 +31,7 @@ TEST(RunMixture, WithoutABoxItIsTheNormalDistribution) {
   EXPECT_NEAR(all[0].low, -width * std::hypot(0.01, 0.5), 1e-12);
 }
 
-// The half above zero has the quantiles of |x|, and a number that is bound to it follows.
+// The half above zero has the quantiles of |x|, and a correlated parameter follows.
 TEST(RunMixture, ABoxCutsWhatIsBoundToTheNumberToo) {
   const RunPiece piece = bound_pair(0, unbounded);
   const std::vector<RunCell> all = middle({&piece, 1});
@@ -41,8 +41,7 @@ TEST(RunMixture, ABoxCutsWhatIsBoundToTheNumberToo) {
   }
 }
 
-// A value at the end of its box belongs to its interval, which is no wider for it: 95 % of |x| from
-// 0.
+// A value at the end of its box is in its interval, which is no wider for that: 95 % of |x| from 0.
 TEST(RunMixture, AValueAtTheEndOfItsBoxBelongsToTheInterval) {
   const RunPiece piece = bound_pair(0, unbounded);
   const RunCell cell = middle({&piece, 1}, 0)[1];
@@ -50,7 +49,7 @@ TEST(RunMixture, AValueAtTheEndOfItsBoxBelongsToTheInterval) {
   EXPECT_NEAR(cell.high, 0.5 * width, 0.05);
 }
 
-// Boxes beside each other, in which the same is known, are one without the wall.
+// Adjacent boxes of the same distribution are equivalent to one without the wall.
 TEST(RunMixture, PiecesThatFitTogetherAreTheWhole) {
   const RunPiece pieces[] = {bound_pair(-unbounded, 0.2), bound_pair(0.2, unbounded)};
   const std::vector<RunCell> all = middle(pieces);
@@ -69,7 +68,7 @@ TEST(RunMixture, APieceThatFitsBadlyHasNoWeight) {
   EXPECT_GT(middle(two)[1].high, 10);
 }
 
-// A box far out in the tail is where the numbers are, all the same.
+// A box far out in the tail contains the parameters anyway.
 TEST(RunMixture, ABoxInTheTailHoldsTheNumber) {
   const RunPiece piece = bound_pair(6, 7);
   const RunCell cell = middle({&piece, 1}, 6.05)[1];

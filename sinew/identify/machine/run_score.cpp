@@ -17,7 +17,7 @@ namespace {
 using experiment::Experiment;
 using Of = RunChannel::Of;
 
-// A quantity, its SI unit as measured and as a difference, and what it is measured of.
+// A quantity, its SI unit as measured and as a difference, and the measured object.
 struct ScoredQuantity {
   Of of;
   const char *quantity, *unit, *difference, *each;
@@ -58,7 +58,7 @@ void add_scored(const Experiment& machine, const DrivenRun& run, std::size_t cha
   residuals.insert(residuals.end(), left.begin(), left.end());
 }
 
-// The score of all parts, and each part's errors in percent of the full scale.
+// Writes the score of all parts, and each part's errors in percent of the full scale.
 void conclude_score(Report& out) {
   std::vector<PartError>& parts = out.errors[0].parts;
   Score all = score(out.fits[0].residuals, out.full_scale);
@@ -72,7 +72,7 @@ void conclude_score(Report& out) {
   all.explained = mean(&Score::explained);
   out.fits[0].held_out = all;
   for (PartError& p : parts) {
-    if (!(out.full_scale > 0)) continue;  // nothing moved
+    if (!(out.full_scale > 0)) continue;  // no motion
     p.score.rmse_percent = 100 * p.score.rmse / out.full_scale;
     p.score.max_percent = 100 * p.score.max / out.full_scale;
   }
@@ -118,7 +118,7 @@ std::vector<Report> score_run(const Experiment& machine, const DrivenRun& run, d
 Experiment scored_machine(Experiment machine, Experiment recorded,
                           const std::vector<std::string>& keys, const std::string& name,
                           std::vector<std::string>& differing) {
-  // These are no part of the body: conditions of a recording, its sensors and its controller.
+  // Not part of the body: conditions of a recording, its sensors and its controller.
   constexpr std::array apart = {"start.", "air.", "sensor.", "converter.", "low_level.", "thesis."};
   const auto body = [&](Experiment& e) {
     std::vector<MachineNumber> out = machine_numbers(e);

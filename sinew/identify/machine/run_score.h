@@ -12,20 +12,19 @@
 
 namespace sinew::identify {
 
-// Returns a report for each quantity that was measured: angles, rates, tensions, gauge pressures,
-// lift, in SI. Its `errors` have a part for each joint or muscle; its fit's held-out score has the
-// rms of all of them, and the means of their nrmse, correlation and R^2. Samples before `from` [s]
-// are not compared; `name` is that of the recording.
-// Throws Refusal where the simulated machine does not reach the end of the recording, and
-// config::Error where no sample is left.
+// Returns a report for each measured quantity: angles, rates, tensions, gauge pressures, lift, in
+// SI. Its `errors` have a part for each joint or muscle; its fit's held-out score has the rms of
+// all of them, and the means of their nrmse, correlation and R^2. Samples before `from` [s] are not
+// compared; `name` is that of the recording. Throws Refusal if the simulated machine does not reach
+// the end of the recording, and config::Error if no sample is left.
 std::vector<Report> score_run(const experiment::Experiment& machine, const DrivenRun& run,
                               double from, const std::string& name);
 
 // Returns the description of the scored recording with robot, actuators and valves of the machine,
-// and those `keys` of its numbers that concern start or air. Start, supply and room are otherwise
-// those of the recording.
-// Throws config::Error, which begins with `name`, where the recording is of another machine. Adds
-// to `differing` the keys of numbers in which both descriptions differ, without `keys`.
+// and those `keys` of its parameters that concern start or air. Start, supply and room are
+// otherwise those of the recording. Adds to `differing` the keys of parameters that differ
+// between the descriptions, without `keys`. Throws config::Error, which begins with `name`, if the
+// recording is of another machine.
 experiment::Experiment scored_machine(experiment::Experiment machine,
                                       experiment::Experiment recorded,
                                       const std::vector<std::string>& keys, const std::string& name,

@@ -12,7 +12,8 @@ namespace {
 
 using experiment::Experiment;
 
-// Scores `machine` on the recording; returns the rms of each channel in noises of its sensor.
+// Scores `machine` on the recording; returns the rms of each channel in units of its sensor's
+// noise.
 std::vector<double> in_noises(const Experiment& machine, const Experiment& recording,
                               const DrivenRun& driven) {
   std::vector<std::string> differing;
@@ -28,9 +29,9 @@ std::vector<double> in_noises(const Experiment& machine, const Experiment& recor
   return out;
 }
 
-// A machine whose numbers were changed is identified from one run and scored on another with other
-// movements: the true numbers leave the sensors' noise, the identified ones hardly more, those at
-// which the search began far more.
+// A machine with changed parameters is identified from one run and scored on another with other
+// movements: the true parameters leave the sensors' noise, the identified ones hardly more, and the
+// start values far more.
 TEST(RunScore, OfWhatWasIdentifiedIsNearlyTheNoise) {
   const std::vector<std::string> other_way = {
       "sequence.repeat=1", R"(phase.up.joint_angles.lever=["270 deg", "300 deg"])",
@@ -58,8 +59,8 @@ TEST(RunScore, OfWhatWasIdentifiedIsNearlyTheNoise) {
   }
 }
 
-// The description of the recording has other numbers than the machine: its start counts, the
-// machine's body does, and numbers that were not fitted are named.
+// The description of the recording has other parameters than the machine: the recording's start and
+// the machine's body are used, and differing parameters that were not fitted are named.
 TEST(RunScore, TakesTheBodyOfTheMachineAndTheStartOfTheRecording) {
   Experiment machine = shipped("one-joint"), recording = shipped("one-joint");
   set_number(machine, "joint.lever.damping", 0.06);
@@ -78,7 +79,7 @@ TEST(RunScore, TakesTheBodyOfTheMachineAndTheStartOfTheRecording) {
             "that was identified; try one of the same joints, muscles, actuators and valves");
 }
 
-// Nothing is fitted where all of the run is held out.
+// Nothing is fitted if the whole run is held out.
 TEST(RunScore, AllOfARunMayBeHeldOut) {
   const Experiment e = shipped("one-joint", {"sequence.repeat=1"});
   const DrivenRun driven(e, recorded(e), false);

@@ -55,7 +55,7 @@ bool RunResiduals::operator()(std::span<const double> p, std::span<double> r) co
 }
 
 bool RunResiduals::is_cut(std::size_t k, double residual) const {
-  constexpr double near = 2;  // in noises
+  constexpr double near = 2;  // in units of the noise
   if (k >= fitted_.size()) return false;
   const std::size_t s = fitted_[k];
   const double mean = reading_[s] + noise_[s] * residual;
@@ -72,16 +72,15 @@ double RunResiduals::cost(std::span<const double> p) const {
 
 namespace {
 
-constexpr double only_noise =
-    1.05;  // rms of what is left, in noises, above which cells are changed
+constexpr double only_noise = 1.05;  // rms in noises, above which cells are changed
 constexpr double tick = signals::tick_seconds;
 
-// Where far more than noise is left, the search has run into a valley that is not the right one: it
-// begins again with all dead times shorter, or longer.
+// If the residuals are far above the noise, the search is in a wrong minimum: it restarts with all
+// dead times shorter, or longer.
 constexpr double far_above_noise = 5;
 constexpr double other_dead_times[] = {0.8, 1.2, 0.6, 1.4};
 
-// Where a number is tried, besides where it is.
+// Returns trial values of a parameter, in addition to its current value.
 std::vector<double> places_of(const Parameter& p, double at) {
   std::vector<double> out;
   if (at > 0 && p.low >= 0)
@@ -94,7 +93,7 @@ std::vector<double> places_of(const Parameter& p, double at) {
 
 using Places = std::vector<std::vector<double>>;
 
-// Moves each number but dead times by itself to the best of a few places around where it is.
+// Moves each parameter except dead times, one by one, to the best of a few trial values.
 void scan_numbers(const RunResiduals& residuals, std::span<const Parameter> parameters, int threads,
                   std::vector<double>& p) {
   double best = residuals.cost(p);
@@ -113,7 +112,7 @@ void scan_numbers(const RunResiduals& residuals, std::span<const Parameter> para
   }
 }
 
-// The other delay of the same valve; the number of parameters where it is not searched.
+// Returns the other delay of the same valve; the number of parameters if it is not searched.
 std::size_t partner_of(std::span<const Parameter> parameters, std::size_t i) {
   const auto valve = [](const std::string& key) { return key.substr(0, key.rfind('.')); };
   for (std::size_t k = 0; k < parameters.size(); ++k)
@@ -123,9 +122,9 @@ std::size_t partner_of(std::span<const Parameter> parameters, std::size_t i) {
   return parameters.size();
 }
 
-// Places in the cells some ticks around, of one valve after the other. What a run shows best is how
-// much longer a valve is open than its coil is on, so the delays' difference is kept where it can
-// be.
+// Returns trial points in the cells some ticks around, for one valve after the other. A run
+// best determines how much longer a valve is open than its coil is on, so the difference of the
+// delays is kept where possible.
 Places cells_around(std::span<const Parameter> parameters, const std::vector<double>& p,
                     int ticks) {
   constexpr double inset = 0.02 * tick;
@@ -156,7 +155,8 @@ Places cells_around(std::span<const Parameter> parameters, const std::vector<dou
   return out;
 }
 
-// The best few of them, searched a little; false where none is better than `best`.
+// Tries the best few of these cells with a few steps each; returns false if none is better than
+// `best`.
 bool try_cells(const RunResiduals& residuals, std::span<const Parameter> parameters, int threads,
                RunSearched& best) {
   constexpr std::size_t worth_it = 6;
@@ -181,15 +181,15 @@ bool try_cells(const RunResiduals& residuals, std::span<const Parameter> paramet
   return true;
 }
 
-// Half the sum of squares by which a neighbouring cell has to be worse, to be ruled out: four
-// standard deviations.
+// Half the sum of squares by which a neighbouring cell must be worse to be excluded: four standard
+// deviations.
 constexpr double ruled_out = 8;
 
 double half_square(const RunResiduals& residuals, const RunSearched& at) {
   return 0.5 * at.rms * at.rms * static_cast<double>(residuals.count());
 }
 
-// Goes to a neighbouring cell as long as that is better.
+// Moves to a neighbouring cell while that is better.
 void settle_cells(const RunResiduals& residuals, std::span<const Parameter> parameters, int threads,
                   RunSearched& best) {
   constexpr int few_moves = 3, moves = 20, steps = 6;
@@ -211,8 +211,8 @@ bool same_cells(const std::vector<RunCell>& a, const std::vector<RunCell>& b) {
   });
 }
 
-// The places around that one which the run does not rule out, by what the numbers can make up for;
-// the likely ones first.
+// Returns the neighbouring trial points that the run does not exclude, after adjusting all
+// parameters, the likely ones first.
 Places open_places(const RunResiduals& residuals, std::span<const Parameter> parameters,
                    int threads, const RunSearched& at, double least) {
   Places tried = cells_around(parameters, at.p, 1), out;
@@ -226,8 +226,8 @@ Places open_places(const RunResiduals& residuals, std::span<const Parameter> par
   return out;
 }
 
-// Searches the cells around that the run does not rule out, and those around these; the best of all
-// becomes `best`. Cells beyond so many widen those that they are beside.
+// Searches the neighbouring cells that the run does not exclude, and those around them; the best
+// becomes `best`. Cells beyond the maximum number widen their neighbours.
 void search_open_cells(const RunResiduals& residuals, std::span<const Parameter> parameters,
                        int threads, RunSearched& best) {
   constexpr std::size_t most = 16;
@@ -323,7 +323,7 @@ void add(std::span<const double> column, double times, std::vector<double>& to) 
   for (std::size_t k = 0; k < to.size(); ++k) to[k] += times * column[k];
 }
 
-// The step from p on under this damping, the bounds kept.
+// Returns the point after a step from p with this damping, within the bounds.
 std::vector<double> stepped(const RunTangent& t, std::span<const Parameter> parameters,
                             std::span<const RunCell> cells, const std::vector<double>& p,
                             double mu) {
@@ -338,18 +338,18 @@ std::vector<double> stepped(const RunTangent& t, std::span<const Parameter> para
     if (!held) free.push_back(i);
   }
   std::vector<double> q = p;
-  // What runs into a bound is held there, and the others go on without it.
+  // A parameter that meets a bound is held there, and the others continue without it.
   while (!free.empty()) {
     const Matrix j = t.j.chosen(free);
     Matrix a = transposed_product(j, j);
     double least = 0;
     for (std::size_t i = 0; i < a.rows(); ++i) least = std::max(least, 1e-12 * a(i, i));
     for (std::size_t i = 0; i < a.rows(); ++i) a(i, i) += mu * a(i, i) + least + 1e-300;
-    std::vector<double> rest = t.r;  // with what is held already at its bound
+    std::vector<double> rest = t.r;  // with parameters that are held at bounds
     for (std::size_t i = 0; i < n; ++i)
       if (std::ranges::find(free, i) == free.end())
         add(t.j.column(i), (q[i] - p[i]) / parameters[i].scale, rest);
-    const std::vector<double> s = solved(a, transposed_product(j, rest));  // against the gradient
+    const std::vector<double> s = solved(a, transposed_product(j, rest));  // downhill is -s
     std::vector<std::size_t> inside;
     for (std::size_t k = 0; k < free.size(); ++k) {
       const std::size_t i = free[k];
@@ -402,7 +402,7 @@ RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Param
                             const std::vector<double>& p, int steps, int threads) {
   constexpr std::array<double, 4> dampings = {1e-3, 0.1, 10,
                                               1e3};  // times the last one that helped
-  constexpr double nothing = 1e-3;  // of half the sum of squares: far below what noise makes of it
+  constexpr double nothing = 1e-3;  // share of half the sum of squares, far below the noise
   RunSearched out{p, run_cells(parameters, p), unbounded};
   for (std::size_t i = 0; i < p.size(); ++i)
     out.p[i] = std::clamp(out.p[i], std::max(parameters[i].low, out.cells[i].low),

@@ -1,5 +1,5 @@
-// identify/machine/test_runs.h - runs for the tests of this folder: shipped experiments, with other
-// numbers in them.
+// identify/machine/test_runs.h - runs for the tests of this folder: shipped experiments with
+// changed parameters.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// A linear spring's amplitudes at its turns.
+// Writes the amplitudes of a linear spring at its turns.
 void amplitudes(double first, double kept, double coulomb_length, std::span<double> out) {
   double a = first;
   for (double& x : out) {
@@ -50,7 +50,7 @@ TwoPoints two_points(const Oscillation& oscillation, double rest, const std::str
   if (x.size() < 3)
     throw Refusal(subject, fmt::format("{} turns on the side of the first", x.size()),
                   "three: two amplitudes and their decreases, [46], [47]", "a longer record");
-  // The later one not where noise and the uncertain rest are all there is.
+  // The later pair must be well above the noise and the uncertainty of the rest.
   std::size_t later = 1;
   while (later + 2 < x.size() && x[later + 1] > 0.2 * x[0]) ++later;
   const TwoPoints out{x[0], x[0] - x[1], x[later], x[later] - x[later + 1]};

@@ -1,5 +1,4 @@
-// Damping from turns: chapter 3's numbers, closed forms of linear decays, and records that cannot
-// be used.
+// Damping from turns: chapter 3's numbers, closed forms of linear decays, and unusable records.
 #include "sinew/identify/motion/decay.h"
 
 #include <gtest/gtest.h>
@@ -80,14 +79,14 @@ TEST(TwoPoint, AsPrintedItGivesChapter3sConstants) {
                                   number("dx3") * inch, pounds * units::pound_mass,
                                   1e-3 * number("Td_mean_ms"), DecayForm::printed);
       EXPECT_NEAR(d.coulomb_length / inch, number("ident_Q_in"), 1e-12) << name << variant;
-      // [52] there has the period of the first swings.
+      // [52] uses the period of the first swings there.
       const double c = d.viscous / (units::pound_force / inch);
       EXPECT_NEAR(c, number("ident_c"), 3e-4 * c) << name << variant;
       EXPECT_NEAR(d.ratio, number("zeta_eq1"), 1e-12) << name << variant;
     }
 }
 
-// Amplitudes that fall by 4 Q per period and nothing else: both forms agree.
+// Amplitudes that decrease by 4 Q per period: both forms agree.
 TEST(TwoPoint, DryFrictionAloneTakesFourQPerPeriod) {
   const double q = 1.3e-4, x1 = 5e-3, x2 = x1 - 12 * q;
   for (const DecayForm form : {DecayForm::printed, DecayForm::exact}) {
@@ -110,7 +109,7 @@ TEST(TwoPoint, ViscousDampingAloneLeavesAConstantShare) {
   }
 }
 
-// The errata's number: [49] is low by (1 + sqrt b)^2/4.
+// Value of the errata: [49] is low by (1 + sqrt b)^2/4.
 TEST(TwoPoint, ThePrintedFormHasQATenthLowAtChapter3sDamping) {
   const double zeta = 0.035, s = std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)), q = 1.1e-4;
   const auto next = [&](double a) { return s * (s * a - q * (1 + s)) - q * (1 + s); };
@@ -123,7 +122,7 @@ TEST(TwoPoint, ThePrintedFormHasQATenthLowAtChapter3sDamping) {
   EXPECT_NEAR(found(DecayForm::printed) / q, 0.90, 0.01);
 }
 
-// Three ways through the whole chain: samples, turns, damping.
+// The whole chain with three decrements: samples, turns, damping.
 TEST(Decay, TurnsOfCleanRecordsGiveBothConstantsBack) {
   for (const double decrement : {0.0, 0.02, 0.1})
     for (const double q : {0.0, 5e-5, 1.5e-4}) {
@@ -150,11 +149,11 @@ TEST(Decay, TheTurnsStandWhereTheyShould) {
     return a;
   };
   const double noise = 2e-5;
-  for (const double from : {-0.5, 0.0, 0.03}) {  // held first, let go, on its way already
+  for (const double from : {-0.5, 0.0, 0.03}) {  // held first, released, or already moving
     const Oscillation o = turns_of(sampled(truth, noise, 7, from));
     EXPECT_NEAR(o.noise, noise, 0.2 * noise);
     ASSERT_GE(o.turns.size(), 8u);
-    const int first = from > 0 ? 1 : 0;  // the record begins behind it
+    const int first = from > 0 ? 1 : 0;  // the record begins after it
     for (int i = 0; i < 8; ++i) {
       const Turn& turn = o.turns[static_cast<std::size_t>(i)];
       const int k = i + first;
@@ -216,7 +215,7 @@ TEST(Decay, RecordsThatCannotBeUsedAreTold) {
       << refused(slow);
 }
 
-// Rounding repeats values at every turn, which is no clipping.
+// Rounding repeats values at every turn, which is not clipping.
 TEST(Decay, ACoarseConverterIsNotTakenForAClippedOne) {
   Samples s = sampled({}, 5e-6);
   for (double& x : s.value) x = std::round(x / 2e-5) * 2e-5;

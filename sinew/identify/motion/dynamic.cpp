@@ -40,10 +40,10 @@ constexpr std::array laws{
     Law{"sealed", "F = c v + Q k sign v, k of the sealed muscle", "[33], [45]", true, true,
         Scale::sealed}};
 
-// Parameters that all records share: c, Q, as far as the law has them.
+// Returns the number of parameters that all records share: c and Q, as far as the law has them.
 std::size_t shared(const Law& law) { return (law.viscous ? 1u : 0u) + (law.dry ? 1u : 0u); }
 
-// Of the constant laws, so that their Q compares with the others'.
+// Returns the stiffness of the constant laws, so that their Q is comparable with that of others.
 double middle_stiffness(std::span<const Swing> swings) {
   std::vector<double> all;
   for (const Swing& s : swings) all.push_back(s.stiffness());
@@ -58,14 +58,14 @@ Loss loss_of(const Law& law, std::span<const double> p, double stiffness) {
   return out;
 }
 
-// Records that are fitted together, each up to some sample.
+// A record in a joint fit, up to some sample.
 struct Part {
   const Swing* swing;
   std::size_t samples;
 };
 
-// The trajectories of all parts as one residual vector. A part whose parameters have not changed
-// since the last call is not integrated again.
+// Trajectories of all parts as one residual vector. A part whose parameters have not changed since
+// the last call is not integrated again.
 class Trajectories {
  public:
   Trajectories(const Law& law, std::vector<Part> parts, double stiffness)
@@ -109,10 +109,10 @@ class Trajectories {
   std::vector<Last> last_;
 };
 
-// What a fit starts from.
+// Start values of a fit.
 struct Start {
   double viscous = 0, coulomb_length = 0;
-  std::vector<Swing::Nuisance> nuisance;  // per record
+  std::vector<Swing::Nuisance> nuisance;  // for each record
 };
 
 class Dynamic {
@@ -137,7 +137,7 @@ class Dynamic {
     for (const Swing& s : swings_) start_.nuisance.push_back(s.settle(loss));
   }
 
-  // Throws config::Error for a wish of what no law has.
+  // Throws config::Error for a constraint on a parameter that no law has.
   void check_wishes() const {
     std::vector<Parameter> all;
     for (const Law& law : laws)
@@ -160,7 +160,7 @@ class Dynamic {
     return out;
   }
 
-  // Samples in the order of the residuals.
+  // Returns the samples in the order of the residuals.
   Rows rows() const {
     Rows out{.x = "time", .x_unit = "s"};
     for (const bool held_out : {false, true})
@@ -181,7 +181,7 @@ class Dynamic {
   }
 
  private:
-  using Which = std::vector<std::size_t>;  // of the records
+  using Which = std::vector<std::size_t>;  // indices of records
 
   // Returns the parameters of the law and of these records.
   std::vector<Parameter> parameters_of(const Law& law, const Which& which,
@@ -222,7 +222,7 @@ class Dynamic {
                                    problem.options)};
   }
 
-  // Residuals of what was not fitted.
+  // Returns the residuals of data that are held out.
   std::vector<double> unseen(const Law& law, const Solution& all) const {
     if (swings_.size() == 1) return last_third(law, all);
     const bool marked = !held_out_.empty();
@@ -236,7 +236,7 @@ class Dynamic {
     return out;
   }
 
-  // The solution as a start for a part of the records.
+  // Returns the solution as a start for a part of the records.
   Start start_at(const Law& law, const Solution& s) const {
     Start out = start_;
     if (law.viscous) out.viscous = s.values[0];
@@ -261,7 +261,7 @@ class Dynamic {
     return r;
   }
 
-  // Fitted to the first two thirds, which predict the last.
+  // Predicts the last third from a fit to the first two thirds.
   std::vector<double> last_third(const Law& law, const Solution& all) const {
     constexpr double seen = 2.0 / 3;
     const Solution s = solve(law, fitted_, start_at(law, all), seen).solution;

@@ -1,5 +1,5 @@
-// Losses from free decays on our own stand: the law comes back, its intervals mean what they say,
-// and what cannot be used is refused.
+// Losses from free decays on our simulated stand: the law is recovered, its intervals have the
+// stated coverage, and unusable records are refused.
 #include "sinew/identify/motion/dynamic.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ constexpr Test chapter_3[] = {{60, 6}, {80, 11}, {60, 11}};
 
 constexpr double atmosphere = actuator::thesis_atmosphere;
 
-// The stand's lengths every `step`, and its pressures.
+// Returns the stand's lengths at every `step`, and its pressures.
 DecayRecord record(const Test& test, const Loss& loss, double to = 2.4, double step = 0.005) {
   plant::StandSetup s;
   s.muscle.actuator = actuator::thesis_actuator();
@@ -91,7 +91,7 @@ TEST(Dynamic, WithoutNoiseLawAndConstantsComeBack) {
   EXPECT_LT(r.report.best().fit.rmse_percent, 0.01);
 }
 
-// Two records of three, so that it takes no longer than it must.
+// Two records instead of three, to save time.
 TEST(Dynamic, TheLawIsToldFromTheOthersByWhatItDidNotSee) {
   const std::pair<Loss, const char*> cases[] = {{secant_loss, "secant"},
                                                 {sealed_loss, "sealed"},
@@ -107,7 +107,7 @@ TEST(Dynamic, TheLawIsToldFromTheOthersByWhatItDidNotSee) {
   }
 }
 
-// A sensor that lags flattens pressure over volume, and the exponent with it.
+// A delayed pressure sensor reduces the slope of pressure over volume, and so the exponent.
 TEST(Dynamic, APressureThatComesLateIsPutRight) {
   DecayRecord r = record({60, 6}, secant_loss, 1.6, 0.001);
   r.stand.pressure = r.stand.polytropic_exponent = std::numeric_limits<double>::quiet_NaN();
@@ -119,7 +119,7 @@ TEST(Dynamic, APressureThatComesLateIsPutRight) {
   EXPECT_NEAR(found.loss.viscous, secant_loss.viscous, 0.01 * secant_loss.viscous);
 }
 
-// One loss is known from elsewhere: what is left is found, and counts as one parameter less.
+// With one known loss the other is found, with one parameter less.
 TEST(Dynamic, AFrozenLossStaysAndTheOtherIsFound) {
   const DecayRecord r = noisy(record({60, 6}, secant_loss, 1.6), noise, 5);
   const DynamicResult found =
@@ -157,7 +157,7 @@ TEST(Dynamic, IntervalsCoverTheTruthIn200Trials) {
   EXPECT_LT(std::abs(bias_friction), 0.01);
 }
 
-// [49]'s friction is low by (1 + sqrt b)^2/4, whatever the record; a trajectory's is not.
+// The friction of [49] is low by (1 + sqrt b)^2/4 for any record; that of a trajectory is not.
 TEST(Dynamic, TheThesissMethodStandsBesideTheExactOne) {
   const DecayRecord r = record({60, 6}, sealed_loss, 4);
   const DynamicResult found = identify_dynamic({&r, 1}, "sealed");
@@ -167,7 +167,7 @@ TEST(Dynamic, TheThesissMethodStandsBesideTheExactOne) {
               std::pow(1 + std::sqrt(s.exact->kept), 2) / 4, 1e-12);
   EXPECT_NEAR(found.loss.coulomb_length, sealed_loss.coulomb_length, 2e-7);
   EXPECT_NEAR(found.loss.viscous, sealed_loss.viscous, 0.005 * sealed_loss.viscous);
-  // Turns know no muscle, only a linear spring.
+  // The fit of turns assumes a linear spring.
   EXPECT_NEAR(s.all.damping.coulomb_length, sealed_loss.coulomb_length,
               0.1 * sealed_loss.coulomb_length);
   EXPECT_NEAR(s.all.damping.viscous, sealed_loss.viscous, 0.1 * sealed_loss.viscous);

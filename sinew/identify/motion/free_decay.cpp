@@ -14,8 +14,8 @@ namespace {
 
 using Motion = plant::Stand::Motion;
 
-// Returns the stand on which it swings. Its steps are a share of the period at rest; the limit by
-// its accuracy is wider, so that their number does not change with a parameter.
+// Returns the stand for the simulation. Its steps are a share of the period at rest; the accuracy
+// limit is wider, so that the number of steps does not depend on the parameters.
 plant::StandSetup stand_of(const Hanging& h, double rest, double frequency, int steps_per_period) {
   const double turn = 2 * std::numbers::pi / steps_per_period;
   plant::StandSetup s;
@@ -31,7 +31,8 @@ plant::StandSetup stand_of(const Hanging& h, double rest, double frequency, int 
   return s;
 }
 
-// Cubic through lengths and speeds at both ends of a piece of `dt`, after `t`.
+// Returns the length at `t` within a piece of `dt`, from the cubic through lengths and speeds at
+// its ends.
 double between(const Motion& a, const Motion& b, double dt, double t) {
   const double u = t / dt;
   const double rise = b.length - a.length;

@@ -1,5 +1,5 @@
-// identify/motion/free_decay.h - how a mass on a sealed muscle swings: what a fit of the whole
-// trajectory compares with.
+// identify/motion/free_decay.h - simulated swing of a mass on a sealed muscle, for fits of whole
+// trajectories.
 //
 //   M L'' = M g - F(L, L', P) - F_dry          [36], [37] with true stick
 //   P (V(L) + V_ext)^n_p  constant             [40] with no flow
@@ -7,11 +7,12 @@
 //   L  length of the muscle, grows downwards [m]      F  actuator/tension.h, c L' in it [N]
 //   F_dry  at most coulomb_bound (actuator/loss.h) [N]
 //
-// The air was shut in at `pressure` where the mass hung at rest. It is the test stand's world
-// (world/stand.h): a step is cut where the speed is zero, so that the friction changes sides
-// between smooth pieces, the error keeps its fourth order, and the trajectory is smooth in its
-// parameters. Within a piece a cubic through lengths and speeds. Valid inside the braid, 0 < L < b;
-// of actuators in parallel one, with its share of mass and volume.
+// The air was sealed in at `pressure` with the mass hanging at rest. The model is the test
+// stand's world (world/stand.h): a step is divided where the speed is zero, so that the friction
+// reverses between smooth pieces, the method keeps its fourth order, and the trajectory is a
+// smooth function of the parameters. Output within a piece is a cubic through lengths and speeds.
+// Valid inside the braid, 0 < L < b; for actuators in parallel, use one with its share of mass and
+// volume.
 #pragma once
 
 #include <optional>
@@ -32,14 +33,16 @@ struct Hanging {
   double gravity = 0;              // g [m/s^2]
 };
 
-// Where the mass hangs at `pressure` without friction  [m]; none: nowhere between the ends.
+// Returns the length at which the mass hangs at `pressure` without friction [m]; empty if there is
+// no such length between the ends.
 std::optional<double> rest_length(const Hanging& h);
 
-// Small oscillations about `length`, without losses  [rad/s]; 0 where there are none.
+// Returns the frequency of small oscillations about `length` without losses [rad/s]; 0 if there are
+// none.
 double sealed_frequency(const Hanging& h, double length);
 
-// Lengths at `times` [s], which ascend, of a mass that has `length` and `velocity` at the first.
-// False where the trajectory leaves the braid. `steps_per_period` bounds the step.
+// Writes the lengths at ascending `times` [s] for a mass with `length` and `velocity` at the first.
+// Returns false if the trajectory leaves the braid. `steps_per_period` bounds the step.
 bool free_decay(const Hanging& h, double length, double velocity, std::span<const double> times,
                 std::span<double> lengths, int steps_per_period = 36);
 

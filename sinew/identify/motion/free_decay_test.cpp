@@ -1,4 +1,4 @@
-// The trajectory of a mass on trapped air: against chapter 3's numbers, closed forms and itself.
+// Trajectory of a mass on trapped air: compared with chapter 3's numbers, closed forms and itself.
 #include "sinew/identify/motion/free_decay.h"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST(FreeDecay, FrictionHoldsWhatTheLoadDoesNotMove) {
   EXPECT_EQ(held.back(), rest + 0.9 * bound / k);
   const std::vector<double> slides = lengths(h, rest + 1.5 * bound / k, 0, t);
   EXPECT_NE(slides.back(), slides.front());
-  // And comes to lie within the band.
+  // It comes to rest within the band.
   const std::vector<double> falls = lengths(h, rest + 0.1 * inch, 0, instants(5, 0.01));
   EXPECT_LE(std::abs(falls.back() - rest), 1.1 * bound / k);
   EXPECT_EQ(falls.back(), falls[falls.size() - 10]);

@@ -29,8 +29,8 @@ constexpr std::array columns{
            .optional = true,
            .doc = "of the trapped air"}};
 
-// The static model may miss the rest by this share of the length, and the tension that the period
-// asks for by a factor.
+// The static model may miss the rest by this share of the length, and the tension that follows from
+// the period by a factor within these limits.
 constexpr double rest_within = 0.05, least_tension = 0.8, most_tension = 1.25;
 
 struct Line {
@@ -53,13 +53,13 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
   return out;
 }
 
-// The line of y over x, which it comes behind.
+// Straight line of y over a delayed x.
 struct LateLine {
   Line line;
-  double delay = 0, left = 0;  // [s], and what it leaves of y [y^2]
+  double delay = 0, left = 0;  // delay [s], and sum of squared residuals [y^2]
 };
 
-// Of the samples that are `margin` [s] from either end, where nothing is known of x before.
+// Fits samples that are at least `margin` [s] from either end, as x is unknown before the record.
 LateLine late_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
                    double delay, double margin) {
   std::vector<double> late(x.size());
@@ -76,8 +76,8 @@ LateLine late_line(std::span<const double> t, std::span<const double> x, std::sp
   return out;
 }
 
-// The best delay of a sixth of a period either way, by golden section; none where it gains no more
-// than noise does.
+// Returns the line with the best delay within a sixth of a period, by golden section; without delay
+// if that gains no more than noise would.
 LateLine best_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
                    double period) {
   constexpr double golden = 0.6180339887498949, significant = 9;  // three standard errors
@@ -123,7 +123,7 @@ Swing::Swing(const DecayRecord& record) : file(record.data.file), stand(record.s
   refuse_another_muscle();
 }
 
-// ln P = ln P_rest - n_p ln(V + V_ext)/(V_rest + V_ext), by a straight line.
+// Fits ln P = ln P_rest - n_p ln(V + V_ext)/(V_rest + V_ext) by a straight line.
 void Swing::take_pressure(const Measured& data) {
   const bool at_rest = !std::isfinite(stand.pressure);
   const bool exponent = !std::isfinite(stand.polytropic_exponent);
@@ -141,7 +141,7 @@ void Swing::take_pressure(const Measured& data) {
     x.push_back(air(data["length"][i]));
     y.push_back(std::log(data["pressure"][i]));
   }
-  // A sensor that lags would make the slope too flat.
+  // A sensor delay would reduce the slope.
   const LateLine best = best_line(t, x, y, oscillation.period);
   const Line& line = best.line;
   pressure_delay = best.delay;
@@ -206,7 +206,8 @@ bool Swing::simulate(const actuator::Loss& loss, std::span<const double> nuisanc
   return true;
 }
 
-// The factor on the tension, nearest to 1, with which small oscillations have the measured period.
+// Returns the factor on the tension, nearest to 1, that gives small oscillations the measured
+// period.
 double Swing::tension_of_period() const {
   const double wanted = 2 * std::numbers::pi / oscillation.period;
   const auto excess = [&](double tension) {
@@ -234,7 +235,7 @@ double Swing::tension_of_period() const {
       "the mass that moves, external_volume=VOLUME, exponent=N");
 }
 
-// Length and speed from the samples, the rest by the static model.
+// Returns length and speed from the samples, and the rest from the static model.
 Swing::Nuisance Swing::first_guess() const {
   const double begin = time[0];
   std::size_t count = 0;
@@ -286,7 +287,8 @@ Swing::Nuisance Swing::nearest(const actuator::Loss& loss, const Nuisance& start
   return out;
 }
 
-// From few periods to all: a phase that is off by half a period would never be found.
+// Fits a few periods first, then more: from a phase error of half a period the fit would not
+// converge.
 Swing::Nuisance Swing::settle(const actuator::Loss& loss) const {
   Nuisance at = first_guess();
   for (double periods = 2;; periods *= 2.5) {

@@ -1,10 +1,9 @@
-// identify/motion/swing.h - one record of a free decay made ready to be compared with a trajectory.
+// identify/motion/swing.h - one record of a free decay, prepared for comparison with a trajectory.
 //
-// The trajectory begins an eighth of a period after the first turn, where the mass surely moves,
-// and ends with the last one: where the mass sticks after it is an edge in the trajectory's
-// parameters, at which a search stops short. What differs from record to record is fitted to each:
-// length and speed at the beginning, an offset of the lengths, and a factor on the tension, by
-// which the static model misses rest and period.
+// The trajectory begins an eighth of a period after the first turn, where the mass certainly moves,
+// and ends with the last turn: sticking after it is a discontinuity in the parameters, at which a
+// search would stop. These values are fitted to each record: initial length and speed, an offset of
+// the lengths, and a factor on the tension that corrects rest and period of the static model.
 #pragma once
 
 #include <array>
@@ -20,14 +19,14 @@
 
 namespace sinew::identify {
 
-// A record and the stand that it comes from.
+// A record, with the stand on which it was measured.
 struct DecayRecord {
-  Measured data;  // time, length, perhaps pressure
-  Hanging stand;  // pressure, polytropic_exponent: NaN where the measured pressure gives them
+  Measured data;          // time, length, and pressure if measured
+  Hanging stand;          // pressure, polytropic_exponent: NaN to use the measured pressure
   bool held_out = false;  // scored, but not fitted
 };
 
-// time, length, and pressure if there is one.
+// Returns the columns: time, length, and pressure if present.
 std::span<const Wanted> decay_columns();
 
 class Swing {
@@ -35,36 +34,36 @@ class Swing {
   static constexpr std::size_t nuisances = 4;
   using Nuisance = std::array<double, nuisances>;
 
-  // Throws Refusal where the record is no free decay, or not one of this mass on this actuator.
+  // Throws Refusal if the record is not a free decay, or not one of this mass on this actuator.
   explicit Swing(const DecayRecord& record);
 
-  // Lengths under these losses; false where there are none.
+  // Writes the lengths with these losses; returns false if the trajectory fails.
   bool simulate(const actuator::Loss& loss, std::span<const double> nuisance,
                 std::span<double> out) const;
 
-  // start_length, start_velocity, offset, tension; `start` is where a fit begins.
+  // Returns the parameters start_length, start_velocity, offset, tension, with start values
+  // `start`.
   std::array<Parameter, nuisances> parameters(const Nuisance& start) const;
 
-  // The nuisance with which these losses come nearest to the samples; from nowhere, or from near.
+  // Return the nuisance parameters that fit best with these losses; `near` is a start.
   Nuisance settle(const actuator::Loss& loss) const;
   Nuisance settle(const actuator::Loss& loss, const Nuisance& near) const;
 
-  // Samples before `share` of the way from the beginning to the last turn.
+  // Returns the number of samples before `share` of the time from the start to the last turn.
   std::size_t samples_until(double share) const;
 
-  // Of the sealed muscle at rest  [N/m].
+  // Returns the stiffness of the sealed muscle at rest [N/m].
   double stiffness() const;
-  // Largest dry friction at rest under these losses  [N].
+  // Returns the largest dry friction at rest with these losses [N].
   double friction(const actuator::Loss& loss) const;
 
   std::string file;
   Hanging stand;
   Oscillation oscillation;
-  double rest = 0;       // measured, or the center of the turns where the record ends before [m]
-  double amplitude = 0;  // of the first half swing [m]
+  double rest = 0;       // measured, or center of the turns if the record ends before [m]
+  double amplitude = 0;  // amplitude of the first half swing [m]
   double pressure_delay =
-      std::numeric_limits<double>::quiet_NaN();  // of the measured pressure behind the length [s];
-                                                 // NaN: none was used
+      std::numeric_limits<double>::quiet_NaN();  // pressure behind length [s]; NaN: not used
   std::vector<double> time, length;
   std::vector<std::string> notes;
 

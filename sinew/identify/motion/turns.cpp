@@ -19,10 +19,10 @@ namespace {
 using Values = std::vector<double>;
 
 constexpr double samples_per_period = 20;
-constexpr double fit_within = 1.0 / 6;  // of a period, to either side of a turn
+constexpr double fit_within = 1.0 / 6;  // share of a period, on either side of a turn
 
-// Standard deviation of one sample: fourth differences hardly see the oscillation. At least what
-// rounding to the resolution makes.
+// Returns the standard deviation of one sample, from fourth differences, which hardly contain the
+// oscillation; at least the rounding error of the resolution.
 double noise_of(std::span<const double> x) {
   Values fourth, steps;
   for (std::size_t i = 4; i < x.size(); ++i)
@@ -34,7 +34,7 @@ double noise_of(std::span<const double> x) {
   return std::max(spread(fourth) / std::sqrt(70.0), resolution / std::sqrt(12.0));
 }
 
-// Every sample the median of itself and two to either side.
+// Returns running medians over five samples.
 Values median_of_five(std::span<const double> x) {
   Values out(x.begin(), x.end());
   for (std::size_t i = 2; i + 2 < x.size(); ++i) out[i] = median(x.subspan(i - 2, 5));
@@ -52,7 +52,7 @@ Values moving_mean(const Values& x, std::size_t half) {
   return out;
 }
 
-// Indices of extremes that the signal leaves by more than `back`, alternately upper and lower.
+// Extremes from which the signal moves back by more than `back`, alternately upper and lower.
 struct Extreme {
   std::size_t at;
   bool upper;
@@ -77,14 +77,14 @@ std::vector<Extreme> extremes(const Values& x, double back) {
 }
 
 double period_of(std::span<const double> time, const std::vector<Extreme>& at) {
-  // The first interval may hold the time before the release.
+  // The first interval may include the time before the release.
   Values halves;
   for (std::size_t i = at.size() > 3 ? 2 : 1; i < at.size(); ++i)
     halves.push_back(time[at[i].at] - time[at[i - 1].at]);
   return 2 * median(halves);
 }
 
-// Least squares of samples by a polynomial of fourth order in u = (t - origin)/reach.
+// Least squares polynomial of fourth order in u = (t - origin)/reach.
 class Quartic {
  public:
   void add(double u, double x) {
@@ -96,7 +96,7 @@ class Quartic {
     ++count_;
   }
 
-  // Where between -1 and 1 it turns, from u = 0; none where it bends the other way.
+  // Returns the vertex between -1 and 1, searched from u = 0; empty if it is of the other kind.
   std::optional<double> vertex(bool upper) const {
     if (count_ < 6) return std::nullopt;
     const std::vector<double> p = solved(normal_, right_);
@@ -109,8 +109,8 @@ class Quartic {
     return u;
   }
 
-  // The value at a vertex. Noise of the slope finds a vertex that is too far out, on average by its
-  // variance over twice the bend.
+  // Returns the value at a vertex. Noise of the slope moves the vertex; the mean error is the
+  // variance of the slope over twice the bend.
   double at_vertex(double u, double noise) const {
     const std::vector<double> p = solved(normal_, right_);
     const std::array<double, 5> slope = {0, 1, 2 * u, 3 * u * u, 4 * u * u * u};
@@ -130,9 +130,9 @@ class Quartic {
 
 struct Record {
   std::span<const double> time, value;
-  const Values& clean;  // the values without spikes
-  double outlier;       // beyond this from `clean` a sample is one
-  double noise;         // of a value
+  const Values& clean;  // values without spikes
+  double outlier;       // distance from `clean` beyond which a sample is an outlier
+  double noise;         // noise of a value
 };
 
 Quartic fitted(const Record& r, double origin, double level, double reach) {
@@ -145,7 +145,7 @@ Quartic fitted(const Record& r, double origin, double level, double reach) {
   return fit;
 }
 
-// The turn near an extreme; none where the fit has its own elsewhere.
+// Returns the turn near an extreme; empty if the fit has it elsewhere.
 std::optional<Turn> refined(const Record& r, Extreme e, double reach) {
   const double origin = r.time[e.at], level = r.clean[e.at];
   const Quartic fit = fitted(r, origin, level, reach);
@@ -154,8 +154,8 @@ std::optional<Turn> refined(const Record& r, Extreme e, double reach) {
   return Turn{origin + *u * reach, level + fit.at_vertex(*u, r.noise), e.upper};
 }
 
-// The turn from which a mass was let go as the record begins, give or take a little. None where the
-// record begins on the way.
+// Returns the turn from which a mass was released at about the start of the record. Empty if the
+// record begins during the motion.
 std::optional<Turn> let_go(const Record& r, bool upper, double reach) {
   const double begin = r.time[0], level = r.clean[0];
   const Quartic fit = fitted(r, begin, level, reach);
@@ -165,21 +165,21 @@ std::optional<Turn> let_go(const Record& r, bool upper, double reach) {
   return Turn{begin + turn * reach, level + fit.at_vertex(turn, r.noise), upper};
 }
 
-// The first turn. Before it the mass may have been held, or there may be no samples at all.
+// Returns the first turn. Before it the mass may have been held, or there may be no samples.
 std::optional<Turn> first_turn(const Record& r, Extreme e, const Oscillation& o, double swing) {
-  // A cosine has done 15 % of its way from top to bottom after an eighth of its period.
+  // After an eighth of its period a cosine has done 15 % of its way from top to bottom.
   const double release = r.time[o.falls] - o.period / 8, reach = o.period * fit_within;
   if (release - r.time[0] < reach) return let_go(r, e.upper, o.period / 4);
   Values before;
   for (std::size_t i = 0; r.time[i] < release; ++i)
     if (r.time[i] >= release - o.period / 4) before.push_back(r.clean[i]);
-  // Held: level. Else it came from somewhere, as to every later turn.
+  // A held mass has a constant value; otherwise it is a turn like every later one.
   const bool level = largest(before) - smallest(before) < 0.05 * swing + 6 * o.noise;
   return level ? Turn{release, median(before), e.upper} : refined(r, e, reach);
 }
 
-// Samples that repeat the record's extreme exactly, long or in several swings: a decay does not
-// reach the same place twice.
+// Refuses samples that repeat the record's extreme exactly, for long or in several swings: a
+// decay does not reach the same value twice.
 void refuse_clipped_swings(std::span<const double> time, std::span<const double> value,
                            double period, const std::string& subject) {
   for (const double extreme : {largest(value), smallest(value)}) {
@@ -222,7 +222,7 @@ Oscillation find_turns(std::span<const double> time, std::span<const double> val
   const double range = largest(value) - smallest(value);
   if (value.size() < 40 || !(range > 10 * out.noise)) refuse_still(subject, 0);
 
-  // Once roughly, for the period; then smoothed by a sixteenth of it.
+  // Roughly first, to find the period; then smoothed by a sixteenth of it.
   const Values clean = median_of_five(value);
   const std::vector<Extreme> rough =
       extremes(moving_mean(clean, 2), std::max(6 * out.noise, 0.05 * range));
@@ -257,13 +257,13 @@ Oscillation find_turns(std::span<const double> time, std::span<const double> val
     if (!turn && i > 0) break;
   }
   if (out.turns.size() < 5) refuse_still(subject, out.turns.size());
-  // Of the large swings: dry friction bends the small ones where they turn.
+  // Only the large swings are used: dry friction distorts the small ones at their turns.
   Values periods;
   for (std::size_t i = 3; i < std::min<std::size_t>(out.turns.size(), 8); ++i)
     periods.push_back(out.turns[i].time - out.turns[i - 2].time);
   out.period = median(periods);
 
-  // What is left after the last turn, if it is long enough to be rest and not a slow turn.
+  // Remaining samples after the last turn, if long enough to be at rest and not in a slow turn.
   Values after;
   for (std::size_t i = 0; i < time.size(); ++i)
     if (time[i] > out.turns.back().time + 0.75 * out.period) after.push_back(value[i]);

@@ -20,13 +20,13 @@ namespace {
 using report::Chart;
 using Curve = report::ChartCurve;
 
-// More make a page slow and a picture no better.
+// Largest number of rows on a page; more only make it slow.
 constexpr std::size_t most_rows = 20000;
-// Points of a model that waits until it is asked for, and of each of its lines at least.
+// Largest number of points of a hidden model, and smallest number for each of its lines.
 constexpr std::size_t most_of_other = 1200, least_of_line = 40;
-constexpr int triangle = 1;  // of the page's marks
+constexpr int triangle = 1;  // index of the page's mark
 
-// Strokes that differ without their colors, too; further ones are as these with a longer first one.
+// Dash patterns that are distinct without color; further laws repeat them with a longer first dash.
 const std::vector<double> dashes[] = {
     {7, 3},   {2, 2},        {8, 3, 2, 3}, {13, 4},       {4, 5},       {9, 3, 2, 3, 2, 3},
     {1.5, 4}, {13, 3, 4, 3}, {5, 2, 5, 6}, {16, 3, 1, 3}, {3, 3, 1, 3}, {6, 6}};
@@ -37,10 +37,10 @@ std::vector<double> dash_of(std::size_t law) {
   return out;
 }
 
-// Rows of one curve, in ascending x.
+// Rows of one curve, with ascending x.
 using Group = std::vector<std::size_t>;
 
-// By their places, else in the order in which they first come; held-out rows apart.
+// Returns the groups by rank, else in the order of their first rows; held-out rows are separate.
 std::vector<std::pair<std::string, Group>> groups_of(const Rows& rows, bool held_out) {
   std::vector<std::pair<std::string, Group>> out;
   std::map<std::string, std::size_t> place;
@@ -68,8 +68,8 @@ std::vector<double> pick(const Group& group, Value value) {
   return out;
 }
 
-// All curves of both charts: points as measured, a line by the model with its bands, points of what
-// it leaves; what was left out, and the other models' lines.
+// Builds all curves of both charts: measured points, the model's line with its bands, residuals,
+// omitted points, and the lines of other models.
 class Maker {
  public:
   explicit Maker(const Report& report) : report_(report), rows_(report.rows) {
@@ -100,7 +100,7 @@ class Maker {
   }
 
  private:
-  // A group has one color, whether its rows were fitted or held out; places make a scale of them.
+  // Gives each group one color, for fitted and held-out rows; ranks make it a color scale.
   void give_colors() {
     Rows all = rows_;
     all.held_out.clear();
@@ -136,8 +136,8 @@ class Maker {
                             .mark = mark});
   }
 
-  // The chosen model's line: along its curve with its bands where it tells one, once for each
-  // group; else through the rows.
+  // Adds the chosen model's line for each group: along its curve with bands if the report has one,
+  // else through the rows.
   void add_line(const std::string& name, int color, Curve rows) {
     rows.label = report_.best().model;
     rows.color = color;
@@ -156,8 +156,8 @@ class Maker {
     fit_.curves.push_back(std::move(rows));
   }
 
-  // About rows by the model, as wide everywhere, where it tells such bands. Of many rows each
-  // stretch's lowest and highest are enough: no turn of the model leaves its band.
+  // Adds constant bands about the rows by the model, if it has them. Of many rows the lowest and
+  // highest of each stretch are enough to keep every extreme of the model within its band.
   void add_even_bands(const Curve& rows) {
     const auto& band = report_.best().band;
     if (!band || rows_.scattered) return;
@@ -195,7 +195,7 @@ class Maker {
     left_.curves.push_back(std::move(apart));
   }
 
-  // Adds what no fit has seen, each reason with a mark of its own.
+  // Adds the omitted points, with a different mark for each reason.
   void add_left_out() {
     int mark = 0;
     for (const Omitted& omitted : report_.left_out) {
@@ -211,7 +211,7 @@ class Maker {
     }
   }
 
-  // The chosen model's answers against the measured values; right is the diagonal.
+  // Returns the chart of predicted over measured values; perfect predictions are on the diagonal.
   Chart against_measured() const {
     Chart out = fit_;
     out.title = "By the model against measured";
@@ -233,7 +233,7 @@ class Maker {
     return out;
   }
 
-  // They wait until they are asked for: most eyes follow one.
+  // Adds the other models, hidden at first: usually only one of them is compared.
   void add_other_models() {
     std::size_t law = 0;
     const std::size_t most = std::max(least_of_line, most_of_other / colors_.size());
@@ -262,7 +262,7 @@ class Maker {
   const Rows& rows_;
   Chart fit_, left_;
   std::map<std::string, int> colors_;
-  std::set<std::string> drawn_;  // groups whose curve there is
+  std::set<std::string> drawn_;  // groups with a curve
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// identify/page/fit_page.h - a report as one page: what was measured and what the models say of it.
+// identify/page/fit_page.h - page of a report: measurements with the predictions of the models.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace sinew::identify {
 
-// Returns what was measured and what the models say of it, then what they leave; no chart where the
-// report tells no rows.
+// Returns charts of the measurements with the models, and of the residuals; empty if the report has
+// no rows.
 std::vector<report::Chart> charts_of(const Report& report);
 
 struct Page {
-  std::string title, version;          // of the program that made it
-  std::vector<std::string> data;       // what was read, in words
-  double atmosphere = 0;               // that gauges read against [Pa]
-  std::vector<const Report*> reports;  // of one calibration there may be several
-  std::string parameter_file;          // its text, for the table of values; may be empty
+  std::string title, version;          // version of the program
+  std::vector<std::string> data;       // description of the data
+  double atmosphere = 0;               // reference pressure of gauges [Pa]
+  std::vector<const Report*> reports;  // a calibration may have several
+  std::string parameter_file;          // text for the table of values; may be empty
 };
 
-// Returns the page as HTML. Throws std::runtime_error where the library was built without its page,
-// config::Error where the parameter file cannot be read.
+// Returns the page as HTML. Throws std::runtime_error if the library was built without its page,
+// and config::Error if the parameter file cannot be read.
 std::string page(const Page& page);
 
 }  // namespace sinew::identify

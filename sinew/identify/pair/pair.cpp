@@ -19,41 +19,40 @@ namespace sinew::identify {
 
 namespace {
 
-// --- one law on all recordings of a pair: its parameters, and what it ---
+// --- fit of one law to all recordings of a pair ---
 
 // Parameters are physics, then the rigs' sensors, then each recording's bias and start.
 class PairProblem {
  public:
-  // Both must outlive the problem. The first `fitted` recordings are those that are fitted, 0: all;
-  // they alone decide whether a name tells whose parameter it is.
+  // Both must outlive the problem. The first `fitted` recordings are fitted, 0: all; parameter
+  // names depend on these alone.
   PairProblem(const PairLaw& law, std::span<const PairRecord> records, std::size_t fitted = 0);
 
-  // Returns the parameters with their ranges; they start from a line through effort over position.
+  // Returns the parameters with their ranges. Start values are from a line of effort over position.
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
-  // Returns several starts: dry friction that bends much or little before it slips, forgets soon or
-  // late.
+  // Returns several starts, with large and small presliding and fade time.
   std::vector<std::vector<double>> starts() const;
 
-  // Writes predicted less measured effort at the rows of each recording, one after the other.
+  // Writes predicted - measured effort at the rows of each recording, one after the other.
   void residuals(std::span<const double> p, std::span<const PairRows> rows,
                  std::vector<double>& out);
 
-  // Returns the best of the starts, or of one.
+  // Returns the best solution of the starts.
   Refit solve(std::span<const PairRows> rows, std::span<const std::vector<double>> starts,
               const Wishes& wishes, bool correlated) const;
 
-  // Returns the parameters of which `known` has those of its names, and the others are fitted.
+  // Returns all parameters: values of `known` where it has the name, the others fitted.
   std::vector<double> settled(std::span<const PairRows> rows, const Solution& known);
 
-  // Returns what the parameters mean.
+  // Return the physical values and the sensors that the parameters mean.
   PairValues values(std::span<const double> p) const;
   PairSensors sensors(std::span<const double> p, std::size_t record) const;
 
  private:
   struct Series {
     std::vector<double> pressure, effort;
-    std::vector<double> key;  // the parameters that `effort`, before bias and gain, was made with
+    std::vector<double> key;  // parameters of `effort`, before bias and gain
   };
 
   void add_physics(double stiffness);
@@ -66,23 +65,23 @@ class PairProblem {
   const PairLaw& law_;
   std::span<const PairRecord> records_;
   std::vector<Parameter> parameters_;
-  std::vector<double PairValues::*> physics_;  // of the first parameters
+  std::vector<double PairValues::*> physics_;  // member of each of the first parameters
   std::vector<std::string> rigs_;
-  std::vector<std::size_t> delay_, gain_;  // of each rig; gain 0: there is none
-  std::vector<std::size_t> bias_, start_;  // of each recording; start 0: there is none
-  std::vector<std::size_t> rig_;           // of each recording
+  std::vector<std::size_t> delay_, gain_;  // for each rig; gain 0: does not exist
+  std::vector<std::size_t> bias_, start_;  // for each recording; start 0: does not exist
+  std::vector<std::size_t> rig_;           // rig index of each recording
   std::vector<Series> series_;
-  double range_ = 0, effort_ = 0, duration_ = 0;  // of position, effort and time
+  double range_ = 0, effort_ = 0, duration_ = 0;  // ranges of position, effort and time
 };
 
-// A sensor that lags more is no sensor of this motion.
+// Largest plausible delay of a sensor [s].
 constexpr double most_delay = 0.1;
 
-// Where kinks stop a search it would go on for long and win nothing.
+// Kinks can stop progress, and then further steps gain nothing.
 constexpr int most_steps = 25;
 
-// Friction that starts and ends to slip is a kink in everything; steps of the derivatives, in
-// scales of the parameters, that see across it.
+// Difference step, in parameter scales, that averages over the kinks where friction begins and ends
+// to slip.
 constexpr double smooth = 0.02;
 
 double largest_size(std::span<const double> values) {
@@ -91,7 +90,7 @@ double largest_size(std::span<const double> values) {
 
 double range_of(std::span<const double> values) { return largest(values) - smallest(values); }
 
-// Slope of the effort over the position.
+// Returns the slope of the effort over the position.
 double slope_of(const PairRecord& r) {
   double mx = 0, my = 0, xy = 0, xx = 0;
   const auto n = static_cast<double>(r.size());
@@ -103,7 +102,7 @@ double slope_of(const PairRecord& r) {
   return xy / xx;
 }
 
-// Which way it goes first by a hundredth of its range.
+// Returns the direction of the first motion by a hundredth of the range.
 double first_way(const PairRecord& r) {
   const double enough = 0.01 * range_of(r.at);
   for (const double x : r.at)
@@ -134,7 +133,7 @@ PairProblem::PairProblem(const PairLaw& law, std::span<const PairRecord> records
   add_sensors(stiffness, fitted > 0 ? fitted : records.size());
 }
 
-// Scales are changes that are a tenth of the effort.
+// Parameter scales correspond to a tenth of the effort.
 void PairProblem::add_physics(double stiffness) {
   const bool rotary = records_[0].rotary;
   double fastest = 0, hardest = 0, pressure = 0, finest = range_, least = duration_;
@@ -187,7 +186,7 @@ void PairProblem::add_physics(double stiffness) {
 void PairProblem::add_sensors(double stiffness, std::size_t fitted) {
   const bool one_rig = std::ranges::count(std::span(rig_).first(fitted), rig_[0]) ==
                        static_cast<std::ptrdiff_t>(fitted);
-  // "delay of a rig", or "delay" where it is the only one.
+  // Returns "delay of RIG", or "delay" for a single rig.
   const auto named = [](const char* name, const std::string& whose, bool alone) {
     return alone ? std::string(name) : fmt::format("{} of {}", name, whose);
   };
@@ -251,7 +250,7 @@ PairSensors PairProblem::sensors(std::span<const double> p, std::size_t record) 
           .start = start_[record] > 0 ? p[start_[record]] : 0};
 }
 
-// A recording whose parameters have not changed since the last call is not simulated again.
+// Does not simulate a recording again whose parameters are unchanged.
 void PairProblem::simulate(std::span<const double> p, std::size_t record) {
   const PairSensors s = sensors(p, record);
   std::vector<double> key(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(physics_.size()));
@@ -299,13 +298,13 @@ std::vector<double> PairProblem::settled(std::span<const PairRows> rows, const S
   return all;
 }
 
-// Their size is known from a start only.
+// Returns whether the parameter's scale is unknown before a start is given.
 bool PairProblem::scaled_by_start(std::size_t i) const {
   return i < physics_.size() &&
          (physics_[i] == &PairValues::presliding || physics_[i] == &PairValues::fade_time);
 }
 
-// The problem at a start, from which what is scaled by it has its scale.
+// Returns the problem at a start, which sets the scales of those parameters.
 FitProblem PairProblem::at(std::span<const PairRows> rows, const std::vector<double>& start,
                            const Wishes& wishes, bool correlated) const {
   FitProblem out{
@@ -341,7 +340,7 @@ Refit PairProblem::solve(std::span<const PairRows> rows,
   return std::move(*best);
 }
 
-using Selection = std::vector<PairRows>;  // of each recording
+using Selection = std::vector<PairRows>;  // one for each recording
 
 constexpr const char* effort_of(bool rotary) { return rotary ? "torque" : "force"; }
 
@@ -349,7 +348,7 @@ double square_sum(const Solution& s) {
   return s.rms * s.rms * static_cast<double>(s.residuals.size());
 }
 
-// A law that was fitted, with what comes of it.
+// A law that was fitted, with its results.
 struct Fitted {
   Fit fit;
   std::vector<double> values;
@@ -394,9 +393,9 @@ class Pair {
     return out;
   }
 
-  // A delay shifts kinks over samples: what is left of the effort is rough in it, and its slope at
-  // the best place says too little. The interval has every delay of a grid with which the others
-  // leave hardly more.
+  // A delay shifts kinks across samples, so the residuals are rough in it and the slope at the
+  // optimum gives too narrow an interval. The interval is widened to all delays of a grid for which
+  // the other parameters leave an error that is hardly larger.
   void widen_delays(const PairLaw& law, Fitted& fitted) const {
     constexpr double most = 0.1, step = 0.02;
     PairProblem thinned(law, thinned_);
@@ -420,7 +419,7 @@ class Pair {
     }
   }
 
-  // Recordings that are held out follow those that are fitted.
+  // Returns the rows; recordings that are held out follow those that are fitted.
   Rows rows() const {
     Rows out{.x = "time", .x_unit = "s"};
     const auto add = [&](const PairRecord& r, const PairRows* unseen) {
@@ -475,7 +474,7 @@ class Pair {
     return score(r, full_scale_, measured);
   }
 
-  // Each block of time predicted from the others, in all recordings at once.
+  // Predicts each block of time from the others, in all recordings together.
   void cross_validate(PairProblem& problem, const std::vector<double>& from, Fit& fit) const {
     std::vector<double> all, some;
     for (std::size_t b = 0; b < pair_blocks; ++b) {
@@ -492,8 +491,8 @@ class Pair {
     fit.band = band_of(all);
   }
 
-  // What was not fitted: times of these recordings, and recordings of which only what is theirs -
-  // bias, start - is fitted.
+  // Scores times of the fitted recordings that are held out, and held-out recordings, of which only
+  // their own parameters - bias, start - are fitted.
   void hold_out(const PairLaw& law, PairProblem& problem, Fitted& out) const {
     std::vector<double> all, measured;
     problem.residuals(out.values, unseen_, all);
@@ -508,8 +507,8 @@ class Pair {
     out.fit.held_out = score(all, full_scale_, measured);
   }
 
-  // Physics and the sensors of its rig as they were found; its bias, its start and the sensors of a
-  // rig that nobody fitted are its own.
+  // Returns the residuals of another recording with the identified physics and sensors of its rig.
+  // Its bias, its start, and the sensors of an unknown rig are fitted.
   std::vector<double> residuals_of_other(const PairLaw& law, const Fitted& known,
                                          const PairRecord& other) const {
     std::vector<PairRecord> all = fitted_;
@@ -532,7 +531,7 @@ class Pair {
     }
   }
 
-  // Says what the law's parameters cannot be.
+  // Notes implausible and undetermined parameters of the law.
   void judge(const PairLaw& law, Fit& fit) const {
     std::string at_bound, unknown;
     for (const Estimate& e : fit.parameters) {
@@ -561,7 +560,7 @@ class Pair {
 
   const PairOptions& options_;
   std::vector<PairRecord> fitted_, others_;
-  Selection rows_, unseen_;  // of those that are fitted
+  Selection rows_, unseen_;  // for the fitted recordings
   std::vector<PairRecord> thinned_;
   Selection thinned_rows_;
   double full_scale_ = 0;
@@ -590,7 +589,7 @@ void check_wishes(const Pair& pair, const Wishes& wishes, bool pressures) {
   wishes.check(all);
 }
 
-// Elastic stiffness and what the air adds as it moves along.
+// Returns the stiffness with the part that the moving air adds.
 PairStiffness stiffness_of(const PairLaw& law, const Fitted& fitted,
                            const std::optional<PairAir>& air) {
   const double per = air ? air->per_position : 0;
@@ -670,7 +669,7 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   std::vector<Fitted> fitted;
   for (const PairLaw* law : laws) fitted.push_back(pair.fit(*law));
   for (Fitted& f : fitted) {
-    // An effect of size 0 is absent, and a bristle may be fully bent at the start.
+    // An effect may have size 0, and a bristle may be fully bent at the start.
     std::vector<std::string_view> allowed;
     for (const Estimate& e : f.fit.parameters)
       if (e.value == 0 || e.name.starts_with("start")) allowed.push_back(e.name);

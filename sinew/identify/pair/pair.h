@@ -1,14 +1,16 @@
-// identify/pair/pair.h - a sealed antagonistic pair that is moved by hand or motor: elastic and
-// trapped-air stiffness, dry friction, viscous loss and mass from effort, position and pressures.
+// identify/pair/pair.h - identification of a sealed antagonistic pair that is moved by hand or
+// motor: elastic and trapped-air stiffness, dry friction, viscous loss and mass from effort,
+// position and pressures.
 //
-// The laws are those of pair_law.h. All recordings share their physics; each has a bias of the
-// effort and a share of dry friction at its beginning, each rig a delay of the effort and, from the
-// second on, a gain in that of the first. The law is chosen by how well five blocks of time are
-// predicted, each from the others.
+// The laws are those of pair_law.h. All recordings share their physics. Each recording has a
+// bias of the effort and an initial share of dry friction; each rig has a delay of the effort
+// and, except for the first, a gain relative to the first. The law is chosen by the errors on five
+// blocks of time, each predicted from the others.
 //
-// What cannot be told: the gain of a single rig from everything else that makes effort; the area A
-// from the stiffness k, where the pressures follow the position; which part of D is the muscles'
-// and which that of bearings and gears; the area and the volume behind the pressures (pair_air.h).
+// Not determined by such data: the gain of a single rig, as everything scales with it; the area A
+// and the stiffness k separately, if the pressures follow the position; which part of Phi_c is due
+// to the muscles and which to bearings and gears; area and volume behind the pressures
+// (pair_air.h).
 #pragma once
 
 #include <limits>
@@ -26,39 +28,39 @@
 
 namespace sinew::identify {
 
-// What is asked of the recordings.
+// Options of the identification.
 struct PairOptions {
-  std::string model;  // that law alone; empty: all
-  // Samples of these times are not fitted [s]; none: from > to.
+  std::string model;  // the only law to try; empty: all
+  // Samples of these times are not fitted [s]; from > to: none.
   double held_out_from = std::numeric_limits<double>::infinity(), held_out_to = 0;
   Wishes wishes;
 };
 
-// Stiffness of all that springs, with the air that moves along; half a 95 % interval.
+// Total stiffness including the moving air, with half a 95 % interval.
 struct PairStiffness {
   double value = 0, uncertainty = 0;  // [N/m] or [N m/rad]
-  double air = 0;                     // the trapped air's part of it; NaN: not told apart
+  double air = 0;                     // part of the trapped air; NaN: not determined
 };
 
-// The sensors of a recording.
+// Sensors of a recording.
 struct PairSensorsOf {
   std::string file, rig;
   PairSensors sensors;
 };
 
-// What was found.
+// Result of the identification.
 struct PairResult {
-  Report report;                       // of the effort
-  PairLaw law{};                       // that was chosen
-  PairValues values;                   // in it
-  std::vector<PairSensorsOf> sensors;  // of each recording that was fitted
+  Report report;                       // report on the effort
+  PairLaw law{};                       // chosen law
+  PairValues values;                   // values in the chosen law
+  std::vector<PairSensorsOf> sensors;  // for each fitted recording
   PairStiffness stiffness;
   bool rotary = false;
-  std::optional<PairAir> air;  // where a pressure was measured
+  std::optional<PairAir> air;  // if a pressure was measured
 };
 
-// Throws Refusal, config::Error for a wish of a parameter that there is not, and
-// std::invalid_argument for a law that there is not.
+// Identifies the pair. Throws Refusal, config::Error for a constraint on an unknown parameter, and
+// std::invalid_argument for an unknown law.
 PairResult identify_pair(std::span<const PairRecord> records, const PairOptions& options = {});
 
 // Returns the names of the laws.

@@ -25,7 +25,7 @@ constexpr std::array air_laws{AirLaw{"alike", "P = P_0 exp(-+ s (x - x_0)), one 
                               AirLaw{"leaking", "P = P_0 exp(-+ s (x - x_0) - l t)", true, true}};
 
 using Records = std::span<const PairRecord>;
-using Selection = std::vector<PairRows>;  // of each recording
+using Selection = std::vector<PairRows>;  // one for each recording
 
 std::string of(std::string name, Records records, std::size_t i) {
   return records.size() > 1 ? name + " of " + records[i].file : name;
@@ -37,7 +37,7 @@ double mean_of(const std::vector<double>& values, const PairRows& rows) {
   return sum / static_cast<double>(rows.size());
 }
 
-// Slope of the pressure over the position, by least squares, over all recordings.
+// Returns the slope of the pressure over the position by least squares over all recordings.
 double slope_of(Records records, std::size_t muscle, const Selection& selection) {
   double xy = 0, xx = 0;
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -51,8 +51,8 @@ double slope_of(Records records, std::size_t muscle, const Selection& selection)
   return xx > 0 ? xy / xx : 0;
 }
 
-// One law on all recordings. Parameters: s by muscle, leaks by muscle, the pressures' delay, then
-// P_0 of each muscle of each recording.
+// One law on all recordings. Parameters: a of each muscle, leak of each muscle, delay of the
+// pressures, then P_start of each muscle in each recording.
 class TrappedAir {
  public:
   TrappedAir(const AirLaw& law, Records records) : law_(law), records_(records) {
@@ -96,12 +96,12 @@ class TrappedAir {
     return out;
   }
 
-  // +1 where the muscle's pressure rises with the position.
+  // Returns 1 if the muscle's pressure rises with the position, else -1.
   double sign(std::size_t m, const Selection& rows) const {
     return slope_of(records_, m, rows) < 0 ? -1 : 1;
   }
 
-  // Predicted less measured, muscle by muscle, at these rows.
+  // Writes predicted - measured pressure, muscle by muscle, at these rows.
   void residuals(std::span<const double> p, const Selection& rows, std::span<const double> signs,
                  std::vector<double>& out) {
     out.clear();

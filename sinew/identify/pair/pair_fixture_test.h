@@ -12,26 +12,26 @@
 
 namespace sinew::identify {
 
-// What the pair of the tests is.
+// The simulated pair of the tests.
 struct TestPair {
   double stiffness = 1.5e5, viscous = 4e3, mass = 300;     // [N/m] [N s/m] [kg]
   double friction = 30, presliding = 1e-5, fade_time = 0;  // [N] [m] [s], 0: it does not fade
-  double bias = -7, gain = 1, delay = 0;                   // of the force [N] [1] [s]
-  double exponent = 1.2, area = 8e-3, volume = 4e-4;       // of the trapped air [1] [m2] [m3]
-  double elastic = 0;                                      // stiffness beside the air's [N/m]
-  double noise = 0.5, memory = 0;                          // of the force [N], of an AR(1) process
-  double shift = 0;                                        // of the motion's phases [rad]
+  double bias = -7, gain = 1, delay = 0;                   // force sensor [N] [1] [s]
+  double exponent = 1.2, area = 8e-3, volume = 4e-4;       // trapped air [1] [m2] [m3]
+  double elastic = 0;                                      // stiffness without the air [N/m]
+  double noise = 0.5, memory = 0;                          // force noise [N], coefficient of AR(1)
+  double shift = 0;                                        // phase of the motion [rad]
 };
 
-// Where the slide is: three sines, so that it turns at many places.
+// Returns the position of the slide: three sines, so that it reverses at many places.
 inline double test_position(double t, double shift) {
   using std::numbers::pi;
   return 4e-4 * std::sin(2 * pi * 0.31 * t + shift) +
          2e-4 * std::sin(2 * pi * 0.83 * t + 2 * shift) + 5e-5 * std::sin(2 * pi * 2.3 * t);
 }
 
-// `seconds` of it at 500 Hz, as its sensors have it; `with_air`: its stiffness is that of the air
-// and `elastic`, and both pressures are measured.
+// Returns a record of `seconds` at 500 Hz. `with_air`: the stiffness is that of the air and
+// `elastic`, and both pressures are measured.
 inline PairRecord test_record(const TestPair& pair, unsigned seed, bool with_air = false,
                               double seconds = 8, const std::string& file = "a.csv") {
   std::mt19937 random(seed);
@@ -40,7 +40,7 @@ inline PairRecord test_record(const TestPair& pair, unsigned seed, bool with_air
   Measured out{.file = file};
   std::vector<double> time, force, at, p1, p2;
   double w = 0, drift = 0, x = test_position(-0.5, pair.shift), next = 0;
-  std::vector<double> late;  // of the force that is still on its way to the sensor
+  std::vector<double> late;  // forces that the sensor delays
   for (int i = 0;; ++i) {
     const double t = -0.5 + i * fine, before = x;
     if (t > seconds) break;

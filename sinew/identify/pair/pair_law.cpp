@@ -33,7 +33,7 @@ constexpr std::array all_laws{
     PairLaw{"all",                    "F = k x + A dP + c v + m a + D w(x, t)",  forgets, true,  true,  true,  true,  fading}};
 // clang-format on
 
-// Covariance with the position: falls a pressure with it?
+// Returns the covariance of pressure and position; negative if the pressure falls.
 double together(std::span<const double> x, std::span<const double> p) {
   double mx = 0, mp = 0, sum = 0;
   const auto n = static_cast<double>(x.size());

@@ -1,5 +1,5 @@
-// Dry friction before it slips, as it slips and as it is forgotten, against closed forms; sensors
-// that lag; what is no recording of a pair.
+// Dry friction before slip, in slip and with fading, compared with closed forms; delayed sensors;
+// files that are no recording of a pair.
 #include "sinew/identify/pair/pair_law.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(PairFriction, ASmallReversalIsASpringAndALargeOneSlips) {
   const std::vector<double> w = friction_of(PairFriction::bristle, values, r);
   for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(w[i], r.at[i] / 1e-5, 1e-12);
 
-  // What a cycle of amplitude X costs: 4 D (X - d).
+  // Loss of a cycle of amplitude X: 4 D (X - d).
   const double amplitude = 1e-4;
   const PairRecord large = moved([&](double t) { return amplitude * std::sin(t); }, 20, 1e-3);
   const std::vector<double> slips = friction_of(PairFriction::bristle, values, large);

@@ -55,7 +55,7 @@ constexpr std::array columns{Wanted{.name = "time", .unit = "s", .doc = "of the 
 
 constexpr std::size_t least_samples = 100;
 
-// Is the recording one of a joint? Throws Refusal where it is of neither kind, or of both.
+// Returns whether the recording is of a joint. Throws Refusal if it is of neither kind or of both.
 bool is_rotary(const Measured& data) {
   const bool slide = data.has("force") && data.has("displacement");
   const bool joint = data.has("torque") && data.has("angle");
@@ -75,7 +75,7 @@ double smallest_step(std::span<const double> values) {
   return out;
 }
 
-// Something is missing where a step is much longer than the others.
+// Notes gaps: steps that are much longer than the others.
 void tell_gaps(PairRecord& r) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < r.size(); ++i) steps.push_back(r.time[i] - r.time[i - 1]);

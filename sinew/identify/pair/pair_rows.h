@@ -1,4 +1,4 @@
-// identify/pair/pair_rows.h - which samples of a recording are fitted, and which are predicted.
+// identify/pair/pair_rows.h - selection of the samples of a recording that are fitted or predicted.
 #pragma once
 
 #include <cstddef>
@@ -8,20 +8,20 @@
 
 namespace sinew::identify {
 
-// Samples of a recording, in ascending order.
+// Indices of samples of a recording, ascending.
 using PairRows = std::vector<std::size_t>;
 
-// Blocks of time that cross-validation leaves out, one after the other.
+// Number of time blocks that cross-validation leaves out, one after the other.
 inline constexpr std::size_t pair_blocks = 5;
 
-// Returns the samples whose time is in [from, to], or those that are not.
+// Returns the samples whose time is in [from, to], or those outside.
 PairRows pair_rows(const PairRecord& record, double from, double to, bool inside);
 
 // Returns the rows of the k-th of `pair_blocks` blocks, or those of all the others.
 PairRows pair_block(const PairRows& rows, std::size_t k, bool inside);
 
-// Returns the recording with every k-th sample, about 2000: more of a smooth series say nothing
-// new.
+// Returns the recording with every k-th sample, about 2000: more samples of a smooth series add no
+// information.
 PairRecord pair_thinned(const PairRecord& record);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-// A pair that is made with known physics is found again; what cannot be told is said.
+// A pair with known physics is recovered; undetermined values are reported.
 #include "sinew/identify/pair/pair.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ const Estimate& parameter(const PairResult& found, std::string_view name) {
   throw std::out_of_range(std::string(name));
 }
 
-// The truth lies within the interval, and the interval is narrower than that share of it.
+// Checks that the truth is within the interval, and the interval is narrower than a share of the
+// truth.
 void expect_within(const PairResult& found, std::string_view name, double truth, double share) {
   const Estimate& e = parameter(found, name);
   EXPECT_LE(e.low, truth) << name << " " << e.value;
@@ -69,7 +70,7 @@ TEST(Pair, ThatFadesIsFoundAgain) {
   expect_within(found, "friction", truth.friction, 0.05);
 }
 
-// Physics are shared; a second rig has a gain and a delay of its own, each recording a bias.
+// Physics are common; a second rig has its own gain and delay, each recording its own bias.
 TEST(Pair, TwoRigsShareTheirPhysics) {
   TestPair truth{.mass = 0, .delay = 0.004};
   std::vector<PairRecord> records{test_record(truth, 5, false, 8, "a.csv")};
@@ -93,7 +94,7 @@ TEST(Pair, TwoRigsShareTheirPhysics) {
   EXPECT_EQ(found.sensors.size(), 3u);
 }
 
-// A recording that is held out has its own bias; everything else is known from the others.
+// A recording that is held out has its own bias; everything else is given by the others.
 TEST(Pair, PredictsARecordingThatIsHeldOut) {
   TestPair truth{.mass = 0};
   std::vector<PairRecord> records{test_record(truth, 8, false, 8, "a.csv")};
@@ -108,7 +109,7 @@ TEST(Pair, PredictsARecordingThatIsHeldOut) {
   EXPECT_EQ(found.report.best().residuals.size(), found.report.rows.size());
 }
 
-// s = n A/V, to first order; the air's part of the stiffness is told once the area is known.
+// a = n_p A/V, to first order; the air's part of the stiffness is determined if the area is known.
 TEST(Pair, AirIsToldFromThePressures) {
   const TestPair truth{.viscous = 0, .mass = 0, .elastic = 5e4};
   const std::vector<PairRecord> records{test_record(truth, 10, true)};
@@ -127,7 +128,7 @@ TEST(Pair, AirIsToldFromThePressures) {
   EXPECT_FALSE(parameter(apart, "area").free);
 }
 
-// Residuals with a memory, as unmodelled friction leaves: intervals keep their promise.
+// With correlated residuals, as from unmodelled friction, intervals have the stated coverage.
 TEST(Pair, IntervalsHoldTheTruthUnderNoiseThatRemembers) {
   const TestPair truth{.mass = 0, .noise = 2, .memory = 0.95};
   int held = 0, all = 0;
@@ -147,8 +148,7 @@ TEST(Pair, IntervalsHoldTheTruthUnderNoiseThatRemembers) {
   RecordProperty("held", held);
 }
 
-// What a block of time that was left out is missed by says how far a recording that nobody fitted
-// lies from the law.
+// The errors on time blocks that were left out give the errors on a recording that was not fitted.
 TEST(Pair, BandsHoldARecordingThatIsHeldOut) {
   int in_68 = 0, in_95 = 0, all = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {

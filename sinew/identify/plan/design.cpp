@@ -7,11 +7,11 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr int length_candidates = 14, pressure_candidates = 12;  // about
-constexpr int places_along = 11, places_up = 7;                  // of the region
-constexpr double pulls_above = 0.01;  // of the largest force: below, a reading may be slack
+constexpr int length_candidates = 14, pressure_candidates = 12;  // approximate numbers
+constexpr int places_along = 11, places_up = 7;                  // numbers of places in the region
+constexpr double pulls_above = 0.01;  // share of the largest force; below it a reading may be slack
 
-// The largest of 1, 2, 5 times a power of ten that is not above `most`.
+// Returns the largest of 1, 2, 5 times a power of ten that does not exceed `most`.
 double round_step(double most) {
   const double power = std::pow(10, std::floor(std::log10(most)));
   const double times = most / power;
@@ -23,7 +23,7 @@ double round_step(double most) {
 std::vector<double> round_steps(double low, double high, int count) {
   const double step = round_step((high - low) / (count - 1));
   std::vector<double> out{high};
-  // The first below the end stands on a multiple of the step.
+  // The first step below the end is to a multiple of the step.
   for (double x = step * std::ceil(high / step - 1.0 + 1e-9); x > low - 1e-9 * step;
        x = step * std::round(x / step - 1.0))
     if (high - x > 0.5 * step) out.push_back(x);
@@ -61,7 +61,7 @@ std::vector<double> DesignSpace::even_pressures(double length, std::size_t count
   return out;
 }
 
-// Errors that a mount's readings share: its length, and what the law is off by there.
+// Errors common to a mount's readings: of its length, and of the law's form there.
 PlannedReading DesignSpace::reading(double length, double pressure, Branch branch) const {
   PlannedReading out{.slopes = slopes_at(muscle_, length, pressure, branch), .shared = {0, 0}};
   if (expected_force(muscle_, length, pressure, branch) > 0)

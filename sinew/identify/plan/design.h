@@ -1,5 +1,4 @@
-// identify/plan/design.h - the search for a plan's mounts: which candidates there are, what each
-// set of them is worth.
+// identify/plan/design.h - search space of a plan: candidate mounts, and the value of sets of them.
 #pragma once
 
 #include <map>
@@ -11,31 +10,30 @@
 
 namespace sinew::identify {
 
-// Returns round steps over a range, from the upper end downwards, some `count` of them: 250, 245,
-// 240 mm. The lower end is one of them where it is half a step or more from the last.
+// Returns about `count` round steps over a range, from the upper end downwards: 250, 245, 240 mm.
+// The lower end is included if it is at least half a step from the last.
 std::vector<double> round_steps(double low, double high, int count);
 
-// Holds what a plan is chosen from, and what a choice is worth.
+// Candidates of a plan, and the value of a choice.
 class DesignSpace {
  public:
-  // The muscle and the options must outlive it.
+  // The muscle and the options must outlive this object.
   DesignSpace(const ExpectedMuscle& muscle, const PlanRegion& region, const PlanOptions& options);
 
-  // Returns the lengths and the pressures that may be chosen  [m], [Pa gauge], rising.
+  // Return the candidate lengths [m] and gauge pressures [Pa], ascending.
   const std::vector<double>& lengths() const { return lengths_; }
   const std::vector<double>& pressures() const { return pressures_; }
 
-  // Returns that many pressures at which the muscle pulls at a length, evenly over them; fewer
-  // where there are no more.
+  // Returns up to `count` pressures at which the muscle pulls at a length, evenly spaced.
   std::vector<double> even_pressures(double length, std::size_t count) const;
 
-  // Returns what is known before anything is measured, what a mount with these pressures tells, up
-  // and down again, and what a measured one has told.
+  // Return the information before any measurement; that of a planned mount with these pressures,
+  // rising and falling; and that of a measured mount.
   Knowledge before() const;
   Knowledge of(double length, std::span<const double> pressures) const;
   Knowledge of(const MeasuredMount& mount) const;
 
-  // Returns the error over the region where that is known.
+  // Returns the error over the region with this information.
   PlanError error(const Knowledge& knowledge) const;
 
  private:
@@ -46,8 +44,8 @@ class DesignSpace {
   const PlanOptions& options_;
   double law_ = 0;  // [N]
   std::vector<double> lengths_, pressures_;
-  std::vector<std::vector<double>> places_;  // slopes over the region
-  // Readings that may be chosen, each worked out once.
+  std::vector<std::vector<double>> places_;  // slopes at the places of the region
+  // Candidate readings, each computed once.
   mutable std::map<std::tuple<double, double, Branch>, PlannedReading> readings_;
 };
 

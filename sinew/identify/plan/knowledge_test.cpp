@@ -1,4 +1,4 @@
-// What readings are worth: the closed forms of straight lines and of errors that readings share.
+// Information of readings: closed forms for straight lines and for common errors of readings.
 #include "sinew/identify/plan/knowledge.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-// Of a straight line a + b x the variance is s^2 (1/n + (x - mean)^2/sum (x_i - mean)^2), which is
+// The variance of a straight line a + b x is s^2 (1/n + (x - mean)^2/sum (x_i - mean)^2), which is
 // s^2 x'(X'X)^-1 x.
 TEST(Knowledge, OfAStraightLineIsTheClosedForm) {
   const std::vector<double> at{0, 1, 2, 5, 9};
@@ -34,7 +34,7 @@ TEST(Knowledge, OfAStraightLineIsTheClosedForm) {
   }
 }
 
-// n readings of one number that have an error t in common: s^2/n + t^2. Two such mounts halve it.
+// n readings of one value with a common error t: s^2/n + t^2. Two such mounts halve it.
 TEST(Knowledge, AnErrorThatReadingsShareIsNotAveragedAway) {
   constexpr double s = 2, t = 0.5;
   const std::vector<std::vector<double>> place{{1}};
@@ -49,7 +49,7 @@ TEST(Knowledge, AnErrorThatReadingsShareIsNotAveragedAway) {
   }
 }
 
-// Two independent sources of one number: 1/var = 1/d^2 + 1/s^2.
+// Two independent sources for one value: 1/var = 1/d^2 + 1/s^2.
 TEST(Knowledge, WhatIsKnownBeforehandCountsAsAReading) {
   Knowledge known(std::vector<double>{3});
   EXPECT_NEAR(known.variances(std::vector<std::vector<double>>{{2}})[0], 4 * 9, 1e-12);
@@ -64,7 +64,7 @@ TEST(Knowledge, OfWhatIsNotDeterminedIsNone) {
   EXPECT_EQ(known.variances(std::vector<std::vector<double>>{{1, 0}})[0], unknown);
 }
 
-// Another reading, and another mount, never make a prediction worse, wherever it is.
+// A further reading or mount never makes a prediction worse, at any place.
 TEST(Knowledge, MoreReadingsNeverRaiseAVariance) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;

@@ -18,8 +18,8 @@ namespace sinew::identify {
 namespace {
 
 constexpr std::string_view richest = "saturating-effectiveness";
-constexpr double likely_threshold = 5e4, most_threshold = 0.3;  // [Pa], of the top pressure
-constexpr double likely_share = 0.2;  // saturating tension, of the largest force
+constexpr double likely_threshold = 5e4, most_threshold = 0.3;  // [Pa], share of the top pressure
+constexpr double likely_share = 0.2;  // saturating tension, share of the largest force
 
 std::vector<Knob> knobs_to_fit(const StaticScales& scales, bool branches) {
   std::vector<Knob> out;
@@ -43,7 +43,7 @@ ExpectedMuscle muscle_by_size(double rest_length, double diameter, double top_pr
   ExpectedMuscle out;
   StaticScales& s = out.scales;
   s = {.rest_length = rest_length, .top_pressure = top_pressure, .atmosphere = atmosphere};
-  // The braid: the likely thread, and the turns that make its diameter at the rest length.
+  // Braid: the likely thread, and the turns that give the diameter at the rest length.
   const double b = prior_of(Knob::thread_length, s)->mean;
   const double turns = std::sqrt(b * b - rest_length * rest_length) / (std::numbers::pi * diameter);
   const double acts = std::min(likely_threshold, most_threshold * top_pressure);
@@ -70,7 +70,7 @@ ExpectedMuscle muscle_by_actuator(const actuator::Actuator& actuator, double res
   if (!(s.full_scale > 0))
     throw Refusal("actuator", "a muscle that does not pull at its rest length",
                   "one that does at the highest pressure", "another rest_length, or pressure");
-  // Its own law, without the ends that no static law has and beyond what was fitted.
+  // The actuator's own law, without ends, which no static law has, and without limits of validity.
   const StaticSetting plain = setting_of(s);
   out.setting.actuator = actuator;
   actuator::Actuator& a = out.setting.actuator;
@@ -151,7 +151,7 @@ std::vector<double> deviations_before(const ExpectedMuscle& m) {
   StaticSetting setting = m.setting;
   for (const Knob knob : m.knobs) {
     const Parameter range = parameter_of(knob, m.scales);
-    double deviation = (range.high - range.low) / std::sqrt(12.0);  // of a value anywhere in it
+    double deviation = (range.high - range.low) / std::sqrt(12.0);  // uniform over the range
     if (const auto prior = prior_of(knob, m.scales))
       deviation = prior->deviation_at(value_of(setting, knob));
     out.push_back(deviation / range.scale);
@@ -162,9 +162,9 @@ std::vector<double> deviations_before(const ExpectedMuscle& m) {
 namespace {
 
 constexpr std::size_t fewest_levels = 3, most_levels = 8;
-constexpr double worth_it = 0.999;  // of the error: a change that gains less is none
+constexpr double worth_it = 0.999;  // share of the error; a change that gains less is not made
 
-// A set of mounts that is being improved.
+// A set of mounts that is improved by exchanges.
 class Search {
  public:
   Search(const DesignSpace& space, const Knowledge& begin, const PlanOptions& options,
@@ -178,7 +178,7 @@ class Search {
     }
   }
 
-  // Adds the candidate that helps most; false where there is none left.
+  // Adds the candidate that helps most; returns false if no candidate is left.
   bool add() {
     const auto best = best_candidate(chosen_);
     if (!best) return false;
@@ -186,7 +186,7 @@ class Search {
     return true;
   }
 
-  // Exchanges mounts and pressures as long as that helps.
+  // Exchanges mounts and pressures while that helps.
   void improve() {
     for (int pass = 0; pass < 10; ++pass) {
       const double before = value(chosen_);
@@ -198,7 +198,7 @@ class Search {
 
   double value() const { return value(chosen_); }
 
-  // The mounts in the order in which each helps most, so that one may stop early.
+  // Returns the mounts in the order of their benefit, so that a user may stop early.
   std::vector<PlannedMount> ordered() const {
     std::vector<Candidate> left = chosen_;
     Knowledge known = begin_;
@@ -241,7 +241,7 @@ class Search {
     return value_of(known);
   }
 
-  // Of lengths that are not in the set: the best one to add.
+  // Returns the best candidate to add, from lengths that are not in the set.
   std::optional<std::size_t> best_candidate(const std::vector<Candidate>& set) const {
     Knowledge known = begin_;
     for (const Candidate& c : set) known += c.own;
@@ -266,8 +266,8 @@ class Search {
     if (value(others) < worth_it * value(chosen_)) chosen_ = others;
   }
 
-  // Pressures so near each other would say little of how force goes with pressure, were the law
-  // another one.
+  // Returns whether the pressures are spread: close ones would not show a deviation of the law's
+  // dependence on pressure.
   static bool are_spread(const std::vector<double>& pressures, double range) {
     const double least = 0.49 * range / static_cast<double>(pressures.size() - 1);
     for (std::size_t i = 1; i < pressures.size(); ++i)
@@ -275,7 +275,7 @@ class Search {
     return true;
   }
 
-  // Each pressure of a mount for each that is not among them.
+  // Tries to exchange each pressure of a mount for each other pressure.
   void exchange_pressures(std::size_t at) {
     const std::vector<double> all =
         space_.even_pressures(chosen_[at].length, space_.pressures().size());
@@ -298,7 +298,7 @@ class Search {
   std::vector<Candidate> candidates_, chosen_;
 };
 
-// The mounts that reach the error with that many pressures each.
+// Returns the mounts that reach the error with that many pressures each.
 std::vector<PlannedMount> mounts_with(const DesignSpace& space, const Knowledge& begin,
                                       const PlanOptions& options, std::size_t levels,
                                       std::size_t fewest) {

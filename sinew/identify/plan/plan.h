@@ -1,19 +1,19 @@
-// identify/plan/plan.h - which lengths and pressures to measure, so that a static law is known to
-// a wanted error, and how long that takes.
+// identify/plan/plan.h - plan of the lengths and pressures to measure for a required accuracy of a
+// static law, and of the time needed.
 //
 //   error      = sqrt(mean g' Cov g + law^2)/F_max       over the region, root mean square
-//   half-width = 1.96 sqrt(largest g' Cov g + law^2)/F_max                      95 %, its worst
-//   place
+//   half-width = 1.96 sqrt(largest g' Cov g + law^2)/F_max       95 %, its worst place
 //
-//   Cov  of the parameters, from the readings and what is known beforehand (knowledge.h)  law  what
-//   the law itself is off by, whatever is measured  F_max  the largest force of the muscle
+//   Cov    covariance of the parameters, from readings and prior information (knowledge.h)
+//   law    error of the law itself, which no measurement reduces
+//   F_max  largest force of the muscle
 //
 // The region is every length between the shortest and the longest at every pressure between the
-// lowest and the highest at which the muscle pulls, all alike. A mount costs minutes, a step of
-// pressure half of one: so at each mount the pressure goes up over some levels and down again, and
-// mounts are added one by one where they lower the mean variance most, each then exchanged for a
-// better one as long as there is any (an I-optimal design by exchange). Of all numbers of levels
-// the one is taken that needs the fewest minutes.
+// lowest and the highest at which the muscle pulls, with equal weight. A mount takes minutes,
+// a pressure step half a minute. So at each mount the pressure rises over some levels and falls
+// again, and mounts are added one by one where they reduce the mean variance most; each is then
+// exchanged for a better one while there is any (an I-optimal design by exchange). The number of
+// levels is the one that needs the least time.
 #pragma once
 
 #include <optional>
@@ -26,18 +26,19 @@
 
 namespace sinew::identify {
 
-// The muscle that a plan is made for, as far as it can be expected: its law is linear about the
-// parameters that it will likely have. The law is the richest that the data of one muscle need,
-// saturating-effectiveness of static_model.h, with the half-width of the hysteresis where both
-// branches are measured. A parameter that is known of other muscles has their spread beforehand;
-// any other one has that of the range in which it is searched.
+// The muscle that a plan is made for, with its expected parameters, about which its law is
+// linearised. The law is the richest that the data of one muscle need, saturating-effectiveness of
+// static_model.h, with the half-width of the hysteresis if both branches are measured. The prior
+// deviation of a parameter is its spread over other muscles if known, else that of its search
+// range.
 struct ExpectedMuscle {
   StaticScales scales;
   StaticSetting setting;
-  std::vector<Knob> knobs;  // that a fit will set free
+  std::vector<Knob> knobs;  // free parameters of a later fit
 };
 
-// Returns one by its sizes [m, Pa gauge], with what three Festo muscles have in common.
+// Returns the expected muscle for its sizes [m, Pa gauge], with average properties of three Festo
+// muscles.
 ExpectedMuscle muscle_by_size(double rest_length, double diameter, double top_pressure,
                               double atmosphere);
 
@@ -45,106 +46,106 @@ ExpectedMuscle muscle_by_size(double rest_length, double diameter, double top_pr
 ExpectedMuscle muscle_by_actuator(const actuator::Actuator& actuator, double rest_length,
                                   double top_pressure, double atmosphere);
 
-// A muscle whose law was fitted, and how far its points scatter about it  [N].
+// A muscle whose law was fitted, and the scatter of its points about it [N].
 struct FittedMuscle {
   ExpectedMuscle muscle;
   double scatter = 0;
 };
 
-// Returns the muscle that these points tell. Throws Refusal where they are too few, or of several
+// Returns the muscle fitted to these points. Throws Refusal if they are too few, or have several
 // rest lengths.
 FittedMuscle muscle_by_points(std::span<const StaticPoint> points, double atmosphere,
                               const std::optional<actuator::Braid>& braid);
 
-// Returns the force at a length and a gauge pressure, of a branch; 0 where it is slack  [N].
+// Returns the force at a length and a gauge pressure, on a branch; 0 if slack [N].
 double expected_force(const ExpectedMuscle& muscle, double length, double pressure,
                       Branch branch = Branch::unknown);
 
-// Returns the length at which it pulls no more at its top pressure  [m].
+// Returns the length at which the muscle does not pull at its top pressure [m].
 double free_length(const ExpectedMuscle& muscle);
 
-// Returns dF/d(parameter) times the parameter's scale, of each knob  [N]. All 0 where it is slack.
+// Returns dF/d(parameter) times the parameter's scale, for each free parameter [N]; 0 if slack.
 std::vector<double> slopes_at(const ExpectedMuscle& muscle, double length, double pressure,
                               Branch branch = Branch::unknown);
 
 // Returns dF/dL  [N/m].
 double slope_over_length(const ExpectedMuscle& muscle, double length, double pressure);
 
-// Returns the standard deviation of each knob before anything is measured, in its scale.
+// Returns the prior standard deviation of each free parameter, in its scale.
 std::vector<double> deviations_before(const ExpectedMuscle& muscle);
 
-// What decides: the mean of the variance over the region, or its largest value.
+// Criterion of the plan: the mean of the variance over the region, or its largest value.
 enum class PlanCriterion { mean, worst };
 
-// Lengths [m] and gauge pressures [Pa] over which a law is wanted.
+// Lengths [m] and gauge pressures [Pa] at which the law is needed.
 struct PlanRegion {
   double shortest = 0, longest = 0;
   double lowest = 0, highest = 0;
 };
 
-// Holds what a rig can do and what is wanted of it.
+// Properties of the measurement, and the required accuracy.
 struct PlanOptions {
-  double noise = 1;            // of one reading of the force, a standard deviation [N]
-  double length_error = 1e-4;  // of a mount's length, the same for all of its readings [m]
-  double law_error = 0.01;     // that the law itself is off by, of the largest force [-]
+  double noise = 1;            // standard deviation of one force reading [N]
+  double length_error = 1e-4;  // error of a mount's length, common to its readings [m]
+  double law_error = 0.01;     // error of the law itself, share of the largest force [-]
   double mount_time = 600;     // to change a mount [s]
   double step_time = 30;       // to change a pressure, wait and read [s]
-  double error = 0.02;         // wanted, of the largest force [-]
-  int fewest = 3;              // mounts: with fewer no length can be left out, to try the law
+  double error = 0.02;         // required, share of the largest force [-]
+  int fewest = 3;              // mounts; with fewer no length can be left out to test the law
   int most = 12;               // mounts
   PlanCriterion criterion = PlanCriterion::mean;
 };
 
-// Two ways to say how well a law is known, both of the largest force  [-].
+// Two measures of a law's error, as shares of the largest force [-].
 struct PlanError {
-  double rms = 0;         // over the region, with the law's own
+  double rms = 0;         // over the region, including the law's own error
   double half_width = 0;  // 95 %, at the worst place of the region
 
-  // Returns the one that decides.
+  // Returns the measure of the criterion.
   double of(PlanCriterion criterion) const {
     return criterion == PlanCriterion::mean ? rms : half_width;
   }
 };
 
-// A length, and the pressures at which force is read there: upwards, and down again.
+// A length, and the pressures at which the force is read there, rising and falling.
 struct PlannedMount {
   double length = 0;              // [m]
-  std::vector<double> pressures;  // gauge, rising [Pa]
-  double time = 0;                // that it takes [s]
-  PlanError after;                // when it and those before it are measured
+  std::vector<double> pressures;  // gauge, ascending [Pa]
+  double time = 0;                // time for this mount [s]
+  PlanError after;                // error after it and those before it
 
-  // How many readings it gives: each pressure twice, but the highest.
+  // Returns the number of readings: each pressure twice, except the highest.
   std::size_t readings() const { return 2 * pressures.size() - 1; }
 };
 
-// What was measured already, of one mount.
+// Existing measurements of one mount.
 struct MeasuredMount {
   double length = 0;                // [m]
   std::vector<StaticPoint> points;  // at that length
 };
 
-// Mounts in the order in which each helps most, and what is known before and after them.
+// Mounts in the order of their benefit, with the errors before and after them.
 struct MeasurementPlan {
   PlanRegion region;
-  PlanError before;  // with what is there already, or with nothing
+  PlanError before;  // with existing measurements, or none
   std::vector<PlannedMount> mounts;
-  bool reached = false;  // the wanted error
+  bool reached = false;  // the required error is reached
 
-  // Returns the error when all is measured, the time that it takes [s], and the number of readings.
+  // Return the error after all mounts, the total time [s], and the number of readings.
   PlanError after() const { return mounts.empty() ? before : mounts.back().after; }
   double time() const;
   std::size_t readings() const;
 };
 
-// Returns all lengths from a tenth of the way between free contraction and the rest length up to
-// that, and all pressures from a sixth of the top one up to that.
+// Returns the region of lengths from a tenth of the way between free contraction and the rest
+// length up to that, and pressures from a sixth of the top pressure up to that.
 PlanRegion region_of(const ExpectedMuscle& muscle);
 
-// Returns the parts of the points that have a length in common.
+// Returns the points grouped by length.
 std::vector<MeasuredMount> mounts_of(std::span<const StaticPoint> points);
 
-// Returns the plan; `measured` are mounts that there are already. The error that is wanted must be
-// above that of the law, or no plan reaches it.
+// Returns the plan; `measured` are existing mounts. The required error must be above the law's own,
+// otherwise no plan reaches it.
 MeasurementPlan plan_measurements(const ExpectedMuscle& muscle, const PlanRegion& region,
                                   const PlanOptions& options,
                                   std::span<const MeasuredMount> measured = {});

@@ -1,5 +1,5 @@
-// A plan keeps what it promises: its error is that of rigs with noise, measured and fitted; it
-// stops where the wanted error is reached, and spends its minutes where they help.
+// A plan's predicted error is that of simulated rigs with noise, measured and fitted; it stops when
+// the required error is reached, and spends its time where it helps.
 #include "sinew/identify/plan/plan.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Plan, AMuscleBySizeIsThatOfItsBraid) {
   EXPECT_GT(free, 0.6 * 0.25);
 }
 
-// The slopes are those of differences that are ten times as wide.
+// The slopes match differences with ten times the step.
 TEST(Plan, SlopesAreThoseOfTheForce) {
   const ExpectedMuscle m = muscle();
   const std::vector<double> slopes = slopes_at(m, 0.22, 4e5, Branch::fill);
@@ -55,8 +55,8 @@ TEST(Plan, StepsAreRoundAndWithinTheirRange) {
     EXPECT_NEAR(lengths[i] / 0.002, std::round(lengths[i] / 0.002), 1e-6) << lengths[i];
 }
 
-// One rig: its mounts are read at lengths that are a little off, the law is off at each, the
-// readings have noise; then the law is fitted. Returns the mean square of what is then wrong.
+// One rig: lengths of mounts have errors, the law has an error at each mount, readings have noise;
+// then the law is fitted. Returns the mean square error.
 double squares_of_rig(const ExpectedMuscle& m, const MeasurementPlan& plan, const PlanOptions& o,
                       unsigned seed) {
   std::mt19937 random(seed);
@@ -94,7 +94,7 @@ double squares_of_rig(const ExpectedMuscle& m, const MeasurementPlan& plan, cons
   return sum / count;
 }
 
-// The promise is linear, and the fit weighs readings alike: they agree within 20 %.
+// The prediction is linear, and the fit gives readings equal weight: they agree within 20 %.
 TEST(Plan, TheErrorThatIsPromisedIsThatOfSyntheticRigs) {
   const ExpectedMuscle m = muscle();
   for (const auto& [noise, error] : {std::pair{3.0, 0.02}, {3.0, 0.008}, {12.0, 0.02}}) {
@@ -147,7 +147,7 @@ TEST(Plan, ABetterErrorTakesNoLessTimeAndSlowerMountsNoMoreOfThem) {
   EXPECT_LE(plan_measurements(m, region_of(m), o).mounts.size(), quick);
 }
 
-// The exchange is no worse than lengths and pressures spread evenly, as many of each.
+// The exchange is no worse than the same number of evenly spread lengths and pressures.
 TEST(Plan, IsNoWorseThanAnEvenOne) {
   const ExpectedMuscle m = muscle();
   const PlanOptions o = options();
@@ -171,7 +171,7 @@ TEST(Plan, WhatNoPlanReachesIsToldAsNotReached) {
   EXPECT_FALSE(plan_measurements(muscle(), region_of(muscle()), o).reached);
 }
 
-// Mounts that are there already count: what they tell need not be measured again.
+// Existing mounts count, and are not planned again.
 TEST(Plan, WhatIsMeasuredAlreadyIsNotPlannedAgain) {
   const ExpectedMuscle m = muscle();
   PlanOptions o = options();
@@ -193,7 +193,7 @@ TEST(Plan, WhatIsMeasuredAlreadyIsNotPlannedAgain) {
   EXPECT_NEAR(next.before.rms, whole.mounts[1].after.rms, 1e-9);
   EXPECT_TRUE(next.reached);
   EXPECT_LT(next.time(), whole.time());
-  // Everything that was planned: nothing is left to do.
+  // All mounts of the plan exist: nothing remains to be measured.
   std::vector<MeasuredMount> all = half;
   all.push_back(half[0]);
   o.error = 0.5;

@@ -60,7 +60,7 @@ double gage_distance_for(const ForceBeam& beam, const Bridge& bridge, double wan
   return wanted_sensitivity / sensitivity(one_meter, bridge);
 }
 
-// --- a force beam with its bridge and the converter that reads it ---
+// --- a force beam with its bridge and converter ---
 
 TransducerPoint evaluate(const Transducer& t) {
   const double per_newton = sensitivity(t.beam, t.bridge);

@@ -1,4 +1,4 @@
-// The force beam of 4.4 gives the numbers that the thesis prints, and beams in general their laws.
+// The force beam of 4.4 gives the thesis's numbers, and beams follow their laws.
 #include "sinew/identify/sensor/force_beam.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace units::literals;
 
-// 4.4: L, w, h. Of 6061-T6 it prints no more than a stress below 20 ksi at a factor of safety of 2.
+// 4.4: L, w, h. For 6061-T6 the thesis gives only a stress below 20 ksi at a factor of safety of 2.
 ForceBeam thesis_beam() {
   return {.length = 0.75_in,
           .width = 0.3_in,
@@ -35,12 +35,12 @@ TEST(ForceBeam, TheThesisBeamHasItsStressItsSafetyAndItsStrain) {
   EXPECT_NEAR(mount_stress(beam, 30.0_lbf) / 1.0_psi, 20e3, 1);
   EXPECT_NEAR(factor_of_safety(beam, 30.0_lbf), 2, 1e-4);
   EXPECT_NEAR(yield_load(beam) / 1.0_lbf, 60, 0.01);
-  // 1000e-6 were wanted at the gages: that is half way to the mount.
+  // The design has 1000e-6 at the gages, which is half way to the mount.
   EXPECT_NEAR(gage_strain(beam, 30.0_lbf), 1000e-6, 1e-7);
 }
 
-// Of the four ways to wire gages one gives what was measured. At the strain that was wanted it
-// gives 0.177 V/lb, within the transducers' own 0.161 to 0.181; 0.4 mm nearer the load, 0.17.
+// One of the four bridges gives the measured value: at the design strain 0.177 V/lb, within the
+// transducers' 0.161 to 0.181; with the gages 0.4 mm nearer to the load, 0.17.
 TEST(ForceBeam, Gain800AndTheBridgeGiveASixthOfAVoltPerPound) {
   ForceBeam beam = thesis_beam();
   EXPECT_NEAR(volts_per_pound(beam, thesis_bridge), 0.17, 0.05 * 0.17);
@@ -82,7 +82,7 @@ TEST(ForceBeam, OppositeGagesAddAndANotchWeakens) {
   const double nu = 0.3;
   EXPECT_EQ(bridge_factor(Bridge::Arms::half, nu), 2 * bridge_factor(Bridge::Arms::quarter, nu));
   EXPECT_EQ(bridge_factor(Bridge::Arms::bending, nu), 2 * bridge_factor(Bridge::Arms::half, nu));
-  // Gages across do nothing where nothing gets narrower.
+  // Gages across have no effect without lateral contraction.
   EXPECT_EQ(bridge_factor(Bridge::Arms::poisson, 0), bridge_factor(Bridge::Arms::half, 0));
 
   ForceBeam notched = thesis_beam();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Distinct known values, ascending.
+// Returns the distinct known values, ascending.
 std::vector<double> levels_of(std::span<const double> known) {
   std::vector<double> sorted(known.begin(), known.end()), out;
   std::ranges::sort(sorted);
@@ -23,7 +23,7 @@ std::vector<double> levels_of(std::span<const double> known) {
   return out;
 }
 
-// How each row's level was reached; the first ones go the way of what follows.
+// Returns the direction from which each row's level was reached; first rows take that of the next.
 std::vector<int> directions_of(const std::vector<std::size_t>& level) {
   std::vector<int> out(level.size(), 0);
   for (std::size_t i = 1; i < level.size(); ++i)
@@ -39,7 +39,7 @@ struct Line {
   double operator()(double x) const { return at_zero + slope * x; }
 };
 
-// Through the points whose outputs lie strictly between the two.
+// Fits a line through the points whose outputs are strictly between the two limits.
 Line line_between(std::span<const Point> points, double bottom, double top) {
   double n = 0, mx = 0, my = 0, xx = 0, xy = 0;
   const auto inside = [&](const Point& p) { return p.output > bottom && p.output < top; };
@@ -60,7 +60,7 @@ Line line_between(std::span<const Point> points, double bottom, double top) {
   return {my - xy / xx * mx, xy / xx, true};
 }
 
-// Points all of whose rows read `value`.
+// Returns the points whose rows all read `value`.
 std::vector<const Point*> resting_at(std::span<const Point> points, std::span<const double> output,
                                      double value, double tolerance) {
   std::vector<const Point*> out;
@@ -71,13 +71,13 @@ std::vector<const Point*> resting_at(std::span<const Point> points, std::span<co
   return out;
 }
 
-// The largest change of the output among those points by the line through the others.
+// Returns the largest expected change of the output among those points, by the line of the others.
 double expected_change(const std::vector<const Point*>& points, const Line& line) {
   if (points.empty() || !line.known) return 0;
   return std::abs(line(points.back()->known) - line(points.front()->known));
 }
 
-// Between neighbors among the different readings, ascending.
+// Returns the distances between neighbouring different readings, ascending.
 std::vector<double> distances(std::span<const double> output) {
   std::vector<double> sorted(output.begin(), output.end()), out;
   std::ranges::sort(sorted);
@@ -105,7 +105,7 @@ std::vector<Point> points_of(std::span<const double> known, std::span<const doub
                     1);
   const std::vector<int> direction = directions_of(level);
 
-  std::map<std::pair<std::size_t, int>, Point> found;  // by level, from below first
+  std::map<std::pair<std::size_t, int>, Point> found;  // sorted by level, the ones from below first
   for (std::size_t i = 0; i < known.size(); ++i) {
     Point& p = found[{level[i], -direction[i]}];
     p.level = level[i];
@@ -135,7 +135,7 @@ double step_of(std::span<const Point> points, std::span<const double> output) {
   const std::vector<double> steps = distances(output);
   if (steps.size() < 8) return none;  // too few different readings
 
-  // Every distance is a whole number of steps, up to the rounding of what was written.
+  // Every distance is a whole number of steps, up to the rounding in the file.
   double total = 0, whole = 0;
   std::size_t odd = 0;
   for (const double d : steps) {
@@ -195,7 +195,7 @@ Ends ends_of(std::span<const Point> points, std::span<const double> output, doub
   const double tolerance = std::max(0.01 * finest, 1e-9 * (out.top - out.bottom));
   const Line others = line_between(points, out.bottom + tolerance, out.top - tolerance);
 
-  // Several points that rest at one value although they should be some steps apart.
+  // Several points with one value although they should be some steps apart.
   const double noticeable = std::max(4 * finest, 0.01 * (out.top - out.bottom));
   const auto pinned = [&](double value) {
     return expected_change(resting_at(points, output, value, tolerance), others) > noticeable;

@@ -1,8 +1,8 @@
-// identify/sensor/points.h - what the readings of one sensor at known values give away about it,
-// before any law is fitted: its steps, its noise, where it ends, whether it goes back another way.
+// identify/sensor/points.h - properties of a sensor from its readings at known values, before a
+// law is fitted: steps, noise, limits and hysteresis.
 //
-// Pure functions of rows in the order in which they were taken; `known` and `output` in any unit,
-// results in the output's. NaN: the readings do not tell.
+// Pure functions of rows in the order of measurement; `known` and `output` in any unit, results in
+// the output's. NaN: not determined by the readings.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace sinew::identify {
 
-// Rows at one known value, from one side.
+// Rows at one known value, approached from one side.
 struct Point {
   double known = 0, output = 0;  // means
   int direction = 0;             // +1: reached from below, -1: from above
@@ -19,34 +19,35 @@ struct Point {
   std::vector<std::size_t> rows;
 };
 
-// In ascending order of the known value, from below first. Values closer than 1e-6 of their range
-// are one.
+// Returns the points in ascending order of the known value, the ones from below first. Values
+// within 1e-6 of their range are equal.
 std::vector<Point> points_of(std::span<const double> known, std::span<const double> output);
 
-// Returns at how many different known values there are readings.
+// Returns the number of different known values.
 std::size_t level_count(std::span<const Point> points);
 
-// Of the readings: all are whole multiples of it apart. Known values at equal distances make such
-// multiples too; so it must be less than half their distance, or be shared by many of them.
+// Returns the step of the readings: all differ by whole multiples of it. Equally spaced known
+// values give such multiples too, so the step must be less than half their distance, or be
+// confirmed by many readings.
 double step_of(std::span<const Point> points, std::span<const double> output);
 
-// Standard deviation of readings that were repeated at a point. What the steps add to it,
-// step^2/12, is taken off.
+// Returns the standard deviation of repeated readings at a point, less the contribution of the
+// steps, step^2/12.
 double noise_of(std::span<const Point> points, std::span<const double> output, double step);
 
-// Largest difference between the two ways at one known value, and the part of it that noise alone
-// may make (three standard errors).
+// Largest difference between the two directions at one known value, and the part that noise
+// alone may explain (three standard errors).
 struct Hysteresis {
   double largest, by_noise;
 };
 Hysteresis hysteresis_of(std::span<const Point> points, double noise);
 
-// Rows at an end of the sensor or its converter. Readings at or beyond `top` are at its end. So are
-// equal readings at the largest or smallest value where the other points say that they should
-// differ, and one at or below 0 if they say that it should lie below.
+// Rows at a limit of the sensor or its converter. Readings at or beyond `top` are at the limit.
+// So are equal readings at the largest or smallest value if they should differ according to the
+// other points, and one at or below 0 if it should be below 0.
 struct Ends {
   std::vector<std::size_t> at_top, at_bottom;  // rows
-  double top, bottom;                          // the readings there
+  double top, bottom;                          // readings at the limits
 };
 Ends ends_of(std::span<const Point> points, std::span<const double> output, double step,
              double top);

@@ -1,4 +1,4 @@
-// Readings tell their steps, their noise and their ends, whatever the sensor behind them is.
+// Steps, noise and limits are found from the readings of any sensor.
 #include "sinew/identify/sensor/points.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ struct Readings {
   std::vector<double> known, output;
 };
 
-// Up and down again over `levels`, `repeats` readings each: V = 0.3 + 0.17 x, `lag` more on the way
-// back, cut to [0, top] and rounded to steps.
+// Readings up and down over `levels`, `repeats` each: V = 0.3 + 0.17 x, with `lag` added on the way
+// back, clipped to [0, top] and rounded to steps.
 Readings readings(unsigned seed, int levels, int repeats, double noise, double step, double lag = 0,
                   double top = 1e9) {
   std::mt19937 random(seed);
@@ -81,7 +81,7 @@ TEST(SensorPoints, HysteresisIsTheDifferenceOfTheWays) {
   const Hysteresis h = hysteresis_of(points_of(plain.known, plain.output), NAN);
   EXPECT_NEAR(h.largest, 0.02, 1e-12);
 
-  // Noise alone stays below what it is said to make, in 99 of 100 trials or so.
+  // Noise alone stays below its stated limit in about 99 of 100 trials.
   int within = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const Readings r = readings(seed, 5, 10, 0.01, 0);
@@ -101,14 +101,14 @@ TEST(SensorPoints, AnEndIsWhereReadingsStayAlthoughTheyShouldDiffer) {
     const Ends none = ends_of(points_of(whole.known, whole.output), whole.output, 5.0 / 4096, 5.0);
     EXPECT_TRUE(none.at_top.empty() && none.at_bottom.empty());
 
-    // An amplifier that ends at 2.5 V, where no converter does: from 12.9 on.
+    // An amplifier is limited to 2.5 V, below the converter's range: from 12.9 on.
     const Readings cut = readings(seed, 20, 5, 0.005, 0, 0, 2.5);
     const Ends ends = ends_of(points_of(cut.known, cut.output), cut.output, NAN, 5.0);
     EXPECT_EQ(ends.top, 2.5);
     EXPECT_EQ(static_cast<long>(ends.at_top.size()), std::ranges::count(cut.output, 2.5));
     EXPECT_TRUE(ends.at_bottom.empty());
   }
-  // Steps coarser than the levels are no end.
+  // Steps coarser than the levels are not a limit.
   const Readings coarse = readings(1, 20, 1, 0, 0.5);
   const Ends steps = ends_of(points_of(coarse.known, coarse.output), coarse.output, 0.5, 5.0);
   EXPECT_TRUE(steps.at_top.empty() && steps.at_bottom.empty());

@@ -26,7 +26,7 @@ constexpr std::array kinds{
     KindFacts{SensorKind::velocity, "velocity", "rad/s", "V s/rad", "V s2/rad2"},
     KindFacts{SensorKind::cylinder, "cylinder", "m", "V/m", "V/m2"}};
 
-// Names under which a known quantity stands in a file, and how large it can be.
+// Names of a known quantity in a file, and its range.
 struct Known {
   SensorKind kind;
   Wanted wanted;
@@ -143,7 +143,7 @@ class Finder {
   const Source& source_;
 };
 
-// Converters do not read beyond their ends; what does came from elsewhere.
+// Throws Refusal for values beyond the converter's range: they come from another source.
 void refuse_beyond(const Measured& data, const Column& column, const CountScale& converter) {
   const bool counts = column.unit == "count";
   const double most = counts ? (1 << converter.bits) - 1 : 1.001 * converter.full_scale;
@@ -181,7 +181,7 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
   const Finder finder(grid, source);
   const Layout layout = finder.find(known, sensors);
 
-  // Weights hang: their mass is what the file says.
+  // For hanging weights the file contains the mass.
   Wanted first = layout.known->wanted;
   std::string display = finder.unit_of(*layout.known_heading);
   const units::UnitReading unit = units::read_unit(display);

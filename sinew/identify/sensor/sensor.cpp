@@ -21,7 +21,7 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_folds = 20;
 
-// Powers of the known value in a model; proportional has no 0.
+// A model, with the powers of the known value that it has; proportional has no power 0.
 struct Law {
   const char* name;
   const char* law;
@@ -42,13 +42,13 @@ double value_of(const Law& law, std::span<const double> p, double x) {
   return value;
 }
 
-// The straight line through the points' ends: where the fit may start.
+// Returns the slope between the first and last point, as a start value.
 double slope_of(std::span<const Point> points) {
   return (points.back().output - points.front().output) /
          (points.back().known - points.front().known);
 }
 
-// `points` are those of the calibration, then those of another one.
+// `points` are those of the calibration, followed by those of another one.
 Candidate candidate_of(const Law& law, std::span<const Point> fitted, std::span<const Point> points,
                        double rest, const KindFacts& facts) {
   double reach = 0, span = 0;
@@ -56,7 +56,7 @@ Candidate candidate_of(const Law& law, std::span<const Point> fitted, std::span<
     reach = std::max(reach, std::abs(p.known - rest));
     span = std::max(span, std::abs(p.output - fitted.front().output));
   }
-  // A bent sensor's errors from a line are alike at like values: they count as correlated.
+  // Deviations from a line are similar at similar values: residuals count as correlated.
   Candidate out{.model = law.name,
                 .law = law.law,
                 .source = "4.4, table 4-1",
@@ -77,8 +77,8 @@ Candidate candidate_of(const Law& law, std::span<const Point> fitted, std::span<
   return out;
 }
 
-// Every known value is predicted from the others; of many, every twentieth at a time. The points of
-// another calibration, behind the first `fitted`, are all predicted.
+// Predicts every known value from the others, or a twentieth of them at a time if there are many.
+// Points of another calibration, after the first `fitted`, are all predicted.
 Trial trial_of(std::span<const Point> points, std::size_t fitted) {
   Trial out;
   std::vector<int> fold;
@@ -98,7 +98,7 @@ Trial trial_of(std::span<const Point> points, std::size_t fitted) {
   return out;
 }
 
-// One sensor's readings without those at an end.
+// Readings of one sensor without those at a limit.
 struct Usable {
   std::vector<double> known, output;
   std::vector<int> lines;
@@ -112,7 +112,7 @@ struct Usable {
   throw Refusal(fmt::format("{}: {}", data.file, sensor), found, expected, try_this);
 }
 
-// Levels with a reading at an end are left out whole: a mean with cut noise lies too low.
+// Levels with a reading at a limit are left out completely: a mean with clipped noise is biased.
 std::set<std::size_t> rows_of_levels(std::span<const Point> points, const Ends& ends) {
   std::set<std::size_t> rows(ends.at_top.begin(), ends.at_top.end());
   rows.insert(ends.at_bottom.begin(), ends.at_bottom.end());
@@ -179,7 +179,7 @@ void refuse_poor(const SensorData& data, const SensorReadings& s, const Usable& 
            "the wiring and the sensor's supply, or sensors=NAMES without it");
 }
 
-// A sensor that does not follow: more than half of what it does is something else.
+// Throws Refusal if the output does not follow: more than half of its variation is unexplained.
 void refuse_unrelated(const SensorData& data, const SensorReadings& s, const Fit& line,
                       std::span<const Point> points) {
   double mean = 0, variance = 0;
@@ -201,7 +201,7 @@ void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usa
     off.push_back(u.output[i] - value_of(law, values, u.known[i] - rest));
   const double finest = std::isfinite(u.step) ? u.step : 0;
   const double span = largest(u.output) - smallest(u.output);
-  if (u.points.size() < 5) return;  // the fit follows any of them
+  if (u.points.size() < 5) return;  // the fit would follow an outlier
   for (const std::size_t i : outliers(off, std::max(4 * finest, 0.02 * span)))
     warnings.push_back(
         fmt::format("{}:{}: {}: {:.4g} V is {:+.3g} V from the fit, far from the "
@@ -211,7 +211,7 @@ void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usa
 
 double half_interval(const Estimate& e) { return 0.5 * (e.high - e.low); }
 
-// What the straight fit says; robots have no other.
+// Writes the result of the straight fit, which is the only law that robots have.
 void describe(const Usable& u, const Fit& straight, SensorResult& r) {
   for (const Estimate& e : straight.parameters) {
     const bool slope = e.name == "sensitivity";
@@ -227,8 +227,8 @@ void describe(const Usable& u, const Fit& straight, SensorResult& r) {
     r.report.notes.push_back(fmt::format("{}: the hysteresis is no more than noise makes", r.name));
 }
 
-// The mean of the readings at every known value, each way by itself; those behind the first
-// `fitted` are held out.
+// Returns the mean reading at every known value, separately for each direction; those after the
+// first `fitted` are held out.
 Rows rows_of(std::span<const Point> points, std::size_t fitted, const KindFacts& facts) {
   Rows out{.x = std::string(facts.word), .x_unit = std::string(facts.unit)};
   for (const Point& p : points) {
@@ -277,7 +277,7 @@ SensorResult calibrate(const SensorData& data, const SensorReadings& s, const Co
   if (r.report.fits[0].held_out)
     r.report.held_out_is = other ? other->file : "each known value from the others";
 
-  // Differences below what the steps make mean nothing.
+  // Differences below the error of the steps are not significant.
   const double steps = std::isfinite(u.step) ? u.step / std::sqrt(12.0) : 0;
   conclude(r.report, 0.1, std::max(1e-6, 100 * steps / r.span));
   const bool bent = r.report.chosen == 2;

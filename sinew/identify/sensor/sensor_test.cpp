@@ -1,4 +1,4 @@
-// A calibration gives back the sensor it was taken from, says how well, and refuses what is none.
+// A calibration recovers the sensor with its uncertainty, and refuses unusable data.
 #include "sinew/identify/sensor/sensor.h"
 
 #include <gtest/gtest.h>
@@ -141,7 +141,7 @@ TEST(Sensor, MassesHangWithTheirWeight) {
   EXPECT_EQ(lb.display, "lbf");
 }
 
-// A sensor that clips is as good as the part of it that does not.
+// A sensor that clips is calibrated with the rest of its range.
 TEST(Sensor, ReadingsAtTheEndAreLeftOut) {
   const auto law = [](double x) { return 0.1 + 0.05 * x; };
   for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -175,7 +175,7 @@ TEST(Sensor, ASlipOfThePenIsToldByItsLine) {
                   .warnings.empty());
 }
 
-// --- what is refused ---
+// --- refusals ---
 
 TEST(Sensor, WhatCannotBeCalibratedIsRefused) {
   const struct {

@@ -1,4 +1,4 @@
-// A transducer's numbers hang together, and its doubts come where they should.
+// A transducer's values are consistent, and doubts are reported where expected.
 #include "sinew/identify/sensor/force_beam.h"
 
 #include <gtest/gtest.h>

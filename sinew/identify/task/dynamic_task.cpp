@@ -24,9 +24,9 @@ namespace sinew::identify {
 
 namespace {
 
-// --- damping and dry friction as a parameter file, and for programs ---
+// --- damping and dry friction as a parameter file and as JSON ---
 
-// Returns what each record says by itself, by two points and by all turning points; SI, with the
+// Returns the losses of one record, from two points and from all turning points, in SI with the
 // unit in the key.
 Json describe(const Damping& d) {
   return {{"coulomb_length_m", d.coulomb_length},
@@ -57,8 +57,8 @@ Json describe(const DynamicResult& found) {
   return out;
 }
 
-// Returns the text of the actuator's file with the [loss] that was found. `start` are the origins
-// of the actuator's values in `start_file`, which stay what they are; `sources` were fitted.
+// Returns the text of the actuator's file with the identified [loss]. `start` are the origins of
+// the actuator's values in `start_file`, which are kept; `sources` were fitted.
 std::string loss_file(const config::Origins& start, const std::string& start_file,
                       actuator::Actuator a, const DynamicResult& found,
                       const std::vector<Source>& sources) {

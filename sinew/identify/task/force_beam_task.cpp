@@ -13,11 +13,11 @@
 
 namespace sinew::identify {
 
-// --- what a transducer does, as text ---
+// --- properties of a transducer as text ---
 
 namespace {
 
-// One line of the answer: key of the JSON, words, value, SI unit and the thesis's.
+// One line of the output: key of the JSON, label, value, SI unit and the thesis's unit.
 struct TransducerLine {
   const char* key;
   const char* words;
@@ -43,7 +43,7 @@ std::vector<TransducerLine> answer(const Transducer& s) {
   };
 }
 
-// Where the gages would have to be, for each way to wire them; nothing beyond the mount.
+// Returns the required position of the gages for each bridge; empty if beyond the mount.
 std::vector<std::pair<std::string_view, std::optional<double>>> places(const Transducer& s,
                                                                        double wanted) {
   std::vector<std::pair<std::string_view, std::optional<double>>> out;

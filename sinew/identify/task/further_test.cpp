@@ -1,4 +1,4 @@
-// What a further measurement would buy is what a plan from the same points says.
+// The benefit of further measurements equals that of a plan from the same points.
 #include "sinew/identify/task/methods.h"
 
 #include <gtest/gtest.h>

@@ -17,10 +17,10 @@ namespace sinew::identify {
 
 namespace {
 
-// --- a braid as an actuator's parameter file, and for programs ---
+// --- a braid as an actuator's parameter file and as JSON ---
 
-// Fills in what a braid leaves open, so that the file can be read: the mesh ends where its threads
-// lie straight, and nothing is lost yet.
+// Returns an actuator with this braid and guesses for the rest, so that the file can be read: the
+// mesh ends where its threads are straight, and there are no losses.
 actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& name,
                                const std::string& source, const Report* report,
                                Provenance& provenance) {
@@ -49,9 +49,9 @@ actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& 
   return a;
 }
 
-// Returns the text of an actuator's file with that braid, its ends guessed as the thesis's: the
-// mesh ends where its threads lie straight, and nothing is lost yet. `report` gives the intervals
-// of what was fitted; nullptr: it was counted.
+// Returns the text of an actuator's file with this braid and guesses for the rest: ends as in the
+// thesis, reached where the threads are straight, and no losses. `report` gives the intervals of
+// fitted values; nullptr: the braid was counted.
 std::string braid_file(const actuator::Braid& braid, const std::string& name,
                        const std::string& source, const Report* report = nullptr) {
   Provenance provenance;
@@ -59,14 +59,14 @@ std::string braid_file(const actuator::Braid& braid, const std::string& name,
   return actuator_file(a, provenance);
 }
 
-// Returns thread length, turns and shortest length; SI, with the unit in the key.
+// Returns thread length, turns and shortest length, in SI with the unit in the key.
 Json describe(const actuator::Braid& braid) {
   return {{"thread_length_m", braid.thread_length},
           {"turns", braid.turns},
           {"shortest_length_m", actuator::shortest_length(braid)}};
 }
 
-// Finds the braid from counted trapezoids.
+// Computes the braid from counted trapezoids.
 GeometryFound count_geometry(const GeometrySettings& settings, double side) {
   std::vector<double> counts;
   for (const std::string& piece : config::at_commas(settings.trapezoids))

@@ -1,4 +1,4 @@
-// What each method takes, one row a method, and an example of each kind of table.
+// Input tables of the methods, one row for each method, and an example of each kind of table.
 #include "sinew/identify/task/inputs.h"
 
 #include <fmt/format.h>
@@ -115,7 +115,7 @@ constexpr std::string_view advice_of_time =
     "at "
     "one length.";
 
-// --- one row a method ---
+// --- one row per method ---
 
 const std::array all_inputs{
     MethodInputs{"geometry",
@@ -159,13 +159,13 @@ const std::array all_inputs{
                  {"A table is not needed: with one, the plan is what to measure next.",
                   advice_of_length, advice_of_rest, advice_of_time}}};
 
-// --- as text ---
+// --- text output ---
 
-// Of quantities that are made of others, the units that instruments print.
+// Units of compound quantities that instruments print.
 constexpr std::string_view compound_units[] = {"L/min", "L/s", "g/s",    "g/min",
                                                "deg/s", "N m", "lbf in", "lbf ft"};
 
-// A pressure says what it is counted from; one from the room and one from nothing are read alike.
+// Returns the reference suffixes of a pressure unit: both gauge and absolute are accepted.
 std::vector<std::string> pressure_references(std::string_view unit) {
   if (unit.ends_with(" gauge")) return {" gauge", " abs"};
   if (unit.ends_with(" abs")) return {" abs", " gauge"};
@@ -178,7 +178,7 @@ units::Dimension dimension_of_column(std::string_view unit) {
   return units::read_unit(unit).unit.dimension;
 }
 
-// The columns between bars: "force|load".
+// Splits alternative columns at bars: "force|load".
 std::vector<std::string> alternatives_in(const std::string& group) {
   std::vector<std::string> out{""};
   for (const char c : group) {
@@ -190,7 +190,7 @@ std::vector<std::string> alternatives_in(const std::string& group) {
   return out;
 }
 
-// The group in which a kind of table needs the column; empty: it does not.
+// Returns the alternatives among which a kind of table requires the column; empty: optional.
 std::vector<std::string> needed_group_of(const TableKind& kind, std::string_view column) {
   for (const std::string& group : config::at_commas(std::string(kind.needed))) {
     const std::vector<std::string> names = alternatives_in(group);
@@ -223,7 +223,7 @@ Json json_of_column(const MethodInputs& inputs, const Wanted& w) {
   return out;
 }
 
-// Returns the name of a header's "length [mm]".
+// Returns the name in a header field such as "length [mm]".
 std::string name_in_heading(const std::string& heading) {
   return heading.substr(0, std::min(heading.find(" ["), heading.size()));
 }
@@ -271,7 +271,7 @@ std::string quantity_of(const Wanted& w) {
 }
 
 std::string need_of(const MethodInputs& inputs, std::string_view column) {
-  // What may stand in its place, and the kinds of table for which that holds.
+  // Alternative columns, with the kinds of table for which they apply.
   std::vector<std::pair<std::string, std::vector<std::string_view>>> parts;
   for (const TableKind& kind : inputs.kinds) {
     std::vector<std::string> others = needed_group_of(kind, column);

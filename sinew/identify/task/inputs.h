@@ -1,9 +1,9 @@
-// identify/task/inputs.h - what the table of each method must hold, for people who are about to
-// measure: its columns, which of them are needed, and a table to fill in.
+// identify/task/inputs.h - requirements on the table of each method, for users who prepare a
+// measurement: its columns, which of them are required, and a template.
 //
-// The columns are those that the method reads, its list of Wanted. What no such list says stands in
-// one row per method in inputs.cpp: which columns are needed in which kind of table, and a few
-// example rows. A new method adds its row there; a test asks every method for it.
+// The columns are those that the method reads, its list of Wanted. All else is in one row per
+// method in inputs.cpp: which columns are required in which kind of table, and a few example rows.
+// Each new method needs a row there; a test checks this.
 #pragma once
 
 #include <span>
@@ -16,44 +16,45 @@
 
 namespace sinew::identify {
 
-// One kind of table that a method takes, with an example. Lists are texts with commas.
+// One kind of table that a method takes, with an example. Lists are comma-separated texts.
 struct TableKind {
-  std::string_view name;    // "chart"; empty: the method takes one kind alone
-  std::string_view row;     // what a row is
-  std::string_view needed;  // "pressure,force|load": these columns, of force and load one
-  std::string_view header;  // of the example, "length [mm],force [N]"
-  std::string_view rows;    // of the example, a line each
+  std::string_view name;    // e.g. "chart"; empty: the method takes one kind only
+  std::string_view row;     // meaning of a row
+  std::string_view needed;  // e.g. "pressure,force|load": pressure, and force or load
+  std::string_view header;  // header of the example, e.g. "length [mm],force [N]"
+  std::string_view rows;    // rows of the example, one per line
 };
 
-// What one method takes.
+// Inputs of one method.
 struct MethodInputs {
-  std::string_view method;               // "static"
-  std::vector<Wanted> (*columns)();      // all that it reads
-  std::span<const TableKind> kinds;      // the first one is the usual one
-  std::vector<std::string_view> advice;  // what columns alone do not say, in sentences
+  std::string_view method;               // e.g. "static"
+  std::vector<Wanted> (*columns)();      // all columns that it reads
+  std::span<const TableKind> kinds;      // the most common one first
+  std::vector<std::string_view> advice;  // further requirements, in sentences
 };
 
-// Returns the methods, in the order of their help.
+// Returns the methods in the order of their help.
 std::span<const MethodInputs> method_inputs();
 
-// Returns one of them. Throws config::Error for a method that there is not.
+// Returns the inputs of a method. Throws config::Error if it does not exist.
 const MethodInputs& inputs_of(std::string_view method);
 
-// Returns the units that a column may be in: those that Sinew has of its quantity.
+// Returns the units that a column may have: those that Sinew has for its quantity.
 std::vector<std::string> accepted_units(const Wanted& column);
 
-// Returns what a column measures: "length", "pressure", "a word".
+// Returns the quantity of a column: "length", "pressure", "a word".
 std::string quantity_of(const Wanted& column);
 
-// Returns whether a column is needed: "required", "required, or load", "required for chart",
-// "optional".
+// Returns whether a column is required, as text: "required", "required, or load", "required for
+// chart", "optional".
 std::string need_of(const MethodInputs& inputs, std::string_view column);
 
-// Returns all of it, as `--columns --json` prints it.
+// Returns the inputs as `--columns --json` prints them.
 Json to_json(const MethodInputs& inputs);
 
-// Returns a CSV that the method reads as it is, with comments that say what to fill in. `kind` is
-// one of its kinds of tables; empty: the usual one. Throws config::Error for one that there is not.
+// Returns a CSV that the method can read, with comments that describe the fields to fill in.
+// `kind` is one of its kinds of tables; empty: the first one. Throws config::Error if it does not
+// exist.
 std::string template_of(const MethodInputs& inputs, std::string_view kind = "");
 
 }  // namespace sinew::identify

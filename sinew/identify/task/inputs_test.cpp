@@ -1,5 +1,5 @@
-// What is said of a method's columns is what the method does: its example is read, and without a
-// column that is needed it is not.
+// The listed inputs match the methods: each example is read, and without a required column it is
+// refused.
 #include "sinew/identify/task/inputs.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ bool contains(const Json& list, const std::string& text) {
   return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one == text; });
 }
 
-// Reads a table as the method does, before anything is fitted; returns how many rows it has.
+// Reads a table as the method does before a fit; returns the number of rows.
 std::size_t rows_read(const MethodInputs& inputs, const TableKind& kind, const std::string& text) {
   const Source source{.path = "template.csv", .text = text};
   if (inputs.method == "sensor") return read_sensor_data(source, {}).known.size();
@@ -49,7 +49,7 @@ std::size_t rows_read(const MethodInputs& inputs, const TableKind& kind, const s
   return data.rows();
 }
 
-// The example's text without some of its columns.
+// Returns the example's text without some of its columns.
 std::string without(const TableKind& kind, const std::vector<std::string>& names) {
   std::vector<bool> keep;
   std::string out;
@@ -80,7 +80,7 @@ TEST(Inputs, TheTemplateOfEveryMethodAndKindIsReadAsItIs) {
     }
 }
 
-// Of a group of columns one is enough, so all of them are taken away.
+// One column of a group is enough, so all of them are removed.
 TEST(Inputs, WithoutAColumnThatIsNeededAMethodDoesNotReadItsTable) {
   for (const MethodInputs& inputs : method_inputs())
     for (const TableKind& kind : inputs.kinds)
@@ -88,12 +88,13 @@ TEST(Inputs, WithoutAColumnThatIsNeededAMethodDoesNotReadItsTable) {
         std::vector<std::string> names;
         std::istringstream in(group);
         for (std::string name; std::getline(in, name, '|');) names.push_back(name);
-        // A table without its time is one of points; a joint's pressures may stay away one by one,
+        // A table without its time is one of points; a joint's pressures may be missing one by one,
         // and pulses without a command are a filling.
         if (inputs.method == "joint" && names.size() > 1) continue;
         if (kind.name == "recording" && group == "time") continue;
         if (kind.name == "pulses" && group == "command") continue;
-        // A pair's two kinds of table have one list of columns: pair_record() tells which is whole.
+        // Both kinds of a pair's tables have one list of columns: pair_record() checks which is
+        // complete.
         if (inputs.method == "pair" && group != "time") continue;
         EXPECT_ANY_THROW(rows_read(inputs, kind, without(kind, names)))
             << inputs.method << " " << kind.name << " without " << group;
@@ -102,7 +103,7 @@ TEST(Inputs, WithoutAColumnThatIsNeededAMethodDoesNotReadItsTable) {
 
 TEST(Inputs, EveryColumnOfATemplateIsOneThatTheMethodWants) {
   for (const MethodInputs& inputs : method_inputs()) {
-    if (inputs.method == "sensor") continue;  // whose columns have names of their own
+    if (inputs.method == "sensor") continue;  // its column names are free
     const std::vector<Wanted> columns = inputs.columns();
     for (const TableKind& kind : inputs.kinds)
       for (const std::string& heading : config::at_commas(std::string(kind.header)))
@@ -113,7 +114,7 @@ TEST(Inputs, EveryColumnOfATemplateIsOneThatTheMethodWants) {
   }
 }
 
-// Every unit that is said to be accepted is.
+// Every listed unit is accepted.
 TEST(Inputs, AcceptedUnitsConvert) {
   for (const MethodInputs& inputs : method_inputs())
     for (const Wanted& w : inputs.columns()) {

@@ -21,7 +21,7 @@ namespace sinew::identify {
 
 namespace {
 
-// --- what was found of a joint, for programs and as a part of a robot ---
+// --- the identified joint as JSON and as a part of a robot ---
 
 using robot::Joint;
 using robot::Muscle;
@@ -40,8 +40,8 @@ void note_origin(const JointResult& found, std::string_view parameter_name, cons
     provenance.given(path, "given to " + source);
 }
 
-// Returns the text of a robot's file: `robot`, the beginning of one, with the tables
-// of the joint and its muscles. `source` says where they come from.
+// Returns the text of a robot's file: `robot`, its beginning, with the tables of the joint and its
+// muscles. `source` describes their origin.
 std::string joint_file(const JointResult& found, const JointSetup& setup, const JointNames& names,
                        const std::string& source, config::Node robot) {
   Provenance provenance;
@@ -53,7 +53,7 @@ std::string joint_file(const JointResult& found, const JointSetup& setup, const 
   provenance.given(path + "rest_angle", "given to " + source);
   note_origin(found, "moment_arm", path + "moment_arm", source, provenance);
 
-  double friction = std::nan(""), damping = friction;  // of a joint that was at rest: not told
+  double friction = std::nan(""), damping = friction;  // for a joint at rest: unknown
   if (const Estimate* e = parameter(found, "friction")) {
     friction = e->value;
     provenance.fitted(path + "dry_friction", *e, source);
@@ -99,8 +99,8 @@ std::string joint_file(const JointResult& found, const JointSetup& setup, const 
   return config::to_toml(robot);
 }
 
-// Returns the text of the actuator's file with the effectiveness that was found, unless
-// `keep_force`. `start` are the origins of the actuator's values in `start_file`.
+// Returns the text of the actuator's file with the identified effectiveness, unless `keep_force`.
+// `start` are the origins of the actuator's values in `start_file`.
 std::string effectiveness_file(const config::Origins& start, const std::string& start_file,
                                actuator::Actuator a, const JointResult& found, bool keep_force,
                                const std::string& source) {
@@ -121,7 +121,7 @@ std::string effectiveness_file(const config::Origins& start, const std::string& 
   return actuator_file(a, provenance);
 }
 
-// Returns moment arm, lengths and what the data tell apart; SI, with the unit in the key.
+// Returns moment arm, lengths and determined combinations, in SI with the unit in the key.
 Json describe(const JointResult& found) {
   Json out{{"moment_arm_m", found.moment_arm}};
   if (std::isfinite(found.flexor_length)) out["flexor_length_m"] = found.flexor_length;
@@ -166,13 +166,14 @@ JointNames names_of(const JointSettings& settings) {
   return names;
 }
 
-// Averages a long table: poses by their settings, a motion over its time.
+// Averages a long table: poses by their settings, a motion over time.
 Measured poses_averaged(Measured all) {
   const std::string_view response = all.has("load") ? "load" : "torque";
   return times_averaged(settings_averaged(std::move(all), response), 8000, "angle");
 }
 
-// All tables as one, whose rows know theirs by a column `recording`; one table stays as it is.
+// Joins all tables; a column `recording` is the index of each row's table. A single table is
+// unchanged.
 Measured joined(const std::vector<Source>& sources, bool moving) {
   Measured out = poses_averaged(each_row_once(read_measured(sources[0], joint_columns(moving))));
   if (sources.size() == 1) return out;

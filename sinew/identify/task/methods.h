@@ -1,6 +1,6 @@
-// identify/task/methods.h - every method of identification: what it finds in tables by its settings
-// (settings.fields.h). All throw config::Error and Refusal. At the end is what treats the methods
-// alike: the command line and Python use that.
+// identify/task/methods.h - the methods of identification: results found in tables with the
+// settings of settings.fields.h. All throw config::Error and Refusal. The functions at the end
+// treat all methods alike, for the command line and Python.
 #pragma once
 
 #include <functional>
@@ -32,161 +32,162 @@ namespace sinew::identify {
 
 // --- geometry ---
 
-// Holds what was found, with the actuator's file.
+// Result, with the actuator's file.
 struct GeometryFound {
   actuator::Braid braid;
-  std::optional<Report> report;  // none: it was counted
-  std::string file;              // the actuator's
+  std::optional<Report> report;  // empty: the braid was counted
+  std::string file;              // actuator's file
 };
 
 // --- sensor ---
 
-// Holds what was found, and the robot's file that is written with it.
+// Result, from which the robot's file is written.
 struct SensorFound {
   Calibration calibration;
-  std::string display;  // unit of the known values, as they were given
+  std::string display;  // original unit of the known values
   CountScale converter;
   bool average = false;
   std::string base;
 
-  // The robot's file, as it would stand at `out`. Throws config::Error.
+  // Returns the robot's file as it would be written at `out`. Throws config::Error.
   std::string file(const std::string& out) const;
 };
 
-// Return the scale that a robot's file has for a sensitivity, its uncertainty and its SI unit:
-// potentiometers are given per volt, "rad/V", transducers in volts, "V/N".
+// Return the scale for a sensitivity as in a robot's file, its uncertainty and its SI unit:
+// potentiometers have a scale per volt, "rad/V", transducers in volts, "V/N".
 double scale_of(const Calibration& c, double sensitivity);
 double scale_uncertainty(const Calibration& c, const SensorResult& r);
 std::string scale_unit(const Calibration& c);
 
-// Returns that unit where the known values were in `display`: "V/lbf", "deg/V".
+// Returns that unit for known values in `display`: "V/lbf", "deg/V".
 std::string scale_unit_for(const Calibration& c, const std::string& display);
 
 // --- dynamic ---
 
-// Holds what was found, with the actuator's file.
+// Result, with the actuator's file.
 struct DynamicFound {
   DynamicResult result;
-  std::string file;  // the actuator's, with its loss
+  std::string file;  // actuator's file, with its loss
 };
 
 // --- joint ---
 
-// Holds what was found, with the files of robot and actuator.
+// Result, with the files of robot and actuator.
 struct JointFound {
   JointResult result;
   JointSetup setup;
   JointNames names;
   std::string base, source;
-  std::string actuator_file;  // with the effectiveness
+  std::string actuator_file;  // with the identified effectiveness
 
-  // The robot's file, as it would stand at `out`. Throws config::Error.
+  // Returns the robot's file as it would be written at `out`. Throws config::Error.
   std::string file(const std::string& out) const;
 };
 
 // --- pair ---
 
-// Holds what was found, with the robot's file.
+// Result, with the robot's file.
 struct PairFound {
   PairResult result;
   std::string joint, base, source;
 
-  // The robot's file, as it would stand at `out`. Throws config::Error, and Refusal for a slide.
+  // Returns the robot's file as it would be written at `out`. Throws config::Error, and Refusal for
+  // a slide.
   std::string file(const std::string& out) const;
 };
 
-// Returns whether the text is a range of times, "7 s..14 s", rather than a file's name.
+// Returns whether the text is a range of times, "7 s..14 s", and not a file's name.
 bool is_time_range(std::string_view text);
 
 // --- valve ---
 
-// Holds what was found, and the valves file that is written with it.
+// Result, from which the valves file is written.
 struct ValveFound {
   ValveResult result;
 
-  // The valves file; `out` is what a refusal calls it. Throws Refusal for delays without a flow,
-  // which no simulation could use, and for what the data do not support.
+  // Returns the valves file; `out` is its name in a refusal. Throws Refusal for delays without a
+  // flow, which a simulation could not use, and for values that the data do not support.
   std::string file(const std::string& out) const;
 };
 
-// predict.dat, compensated for the valve's delays.
+// predict.dat, with compensated valve delays.
 struct TimingFile {
   std::string text;
-  double frequency = 0;  // of the pulses [Hz]
-  double worst = 0;      // the delivered duty differs from the commanded one by that at most [-]
+  double frequency = 0;  // pulse frequency [Hz]
+  double worst = 0;      // largest difference of delivered and commanded duty [-]
 };
 
-// Throws Refusal where the delays are not known; empty `frequency` is 100 Hz.
+// Returns the timing. An empty `frequency` is 100 Hz. Throws Refusal if the delays are unknown.
 TimingFile timing_of(const ValveFound& found, const std::string& frequency);
 
 // --- static and check ---
 
-// Holds what was found, with the actuators' files.
+// Result, with the actuators' files.
 struct StaticFound {
   StaticResult result;
-  std::vector<std::string> files;  // the actuator's, of each muscle; the longest first
+  std::vector<std::string> files;  // actuator's file of each muscle, the longest first
 
-  // Muscles of the rest lengths that `predict` named, and their files.
+  // Muscles with the rest lengths of the setting `predict`, and their files.
   std::vector<StaticMuscle> predicted;
   std::vector<std::string> predicted_files;
 };
 
-// Returns the braid of the actuator in a file; nothing where no file is named.
+// Returns the braid of the actuator in a file; empty if no file is named.
 std::optional<actuator::Braid> known_braid(const std::string& file_name);
 
-// Returns the points of the tables, as a static law would be fitted to them. Throws config::Error
-// and Refusal.
+// Returns the points of the tables that a static law would be fitted to. Throws config::Error and
+// Refusal.
 StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
 // --- scale ---
 
-// The new muscle.
+// A muscle scaled to another rest length.
 struct ScaleFound {
   actuator::Actuator actuator;
   double from = 0;          // rest length of the muscle in the file [m]
-  double largest = 0;       // force of the new one where the old one was measured [N]
-  double corrected_by = 1;  // what its reading made of the law [-]
-  std::string doubt;        // of the reading, in words; empty: none
+  double largest = 0;       // largest force within the lengths and pressures of the old one [N]
+  double corrected_by = 1;  // factor of the law from the reading [-]
+  std::string doubt;        // doubt about the reading, in words; empty: none
   std::string file;         // sinew.actuator/1
 };
 
 // --- run ---
 
-// Holds what was found, with the robot's file.
+// Result, with the robot's file.
 struct RunFitFound {
   RunFitResult result;
   std::string base, source;
-  std::vector<Report> score = {};  // on a recording that was not fitted; empty: not scored
+  std::vector<Report> score = {};  // scores on a recording that was not fitted; empty: not scored
 
-  // The robot's file, as it would stand at `out`. Throws config::Error.
+  // Returns the robot's file as it would be written at `out`. Throws config::Error.
   std::string file(const std::string& out) const;
 };
 
 // --- plan ---
 
-// Holds a plan, and for which muscle it is.
+// A measurement plan, and the muscle that it is made for.
 struct PlanFound {
   MeasurementPlan plan;
   ExpectedMuscle muscle;
   PlanOptions options;
   std::string subject;             // "a muscle of 250 mm, 12 mm wide"
-  std::vector<std::string> notes;  // what was taken for granted, in sentences
-  std::size_t measured = 0;        // readings that there are already
+  std::vector<std::string> notes;  // assumptions, in sentences
+  std::size_t measured = 0;        // existing readings
 
-  // Returns a table with a row for each reading, in order, whose force is to be filled in: then
-  // `sinew identify static` reads it.
+  // Returns a table with a row for each reading, in order, with an empty force column; filled in,
+  // it is input for `sinew identify static`.
   std::string file(const std::string& out) const;
 };
 
-// Returns the three mounts that lower the error most, with the errors that are expected before and
-// after each; none of a muscle whose points are too few for a plan. They are those of
-// `sinew identify plan DATA --error "1.05 %" --most 3`.
+// Returns the three mounts that reduce the error most, with the errors expected before and after
+// each, as `sinew identify plan DATA --error "1.05 %" --most 3` does; leaves out muscles with too
+// few points for a plan.
 std::vector<Further> further_measurements(const StaticResult& result, double atmosphere,
                                           const std::optional<actuator::Braid>& braid);
 
 // --- force-beam ---
 
-// What ways to wire the gages are called.
+// Name of a bridge arrangement.
 struct Arrangement {
   std::string_view name;
   Bridge::Arms arms;
@@ -196,11 +197,11 @@ inline constexpr Arrangement arrangements[] = {{"quarter", Bridge::Arms::quarter
                                                {"poisson", Bridge::Arms::poisson},
                                                {"bending", Bridge::Arms::bending}};
 
-// Returns lines of text: strain, stress, safety, output, in SI and in the thesis's units; or in
-// `shown` alone, where somebody asked for some.
+// Returns lines of text: strain, stress, safety, output, in SI and in the thesis's units; or in the
+// units of `shown` alone, if given.
 std::string text_of(const Transducer& transducer, const units::ShownUnits* shown = nullptr);
 
-// Returns a line for each arrangement: how far from the load the gages have to be for the wanted
+// Returns a line for each arrangement: the distance of the gages from the load for the wanted
 // sensitivity [V/N].
 std::string text_of_places(const Transducer& transducer, double wanted,
                            const units::ShownUnits* shown = nullptr);
@@ -208,13 +209,13 @@ std::string text_of_places(const Transducer& transducer, double wanted,
 // Returns both as JSON, in SI.
 std::string json_of(const Transducer& transducer, std::optional<double> wanted);
 
-// Returns the transducer, and the wanted sensitivity [V/N], if there is one. Throw config::Error.
+// Return the transducer, and the wanted sensitivity [V/N] if given. Throw config::Error.
 Transducer transducer_of(const TransducerSettings& settings);
 std::optional<double> wanted_sensitivity(const TransducerSettings& settings);
 
-// --- all of them ---
+// --- all methods ---
 
-// Calls `each` with a fresh value of the settings of every method, in the order of their help.
+// Calls `each` with default settings of every method, in the order of their help.
 template <class Each>
 void for_each_method(const Each& each) {
   each(GeometrySettings{});
@@ -231,9 +232,10 @@ void for_each_method(const Each& each) {
   each(PlanSettings{});
 }
 
-// Return what a method finds in the tables. Of geometry and plan there may be none: then trapezoids
-// were counted, and nobody has measured the muscle, at the `atmosphere` [Pa] of its gauges. A
-// static law is fitted after its tables were checked (identify/check/check.h).
+// Return the result of a method on the tables. Geometry and plan may have no tables:
+// then trapezoids were counted, or the muscle has not been measured; `atmosphere` is the
+// ambient pressure [Pa] of its gauges. A static law is fitted after its tables were checked
+// (identify/check/check.h).
 using SourceList = std::vector<Source>;
 GeometryFound find(const SourceList& sources, const GeometrySettings& settings);
 SensorFound find(const SourceList& sources, const SensorSettings& settings);
@@ -249,8 +251,8 @@ RunFitFound find(const SourceList& sources, const RunFitSettings& settings);
 PlanFound find(const SourceList& sources, const PlanSettings& settings,
                double atmosphere = units::atmosphere);
 
-// Return what `--json` prints: the report with what it does not hold, in SI with the unit in the
-// key; null where it is unknown.
+// Return the output of `--json`: the report and further results, in SI with the unit in the key;
+// null if unknown.
 Json to_json(const GeometryFound& found);
 Json to_json(const SensorFound& found);
 Json to_json(const DynamicFound& found);
@@ -263,8 +265,8 @@ Json to_json(const ScaleFound& found);
 Json to_json(const RunFitFound& found);
 Json to_json(const PlanFound& found);
 
-// Return the reports of what a method found, for its page; the first one is the method's own.
-// Empty: what was found is no law, such as a counted braid.
+// Return the reports of a result for its page, the method's own first. Empty if the result has no
+// law, such as a counted braid.
 using Reports = std::vector<const Report*>;
 Reports reports_of(const GeometryFound& found);
 Reports reports_of(const SensorFound& found);
@@ -279,7 +281,7 @@ Reports reports_of(const Found& found) {
   return {&found.result.report};
 }
 
-// Returns the title of a method's page; empty: its first report has one.
+// Returns the title of a method's page; empty: that of its first report.
 template <class Found>
 std::string title_of(const Found& found) {
   if constexpr (requires { found.calibration; })
@@ -288,7 +290,7 @@ std::string title_of(const Found& found) {
     return "";
 }
 
-// Returns why there is no file although there is a report; empty: there may be one.
+// Returns why there is a report but no file; empty: a file is possible.
 template <class Found>
 std::string refused(const Found& found) {
   if constexpr (requires { found.result.refused; })
@@ -297,8 +299,8 @@ std::string refused(const Found& found) {
     return "";
 }
 
-// Returns the texts of the parameter files, of each as it would stand at `out`; the first one is
-// the method's own. A text throws config::Error or Refusal where there can be no such file.
+// Returns functions for the texts of the parameter files, each as it would be written at `out`, the
+// method's own first. They throw config::Error or Refusal if the file is not possible.
 using FileText = std::function<std::string(const std::string& out)>;
 template <class Found>
 std::vector<FileText> files_of(const std::shared_ptr<const Found>& found) {

@@ -28,15 +28,15 @@ namespace sinew::identify {
 
 namespace {
 
-// --- what was found of a pair, for programs and as a part of a robot ---
+// --- the identified pair as JSON and as a part of a robot ---
 
-// What a joint of a robot's file has of it.
+// Losses of a joint in a robot's file.
 struct JointLosses {
   std::string name;
   double damping = std::numeric_limits<double>::quiet_NaN(), dry_friction = damping;
 };
 
-// Returns stiffness, sensors and trapped air; SI, with the unit in the key.
+// Returns stiffness, sensors and trapped air, in SI with the unit in the key.
 Json describe(const PairResult& found) {
   const bool rotary = found.rotary;
   const std::string per = rotary ? "_Nm_per_rad" : "_N_per_m", effort = rotary ? "_Nm" : "_N";
@@ -63,8 +63,8 @@ Json describe(const PairResult& found) {
   return out;
 }
 
-// Returns `robot` with damping and dry friction of the joint of that name, whose pair it was; of a
-// law without one of them that one is not in it. Throws Refusal for a slide, which is no joint.
+// Returns `robot` with damping and dry friction of the named joint, whose pair was measured. A
+// loss that the law does not have is left out. Throws Refusal for a slide, which is not a joint.
 std::string pair_file(const PairResult& found, const std::string& joint, const std::string& source,
                       config::Node robot) {
   if (!found.rotary)
@@ -92,7 +92,7 @@ std::string pair_file(const PairResult& found, const std::string& joint, const s
   return config::to_toml(robot);
 }
 
-// Of both ends of "7 s..14 s"; one may be open.
+// Returns both ends of a range such as "7 s..14 s"; one may be open.
 std::pair<double, double> times_of(const std::string& text) {
   const std::size_t dots = text.find("..");
   const std::string_view from = config::trimmed(std::string_view(text).substr(0, dots)),

@@ -24,7 +24,7 @@ class PlanReader {
 
   const SettingValues& values() const { return values_; }
 
-  // Throws config::Error, by `name`, for what is needed and missing.
+  // Throws config::Error with `name` if a required setting is missing.
   double needed(std::string_view name, const std::string& member, std::string_view what) const {
     if (member.empty())
       config::fail(
@@ -103,7 +103,7 @@ PlanFound planned(PlanFound out, const PlanReader& read, std::span<const Measure
   return out;
 }
 
-// A muscle whose rest length nobody said has its longest length.
+// Gives muscles without a rest length the longest length of the points.
 void give_longest(std::vector<StaticPoint>& points, std::vector<std::string>& notes) {
   double longest = 0;
   for (const StaticPoint& p : points) longest = std::max(longest, p.length);
@@ -119,8 +119,8 @@ Json json_of_error(const PlanError& error) {
   return {{"rms_percent", 100 * error.rms}, {"half_width_95_percent", 100 * error.half_width}};
 }
 
-// An error just above the law's own: then mounts are added as long as there is room for them.
-constexpr double wanted = 1.05;  // times the law's error
+// The target is just above the law's own error, so that mounts are added as long as possible.
+constexpr double wanted = 1.05;  // times the error of the law
 constexpr int mounts = 3;
 
 Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
@@ -155,7 +155,7 @@ Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
   return out;
 }
 
-// Makes the plan for a muscle without measurements.
+// Makes a plan for a muscle without measurements.
 PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
   const PlanReader read(settings, atmosphere);
   PlanFound out{.options = read.options("2 N")};
@@ -184,7 +184,7 @@ PlanFound first_plan(const PlanSettings& settings, double atmosphere) {
   return planned(std::move(out), read, {});
 }
 
-// A plan for what the tables leave open.
+// Makes a plan for measurements in addition to the tables.
 PlanFound next_plan(const std::vector<Source>& sources, const PlanSettings& settings) {
   StaticData data = read_static(sources, {.rest_length = settings.rest_length,
                                           .actuator = settings.actuator,
@@ -269,7 +269,7 @@ std::vector<Further> further_measurements(const StaticResult& result, double atm
     try {
       out.push_back(further_of(own, atmosphere, braid));
     } catch (const Refusal&) {
-      continue;  // too few points for a plan: the models of the report say what is missing
+      continue;  // too few points for a plan: the models of the report show what is missing
     }
     if (result.muscles.size() > 1)
       out.back().of = fmt::format("the muscle of {:.4g} mm", 1e3 * muscle.rest_length);

@@ -26,7 +26,7 @@ namespace sinew::identify {
 
 namespace {
 
-// The text before and behind the first of the marks, without blanks; nothing where there is none.
+// Splits the text at the first of the marks and trims both parts; empty if there is no mark.
 std::optional<std::pair<std::string, std::string>> parted(
     std::string_view text, std::initializer_list<std::string_view> marks) {
   for (const std::string_view mark : marks)
@@ -36,7 +36,7 @@ std::optional<std::pair<std::string, std::string>> parted(
   return {};
 }
 
-// The number of that key; the setting names it.
+// Returns the number with this key. Throws config::Error that names the setting.
 const MachineNumber& number_of(const std::vector<MachineNumber>& all, const std::string& key,
                                const std::string& setting) {
   const auto number = std::ranges::find(all, key, &MachineNumber::key);
@@ -47,7 +47,7 @@ const MachineNumber& number_of(const std::vector<MachineNumber>& all, const std:
                config::closest_in_quotes(key, keys));
 }
 
-// "key=value +- deviation", both with a unit.
+// Reads "key=value +- deviation", both with a unit.
 RunPrior prior_of(const std::string& text, experiment::Experiment& e) {
   const auto named = parted(text, {"="});
   const auto told = parted(named ? named->second : "", {"±", "+/-", "+-"});
@@ -64,7 +64,7 @@ RunPrior prior_of(const std::string& text, experiment::Experiment& e) {
                                    e.air.atmosphere, config::above_zero(unbounded, "a spread"))};
 }
 
-// The keys of "key=value", which are settings too.
+// Returns the keys of "key=value" texts.
 std::vector<std::string> frozen_keys(const std::vector<std::string>& texts,
                                      const std::vector<std::string>& fit,
                                      experiment::Experiment& e) {
@@ -80,7 +80,8 @@ std::vector<std::string> frozen_keys(const std::vector<std::string>& texts,
   return out;
 }
 
-// Returns the share of the run that is held out, which `text` gave.
+// Returns the share of the run that is held out. Throws config::Error, quoting `text`, if it is
+// out of range.
 double share_of(const std::string& text, double share) {
   if (is_share_held_out(share)) return share;
   config::fail({"hold_out", 0, 0}, "", config::in_quotes(text),
@@ -102,7 +103,7 @@ RunFitOptions options_of(const RunFitSettings& settings, experiment::Experiment&
   return out;
 }
 
-// Throws config::Error for a frozen number without its value.
+// Returns all settings of values. Throws config::Error for a frozen number without a value.
 std::vector<std::string> all_sets(const RunFitSettings& settings) {
   std::vector<std::string> out = settings.sets;
   for (const std::string& text : settings.freeze) {
@@ -133,7 +134,7 @@ experiment::Experiment sound_machine(const config::Node& root, const std::string
   return out;
 }
 
-// A recording, and what was run.
+// A recording, and the machine that was run.
 struct RecordedMachine {
   std::string name, file;
   config::Node root;
@@ -150,7 +151,7 @@ struct RecordedMachine {
         recorded(log::read(run.log)),
         driven(machine, recorded, root.find("imported") != nullptr, run.log.string()) {}
 
-  // Warns of what the recording has not.
+  // Warns about gaps of the recording.
   void warn(const char* of, Report& report) const {
     if (!recorded.complete)
       report.warnings.push_back(fmt::format(
@@ -169,7 +170,7 @@ struct RecordedMachine {
   }
 };
 
-// Scores what was found on another recording.
+// Scores the result on another recording.
 void score_on(const RecordedMachine& other, double from, RunFitFound& out) {
   std::vector<std::string> differing;
   const experiment::Experiment machine =
@@ -198,7 +199,7 @@ RunFitFound find(const SourceList&, const RunFitSettings& settings) {
                  fmt::format("a time within the run of {:.4g} s", run.driven.duration()),
                  "\"0 s\"");
   std::optional<RecordedMachine> other;
-  if (!settings.score.empty()) {  // is refused before a fit, which takes its time
+  if (!settings.score.empty()) {  // tested before the fit, which is slow
     const run::RecordedRun its = run::recorded_run(settings.score);
     if (std::filesystem::equivalent(its.log, run::recorded_run(settings.run).log))
       config::fail({"score", 0, 0}, "", config::in_quotes(settings.score) + ", which is fitted",

@@ -18,12 +18,12 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double most_likely = 0.06;  // change of a law by its reading: three deviations [-]
+constexpr double most_likely = 0.06;  // change of a law by a reading: three deviations [-]
 constexpr config::Range new_length = config::above_zero(1000, "of a muscle");
 constexpr config::Range new_pressure{0, 1e7, "gauge, of a muscle's air"};
 constexpr config::Range new_force = config::above_zero(1e6, "of a muscle");
 
-// "115 mm, 4 bar gauge, 210 N".
+// Reads a text such as "115 mm, 4 bar gauge, 210 N".
 ForceReading reading_of(const std::string& text, double atmosphere) {
   const std::size_t first = text.find(','), second = text.find(',', first + 1);
   if (first == text.npos || second == text.npos || text.find(',', second + 1) != text.npos)

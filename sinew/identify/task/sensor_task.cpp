@@ -22,7 +22,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-// Potentiometers are given per volt, transducers in volts.
+// Returns whether the scale is per volt, as for potentiometers; transducers are given in volts.
 bool per_volt(SensorKind kind) { return kind == SensorKind::angle || kind == SensorKind::cylinder; }
 
 robot::Sensor::Kind kind_of(SensorKind kind) {
@@ -111,8 +111,8 @@ Json describe(const Calibration& c, const SensorResult& r) {
           {"deviation_percent", 100 * r.deviation}};
 }
 
-// Returns the text of a robot's file: `robot`, the beginning of one, with the
-// sensors. `average`: the controller assumes one scale for all of them, as the thesis's did.
+// Returns the text of a robot's file: `robot`, its beginning, with the sensors. `average`: the
+// controller assumes one scale for all sensors, as in the thesis.
 std::string sensor_file(const Calibration& c, const CountScale& converter, bool average,
                         config::Node robot) {
   const std::string source = "sinew identify sensor " + c.file;
@@ -131,7 +131,7 @@ std::string sensor_file(const Calibration& c, const CountScale& converter, bool 
   return config::to_toml(robot);
 }
 
-// Returns the known value at rest [SI], which is text in the unit of what was set, or "0.1 SI".
+// Returns the known value at rest [SI] from a text with a unit, or in SI: "0.1 SI".
 double rest_of(const std::string& text, std::string_view unit) {
   if (text.empty()) return 0;
   if (text.ends_with(" SI"))
@@ -139,7 +139,7 @@ double rest_of(const std::string& text, std::string_view unit) {
   return config::quantity_setting("rest", text, unit);
 }
 
-// The base must have these sensors, of this kind.
+// Throws config::Error unless the base has these sensors, with this kind.
 void check_base(const std::string& base, const Calibration& c) {
   if (base.empty()) return;
   const auto file = experiment::load_machine_file(base);
@@ -166,7 +166,7 @@ Json to_json(const SensorFound& found) {
   const Calibration& c = found.calibration;
   Json out{{"format", "sinew.identification/1"}, {"subject", "calibration of sensors"}};
   out["average_sensitivity"] = c.average;
-  // A single transducer's values stand where other methods have it.
+  // The values of a single transducer are at top level, as for other methods.
   if (c.sensors.size() == 1) out.update(to_json(c.sensors[0].report));
   out["sensors"] = Json::array();
   for (const SensorResult& r : c.sensors) {

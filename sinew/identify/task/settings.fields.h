@@ -1,6 +1,5 @@
-// identify/task/settings.fields.h - the settings of every method, and of `sinew force-beam`: a
-// struct of texts, as a user writes them, and its rows (settings.h). Empty quantities are not
-// known.
+// identify/task/settings.fields.h - settings of every method, and of `sinew force-beam`: a
+// struct of texts as users write them, and its rows (settings.h). An empty quantity is unknown.
 #pragma once
 
 #include <functional>
@@ -43,7 +42,7 @@ void fields(Visitor& v, GeometrySettings& s) {
 
 // --- sensor ---
 
-// Calibrations to the sensors of a robot's file.
+// Calibration of the sensors in a robot's file.
 struct SensorSettings {
   std::string known;
   std::vector<std::string> sensors;
@@ -81,7 +80,7 @@ void fields(Visitor& v, SensorSettings& s) {
 
 // --- dynamic ---
 
-// What a muscle loses in motion, from a mass that swings on trapped air.
+// Losses of a muscle in motion, from a mass that swings on trapped air.
 struct DynamicSettings {
   std::string actuator, name, mass, pressure, external_volume = "0 m3", exponent;
   int count = 1;
@@ -127,11 +126,11 @@ void fields(Visitor& v, DynamicSettings& s) {
 // Names of the joint and its muscles in the robot's file.
 struct JointNames {
   std::string joint = "joint", flexor = "joint_flexor", extensor = "joint_extensor";
-  std::string flexion = "raises angle";  // or "lowers angle": what a shorter flexor does
+  std::string flexion = "raises angle";  // or "lowers angle": effect of a shorter flexor
 };
 
-// Force law and moment arm of a joint's muscles, without a length rig. Of empty quantities a column
-// has the values, or they are fitted.
+// Force law and moment arm of a joint's muscles, without a length test rig. Empty quantities
+// come from a column or are fitted.
 struct JointSettings {
   std::string actuator, name;
   int count = 1;
@@ -143,10 +142,10 @@ struct JointSettings {
   HeldOut hold_out;
   std::string model, base;
   WishTexts wishes;
-  host::Tally* tried = nullptr;  // counts models that have been tried; null: nothing
+  host::Tally* tried = nullptr;  // counts models that have been tried; may be null
 };
 
-// These settings describe the load on the joint.
+// Visits the settings of the load on the joint.
 template <class Visitor>
 void load_fields(Visitor& v, JointSettings& s) {
   constexpr double turns = 4 * std::numbers::pi;
@@ -164,7 +163,7 @@ void load_fields(Visitor& v, JointSettings& s) {
              s.limb_lever);
 }
 
-// These settings describe the muscles, and the parts of the torque that are fitted.
+// Visits the settings of the muscles, and of the parts of the torque that are fitted.
 template <class Visitor>
 void known_fields(Visitor& v, JointSettings& s) {
   constexpr config::Range size = config::above_zero(1000, "of a robot");
@@ -245,7 +244,7 @@ void fields(Visitor& v, PairSettings& s) {
 
 // --- valve ---
 
-// Flow and delays, from a chart, a filling, pulses, a coil's current or a map of duties.
+// Flow and delays of a valve, from a chart, a filling, pulses, coil current or a duty map.
 struct ValveSettings {
   std::string kind, volume, conductance, added_volume;
   bool per_volume = false;
@@ -297,7 +296,7 @@ void fields(Visitor& v, ValveSettings& s) {
 
 // --- static and check ---
 
-// The static law of an actuator from force, length and pressure.
+// Static law of an actuator, from force, length and pressure.
 struct StaticSettings {
   std::string rest_length, actuator, branch = "both";
   std::vector<std::string> fit_where;
@@ -306,17 +305,17 @@ struct StaticSettings {
   bool anyway = false;
   std::vector<std::string> predict;
   std::string model, name = "bpa";
-  host::Tally* tried = nullptr;  // counts laws that have been tried; null: nothing
+  host::Tally* tried = nullptr;  // counts laws that have been tried; may be null
 };
 
-// Settings of `check`: those of `static` which concern the tables.
+// Settings of `check`: those of `static` that concern the tables.
 struct CheckSettings {
   StaticSettings how;
 };
 
 constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
 
-// These settings concern the tables.
+// Visits the settings that concern the tables.
 template <class Visitor>
 void table_fields(Visitor& v, StaticSettings& s) {
   v.quantity(
@@ -364,9 +363,9 @@ void fields(Visitor& v, CheckSettings& s) {
 
 // --- creep ---
 
-// Creep and dry friction from fill, hold and vent. It has no settings.
+// Creep and dry friction from filling, holding and venting. It has no settings.
 struct CreepSettings {
-  host::Tally* tried = nullptr;  // counts laws that have been tried; null: nothing
+  host::Tally* tried = nullptr;  // counts laws that have been tried; may be null
 };
 
 template <class Visitor>
@@ -379,7 +378,7 @@ void fields(Visitor& v, CreepSettings&) {
 
 // --- scale ---
 
-// The actuator of a muscle of another rest length than the one that was measured.
+// An actuator scaled to another rest length than the measured one.
 struct ScaleSettings {
   std::string file, rest_length, actuator, reading, name, atmosphere = "14.7 psi";
 };
@@ -404,7 +403,7 @@ void fields(Visitor& v, ScaleSettings& s) {
 
 // --- run ---
 
-// Numbers of a machine from a run of it that is kept.
+// Parameters of a machine from a recorded run.
 struct RunFitSettings {
   std::string run;
   std::vector<std::string> fit;
@@ -413,7 +412,7 @@ struct RunFitSettings {
   std::string hold_out = "20 %", from = "0 s", score;
   int threads = 0;
   std::string base;
-  std::function<void(const std::string&)> progress;  // is given a line now and then; empty: nothing
+  std::function<void(const std::string&)> progress;  // receives progress lines; may be empty
 };
 
 template <class Visitor>
@@ -459,7 +458,7 @@ void fields(Visitor& v, RunFitSettings& s) {
 
 // --- plan ---
 
-// The settings of a plan of lengths and pressures. Empty quantities are unknown, or follow from the
+// Plan of lengths and pressures to measure. Empty quantities are unknown, or follow from the
 // others.
 struct PlanSettings {
   std::string rest_length, branch = "both", diameter, actuator, pressure, noise;
@@ -468,7 +467,7 @@ struct PlanSettings {
   int most = 12;
 };
 
-// These settings describe the muscle and the measurement.
+// Visits the settings of the muscle and the measurement.
 template <class Visitor>
 void measurement_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range length = config::above_zero(1000, "of an actuator");
@@ -495,7 +494,7 @@ void measurement_fields(Visitor& v, PlanSettings& s) {
              s.length_error);
 }
 
-// What is wanted.
+// Visits the settings of the required accuracy and the effort.
 template <class Visitor>
 void aim_fields(Visitor& v, PlanSettings& s) {
   constexpr config::Range time = config::from_zero(86400, "more than a day for one step");
@@ -532,9 +531,9 @@ void fields(Visitor& v, PlanSettings& s) {
 
 // --- force-beam ---
 
-// A force transducer. The thesis's transducer, 4.4. Where the gages are and how they
-// are wired it does not print: of the bridges one gives the measured 0.17 V/lb near the strain that
-// it was designed for, 1000e-6 at 30 lb.
+// A force transducer; the defaults are the thesis's, 4.4. The thesis does not give the gages'
+// position and wiring: of the bridges, one gives the measured 0.17 V/lb near the design strain,
+// 1000e-6 at 30 lb.
 struct TransducerSettings {
   std::string length = "0.75 in", width = "0.3 in", height = "0.15 in", gages = "0.36 in";
   std::string modulus = "10000000 psi";

@@ -1,6 +1,6 @@
-// identify/task/settings.h - the settings of a method of identification: one row for each.
+// identify/task/settings.h - declaration of a method's settings, one row for each.
 //
-// In addition to its struct of settings a method has one function template,
+// In addition to its struct of settings, a method has one function template:
 //
 //   template <class Visitor>
 //   void fields(Visitor& v, GeometrySettings& s) {
@@ -9,8 +9,8 @@
 //   }
 //
 // The options of `sinew identify` with their help, the keywords of Python with their docstrings and
-// the checks of SettingValues come from these rows. Defaults are those of the struct. A visitor
-// has:
+// the checks of SettingValues come from these rows. Defaults are those of the struct. A visitor has
+// these functions:
 //
 //   v.method(MethodRow)                           once, before the rows
 //   v.quantity(Setting, std::string&)             text with a unit; empty: not given
@@ -42,24 +42,24 @@ namespace sinew::identify {
 // Whether a method reads tables of measurements.
 enum class Tables { needed, optional, none };
 
-// A part of the data that is not fitted and scores the laws.
+// Data that are not fitted and score the laws.
 struct HeldOut {
   std::vector<std::string> texts;  // a rule of the method, such as "pressure", or files
-  std::vector<Source> tables;      // in place of files
+  std::vector<Source> tables;      // tables instead of files
 
   bool empty() const { return texts.empty() && tables.empty(); }
 };
 
-// A method's name and what it is for.
+// Name and purpose of a method.
 struct MethodRow {
   std::string_view name, doc;  // one line
   Tables tables = Tables::needed;
-  std::size_t laws = 0;  // that it tries, for a bar of progress; 0: unknown
+  std::size_t laws = 0;  // laws that it tries, for a progress bar; 0: unknown
 };
 
 // One setting.
 struct Setting {
-  // The kind of its value; the visitor's functions above describe each.
+  // Kind of the value; the list of visitor functions above describes each.
   enum class Kind {
     quantity,
     quantities,
@@ -73,35 +73,35 @@ struct Setting {
     hold_out
   };
 
-  std::string_view name;       // in messages; the option has hyphens
+  std::string_view name;       // as in messages; the option has hyphens
   std::string_view doc;        // one line
-  std::string_view unit = "";  // of a quantity: SI, as in units/field.h; empty: known with the data
-  config::Range range = {};    // of a quantity or an integer
+  std::string_view unit = "";  // SI, as in units/field.h; empty: depends on the data
+  config::Range range = {};    // for a quantity or an integer
 
-  // The visitor's function sets these; the functions below change them.
+  // Set by the visitor's function; the functions below change them.
   Kind kind = Kind::text;
   std::vector<std::string> words = {};
   std::string_view option = name, keyword = name;
   bool is_required = false, is_repeated = false, is_at_commas = false, is_of_file = false;
 
-  // Return the row with other names: "start,set" on the command line, "RUN" for a word without an
-  // option; and a name in Python.
+  // Return the row with other names: on the command line, "start,set" for options or "RUN" for a
+  // positional argument; and a keyword in Python.
   Setting called(std::string_view names) && { return option = names, std::move(*this); }
   Setting in_python(std::string_view other) && { return keyword = other, std::move(*this); }
-  // Return the row of a setting that is always needed; that may be named several times; whose texts
-  // may be in one, with commas between; and that concerns the parameter file alone.
+  // Return the row of a setting that is required; that may be repeated; whose texts may be
+  // joined by commas; and that concerns the parameter file only.
   Setting required() && { return is_required = true, std::move(*this); }
   Setting repeated() && { return is_repeated = true, std::move(*this); }
   Setting at_commas() && { return is_at_commas = true, std::move(*this); }
   Setting of_file() && { return is_of_file = true, std::move(*this); }
 };
 
-// Base of a visitor that has overloads of row(Setting, value) for the types of values alone.
+// Base of a visitor that only needs overloads of row(Setting, value) for the types of values.
 template <class Visitor>
 class RowVisitor {
  public:
   using Kind = Setting::Kind;
-  // Pass a row and its value on; the head of this file describes them.
+  // Forward a row and its value; the head of this file describes them.
   void method(const MethodRow& row) { (void)row; }
   void quantity(Setting row, std::string& value) { visit(Kind::quantity, row, value); }
   void quantities(Setting row, std::string& value) { visit(Kind::quantities, row, value); }
@@ -125,13 +125,13 @@ class RowVisitor {
 };
 
 // Returns the tables that are held out: those of `hold_out`, and its texts as files that are read
-// like the first one, except `words`, which are rules of the method. Throws config::Error for a
-// file that is fitted, unless it `may_be_fitted`: then it is held out although it is among them.
+// like the first source, except `words`, which are rules of the method. Throws config::Error for a
+// file that is fitted, unless `may_be_fitted`: then it is held out although it is a source.
 std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<Source>& sources,
                                     std::span<const std::string_view> words = {},
                                     bool may_be_fitted = false);
 
-// The rows of what is known of parameters, the same for each method.
+// Visits the constraints on parameters, which are the same for each method.
 template <class Visitor>
 void fields(Visitor& v, WishTexts& wishes) {
   v.texts({"freeze", "NAME=VALUE: a parameter that is known and not fitted"}, wishes.freeze);
@@ -140,27 +140,26 @@ void fields(Visitor& v, WishTexts& wishes) {
   v.texts({"tie", "NAME=OTHER: two parameters that are one"}, wishes.tie);
 }
 
-// The settings of a method in SI. The constructor checks each row: it throws config::Error, which
-// begins with the setting's name, for a quantity or a number outside its range, a word that is not
-// among those of its choice, and for what is needed and missing.
+// The settings of a method in SI. The constructor checks each row. It throws config::Error, which
+// begins with the setting's name, for a value outside its range, a word that is not a choice, and a
+// missing required setting.
 class SettingValues : public RowVisitor<SettingValues> {
  public:
-  // `atmosphere` [Pa] is the pressure that gauges read against. `settings` has to outlive this.
+  // `atmosphere` is the ambient pressure of gauges [Pa]. `settings` must outlive this object.
   template <class Settings>
   explicit SettingValues(const Settings& settings, double atmosphere = units::atmosphere)
       : atmosphere_(atmosphere) {
-    fields(*this, const_cast<Settings&>(settings));  // rows are read alone
+    fields(*this, const_cast<Settings&>(settings));  // rows are only read
   }
 
-  // Returns a quantity, a member of the settings; NaN where it was not given. `text` takes the
-  // place of one that was not given.
+  // Returns a quantity that is a member of the settings; NaN if not given. `text` is the default.
   double of(const std::string& member, std::string_view text = "") const;
-  // The same, nothing in place of NaN.
+  // Returns a quantity; empty if not given.
   std::optional<double> given(const std::string& member) const;
-  // Returns quantities: one for each of the tables. Throws config::Error for another number.
+  // Returns quantities, one for each table. Throws config::Error for a different number.
   std::vector<double> each(const std::string& member, std::size_t tables) const;
 
-  // The visitor's part.
+  // Functions of the visitor.
   void row(const Setting& row, const std::string& value);
   void row(const Setting& row, double value);
   void row(const Setting& row, int value) { this->row(row, static_cast<double>(value)); }
@@ -175,10 +174,10 @@ class SettingValues : public RowVisitor<SettingValues> {
   std::vector<std::pair<const std::string*, Setting>> quantities_;
 };
 
-// The rows of a method as JSON: name, keyword, doc, unit, words and default of each setting.
+// Rows of a method as JSON: name, keyword, doc, unit, words and default of each setting.
 class SettingList : public RowVisitor<SettingList> {
  public:
-  // Takes the rows with the values of `settings` as defaults.
+  // Collects the rows, with the values of `settings` as defaults.
   template <class Settings>
   explicit SettingList(Settings settings) {
     fields(*this, settings);
@@ -187,7 +186,7 @@ class SettingList : public RowVisitor<SettingList> {
   MethodRow of;
   Json rows = Json::array();
 
-  // The visitor's part.
+  // Functions of the visitor.
   void method(const MethodRow& row) { of = row; }
   void row(const Setting& row, const std::string& value);
   void row(const Setting& row, double value);

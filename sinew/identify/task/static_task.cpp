@@ -19,7 +19,7 @@ namespace sinew::identify {
 
 namespace {
 
-// Which rows of a table fit_where names; the others are held out.
+// Returns which rows of a table fit_where selects; the others are held out.
 std::vector<bool> named_rows(const StaticSettings& settings, const Source& source,
                              const Measured& all) {
   Source some = source;
@@ -38,16 +38,16 @@ std::vector<bool> named_rows(const StaticSettings& settings, const Source& sourc
   return out;
 }
 
-// The rules by which rows are held out, in the order of HoldOut.
+// Rules of holding out rows, in the order of HoldOut.
 constexpr std::string_view rules[] = {"pressure", "length", "muscle"};
 
-// What is done with a table that no method can read.
+// Treatment of a table that no method can read.
 enum class Unreadable { is_refused, is_red };
 
 void read_table(const StaticSettings& settings, const StaticInput& input, const Source& source,
                 Unreadable unreadable, CheckInput& out) {
   Measured all = read_measured(source, static_columns());
-  // A row repeats another only where both are fitted, or neither is.
+  // A row repeats another only if both are fitted, or both are held out.
   std::vector<bool> named;
   if (input.fitted && !settings.fit_where.empty()) named = named_rows(settings, source, all);
   all = settings_averaged(each_row_once(std::move(all), named), all.has("load") ? "load" : "force",
@@ -62,7 +62,7 @@ void read_table(const StaticSettings& settings, const StaticInput& input, const 
     out.data.points[before + i].fitted = named[i];
 }
 
-// Points of one branch only; what has none stays.
+// Removes the points of the other branch; points without a branch stay.
 void keep_branch(const std::string& word, StaticData& data) {
   if (word == "both") return;
   const auto other = word == "fill" ? Branch::vent : Branch::fill;
@@ -93,7 +93,7 @@ StaticOptions options_of(const std::vector<Source>& sources, const StaticSetting
   return out;
 }
 
-// "Static law of the muscle bpa, identified from forces.csv".
+// Returns a title such as "Static law of the muscle bpa, identified from forces.csv".
 std::string title_of(const std::vector<Source>& sources, const StaticSettings& settings,
                      const std::vector<StaticMuscle>& muscles) {
   std::string lengths;
@@ -111,7 +111,7 @@ std::string title_of(const std::vector<Source>& sources, const StaticSettings& s
                           : fmt::format("{} files", sources.size()));
 }
 
-// Returns the table that is not fitted, if there is one.
+// Returns the tables that are not fitted.
 std::vector<Source> held_out_of(const std::vector<Source>& sources,
                                 const StaticSettings& settings) {
   for (const std::string& text : settings.hold_out.texts)
@@ -121,7 +121,7 @@ std::vector<Source> held_out_of(const std::vector<Source>& sources,
   return held_out_tables(settings.hold_out, sources, rules);
 }
 
-// "rest_length=120 mm", or the length alone  [m].
+// Reads "rest_length=120 mm", or the length alone [m].
 double predicted_length(const std::string& setting, double atmosphere) {
   const std::size_t equals = setting.find('=');
   if (equals != setting.npos && setting.substr(0, equals) != "rest_length")
@@ -131,7 +131,7 @@ double predicted_length(const std::string& setting, double atmosphere) {
                                   "m", atmosphere, actuator_length);
 }
 
-// Adds the muscles that nobody measured, and says how far off they may be.
+// Adds muscles that were not measured, with notes of their uncertainty.
 void add_predicted(const std::vector<double>& lengths, const StaticSettings& settings,
                    const std::string& source, StaticFound& found) {
   for (const double length : lengths) {
@@ -156,7 +156,7 @@ void add_predicted(const std::vector<double>& lengths, const StaticSettings& set
   }
 }
 
-// All tables, those that are held out last.
+// Reads all tables, the held-out ones last.
 CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings& settings,
                        Unreadable unreadable) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");

@@ -27,7 +27,7 @@ const Source& only_of(const std::vector<Source>& sources) {
 
 void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    const std::string& file) {
-  std::error_code none;  // files that are not there are told elsewhere
+  std::error_code none;  // missing files are reported elsewhere
   for (const Source& source : sources)
     if (!source.text && std::filesystem::equivalent(file, source.path, none))
       config::fail({std::string(setting), 0, 0}, "", config::in_quotes(file),

@@ -1,5 +1,5 @@
-// A method is asked with tables and settings as a person gives them; what is wrong with a setting
-// is told by its name.
+// Methods are called with tables and settings as users give them; errors of a setting begin with
+// its name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<Source> table(const std::string& text, const std::string& name = "nu
   return {{.path = name, .text = text}};
 }
 
-// Of a braid whose threads are 100 mm long and wind around once.
+// A braid whose threads are 100 mm long and wind around once.
 std::vector<Source> mesh() {
   std::string text = "length [mm],diameter [mm]\n";
   for (double length = 60; length <= 90; length += 5) {
@@ -46,7 +46,7 @@ std::string refusal(const std::function<void()>& ask) {
   return "nothing";
 }
 
-// A diameter that the force cannot be of is red.
+// A diameter that does not match the force is red.
 TEST(Task, CheckFindsAForceThatIsNotOfTheDiameter) {
   std::string text = "length [mm],pressure [kPa gauge],force [N]\n";
   for (const int length : {250, 240, 230})
@@ -98,7 +98,7 @@ TEST(Task, WantsItsTables) {
   expect_begins(refusal([] { atmosphere_setting("14.7 in"); }), "atmosphere: found ");
 }
 
-// The names of a method's settings are its own, each has its line, and the defaults are in order.
+// A method's settings have unique names, each has a description, and the defaults are valid.
 TEST(Task, DescribesEachSettingOnce) {
   std::size_t methods = 0;
   for_each_method([&](const auto& settings) {

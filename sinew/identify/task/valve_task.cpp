@@ -26,11 +26,11 @@ namespace sinew::identify {
 
 namespace {
 
-// --- the tables of a valve, as a logger leaves them: times that no ---
+// --- valve tables from a logger: times that do not ascend, several recordings ---
 
 using recording::Grid;
 
-// What the file calls a wanted column.
+// Returns the file's name of a wanted column.
 std::string called_in(const Source& source, const std::string& name) {
   const auto said = source.names.find(name);
   return said == source.names.end() ? name : said->second;
@@ -42,7 +42,7 @@ std::optional<std::size_t> column_called(const Grid& grid, const std::string& na
   return std::nullopt;
 }
 
-// One source for each recording of a file: a logger that was started again begins a new one.
+// Returns one source for each recording of a file: a restarted logger begins a new one.
 std::vector<Source> recordings_in(const Source& source) {
   if (source.part != 0 || !source.where.empty()) return {source};
   const Grid grid =
@@ -61,9 +61,9 @@ bool has_column_of_volumes(const Source& source) {
   return column_called(grid, called_in(source, "added_volume")).has_value();
 }
 
-constexpr std::size_t most_samples = 20000, most_of_pulses = 15000;  // more are averaged
+constexpr std::size_t most_samples = 20000, most_of_pulses = 15000;  // longer ones are averaged
 
-// Averages long pulses over their time, so that the shortest one stays whole.
+// Averages long recordings of pulses over time, without blurring the shortest pulse.
 Measured pulses_averaged(const Measured& data) {
   if (data.rows() <= most_of_pulses) return data;
   const std::vector<Opening> edges = edges_of(data).edges;
@@ -73,7 +73,7 @@ Measured pulses_averaged(const Measured& data) {
   return times_averaged(data, most_of_pulses, shortest);
 }
 
-// One for each source, between commas.
+// Returns the fillings with the volumes of the setting, comma-separated, one for each source.
 std::vector<AddedFill> fills_by_setting(const std::vector<Source>& sources,
                                         const ValveSettings& settings,
                                         const SettingValues& values) {
@@ -94,13 +94,14 @@ std::vector<AddedFill> fills_by_setting(const std::vector<Source>& sources,
   return out;
 }
 
-// Returns the table. Where its rows are a chart or a map of duties, the order of their times means
-// nothing, and a column `time` that runs backwards is left out. Throws config::Error.
+// Returns the table. The order of rows is irrelevant in a chart or duty map: there a column
+// `time` that is not ascending is left out. Throws config::Error.
 Measured read_valve(const Source& source) {
   try {
     return each_row_once(read_measured(source, valve_columns()));
   } catch (const config::Error&) {
-    // Of a chart the time tells nothing; of anything else it is what is wrong.
+    // Retry without the time. Only a chart or duty map is valid then; otherwise the time was the
+    // error.
     std::vector<Wanted> timeless;
     for (const Wanted& w : valve_columns())
       if (w.name != "time") timeless.push_back(w);
@@ -113,16 +114,15 @@ Measured read_valve(const Source& source) {
         data.notes.emplace_back("its times are out of order, which means nothing here");
         return data;
       }
-    } catch (const std::exception&) {  // the first reason is the better one
+    } catch (const std::exception&) {  // the first error is the better one
     }
     throw;
   }
 }
 
-// Returns the fillings whose added volumes are known: by the setting, one between commas for each
-// source, or by a column added_volume, whose values may also part one table. Several recordings in
-// a file, one after the other, are as many fillings. Empty: no such volumes are told. Throws
-// config::Error and Refusal.
+// Returns the fillings with known added volumes: from the setting, one for each source, or from
+// a column added_volume, which may also divide one table. Several consecutive recordings in a
+// file are as many fillings. Empty: no added volumes are given. Throws config::Error and Refusal.
 std::vector<AddedFill> added_fills(const std::vector<Source>& sources,
                                    const ValveSettings& settings, const SettingValues& values) {
   if (!settings.added_volume.empty()) return fills_by_setting(sources, settings, values);
@@ -132,7 +132,7 @@ std::vector<AddedFill> added_fills(const std::vector<Source>& sources,
     for (const Source& recording : recordings_in(source))
       for (AddedFill& fill : fills_by_column(read_measured(recording, valve_columns())))
         out.push_back({times_averaged(std::move(fill.data), most_samples, "pressure"), fill.added});
-  if (out.size() == 1) return {};  // one filling, whatever was joined
+  if (out.size() == 1) return {};  // a single filling, with any volume
   return out;
 }
 
@@ -193,7 +193,7 @@ ValveResult identified(const Measured& data, const ValveOptions& how, const std:
   return identify_fill(filling(data), how, &unseen);
 }
 
-// With fillings that tell volume and conductance, neither is known beforehand.
+// Refuses settings of volume or conductance if the fillings determine both.
 void refuse_beside_added(const ValveSettings& s, const std::vector<Source>& others) {
   const auto refuse = [](const char* name, const std::string& found, const char* expected) {
     config::fail({name, 0, 0}, "", found, expected);

@@ -16,23 +16,23 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double least_difference = 0.02;  // of the larger added volume: less is the same one
-constexpr double far_worse = 2;            // times the squares of the best law, curve by curve
+constexpr double least_difference = 0.02;  // share of the larger added volume
+constexpr double far_worse = 2;  // times the sum of squares of the best law, for each curve
 
-// The value that belongs to one curve, not to valve and chamber.
+// Returns whether the parameter belongs to one curve, not to valve and chamber.
 bool is_of_one_fill(std::string_view name) {
   return name == "start_pressure" || name == "opening_instant" || name == "port_pressure";
 }
 
-// Holds a curve with its place in the parameters of all.
+// A curve, with the indices of its parameters in the joint problem.
 struct JointCurve {
   Curve curve;
   double added = 0;
   std::vector<FreeValue> free;     // the first is C/V
-  std::vector<std::size_t> place;  // of each in the parameters; of C/V none
+  std::vector<std::size_t> place;  // index of each in the joint parameters; unused for C/V
 };
 
-// Line through 1/k over dV: 1/k = (V + dV)/C.
+// Straight line of 1/k over dV: 1/k = (V + dV)/C.
 struct ChamberLine {
   double conductance = 0, volume = 0;
 };
@@ -50,7 +50,7 @@ ChamberLine chamber_line(std::span<const double> inverse, std::span<const double
   return {xx / xy, y * xx / xy - x};
 }
 
-// All curves, fitted at once with one model.
+// All curves, fitted together with one model.
 class JointFill {
  public:
   JointFill(const FillModel& model, const ValveOptions& options, std::vector<JointCurve> curves,
@@ -101,7 +101,7 @@ class JointFill {
   }
 
  private:
-  // Its own values, and those that all share, which begin where the first curve has them.
+  // Adds a curve's own parameters; shared ones are added with the first curve's values.
   void place(JointCurve& c, const Tried& alone) {
     const bool first = &c == &curves_.front();
     for (std::size_t i = 0; i < c.free.size(); ++i) {
@@ -134,7 +134,7 @@ class JointFill {
   std::vector<Parameter> parameters_;
 };
 
-// Root of the mean square over curves, each in % of its own range.
+// Returns the root mean square score over curves, each in % of its own range.
 Score score_over(std::span<const Tried> alone) {
   Score out;
   double sum = 0;
@@ -150,7 +150,7 @@ Score score_over(std::span<const Tried> alone) {
   return out;
 }
 
-// Every curve by itself; `refused` where one of them is.
+// Fits of the single curves; `refused` if one of them is.
 struct Alone {
   std::vector<Tried> curves;
   std::string refused;
@@ -169,7 +169,7 @@ Alone fit_alone(const FillModel& model, std::span<const Curve> curves,
   return out;
 }
 
-// Laws that meet the curves far worse than another, each by itself, need no fit to all.
+// Refuses laws whose single fits are far worse than those of another, to save their joint fits.
 void leave_out_far_worse(std::vector<Alone>& alone) {
   double least = unbounded;
   for (const Alone& a : alone)
@@ -213,7 +213,7 @@ Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
   return out;
 }
 
-// Both intervals reach over every model that the curves cannot tell from the best.
+// Widens both intervals to those of every model that the curves cannot distinguish from the best.
 void reach_over(std::span<const Tried> tried, Report& report) {
   double acceptable = tried[report.chosen].squares;
   const Tried* best = nullptr;
@@ -271,7 +271,7 @@ void refuse_same_volumes(std::span<const AddedFill> fills) {
 }  // namespace
 
 Separation expected_separation(double half, double ratio) {
-  // 1/k_1 = 1 and 1/k_2 = 1 + ratio, in units of V/C; both are known to `half` of themselves.
+  // 1/k_1 = 1 and 1/k_2 = 1 + ratio, in units of V/C, with relative uncertainties `half`.
   const double second = 1 + ratio;
   return {half * std::sqrt(1 + second * second) / ratio, half * std::sqrt(2.0) * second / ratio};
 }

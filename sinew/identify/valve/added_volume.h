@@ -1,11 +1,11 @@
-// identify/valve/added_volume.h - conductance and volume told apart: the same valve fills the same
-// chamber, once as it is and once with a known volume joined to it.
+// identify/valve/added_volume.h - separation of conductance and volume: the same valve fills the
+// same chamber with different known volumes joined to it.
 //
 //   k_V,i = C/(V + dV_i)      1/k_V,2 - 1/k_V,1 = (dV_2 - dV_1)/C        V = C/k_V,1 - dV_1
 //
-// One curve has k_V alone. All curves are fitted at once: C, V, b_crit and the exponent are common
-// to them, the port's pressure and the opening instant each curve's own. V does not depend on an
-// error of all k_V alike, such as that of an exponent; C does.
+// A single curve determines k_V only. All curves are fitted together: C, V, b_crit and the
+// exponent are common, the port's pressure and the opening instant are each curve's own. A common
+// relative error of all k_V, such as that of an exponent, affects C but not V.
 #pragma once
 
 #include <span>
@@ -17,35 +17,35 @@
 
 namespace sinew::identify {
 
-// One filling, and the volume that was joined to the chamber for it.
+// One filling, with the volume that was joined to the chamber.
 struct AddedFill {
   Measured data;
   double added = 0;  // [m3]
 };
 
-// Half-widths of 95 % intervals, of the value  [-].
+// Relative half-widths of 95 % intervals [-].
 struct Separation {
   double conductance = 0, volume = 0;
 };
 
-// Returns how well two fillings tell conductance and volume where each knows its C/V to `half` of
-// the value, at random, and the second has `ratio` times the chamber's volume joined to it.
+// Returns the accuracy of conductance and volume from two fillings, each with a random relative
+// uncertainty `half` of C/V; the second has `ratio` times the chamber's volume joined to it.
 Separation expected_separation(double half, double ratio);
 
-// Returns the fillings of a table whose column added_volume says which row is of which: by its
-// values, one after the other. Throws Refusal where there is no such column.
+// Returns the fillings of a table, divided by the values of its column added_volume. Throws Refusal
+// if there is no such column.
 std::vector<AddedFill> fills_by_column(const Measured& data);
 
-// Fits one model to all of them: its first two parameters are C and V.
+// Fits one model to all fillings: its first two parameters are C and V.
 Tried try_added(const FillModel& model, std::span<const AddedFill> fills,
                 const ValveOptions& options);
 
-// Returns what these fillings tell. Throws Refusal for fewer than two different volumes.
+// Identifies the valve from these fillings. Throws Refusal for fewer than two different volumes.
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options);
 
-// Returns what further measurement would tell C from V, and how well, in sentences: for a curve
-// that knows C/V to `half` of its value by its noise, and to `over_models` whatever the chamber is
-// taken for  [-].
+// Returns sentences about further measurements that separate C from V, and their accuracy. The
+// curve's C/V has a relative uncertainty `half` due to noise, and `over_models` over all models of
+// the chamber [-].
 std::vector<std::string> ways_to_separate(double half, double over_models);
 
 }  // namespace sinew::identify

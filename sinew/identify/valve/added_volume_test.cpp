@@ -1,4 +1,4 @@
-// Two fillings, one with a known volume joined: conductance and volume, each by itself.
+// Two fillings, one with a known volume joined, determine conductance and volume separately.
 #include "sinew/identify/valve/added_volume.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double true_conductance = 1e-8, true_volume = 5e-4;  // [m3/(s Pa)], [m3]
 
-// A filling with noise, of the chamber and what is joined to it.
+// A filling with noise, of the chamber and the joined volume.
 AddedFill filled(double added, double noise, unsigned seed,
                  gas::Flow::Law law = gas::Flow::Law::iso6358) {
   const gas::Air air;
@@ -52,7 +52,7 @@ TEST(ValveAddedVolume, TwoFillingsTellConductanceAndVolume) {
   EXPECT_NEAR(parameter(r, "volume").value / true_volume, 1, 0.02);
 }
 
-// Of 100 pairs with noise of 0.3 % of the range 90 to 99 intervals of 95 % hold each of the two.
+// For 100 pairs with noise of 0.3 % of the range, 90 to 99 intervals of 95 % contain each truth.
 TEST(ValveAddedVolume, IntervalsHoldTheTruth) {
   const FillModel* rigid = nullptr;
   for (const FillModel& m : fill_models())
@@ -74,7 +74,8 @@ TEST(ValveAddedVolume, IntervalsHoldTheTruth) {
   EXPECT_LE(conductance + volume, 198);
 }
 
-// The volume does not ask for the exponent: a wrong one moves all C/V alike, and C with them.
+// The volume does not depend on the exponent: a wrong one changes all C/V by one factor, and C with
+// them.
 TEST(ValveAddedVolume, AWrongExponentMovesTheConductanceAndNotTheVolume) {
   const std::vector<AddedFill> fills{filled(0, 100, 1, gas::Flow::Law::orifice),
                                      filled(5e-4, 100, 2, gas::Flow::Law::orifice)};
@@ -89,7 +90,7 @@ TEST(ValveAddedVolume, AWrongExponentMovesTheConductanceAndNotTheVolume) {
   EXPECT_NEAR(parameter(r, "volume").value / true_volume, 1, 0.02);
 }
 
-// What is promised of a second filling is what many of them scatter by.
+// The predicted accuracy of a second filling is the scatter of many.
 TEST(ValveAddedVolume, ThePromisedSeparationIsThatOfManyTrials) {
   constexpr double half = 0.02;
   std::mt19937 random(7);
@@ -109,7 +110,7 @@ TEST(ValveAddedVolume, ThePromisedSeparationIsThatOfManyTrials) {
   }
 }
 
-// The rows of both in one table, one after the other or taking turns.
+// Rows of both in one table, one after the other or alternating.
 TEST(ValveAddedVolume, AColumnPartsTheRowsOfOneTable) {
   const AddedFill first = filled(0, 100, 1), second = filled(5e-4, 100, 2);
   Values time, pressure, added;
@@ -134,7 +135,7 @@ TEST(ValveAddedVolume, WhatTellsNothingIsRefused) {
   };
   expect_says(refused({one}), "added_volume: found one filling; expected two at least");
   expect_says(refused({one, one}), "found 2 fillings with the same volume joined");
-  // Exchanged: more volume, and yet it fills faster.
+  // Exchanged: a larger volume that fills faster.
   std::vector<AddedFill> exchanged{other, one};
   exchanged[0].added = 0;
   exchanged[1].added = 5e-4;

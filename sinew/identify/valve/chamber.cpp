@@ -11,11 +11,11 @@ namespace sinew::identify {
 
 namespace {
 
-using State = std::array<double, 2>;  // y where the sensor is, y behind the hose
+using State = std::array<double, 2>;  // y at the sensor, y behind the hose
 
-constexpr double first_step = 1e-4;  // after an edge, of the time to fill the chamber
-constexpr double growth = 1.3;       // of a step that was easy
-constexpr double step_error = 2e-6, longest_way = 0.02;  // of y, in a step
+constexpr double first_step = 1e-4;  // after an edge, as a share of the filling time
+constexpr double growth = 1.3;       // factor of the next step after a small error
+constexpr double step_error = 2e-6, longest_way = 0.02;  // error and change of y in a step
 constexpr int most_steps = 20'000;
 
 gas::Flow flow_of(const Chamber& c, const gas::Air& air, double factor) {
@@ -55,13 +55,14 @@ class Rates {
             (on - out) / capacity(y[1], 1.0 - chamber_.share)};
   }
 
-  // In which the choked valve fills the chamber to the port's pressure from none, about [s].
+  // Returns about the time in which the choked valve fills the chamber from vacuum to the port's
+  // pressure [s].
   double filling_time() const {
     return density_ / (chamber_.exponent * gas::flow_y(valve_, 1.0, 0.5));
   }
 
  private:
-  // dm/dy of a volume.
+  // Returns dm/dy of a volume.
   double capacity(double y, double volume) const {
     const double y3 = y * y * y, p = y3 * y3 * y;
     const double n = chamber_.exponent;
@@ -79,16 +80,16 @@ class Rates {
   double density_, port_, start_, swell_;
 };
 
-// One step of ROS3, a Rosenbrock method of order 3 that is L-stable (Sandu et al., Atmos. Environ.
-// 31, 1997): what is fast and has settled does not bound the step. Returns its error by the
-// embedded second order.
+// Makes one step of ROS3, an L-stable Rosenbrock method of order 3 (Sandu et al., Atmos. Environ.
+// 31, 1997): fast modes that have decayed do not limit the step. Returns its error from the
+// embedded method of order 2.
 double step(const Rates& rates, bool open, double h, const State& f, State& y) {
   constexpr double gamma = 0.43586652150845967;
   constexpr double c21 = -1.0156171083877702, c31 = 4.0759956452537700, c32 = 9.2076794298330791;
   constexpr double m2 = 6.1697947043828246, m3 = -0.42772256543218573;
   constexpr double e1 = 0.5, e2 = -2.9079558716805470, e3 = 0.22354069897811570;
 
-  // A = 1/(h gamma) - d f/d y, by differences.
+  // A = 1/(h gamma) - d f/d y, with numerical derivatives.
   constexpr double delta = 1e-7;
   std::array<State, 2> a{};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -117,7 +118,7 @@ double step(const Rates& rates, bool open, double h, const State& f, State& y) {
   return error;
 }
 
-// Between two nodes, by the cubic that has their values and slopes.
+// Interpolates between two nodes by the cubic with their values and slopes.
 double between(double t, double from, double h, double y0, double f0, double y1, double f1) {
   const double s = (t - from) / h;
   const double rise = y1 - y0;
@@ -142,7 +143,7 @@ bool simulate(const Chamber& chamber, const gas::Air& air, std::span<const Openi
       openings.empty() ? times.front() : std::min(times.front(), openings.front().time);
 
   State y{gas::y_of(air, chamber.start), gas::y_of(air, chamber.start)};
-  std::size_t i = 0;  // the next time to be filled in
+  std::size_t i = 0;  // index of the next requested time
   bool open = false;
   int steps = 0;
   double t = begin;
@@ -154,7 +155,7 @@ bool simulate(const Chamber& chamber, const gas::Air& air, std::span<const Openi
       double to = t + 1.001 * h < until ? t + h : until;
       const State from = y, f = rates(from, open);
       double error = 0;
-      // Where a flow turns round its slope jumps: smaller steps across.
+      // The slope jumps where a flow reverses: use smaller steps there.
       while (error = step(rates, open, to - t, f, y), ++steps,
              !(error < step_error && y[0] > 0 && y[1] > 0)) {
         if (steps > most_steps) return false;

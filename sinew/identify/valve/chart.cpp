@@ -1,4 +1,4 @@
-// A chart of pressure and flow: the area of [44], or C and b_crit of ISO 6358.
+// Pressure-flow chart: area of [44], or C and b_crit of ISO 6358.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double worst_chart = 10;  // of the largest flow, left by the best law [%]
+constexpr double worst_chart = 10;  // rms of the best law, share of the largest flow [%]
 
 struct Chart {
   std::vector<double> up, down, flow;  // [Pa abs], [Pa abs], [kg/s]
@@ -59,7 +59,7 @@ Candidate candidate_of(bool iso, const Chart& c, const gas::Air& air) {
                            : "m' = A P_up C_m/sqrt(T)",
                 .source = iso ? "ISO 6358-1" : "[42]-[44]",
                 .options = {.widest_interval = 0.25}};
-  double area = 0;  // of the widest point as if it were choked
+  double area = 0;  // area of the point with the largest flow, if it were choked
   for (std::size_t i = 0; i < c.size(); ++i)
     area = std::max(area, c.flow[i] / gas::mass_flow(1.0, c.up[i], air.temperature, 0.0, air));
   const double conductance = gas::sonic_conductance_of(area, air);
@@ -76,7 +76,7 @@ Candidate candidate_of(bool iso, const Chart& c, const gas::Air& air) {
   return out;
 }
 
-// Refuses a law with a ratio b that the points do not determine.
+// Refuses a law whose ratio b is not determined by the points.
 void refuse_unseen_ratio(Fit& fit) {
   for (const Estimate& b : fit.parameters)
     if (b.name == "critical_pressure_ratio" && !b.identifiable)

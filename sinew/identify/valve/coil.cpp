@@ -1,6 +1,6 @@
-// A coil's current: the dip of the opening shutter tells when the valve is open, figure 4-8.
+// Coil current: the dip caused by the moving shutter shows when the valve is open, figure 4-8.
 //
-// The current's law is gas/coil_current.h: exponentials with one rate towards U/R, lower by the
+// The current follows gas/coil_current.h: exponentials with one rate towards U/R, reduced by the
 // back-EMF while the shutter moves, and towards the holding current after a boost.
 #include <fmt/format.h>
 
@@ -19,20 +19,20 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::size_t fewest = 20;  // samples of a pulse
+constexpr std::size_t fewest = 20;  // samples per pulse
 
-// All pulses over each other, time since the coil's edge.
+// All pulses superimposed, with time relative to the coil's edge.
 struct Pulses {
   std::vector<double> time, current;  // [s], [A]; ascending in time
   double sample = 0;                  // [s]
-  double length = 0;                  // of the shortest pulse [s]
+  double length = 0;                  // length of the shortest pulse [s]
   double largest = 0;                 // [A]
-  double gone = unbounded;            // after switching off: less than 5 % is left [s]
+  double gone = unbounded;            // time after switching off until less than 5 % remains [s]
   int count = 0;
 };
 
-// Without a command the current's own rise from nothing is the edge, and the last sample before its
-// last fall, at least by half, the end.
+// Finds the edges without a recorded command: the pulse begins where the current rises from zero,
+// and ends at the last sample before its final decay.
 Edges edges_by_current(const Measured& data) {
   Measured with = data;
   const std::vector<double>& current = data["current"];
@@ -41,7 +41,7 @@ Edges edges_by_current(const Measured& data) {
   for (std::size_t i = current.size(), on = 0; i-- > 0;) {
     if (current[i] <= threshold) on = 0;
     const bool last = i + 1 == current.size();
-    // Backwards in time the decay rises; the pulse begins where it stops rising.
+    // Scanned backwards in time, the decay rises; the pulse ends where it stops rising.
     const std::size_t later = std::min(i + 3, current.size() - 1);
     if (current[i] > threshold && (last || current[i] <= current[later] * 1.02)) on = 1;
     command[i] = on ? 1.0 : 0.0;
@@ -70,7 +70,7 @@ Pulses pulses_of(const Measured& data, Report& report) {
     }
     p.length = std::min(p.length, off - on.time);
     ++p.count;
-    double last = p.largest;  // when it is switched off
+    double last = p.largest;  // current at switching off
     for (std::size_t i = 0; i < t.size(); ++i) {
       if (t[i] > on.time - 2 * p.sample && t[i] < off) {
         points.emplace_back(t[i] - on.time, current[i]);
@@ -109,7 +109,8 @@ constexpr std::array coil_models{
     CoilModel{"coil and shutter", "L di/dt + R i = U - E while the shutter moves", true, false},
     CoilModel{"coil and shutter, boosted", "the same, U lower after the boost", true, true}};
 
-// The current's pieces out of parameters: edge, on, rate, [end, motion, dip], [boost, hold].
+// Returns the pieces of the current from parameters: edge, on, rate, [end, motion, dip], [boost,
+// hold].
 std::vector<gas::CurrentPiece> pieces_of(const CoilModel& model, std::span<const double> p) {
   const double edge = p[0], on = p[1], rate = p[2];
   const double open = model.dip ? p[3] : unbounded, motion = model.dip ? p[4] : 0;
@@ -133,7 +134,7 @@ std::vector<gas::CurrentPiece> pieces_of(const CoilModel& model, std::span<const
 }
 
 std::vector<Parameter> parameters_of(const CoilModel& model, const Pulses& c) {
-  double rise = 0.3 * c.length;  // to 63 %
+  double rise = 0.3 * c.length;  // time to 63 %
   for (std::size_t i = 0; i < c.time.size(); ++i)
     if (c.current[i] > 0.63 * c.largest) {
       rise = std::max(c.time[i], c.sample);
@@ -156,7 +157,7 @@ std::vector<Parameter> parameters_of(const CoilModel& model, const Pulses& c) {
   return p;
 }
 
-// Where the current's slope grows most: the ends of possible dips.
+// Returns times at which the slope of the current grows most: ends of possible dips.
 std::vector<double> dips_of(const Pulses& c, double width) {
   std::vector<std::pair<double, double>> found;  // growth, time
   const auto mean = [&](double from, double to) {
@@ -189,7 +190,7 @@ std::vector<std::vector<double>> starts_of(const CoilModel& model, const Pulses&
   for (const Parameter& p : parameters) middle.push_back(p.start);
   const std::size_t top = static_cast<std::size_t>(
       std::max_element(c.current.begin(), c.current.end()) - c.current.begin());
-  if (model.boost) {  // the boost ends where the current is largest
+  if (model.boost) {  // the boost ends at the largest current
     middle[parameters.size() - 2] = c.time[top];
     middle[parameters.size() - 1] = c.current.back();
   }

@@ -21,15 +21,15 @@ constexpr std::size_t most_alternating = 8;   // curves in one table
 
 std::string pressure_text(double p) { return config::format_quantity(p, "Pa abs", "kPa abs", 4); }
 
-// The first row that has gone that share of the way; rows() if none has.
+// Returns the first row beyond this share of the change; rows() if no row is.
 std::size_t first_beyond(const Curve& c, double share) {
   for (std::size_t i = 0; i < c.pressure.size(); ++i)
     if (c.share(c.pressure[i]) >= share) return i;
   return c.pressure.size();
 }
 
-// Returns what a rest up to the row `last`, followed by a straight rise or fall, leaves of these
-// rows: the sum of its squares.
+// Returns the sum of squared residuals of these rows about a rest up to the row `last`, followed by
+// a straight rise or fall.
 double left_by_rest(const Curve& c, std::span<const std::size_t> rows, std::size_t last) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   for (const std::size_t i : rows) {
@@ -45,8 +45,8 @@ double left_by_rest(const Curve& c, std::span<const std::size_t> rows, std::size
   return std::max(0.0, yy - y * y / n - (across > 0 ? along * along / across : 0.0));
 }
 
-// Returns whether the record begins before the pressure moves: two rows or more at rest go with its
-// first tenth much better than a rise from the first row on does. Long records are thinned.
+// Returns whether the record begins before the pressure moves: a rest of two rows or more fits the
+// first tenth of the change much better than a rise from the first row. Long records are thinned.
 bool rests_first(const Curve& c) {
   constexpr std::size_t enough = 200;
   const std::size_t moves = first_beyond(c, 0.03), end = std::max(first_beyond(c, 0.1), moves + 2);
@@ -91,8 +91,9 @@ void find_rate(const Measured& data, Curve& c) {
   c.opening = c.opening_seen ? c.time[moves - 1] : c.time.front();
 }
 
-// A flow through a valve slows down as the pressures meet. A curve that runs up to its end at full
-// speed and then stays on one value has met the sensor's end, not the port's pressure.
+// Throws Refusal for a clipped curve. A flow through a valve slows down as the pressures approach
+// each other; a curve that reaches its end at full rate and then stays on one value shows the
+// limit of the sensor.
 void refuse_saturated(const Measured& data, const Curve& c) {
   const std::size_t a = first_beyond(c, 0.6), b = first_beyond(c, 0.95);
   const double extreme = c.fills() ? largest(c.pressure) : smallest(c.pressure);
@@ -113,8 +114,8 @@ void refuse_saturated(const Measured& data, const Curve& c) {
                 "a sensor with a larger range, or a lower pressure");
 }
 
-// Rows of several curves in turn: a sample is nearer to the one a few rows before it than to its
-// neighbour.
+// Throws Refusal if the rows of several curves alternate: a sample is then closer to one a few rows
+// before than to its neighbour.
 void refuse_alternating(const Measured& data, const Curve& c) {
   const auto way = [&](std::size_t lag) {
     double sum = 0;
@@ -131,7 +132,7 @@ void refuse_alternating(const Measured& data, const Curve& c) {
 }
 
 void refuse_to_and_fro(const Measured& data, const Curve& c) {
-  double most = c.start;  // the farthest on the way so far
+  double most = c.start;  // farthest value so far
   std::size_t where = 0;
   for (std::size_t i = 0; i < c.pressure.size(); ++i) {
     if (c.share(c.pressure[i]) > c.share(most)) most = c.pressure[i];
@@ -147,7 +148,7 @@ void refuse_to_and_fro(const Measured& data, const Curve& c) {
       "pulses");
 }
 
-// What comes long after the pressure has settled would only flatter the fit.
+// Removes rows long after the pressure has settled, which would only improve the score.
 void cut_hold(Curve& c) {
   const std::size_t settled = first_beyond(c, 0.98);
   if (settled >= c.time.size()) return;

@@ -1,5 +1,5 @@
-// identify/valve/curve.h - a pressure that rises or falls once, made ready for a fit: where it
-// begins and ends, which part of it tells something, and what speaks against it.
+// identify/valve/curve.h - preparation of a pressure that rises or falls once: its start and end,
+// the part to be fitted, and checks.
 #pragma once
 
 #include <string>
@@ -11,21 +11,21 @@ namespace sinew::identify {
 
 struct Curve {
   std::vector<double> time, pressure;  // [s], [Pa abs]; the part that is fitted
-  double start = 0, end = 0;           // before it moves, and where it settles [Pa abs]
-  double opening = 0;                  // when it begins to move, roughly [s]
-  bool opening_seen = false;           // the curve begins before
-  bool settled = true;                 // it has all but stopped at its end
-  double rate = 0;                     // dP/dt between 15 and 50 % of the way [Pa/s]
+  double start = 0, end = 0;           // before it moves, and settled value [Pa abs]
+  double opening = 0;                  // approximate start of the motion [s]
+  bool opening_seen = false;           // the record begins before the opening
+  bool settled = true;                 // nearly constant at its end
+  double rate = 0;                     // dP/dt between 15 and 50 % of the change [Pa/s]
   std::vector<std::string> notes;
 
-  // Does the pressure rise? And by how much does it change  [Pa].
+  // Return whether the pressure rises, its change [Pa], and the share of the change at a pressure.
   bool fills() const { return end > start; }
   double range() const { return fills() ? end - start : start - end; }
-  double share(double p) const { return (p - start) / (end - start); }  // of the way
+  double share(double p) const { return (p - start) / (end - start); }
 };
 
-// Columns `time` and `pressure`. Throws Refusal where the pressure is constant, the samples are too
-// few, the sensor's end cuts the curve, or it moves to and fro.
+// Prepares the columns `time` and `pressure`. Throws Refusal if the pressure is constant, there are
+// too few samples, the sensor clips the curve, or it reverses.
 Curve curve_of(const Measured& data);
 
 }  // namespace sinew::identify

@@ -1,9 +1,9 @@
-// A map of commanded and delivered duty, figure 3-13: the valve's two delays.
+// Map of commanded and delivered duty, figure 3-13: the two delays of a valve.
 //
 //   delivered = D - (t_o - t_c) f          0 if D < t_o f          1 if 1 - D < t_c f          3.4
 //
-// The straight part tells the difference of the delays alone; where it ends tells each of them, as
-// closely as the duties stand there.
+// The straight part determines only the difference of the delays. Its ends determine each delay,
+// within the spacing of the duties there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double nothing = 0.02;  // of the full delivery: less is none, and more than 1 - it is all
+constexpr double nothing = 0.02;  // share of full delivery: less is none, more than 1 - it is full
 
 struct Map {
   std::vector<double> duty, delivered, frequency;  // delivered, or a flow of any scale
-  double full = 1;                                 // of what is delivered at full duty
+  double full = 1;                                 // delivery at full duty
   bool flow = false;
 
   bool none(std::size_t i) const { return delivered[i] < nothing * full; }
@@ -47,7 +47,7 @@ Map map_of(const Measured& data, const ValveOptions& options) {
   return m;
 }
 
-// What an edge of the map says of a delay: between those two  [s].
+// Interval that an end of the straight part gives for a delay [s].
 struct Bracket {
   double low = 0, high = unbounded;
   bool seen_low = false, seen_high = false;
@@ -82,7 +82,7 @@ std::vector<std::size_t> straight_part(const Map& m) {
   return out;
 }
 
-// Fits the difference of the delays, and the scale of a flow.
+// Returns the problem of the difference of the delays, and the scale of a flow.
 Candidate candidate_of(const Map& m, std::span<const std::size_t> rows, bool delayed) {
   Candidate out{.model = delayed ? "dead times" : "ideal",
                 .law = delayed ? "delivered = D - (t_o - t_c) f, 0 below t_o f, 1 above 1 - t_c f"
@@ -102,7 +102,7 @@ Candidate candidate_of(const Map& m, std::span<const std::size_t> rows, bool del
   return out;
 }
 
-// Of the straight part.
+// Returns the rows of the straight part.
 Rows rows_of(const Map& m, std::span<const std::size_t> rows) {
   Rows out{.x = "commanded duty", .x_unit = "1"};
   for (const std::size_t i : rows) {
@@ -121,7 +121,7 @@ Estimate delay_in(const Bracket& b, std::string name) {
   return e;
 }
 
-// Both brackets and the difference with its interval, made to agree.
+// Makes both brackets and the difference with its interval consistent.
 void join(Bracket& opening, Bracket& closing, const Estimate& difference) {
   const double low = std::isfinite(difference.low) ? difference.low : difference.value;
   const double high = std::isfinite(difference.high) ? difference.high : difference.value;
@@ -130,7 +130,7 @@ void join(Bracket& opening, Bracket& closing, const Estimate& difference) {
     if (to < b.high) b.high = to;
     if (closed) b.seen_low = b.seen_high = true;
     b.low = std::max(b.low, 0.0);
-    if (b.low > b.high) b.low = b.high = 0.5 * (b.low + b.high);  // at the edge of the noise
+    if (b.low > b.high) b.low = b.high = 0.5 * (b.low + b.high);  // inconsistent due to noise
   };
   const Bracket o = opening, c = closing;
   narrow(opening, c.low + low, c.high + high, c.closed());

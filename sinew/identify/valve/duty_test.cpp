@@ -1,4 +1,4 @@
-// Duties and predict.dat: delays from what valves deliver, and tables that make up for them.
+// Duties and predict.dat: delays from delivered duties, and tables that compensate them.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -73,8 +73,8 @@ TEST(ValveDuty, AMissingFrequencyAndAConstantDeliveryAreRefused) {
 
 // --- predict.dat ---
 
-// The table's edges through a shutter with the delays, as the low level drives them: on at `open`
-// of a period, off at `close` of the next.
+// Applies the table's edges to a shutter with the delays, as the low level does: on at `open` of a
+// period, off at `close` of the next.
 double delivered_by(const config::ValveTiming& timing, unsigned duty, const gas::Valve& valve,
                     double period) {
   gas::Shutter shutter(valve);
@@ -96,7 +96,7 @@ double delivered_by(const config::ValveTiming& timing, unsigned duty, const gas:
       const bool close = on && count >= timing.closing[duty];
       const bool opens = !on && count >= timing.opening[duty];
       if (!close && !opens) continue;
-      opened = opens;  // and is let alone until the next period
+      opened = opens;  // stays so until the next period
       advance(k * period + count * tick);
       on = opens;
       shutter.electrical(k * period + count * tick, on);
@@ -118,7 +118,7 @@ TEST(ValveTiming, ACompensatedTableDeliversTheDutyThroughTheDelays) {
     for (unsigned duty = 0; duty <= 100; ++duty) {
       const double real = delivered_by(read, duty, valve, 10e-3);
       EXPECT_NEAR(real, c.delivered[duty], 1e-3) << trial << " " << duty;
-      // Between the shortest pulse and the shortest gap it is right to half a tick.
+      // Between the shortest pulse and the shortest gap it is correct to half a tick.
       const double d = duty / 100.0, least = valve.closing_delay * 100 + 0.02;
       const double most = 1 - valve.opening_delay * 100 - 0.02;
       if (d > least && d < most) {

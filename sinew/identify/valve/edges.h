@@ -1,4 +1,4 @@
-// identify/valve/edges.h - when a recorded command was switched.
+// identify/valve/edges.h - switching times of a recorded command.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,15 @@
 namespace sinew::identify {
 
 struct Edges {
-  std::vector<Opening> edges;  // of the coil, halfway between the samples around each
-  double sample = 0;           // how long those are apart, mostly [s]
+  std::vector<Opening> edges;  // coil edges, halfway between the samples around each
+  double sample = 0;           // median sample interval [s]
 };
 
-// Column `command`, on above half of its largest value. Throws Refusal where it is never switched.
+// Returns the edges of the column `command`, which is on above half of its largest value. Throws
+// Refusal if it never switches.
 Edges edges_of(const Measured& data);
 
-// What a valve with dead times makes of them (gas/delay.h), times [s].
+// Returns the edges of the valve itself, with dead times [s] (gas/delay.h).
 std::vector<Opening> delayed(const std::vector<Opening>& edges, double opening_delay,
                              double closing_delay);
 

@@ -35,15 +35,15 @@ constexpr std::array all_models{
     FillModel{"hose adiabatic", hose_iso, "ours, n = 1.4", hose, iso6358, 1.4},
     FillModel{"hose polytropic", hose_iso, "ours, [40]", hose, iso6358, 0}};
 
-// C/V of a rigid chamber that moves at the curve's rate while it is choked.
+// Returns C/V of a rigid chamber with the curve's rate under choked flow.
 double conductance_at(const Curve& c, const gas::Air& air) {
   const double up = std::max(c.start, c.end);
   const double flow = gas::mass_flow_iso6358(1.0, 0.3, up, air.temperature, 0.0);
   return std::abs(c.rate) / (air.gas_constant * air.temperature * flow);
 }
 
-// The intervals of a solution with values at their bounds, as if those were a little inside: from a
-// solver that takes no step.
+// Computes intervals of a solution with values at their bounds as if those were slightly
+// inside, from a solver with no steps.
 void widen(Solution& s, const Residuals& residuals, std::size_t rows,
            std::span<const Parameter> parameters, SolverOptions options) {
   if (std::none_of(s.estimates.begin(), s.estimates.end(),
@@ -107,7 +107,7 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
   if (!c.opening_seen) {
     add("start_pressure", "Pa abs", c.start, std::max(1e3, c.start - 0.1 * range),
         c.start + 0.1 * range, range, &Chamber::start);
-  } else {  // the pressure before is measured
+  } else {  // the initial pressure is measured
     const double way = range / std::abs(c.rate);
     add("opening_instant", "s", c.opening, c.time.front() - 0.01 * way, c.opening + 0.5 * way,
         0.1 * way, nullptr);

@@ -1,4 +1,4 @@
-// identify/valve/fill.h - models of one filling or venting, and how they are fitted.
+// identify/valve/fill.h - models of one filling or venting, and their fit.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace sinew::identify {
 
-// A law by which a chamber may fill.
+// A model of a filling chamber.
 struct FillModel {
   std::string_view name, law, source;
   Chamber::Shape shape = Chamber::Shape::rigid;
@@ -22,29 +22,29 @@ struct FillModel {
   bool leak = false;
 };
 
-// Returns all of them.
+// Returns all models.
 std::span<const FillModel> fill_models();
 
-// A parameter and where it goes; no member: the opening instant.
+// A parameter and its place in the chamber; null: the opening instant.
 struct FreeValue {
   Parameter parameter;
   double Chamber::*member = nullptr;
 };
 
-// A chamber with the values that are tried.
+// A chamber with trial values.
 struct FillCase {
   Chamber chamber;
   double opening = 0;  // [s]
 };
 
-// What a model leaves to be fitted to the curve, from sensible starts.
+// Returns the free parameters of a model, with start values from the curve.
 std::vector<FreeValue> free_values(const FillModel& model, const Curve& curve,
                                    const ValveOptions& options);
 FillCase fill_case(const FillModel& model, const Curve& curve, const ValveOptions& options,
                    std::span<const FreeValue> free, std::span<const double> values);
 
-// Fits the rows in `keep`. A value that ends at a bound is true only if it is really there: the
-// intervals of the others count it as free.
+// Fits the rows in `keep`. A value at a bound may be an artefact of the model, so the intervals of
+// the others treat it as free.
 Refit fit_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
                std::span<const std::size_t> keep, std::span<const std::vector<double>> starts);
 

@@ -1,4 +1,5 @@
-// A chamber behind a valve: its laws, and what its pressure gives back of valve and chamber.
+// A chamber behind a valve: its laws, and the identification of valve and chamber from its
+// pressure.
 #include "sinew/identify/valve/fill.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,7 @@ Chamber filling(gas::Flow::Law law, double exponent) {
 
 // --- the chamber ---
 
-// Two ways: steps in time here, an integral over pressure in gas/fill.h.
+// Two methods: steps in time here, an integral over pressure in gas/fill.h.
 TEST(ValveChamber, AgreesWithTheIntegralOverPressure) {
   const gas::Air base;
   for (const gas::Flow::Law law : {orifice, iso6358})
@@ -96,7 +97,7 @@ TEST(ValveChamber, ChokedFillingIsLinearInTime) {
     EXPECT_NEAR(p[i], c.start + slope * (t[i] - 0.01), 1e-4 * c.port);
 }
 
-// Choked and isothermal, P falls by a constant share per time.
+// Choked and isothermal: P decreases by a constant factor per time.
 TEST(ValveChamber, ChokedVentingIsExponential) {
   const gas::Air air;
   Chamber c = filling(orifice, 1);
@@ -125,7 +126,7 @@ TEST(ValveChamber, TimeAndConductanceAreOneNumber) {
   }
 }
 
-// The limits in which a hose and a soft wall are none.
+// The limits in which a hose and a soft wall have no effect.
 TEST(ValveChamber, AWideHoseAndAHardWallChangeNothing) {
   const gas::Air air;
   const std::vector<double> t = at_steps(0.02, 60);
@@ -151,7 +152,7 @@ struct Trials {
   int identifiable = 0;
 };
 
-// Fillings with white noise, and what becomes of one of their parameters.
+// Fillings with white noise, and the estimates of one of their parameters.
 Trials trials_of(const FillModel& model, const Chamber& truth, const char* name, double value,
                  double noise, std::optional<double> port, unsigned count = 200) {
   ValveOptions options;
@@ -199,7 +200,7 @@ TEST(ValveFill, IntervalsOfAnOrificesExponentCoverTheTruthWhereTheSupplyIsKnown)
                           "polytropic_exponent", 1.2, 2e3, 7e5));
 }
 
-// With b free as well, one curve at this noise does not tell the exponent, and it is said.
+// With b free as well, one curve at this noise does not determine the exponent, which is reported.
 TEST(ValveFill, ExponentAndBTogetherAreDeclaredUnidentifiable) {
   const Trials t = trials_of(model_called("iso polytropic"), filling(iso6358, 1.2),
                              "polytropic_exponent", 1.2, 1e4, {}, 20);
@@ -230,8 +231,8 @@ TEST(ValveFill, TheModelThatMadeTheDataIsChosen) {
   }
 }
 
-// A record that begins with the opening, or after it, holds no instant of it; one that rests before
-// does.
+// A record that begins with the opening or after it has no opening instant; one that rests before
+// has.
 TEST(ValveFill, TheOpeningIsAnInstantOnlyWhereTheRecordRestsBeforeIt) {
   ValveOptions options;
   options.volume = 2e-3;
@@ -249,7 +250,7 @@ TEST(ValveFill, TheOpeningIsAnInstantOnlyWhereTheRecordRestsBeforeIt) {
     }
 }
 
-// A known valve is a volume meter.
+// A known valve measures a volume.
 TEST(ValveFill, WithTheConductanceTheVolumeIsFound) {
   ValveOptions options;
   options.conductance = 1e-8;
@@ -274,7 +275,7 @@ TEST(ValveFill, WithoutEitherCIsRefusedAndCOverVTold) {
   EXPECT_NEAR(r.report.best().parameters.front().value, conductance, 0.02 * conductance);
 }
 
-// An exponent that no named model has: what is said of C/V is true all the same.
+// With an exponent of no listed model, the interval of C/V still contains the truth.
 TEST(ValveFill, AnIntervalCoversTheTruthWhateverTheChamberIsTakenFor) {
   ValveOptions options;
   const std::vector<double> t = at_steps(0.02, 80);
@@ -328,7 +329,7 @@ TEST(ValveFill, BrokenCurvesAreRefusedWithTheirReason) {
   says(refusal_of(at_steps(0.01, 5), {1e5, 2e5, 3e5, 4e5, 5e5}), "found 5 rows");
 }
 
-// --- measured elsewhere ---
+// --- external measurements ---
 
 // Portland State University's eight fillings of an unknown volume from an unknown supply.
 TEST(ValveFill, EachOfEightMeasuredFillingsIsMetWithin3Percent) {
@@ -343,7 +344,7 @@ TEST(ValveFill, EachOfEightMeasuredFillingsIsMetWithin3Percent) {
     const ValveResult r = identify_fill(m, ValveOptions());
     EXPECT_LT(r.report.best().fit.rmse_percent, 3) << i;
     EXPECT_NE(r.refused.find("try volume="), std::string::npos) << i;
-    // Its interval is narrow, or it is said that it is not.
+    // Its interval is narrow, or a note states that it is not.
     const Estimate& k = r.report.best().parameters.front();
     if (k.high - k.low > 0.5 * k.value) {
       EXPECT_NE(r.refused.find("port=PRESSURE"), std::string::npos) << i;

@@ -1,4 +1,4 @@
-// identify/valve/fill_trust.h - how far the C/V of a filling can be trusted, beyond one model's
+// identify/valve/fill_trust.h - uncertainty of C/V from a filling, in addition to one model's
 // interval.
 #pragma once
 
@@ -12,34 +12,35 @@ namespace sinew::identify {
 // One of fill_models(), fitted; its first parameter is C/V.
 struct Tried {
   Fit fit;
-  double squares = 0;     // sum of the residuals' [Pa2]
-  double acceptable = 0;  // of which other values are as good, at 95 %
+  double squares = 0;     // sum of squared residuals [Pa2]
+  double acceptable = 0;  // largest sum that is compatible with the best, at 95 % [Pa2]
 };
 
-constexpr double well_known = 0.25;  // half an interval of C/V, of its value
-// Returns half an estimate's interval, as a share of its value.
+constexpr double well_known = 0.25;  // half of the interval of C/V, relative to its value
+// Returns half of an estimate's interval, relative to its value.
 inline double half_of(const Estimate& e) { return 0.5 * (e.high - e.low) / e.value; }
 
-// Fits one model to a curve; `other` scores it where there is one.
+// Fits one model to a curve; `other`, if not null, scores it.
 Tried try_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
                const Curve* other);
 
-// Throw Refusal for a curve that still moves at its end, and for one that no model meets.
+// Throw Refusal for a curve that still moves at its end, and for one that no model fits.
 void refuse_unsettled(const Measured& data, const Curve& curve, const ValveOptions& options);
 void refuse_poor_fit(const Measured& data, const Report& report, double worst);
 
-// Throws Refusal where the curve does not tell C/V at all.
+// Throws Refusal if the curve does not determine C/V.
 void refuse_undetermined(const Solution& solution);
 
-// A curve's exponent is far from linear in its parameters: where a fixed exponent fits as well as
-// the best, the intervals of the free one reach there. `tried` is in the order of fill_models().
+// Widens the intervals of free exponents to fixed exponents that fit as well as the best: a
+// curve is strongly nonlinear in the exponent. `tried` is in the order of fill_models().
 void reach_for_fixed(std::span<Tried> tried);
 
-// A model that leaves C/V open is no use where another meets the curve and does not.
+// Refuses models that leave C/V undetermined if another one fits the curve and determines it.
 void refuse_open(std::span<Tried> tried, double worst_fit);
 
-// What the chamber is taken for matters more than the noise: the chosen model's C/V reaches over
-// every model that the curve cannot tell from the best, or that fits no worse than the chosen.
+// Widens the chosen model's interval of C/V to those of every model that the curve cannot
+// distinguish from the best, or that fits no worse than the chosen one: the assumed chamber matters
+// more than the noise.
 void reach_over_models(std::span<const Tried> tried, Report& report);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-// What the tests of valves share.
+// Common functions of the valve tests.
 #pragma once
 
 #include <gtest/gtest.h>

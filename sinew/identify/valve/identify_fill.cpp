@@ -1,4 +1,4 @@
-// All models of a filling, the choice, and what C/V is worth without V.
+// Fits all models of a filling, chooses one, and determines C/V without V.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace sinew::identify {
 
 namespace {
 
-// Parameters that belong to this one record, not to the valve and its chamber.
+// Returns whether a parameter belongs to this record, not to the valve and its chamber.
 bool of_the_record(std::string_view name) {
   return name == "start_pressure" || name == "opening_instant";
 }
@@ -26,7 +26,7 @@ std::vector<std::size_t> all_rows(const Curve& c) {
   return out;
 }
 
-// Every second tenth of the way is held out; its ends stay.
+// Returns whether a row is held out: every second tenth of the change, without its ends.
 bool held_out(const Curve& c, std::size_t i) {
   const double share = c.share(c.pressure[i]);
   return share > 0.1 && share < 0.8 && static_cast<int>(10 * share) % 2 == 1;
@@ -38,8 +38,8 @@ std::vector<double> starts_of(std::span<const FreeValue> free) {
   return out;
 }
 
-// There may be several minima: these starts are spread over what can be. Before a narrow hose a
-// small share of the volume fills fast, and C/V is less than the first rise says.
+// Returns starts spread over the possible values, as there may be several minima. Before a narrow
+// hose a small share of the volume fills fast, and C/V is less than the first rise suggests.
 std::vector<std::vector<double>> spread_starts(const FillModel& model,
                                                std::span<const FreeValue> free) {
   struct Spread {
@@ -87,7 +87,8 @@ Score score_tenths(const FillModel& model, const Curve& c, const ValveOptions& o
   return score(errors, c.range());
 }
 
-// The model's own values are kept; where the other record starts and when is the record's.
+// Scores the model on another record: model values are kept, start pressure and opening instant are
+// fitted.
 Score score_other(const FillModel& model, const Curve& other, const ValveOptions& options,
                   const Solution& found) {
   const std::vector<FreeValue> free = free_values(model, other, options);
@@ -114,7 +115,7 @@ Score score_other(const FillModel& model, const Curve& other, const ValveOptions
   return score(least_squares(residuals, other.time.size(), record).residuals, other.range());
 }
 
-// Two of the valve's parameters that the curve hardly tells apart.
+// Notes pairs of the valve's parameters that the curve hardly separates.
 void tell_correlations(const Solution& s, Fit& fit) {
   const std::size_t n = s.estimates.size();
   const auto cov = [&](std::size_t i, std::size_t k) { return s.covariance[i * n + k]; };
@@ -130,7 +131,7 @@ void tell_correlations(const Solution& s, Fit& fit) {
     fit.notes.push_back("the curve does not determine " + unseen);
 }
 
-// C/V with what is known beside it.
+// Adds conductance or volume, from C/V and the other of the two.
 void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
   Estimate& k = fit.parameters.front();
   if (options.volume) {
@@ -152,7 +153,7 @@ void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
   }
 }
 
-// What the exponent is, where the chosen model has it fixed: from its sister that fits it.
+// Notes the exponent from the variant with a free one, if the chosen model has it fixed.
 void tell_exponent(Report& report) {
   const std::span<const FillModel> models = fill_models();
   const FillModel& chosen = models[report.chosen];
@@ -171,7 +172,7 @@ void tell_exponent(Report& report) {
   }
 }
 
-// `alone`: C/V by the chosen model, without what other models would make of it.
+// Adds notes to the report. `alone`: C/V by the chosen model, not widened to other models.
 void describe(const Curve& c, const ValveOptions& options, const Estimate& alone,
               ValveResult& out) {
   Report& r = out.report;

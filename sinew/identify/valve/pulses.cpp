@@ -1,6 +1,7 @@
-// Pressure in a chamber while the valve is pulsed: both delays, beside C/V.
+// Pressure in a chamber with a pulsed valve: both delays, and C/V.
 //
-// sealed: the chamber is shut between the pulses; vents: a 3-way valve joins it to the room then.
+// sealed: the chamber is shut between the pulses. vents: a 3-way valve connects it to the room
+// then.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace {
 struct Record {
   std::vector<double> time, pressure;  // [s], [Pa abs]
   Edges commands;
-  double shortest = 0;  // pulse or gap [s]
+  double shortest = 0;  // shortest pulse or gap [s]
   double rate = 0;      // fastest change while the coil is on [Pa/s]
   bool fills = true;
 
@@ -71,7 +72,7 @@ Record record_of(const Measured& data) {
                   fmt::format("pulses or gaps of {:.2g} samples", r.shortest / r.commands.sample),
                   "at least 4: the sample rate is too low", "a faster sampling, or longer pulses");
 
-  // The pressure's fastest way, over a quarter of the shortest pulse.
+  // Fastest change of the pressure, over a quarter of the shortest pulse.
   const auto lag =
       std::max<std::size_t>(2, static_cast<std::size_t>(0.25 * r.shortest / r.commands.sample));
   for (std::size_t i = lag; i < r.time.size(); ++i) {
@@ -79,7 +80,7 @@ Record record_of(const Measured& data) {
         (r.pressure[i] - r.pressure[i - lag]) / std::max(r.time[i] - r.time[i - lag], 1e-9);
     if (std::abs(rate) > std::abs(r.rate)) r.rate = rate;
   }
-  // Up or down while it is on: by the whole of the first pulse.
+  // Direction while the coil is on: from the whole first pulse.
   double before = r.pressure.front(), on = -unbounded, off = unbounded;
   for (const Opening& edge : e) {
     if (edge.open && on == -unbounded) on = edge.time;
@@ -163,8 +164,8 @@ Candidate candidate_of(const PulseModel& model, const Record& r, const ValveOpti
   return out;
 }
 
-// An edge lies anywhere between two samples of the command: the same for every edge if both were
-// made by one clock.
+// Returns the estimate widened by the sampling of the command: an edge is anywhere between two
+// samples, and equally for every edge if one clock made both.
 Estimate widened(Estimate e, double half) {
   e.low -= half;
   e.high += half;

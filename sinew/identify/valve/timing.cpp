@@ -20,7 +20,8 @@ CompensatedTiming compensated(double opening_delay, double closing_delay, double
                   "less than the period of the pulses", "a lower frequency");
   const auto open = static_cast<std::uint16_t>(period - lead);
 
-  // Coil on from `open` of the last period to `close` of this; shut for at least a tick between.
+  // The coil is on from `open` of the last period to `close` of this one, with at least a tick off
+  // between.
   const auto delivered = [&](int close) {
     const int on = close >= never ? period : std::min(close + lead, period - 1);
     return signals::delivered_duty(static_cast<double>(on) / period, period * tick, opening_delay,
@@ -30,14 +31,14 @@ CompensatedTiming compensated(double opening_delay, double closing_delay, double
   CompensatedTiming out;
   out.timing.closing[0] = 0;
   out.timing.opening[0] = never;
-  int close = 0;  // never falls as the duty rises
+  int close = 0;  // does not decrease with the duty
   for (unsigned duty = 1; duty <= signals::max_duty; ++duty) {
     const double wanted = static_cast<double>(duty) / period;
     const auto error = [&](int c) { return std::abs((c == 0 ? 0.0 : delivered(c)) - wanted); };
     int best = close;
-    for (int c = close; c <= never; ++c)  // one closed in the last tick would stay shut
+    for (int c = close; c <= never; ++c)  // closing in the last tick would have no effect
       if (c != period && error(c) < error(best) - 1e-9) best = c;
-    if (delivered(best) >= 1) best = never;  // rather than a gap too short to be seen
+    if (delivered(best) >= 1) best = never;  // instead of a gap that is too short
     close = best;
     out.timing.closing[duty] = static_cast<std::uint16_t>(close);
     out.timing.opening[duty] = close == 0 ? never : open;

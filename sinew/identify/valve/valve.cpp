@@ -145,7 +145,7 @@ std::string valve_file(gas::Valve valve, const Provenance& provenance) {
   std::vector<gas::Valve> one{std::move(valve)};
   gas::fields(writer, one);
 
-  // What has no source of its own was not identified.
+  // Values without a source of their own were not identified.
   config::Node root = writer.root();
   config::Node* table = root.find("valve")->find(name);
   table->put(config::make_text("source", provenance.elsewhere()));

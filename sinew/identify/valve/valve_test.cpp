@@ -1,4 +1,4 @@
-// Charts, pulses and coils give back the valve that made them.
+// The valve is recovered from charts, pulses and coil currents.
 #include "sinew/identify/valve/valve.h"
 
 #include <gtest/gtest.h>
@@ -186,7 +186,7 @@ gas::Valve coil_valve(bool boosted, double delay) {
   return v;
 }
 
-// Two periods of 125 Hz at 50 % from an oscilloscope.
+// Two periods of 125 Hz at 50 % as from an oscilloscope.
 Measured trace(const gas::Valve& valve, double noise, unsigned seed, bool commanded) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, noise);
