@@ -49,7 +49,7 @@ TEST(Figure, SaysWhatIsWrong) {
   const auto of = [](std::string_view text) { return message([=] { parse_figures(text); }); };
   EXPECT_NE(of("trolley.distance_m [lb]").find("a unit of m (length)"), std::string::npos);
   EXPECT_NE(of("trolley.distance_m [in").find("a bracket that closes"), std::string::npos);
-  EXPECT_NE(of("trolley.distance_m in").find("a unit in brackets"), std::string::npos);
+  EXPECT_NE(of("trolley.distance_m in").find("in brackets the unit"), std::string::npos);
   EXPECT_NE(of("a,,b").find("a key of summary.json"), std::string::npos);
   EXPECT_EQ(nearest_key("trolley.distanc_m", summary()), "trolley.distance_m");
   EXPECT_EQ(nearest_key("trolley.distance_m", summary()), "");

@@ -141,7 +141,7 @@ TEST(Joint, TheModelIsChosenByWhatItDidNotSee) {
 TEST(Joint, AttachmentPointsNeedAKnownForceLaw) {
   const Truth t{.c1 = 0, .origin = 0.06, .origin_angle = 1.2};
   JointSetup s = setup_of(t);
-  EXPECT_NE(refused(poses(t, false, 0.002, 5), s).find("cannot be told apart"), std::string::npos);
+  EXPECT_NE(refused(poses(t, false, 0.002, 5), s).find("cannot be separated"), std::string::npos);
 
   s.keep_force = true;
   s.actuator.effectiveness = {.c0 = t.c0};
@@ -178,7 +178,7 @@ TEST(Joint, IntervalsCoverTheTruthIn200Trials) {
 TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
   const Truth t{.half_range = 0.06};
   const std::string text = refused(poses(t, false, 0.05, 2), setup_of(t), "round");
-  EXPECT_NE(text.find("cannot be told apart"), std::string::npos) << text;
+  EXPECT_NE(text.find("cannot be separated"), std::string::npos) << text;
   EXPECT_NE(text.find("determined is"), std::string::npos) << text;
   EXPECT_NE(text.find("moment_arm^"), std::string::npos) << text;
   EXPECT_NE(text.find("c0^"), std::string::npos) << text;

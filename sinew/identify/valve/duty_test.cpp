@@ -56,7 +56,7 @@ TEST(ValveDuty, BothDelaysComeBackWithinTheirBrackets) {
 TEST(ValveDuty, TheStraightPartAloneTellsTheDifferenceOnly) {
   const ValveResult r =
       identify_duty(duty_map(4e-3, 1e-3, {25, 50}, 1e-3, 1, false, 0.3, 0.8), ValveOptions());
-  expect_says(r.refused, "the straight part of the map does not tell the delays apart");
+  expect_says(r.refused, "the straight part of the map does not separate the delays");
   EXPECT_NEAR(parameter(r, "delay_difference").value, 3e-3, 0.05e-3);
 }
 

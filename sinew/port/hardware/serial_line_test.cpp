@@ -118,7 +118,7 @@ TEST(SerialLine, NobodyAtTheLineIsSaidToBeSo) {
     board.identify();
     FAIL() << "nobody is there";
   } catch (const BoardError& e) {
-    EXPECT_NE(std::string(e.what()).find("nobody answers"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("no reply"), std::string::npos) << e.what();
   }
 }
 

@@ -30,7 +30,7 @@ TEST(Place, IsASimulationADeviceOrAFile) {
         << bad;
   for (const char* bad : {"serial:/dev/ttyACM0@", "serial:/dev/ttyACM0@fast", "serial:a@0",
                           "serial:a@-1", "serial:a@99999999999"})
-    EXPECT_NE(problem_of_place(bad).find("of which the rate is no number"), std::string::npos)
+    EXPECT_NE(problem_of_place(bad).find("whose rate is not a number"), std::string::npos)
         << bad;
   EXPECT_FALSE(is_elsewhere(""));
   EXPECT_FALSE(is_elsewhere("simulated"));
