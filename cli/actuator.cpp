@@ -89,15 +89,15 @@ ExitCode run_actuator(const ActuatorOptions& options) {
 
 }  // namespace
 
-void add_actuator(Command app, Action& action) {
+void add_actuator(CLI::App& app, Action& action) {
   auto options = std::make_shared<ActuatorOptions>();
-  Command sub = app.subcommand(
-      "actuator", "tension, stiffness and geometry of one braided actuator",
-      "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "
-      "\"60 psi gauge\" --velocity \"-2 in/s\"");
-  sub.add_option("FILE", options->file, "actuator, robot or experiment file").required();
-  sub.add_option("--length", options->length, "a length, or from:to:step").required();
-  sub.add_option("--pressure", options->pressure, "gauge or abs, or from:to:step").required();
+  CLI::App& sub =
+      subcommand(app, "actuator", "tension, stiffness and geometry of one braided actuator",
+                 "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "
+                 "\"60 psi gauge\" --velocity \"-2 in/s\"");
+  sub.add_option("FILE", options->file, "actuator, robot or experiment file")->required();
+  sub.add_option("--length", options->length, "a length, or from:to:step")->required();
+  sub.add_option("--pressure", options->pressure, "gauge or abs, or from:to:step")->required();
   sub.add_option("--velocity", options->velocity,
                  "of the length, below 0 while it contracts: the tension with its losses, [33]");
   sub.add_option("--name", options->name, "which actuator, where the file has several");

@@ -24,18 +24,18 @@ std::string Alignment::given() const {
   return most_shift < std::numeric_limits<double>::infinity() ? "within" : "";
 }
 
-void add_alignment(Command sub, Alignment& alignment) {
+void add_alignment(CLI::App& sub, Alignment& alignment) {
   sub.add_option("--align", alignment.align,
                  "how the times of runs are aligned with those of the first one: start, sequence, "
                  "event, correlation")
-      .is_one_of({"start", "sequence", "event", "correlation"});
+      ->check(one_of({"start", "sequence", "event", "correlation"}));
   sub.add_option("--event", alignment.event,
                  "of --align event: '/joint/elbow/angle > 10 deg'; else the surest first motion");
   sub.add_option("--align-by", alignment.align_by, "channels that are correlated; else chosen")
-      .takes_all();
+      ->expected(1, CLI::detail::expected_max_vector_size);
   sub.add_option("--clock", alignment.clock,
                  "fit: the rate of a run's clock is found and taken out; none")
-      .is_one_of({"none", "fit"});
+      ->check(one_of({"none", "fit"}));
   sub.add_option("--within", alignment.most_shift, "largest shift that is looked for, in s");
 }
 

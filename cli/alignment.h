@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/command.h"
 #include "sinew/report/compare/comparison.h"
 
 namespace sinew::cli {
@@ -26,6 +26,6 @@ struct Alignment {
   std::string given() const;
 };
 
-void add_alignment(Command sub, Alignment& alignment);
+void add_alignment(CLI::App& sub, Alignment& alignment);
 
 }  // namespace sinew::cli

@@ -62,18 +62,19 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
 
 }  // namespace
 
-void add_analyze(Command app, Action& action) {
+void add_analyze(CLI::App& app, Action& action) {
   auto options = std::make_shared<AnalyzeOptions>();
-  Command sub = app.subcommand("analyze", "a run's numbers from its log, beside what is reported",
-                               "sinew analyze runs/walk-test-1/1 --json");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file").required();
+  CLI::App& sub =
+      subcommand(app, "analyze", "a run's numbers from its log, beside what is reported",
+                 "sinew analyze runs/walk-test-1/1 --json");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   sub.add_option("-o,--output", options->out, "also write the summary to this file");
   sub.add_flag("--force", options->force, "replace that file");
-  Option json = sub.add_flag("--json", options->json, "print the summary as JSON");
+  CLI::Option* json = sub.add_flag("--json", options->json, "print the summary as JSON");
   sub.add_flag("--verdicts", options->verdicts, "print what is reported, with verdicts, as JSON")
-      .excludes(json);
+      ->excludes(json);
   add_units(sub, options->units, "of what is printed, else the source's own; --json is in SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return analyze_run(*options); }; });

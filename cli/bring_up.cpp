@@ -102,15 +102,15 @@ ExitCode bring_up(const BringUpOptions& o) {
 
 }  // namespace
 
-void add_bring_up(Command app, Action& action) {
+void add_bring_up(CLI::App& app, Action& action) {
   auto options = std::make_shared<BringUpOptions>();
-  Command sub = app.subcommand("bring-up", "a machine's first day at the bench, step by step",
-                               "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
-  sub.add_option("ROBOT", options->robot, "file of the robot").required();
+  CLI::App& sub = subcommand(app, "bring-up", "a machine's first day at the bench, step by step",
+                             "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
+  sub.add_option("ROBOT", options->robot, "file of the robot")->required();
   sub.add_option("--port", options->place,
                  "its board: serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE")
-      .required()
-      .check(problem_of_port);
+      ->required()
+      ->transform(passes(problem_of_port));
   sub.add_option("-o,--output", options->folder,
                  "folder of what is done and learned; else bring-up/<robot>");
   add_sets(sub, options->sets);

@@ -36,16 +36,16 @@ ExitCode check_all(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(Command app, Action& action) {
+void add_check(CLI::App& app, Action& action) {
   auto options = std::make_shared<CheckOptions>();
-  Command sub = app.subcommand("check", "what is wrong with files, all of it at once",
-                               "sinew check robots/leg/*.toml robots/leg/predict.dat");
+  CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
+                             "sinew check robots/leg/*.toml robots/leg/predict.dat");
   sub.add_option(
          "FILE", options->files,
          "experiment, rig, plan, tuning, robot, actuator, valves, wiring file, predict.dat, "
          "gain*.dat, or a "
          "run's folder or log")
-      .required();
+      ->required();
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return check_all(*options); }; });
 }

@@ -75,19 +75,20 @@ ExitCode compare_runs(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(Command app, Action& action) {
+void add_compare(CLI::App& app, Action& action) {
   auto options = std::make_shared<CompareOptions>();
-  Command sub =
-      app.subcommand("compare", "runs beside each other: numbers, parameters, channels",
-                     "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
+  CLI::App& sub =
+      subcommand(app, "compare", "runs beside each other: numbers, parameters, channels",
+                 "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
   sub.add_option("RUN", options->runs, "folders of runs, or log files; the first is compared with")
-      .required()
-      .takes(2, most_runs, "2 to 8, REQUIRED");
+      ->required()
+      ->expected(2, most_runs);
   sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
   sub.add_option("--residuals", options->residuals,
                  "also write what each run differs by, a column per channel, as CSV");
   add_alignment(sub, options->alignment);
-  sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'").takes_all();
+  sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'")
+      ->expected(1, CLI::detail::expected_max_vector_size);
   add_units(sub, options->units, "of the tables, else thesis, and of the page; --json is in SI");
   sub.add_flag("--all", options->all, "every figure and channel, equal ones too");
   sub.add_flag("--json", options->json, "all of it as JSON");

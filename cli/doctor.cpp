@@ -72,15 +72,15 @@ ExitCode examine(const DoctorOptions& options) {
 
 }  // namespace
 
-void add_doctor(Command app, Action& action) {
+void add_doctor(CLI::App& app, Action& action) {
   auto options = std::make_shared<DoctorOptions>();
-  Command sub = app.subcommand("doctor", "is this computer ready to drive a machine?",
-                               "sinew doctor --for comedi");
+  CLI::App& sub = subcommand(app, "doctor", "is this computer ready to drive a machine?",
+                             "sinew doctor --for comedi");
   sub.add_option("--for", options->place,
                  "exit 1 where what such a place needs is missing: simulated, serial, emulated, "
                  "comedi")
-      .is_one_of({"simulated", "serial", "emulated", "comedi"})
-      .show_default();
+      ->check(one_of({"simulated", "serial", "emulated", "comedi"}))
+      ->capture_default_str();
   sub.add_flag("--json", options->json, "print the findings as JSON");
   sub.callback([=, &action] { action = [=] { return examine(*options); }; });
 }

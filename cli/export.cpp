@@ -95,18 +95,18 @@ ExitCode export_run(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(Command app, Action& action) {
+void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
-  Command sub = app.subcommand(
-      "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
+  CLI::App& sub = subcommand(
+      app, "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
       "sinew export runs/walk-test-1/1 --csv -o walk.csv");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file").required();
-  Command how = sub.one_of("format");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  CLI::App& how = alternatives(sub, "format");
   how.add_option("--format", options->format,
                  "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
                  "of the valves' "
                  "ports")
-      .is_one_of({"csv", "out.dat", "ports"});
+      ->check(one_of({"csv", "out.dat", "ports"}));
   how.add_flag("--csv", options->csv, "the same as --format csv");
   sub.add_option("-o,--output", options->out, "the file to write; else stdout");
   sub.add_option("--channels", options->channels, "csv: topics only; * stands for anything");

@@ -55,29 +55,30 @@ run::FigureFiles files_of(const std::vector<std::string>& formats, bool force) {
 namespace {
 
 // These options are for runs alone.
-void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
-  const auto of_runs = [&](Option option) { option.excludes(thesis); };
+void add_run_options(CLI::App& sub, RunFiguresRequest& runs, CLI::Option* thesis) {
+  const auto of_runs = [&](CLI::Option* option) { option->excludes(thesis); };
   of_runs(sub.add_option("--only", runs.only, "of runs: these figures alone"));
   of_runs(sub.add_option("--channels", runs.channels,
                          "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a "
                          "comma begins a plot below; may be repeated")
-              .takes_one());
+              ->allow_extra_args(false));
   of_runs(sub.add_flag("--overlay", runs.overlay, "the runs in the same axes; needs -o"));
   of_runs(sub.add_option("--label", runs.labels,
                          "what a run is called, in their order; the runs are in the same axes")
-              .takes_one());
-  Option align = sub.add_option("--align", runs.align,
-                                "how the others are aligned with the first run: start, event or "
-                                "correlation; start")
-                     .is_one_of({"start", "event", "correlation"});
+              ->allow_extra_args(false));
+  CLI::Option* align =
+      sub.add_option("--align", runs.align,
+                     "how the others are aligned with the first run: start, event or "
+                     "correlation; start")
+          ->check(one_of({"start", "event", "correlation"}));
   of_runs(align);
   of_runs(sub.add_option("--event", runs.event,
                          "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
-              .needs(align));
+              ->needs(align));
   of_runs(sub.add_option("--clock", runs.clock,
                          "fit: the rate of another run's clock is taken out, too; none")
-              .is_one_of({"none", "fit"})
-              .needs(align));
+              ->check(one_of({"none", "fit"}))
+              ->needs(align));
   of_runs(sub.add_option("--title", runs.title, "above the picture, of one figure"));
   of_runs(sub.add_option("--width", runs.width, "of the picture; \"89 mm\""));
   of_runs(sub.add_option("--height", runs.height, "of the picture; else as its plots want"));
@@ -95,23 +96,24 @@ void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
 
 }  // namespace
 
-void add_figures(Command app, Action& action) {
+void add_figures(CLI::App& app, Action& action) {
   auto options = std::make_shared<FiguresOptions>();
-  Command sub = app.subcommand(
-      "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
+  CLI::App& sub = subcommand(
+      app, "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
       "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"
       "  sinew figures mine runs/arm/1 --label measured --label simulated -o figures\n"
       "  sinew figures muscle.toml --format pdf\n"
       "  sinew figures --thesis -o figures");
-  Option runs =
+  CLI::Option* runs =
       sub.add_option("DIR", options->runs.runs, "folders of runs, log files, or files of muscles");
-  Option thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
-  runs.excludes(thesis);
+  CLI::Option* thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
+  runs->excludes(thesis);
   sub.add_option("-o,--output", options->runs.out,
                  "folder for the figures and index.json; of runs: else figures/ beside the log");
   sub.add_option("--root", options->thesis.root,
                  "--thesis: the project's folder, with robots/ and experiments/; .");
-  sub.add_option("--format", options->runs.formats, "pdf, svg, png or csv; svg,png").takes_one();
+  sub.add_option("--format", options->runs.formats, "pdf, svg, png or csv; svg,png")
+      ->allow_extra_args(false);
   add_run_options(sub, options->runs, thesis);
   sub.add_flag("--force", options->runs.force, "replace the figures that are there");
   sub.add_flag("--json", options->runs.json, "print index.json; of runs all of them");

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-report::RunFigureOptions options_of(const RunFiguresRequest& request) {
+report::RunFigureOptions range_of(const RunFiguresRequest& request) {
   report::RunFigureOptions out;
   if (!request.from.empty()) out.from = argument("--from", request.from, "s", units::atmosphere);
   if (!request.to.empty()) out.to = argument("--to", request.to, "s", units::atmosphere);
@@ -41,7 +41,7 @@ std::optional<analysis::AlignRequest> align_of(const RunFiguresRequest& request)
 run::DrawingRequest drawing_of(const RunFiguresRequest& request) {
   run::DrawingRequest out{.machine = request.machine,
                           .units = request.units,
-                          .options = options_of(request),
+                          .options = range_of(request),
                           .channels = request.channels,
                           .only = request.only,
                           .title = request.title,

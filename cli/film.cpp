@@ -77,26 +77,26 @@ ExitCode make(const FilmCommandOptions& options) {
 
 }  // namespace
 
-void add_film(Command app, Action& action) {
+void add_film(CLI::App& app, Action& action) {
   auto options = std::make_shared<FilmCommandOptions>();
   film::FilmOptions& film = options->film;
-  Command sub = app.subcommand(
-      "film", "the replay of a run, or of several, as a GIF, an MP4 or a WebM",
-      "sinew film runs/walk-test-1/1 -o walk.gif --from \"2 s\" --to "
-      "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
-      "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
+  CLI::App& sub =
+      subcommand(app, "film", "the replay of a run, or of several, as a GIF, an MP4 or a WebM",
+                 "sinew film runs/walk-test-1/1 -o walk.gif --from \"2 s\" --to "
+                 "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
+                 "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
   sub.add_option("RUN", options->runs,
                  "folders of runs, or log files; the others are ghosts over the first")
-      .required()
-      .takes(1, most_runs, "1 to 8, REQUIRED");
-  sub.add_option("-o,--output", options->out, "the file to write: .gif, .mp4 or .webm").required();
+      ->required()
+      ->expected(1, most_runs);
+  sub.add_option("-o,--output", options->out, "the file to write: .gif, .mp4 or .webm")->required();
   sub.add_option("--from", options->from, "\"2 s\" of the run; else its begin");
   sub.add_option("--to", options->to, "else the run's end");
   sub.add_option("--speed", film.speed, "seconds of the run in a second of the film")
-      .show_default();
-  sub.add_option("--width", film.width, "pixels").show_default();
-  sub.add_option("--height", film.height, "pixels").show_default();
-  sub.add_option("--fps", film.frames_per_second, "frames per second").show_default();
+      ->capture_default_str();
+  sub.add_option("--width", film.width, "pixels")->capture_default_str();
+  sub.add_option("--height", film.height, "pixels")->capture_default_str();
+  sub.add_option("--fps", film.frames_per_second, "frames per second")->capture_default_str();
   sub.add_flag("--dark", film.dark, "light on dark");
   sub.add_flag("--still", film.still, "the camera stands and shows the whole way");
   add_alignment(sub, options->alignment);

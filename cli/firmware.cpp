@@ -50,32 +50,30 @@ ExitCode wiring(const FirmwareOptions& o) {
 
 }  // namespace
 
-void add_firmware(Command app, Action& action) {
+void add_firmware(CLI::App& app, Action& action) {
   auto o = std::make_shared<FirmwareOptions>();
-  Command group = app.subcommand("firmware", "the program of a robot's board",
-                                 "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
+  CLI::App& group = subcommand(app, "firmware", "the program of a robot's board",
+                               "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
   group.require_subcommand();
-  Command made =
-      group.subcommand("build", "does the robot fit on the board, and its program",
-                       "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
-  made.add_option("ROBOT", o->robot, "file of the robot").required();
-  made.add_option("BOARD", o->board, names_of_boards()).required();
-  made.add_option("-o,--output", o->out, "FILE.elf, FILE.hex or FILE.bin").required();
+  CLI::App& made = subcommand(group, "build", "does the robot fit on the board, and its program",
+                              "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
+  made.add_option("ROBOT", o->robot, "file of the robot")->required();
+  made.add_option("BOARD", o->board, names_of_boards())->required();
+  made.add_option("-o,--output", o->out, "FILE.elf, FILE.hex or FILE.bin")->required();
   made.add_option("--sources", o->sources, "folder of Sinew's sources; else this one");
   made.add_flag("--force", o->force, "replace the file");
   made.callback([=, &action] { action = [=] { return build(*o); }; });
-  Command drawn =
-      group.subcommand("wiring", "which wire goes to which pin, as a picture",
-                       "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
-  drawn.add_option("ROBOT", o->robot, "file of the robot").required();
-  drawn.add_option("BOARD", o->board, names_of_boards()).required();
-  drawn.add_option("-o,--output", o->out, "FILE.svg").required();
+  CLI::App& drawn = subcommand(group, "wiring", "which wire goes to which pin, as a picture",
+                               "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
+  drawn.add_option("ROBOT", o->robot, "file of the robot")->required();
+  drawn.add_option("BOARD", o->board, names_of_boards())->required();
+  drawn.add_option("-o,--output", o->out, "FILE.svg")->required();
   drawn.add_flag("--force", o->force, "replace the file");
   drawn.callback([=, &action] { action = [=] { return wiring(*o); }; });
-  Command flash = group.subcommand("flash", "shows the command that brings a file onto a board",
-                                   "sinew firmware flash stm32f405 leg.elf");
-  flash.add_option("BOARD", o->board, names_of_boards()).required();
-  flash.add_option("FILE", o->out, "what was built").required();
+  CLI::App& flash = subcommand(group, "flash", "shows the command that brings a file onto a board",
+                               "sinew firmware flash stm32f405 leg.elf");
+  flash.add_option("BOARD", o->board, names_of_boards())->required();
+  flash.add_option("FILE", o->out, "what was built")->required();
   flash.callback([=, &action] {
     action = [=] {
       const run::FirmwareBoard& board = run::firmware_board(o->board);

@@ -75,43 +75,43 @@ ExitCode export_fmu(const FmuOptions& options) {
 
 }  // namespace
 
-void add_fmu(Command app, Action& action) {
+void add_fmu(CLI::App& app, Action& action) {
   auto options = std::make_shared<FmuOptions>();
   fmu::Asked& asked = options->asked;
-  Command fmu = app.subcommand("fmu", "FMUs for co-simulation in other programs",
-                               "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");
+  CLI::App& fmu = subcommand(app, "fmu", "FMUs for co-simulation in other programs",
+                             "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");
   fmu.require_subcommand();
-  Command sub =
-      fmu.subcommand("export",
-                     "an actuator, a muscle with valves, joints with muscles, or a machine with "
-                     "its controllers, as "
-                     "an FMU",
-                     "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
-                     "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
+  CLI::App& sub =
+      subcommand(fmu, "export",
+                 "an actuator, a muscle with valves, joints with muscles, or a machine with "
+                 "its controllers, as "
+                 "an FMU",
+                 "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
+                 "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
   sub.add_option(
          "FILE", asked.file,
          "actuator: a tube; rig: its muscle; robot: its joints; experiment: the machine with "
          "its controllers")
-      .required();
+      ->required();
   sub.add_option("-o,--out", options->out, "the FMU; NAME.fmu here");
   sub.add_flag("--force", options->force, "replace a file that is there");
   sub.add_option("--muscle", asked.muscle, "this muscle alone, with its valves");
   sub.add_flag("--without-valves", asked.without_valves, "a muscle whose pressure is an input");
   sub.add_option("--joint", asked.joints, "this joint with its muscles; may be repeated")
-      .takes_one();
+      ->allow_extra_args(false);
   sub.add_option("--actuator", asked.actuator, "which actuator, where the file has several");
   sub.add_option("--input", asked.inputs,
                  "a setting of the plan as an input: control.stiffness.JOINT …; may be repeated")
-      .takes_one();
+      ->allow_extra_args(false);
   sub.add_option("--output", asked.outputs,
                  "a channel of the run; may be repeated; all, if none is named")
-      .takes_one();
+      ->allow_extra_args(false);
   sub.add_option("--parameter", asked.parameters,
                  "a value of the experiment that an importer may set; may be repeated")
-      .takes_one();
+      ->allow_extra_args(false);
   sub.add_option("--fmi", asked.version, "version of the interface")
-      .is_between(2, 3)
-      .show_default();
+      ->transform(between(2, 3))
+      ->capture_default_str();
   sub.add_option("--name", asked.name, "of the model; from the file, the muscle or the joints");
   add_sets(sub, asked.sets);
   sub.add_flag("--json", options->json, "what was written, as JSON");

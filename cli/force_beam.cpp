@@ -39,12 +39,12 @@ ExitCode run_force_beam(const ForceBeamOptions& options) {
 
 }  // namespace
 
-void add_force_beam(Command app, Action& action) {
+void add_force_beam(CLI::App& app, Action& action) {
   auto options = std::make_shared<ForceBeamOptions>();
   const identify::MethodRow row = identify::SettingList(options->settings).of;
-  Command sub =
-      app.subcommand(std::string(row.name), std::string(row.doc),
-                     "sinew force-beam --load \"20 lbf\" --gain 400 --sensitivity \"0.1 V/lbf\"");
+  CLI::App& sub =
+      subcommand(app, std::string(row.name), std::string(row.doc),
+                 "sinew force-beam --load \"20 lbf\" --gain 400 --sensitivity \"0.1 V/lbf\"");
   SettingOptions rows(sub);
   fields(rows, options->settings);
   add_units(sub, options->units, "of what is printed, else SI and inches; --json is in SI");

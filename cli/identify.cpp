@@ -137,18 +137,19 @@ struct NeedsOut : identify::RowVisitor<NeedsOut> {
   void row(const Row& row, const auto&) const { (void)row; }
 };
 
-void add_data_options(Command sub, identify::Tables tables, DataOptions& options) {
+void add_data_options(CLI::App& sub, identify::Tables tables, DataOptions& options) {
   if (tables == identify::Tables::none) return;
   sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run")
-      .required(tables == identify::Tables::needed);
+      ->required(tables == identify::Tables::needed);
   add_table_options(sub, options.table);
   sub.add_option("--template", options.template_file,
                  "FILE.csv: writes a table to fill in, without DATA; --columns alone lists its "
                  "columns");
-  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
+  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
+      ->capture_default_str();
 }
 
-void add_outputs(Command sub, const OutputHelp& help, ResultOptions& result) {
+void add_outputs(CLI::App& sub, const OutputHelp& help, ResultOptions& result) {
   const auto flag = [&](const char* name, bool& value, std::string_view text) {
     if (!text.empty()) sub.add_flag(name, value, std::string(text));
   };
@@ -158,23 +159,23 @@ void add_outputs(Command sub, const OutputHelp& help, ResultOptions& result) {
   flag("--quiet", result.quiet, help.quiet);
   result.no_report = !help.page;
   if (help.page) {
-    Option page =
+    CLI::Option* page =
         sub.add_option("--report", result.report,
                        "FILE.html: a page with the data beside the models; absent: beside --out");
-    sub.add_flag("--no-report", result.no_report, "no page").excludes(page);
+    sub.add_flag("--no-report", result.no_report, "no page")->excludes(page);
   }
   if (!help.units.empty()) add_units(sub, result.units, std::string(help.units));
 }
 
 // Adds a second file that a method writes.
 template <class Settings>
-void add_beside(Command, Options<Settings>&) {}
+void add_beside(CLI::App&, Options<Settings>&) {}
 
-void add_beside(Command sub, Options<identify::JointSettings>& options) {
+void add_beside(CLI::App& sub, Options<identify::JointSettings>& options) {
   sub.add_option("--actuator-out", options.result.beside, "the actuator's file to write");
 }
 
-void add_beside(Command sub, Options<identify::ValveSettings>& options) {
+void add_beside(CLI::App& sub, Options<identify::ValveSettings>& options) {
   sub.add_option("--predict-dat", options.result.beside,
                  "FILE for the duties' opening and closing ticks, compensated for the delays");
 }
@@ -505,12 +506,12 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
 }
 
 template <class Settings>
-void add_method(Command identify, Action& action) {
+void add_method(CLI::App& identify, Action& action) {
   auto options = std::make_shared<Options<Settings>>();
   const identify::MethodRow row = identify::SettingList(options->settings).of;
   const MethodHelp& help = *std::ranges::find(methods, row.name, &MethodHelp::method);
-  Command sub =
-      identify.subcommand(std::string(row.name), std::string(row.doc), std::string(help.example));
+  CLI::App& sub =
+      subcommand(identify, std::string(row.name), std::string(row.doc), std::string(help.example));
   add_data_options(sub, row.tables, options->data);
   SettingOptions rows(sub);
   fields(rows, options->settings);
@@ -537,9 +538,9 @@ void refuse_to_replace(const std::string& path, bool force, const Replaceable& o
                  std::string(old.otherwise));
 }
 
-void add_identify(Command app, Action& action) {
-  Command sub = app.subcommand("identify", "from measurements to parameter files",
-                               "sinew identify geometry mesh.csv -o my-actuator.toml");
+void add_identify(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "identify", "from measurements to parameter files",
+                             "sinew identify geometry mesh.csv -o my-actuator.toml");
   sub.require_subcommand();
   identify::for_each_method(
       [&]<class Settings>(const Settings&) { add_method<Settings>(sub, action); });

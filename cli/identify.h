@@ -10,7 +10,7 @@
 
 namespace sinew::cli {
 
-void add_identify_columns(Command identify, Action& action);
+void add_identify_columns(CLI::App& identify, Action& action);
 
 // A file that may be replaced with --force: one that contains `mark`, in which
 // as in the file no blank counts. Measurements of

@@ -104,15 +104,18 @@ std::vector<std::string> with_columns_first(std::vector<std::string> words) {
   return out;
 }
 
-void add_identify_columns(Command identify, Action& action) {
+void add_identify_columns(CLI::App& identify, Action& action) {
   auto options = std::make_shared<IdentifyColumnsOptions>();
-  Command sub = identify.subcommand(
-      "columns", "which columns a method reads, and a table to fill in; --columns of each method",
-      "sinew identify columns static --template forces.csv");
+  CLI::App& sub =
+      subcommand(identify, "columns",
+                 "which columns a method reads, and a table to fill in; --columns of each method",
+                 "sinew identify columns static --template forces.csv");
   std::vector<std::string> methods;
   for (const identify::MethodInputs& inputs : identify::method_inputs())
     methods.emplace_back(inputs.method);
-  sub.add_option("METHOD", options->method, "of sinew identify").required().is_one_of(methods);
+  sub.add_option("METHOD", options->method, "of sinew identify")
+      ->required()
+      ->check(one_of(methods));
   sub.add_option("--kind", options->kind, "of table, where a method takes several: chart");
   sub.add_option("--template", options->file, "FILE.csv: a table to fill in");
   sub.add_flag("--force", options->force, "replace the file");

@@ -135,14 +135,14 @@ ExitCode import_recording(ImportOptions& options) {
   return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
 }
 
-void add_mapping_options(Command sub, ImportOptions& options) {
+void add_mapping_options(CLI::App& sub, ImportOptions& options) {
   run::ImportRequest& request = options.request;
   add_table_options(sub, options.table);
   sub.add_option(
          "--scale", options.scales,
          "COLUMN=NUMBER: by which its numbers are multiplied, before --offset; -1 turns the "
          "sign; may be repeated")
-      .takes_one();
+      ->allow_extra_args(false);
   sub.add_option("--mapping", request.mapping_file,
                  "a file with these and the options of how a table is read, sinew.mapping/1");
   sub.add_option("--save-mapping", request.save_mapping, "write such a file, for the next time");
@@ -150,7 +150,7 @@ void add_mapping_options(Command sub, ImportOptions& options) {
                "keep columns that are no channel, as /recorded/NAME");
 }
 
-void add_clock_options(Command sub, ImportOptions& options) {
+void add_clock_options(CLI::App& sub, ImportOptions& options) {
   recording::ClockMapping& clock = options.request.mapping.clock;
   sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
   sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
@@ -159,24 +159,24 @@ void add_clock_options(Command sub, ImportOptions& options) {
   sub.add_option("--start", clock.start,
                  "the recording's time that becomes 0, \"12.5 s\"; else its first sample");
   sub.add_option("--join", options.join, "several files: side by side in time, or end to end")
-      .is_one_of({"side", "end"});
+      ->check(one_of({"side", "end"}));
   sub.add_option("--shift", options.shifts, "FILE=TIME: by which a file is later than it says")
-      .takes_one();
+      ->allow_extra_args(false);
 }
 
 }  // namespace
 
-void add_import(Command app, Action& action) {
+void add_import(CLI::App& app, Action& action) {
   auto options = std::make_shared<ImportOptions>();
   run::ImportRequest& request = options->request;
-  Command sub = app.subcommand(
-      "import", "a recording of a laboratory as the folder of a run",
+  CLI::App& sub = subcommand(
+      app, "import", "a recording of a laboratory as the folder of a run",
       "sinew import rig.csv --experiment one-joint.toml --map /joint/elbow/angle=Winkel");
   sub.add_option("FILE", request.files,
                  "a table as CSV, a log as MCAP, a .mat of MATLAB, or the thesis's out.dat")
-      .required();
+      ->required();
   sub.add_option("--experiment", request.experiment, "what was run: its robot or stand, its phases")
-      .required();
+      ->required();
   add_mapping_options(sub, *options);
   add_clock_options(sub, *options);
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");

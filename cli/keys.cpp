@@ -44,26 +44,26 @@ ExitCode keys(const KeysOptions& options) {
 
 }  // namespace
 
-void add_keys(Command app, Action& action) {
+void add_keys(CLI::App& app, Action& action) {
   auto options = std::make_shared<KeysOptions>();
-  Command sub = app.subcommand("keys", "every key of every file: unit, range, default, meaning",
-                               "sinew keys damping\n  sinew keys joint.hip.damping");
+  CLI::App& sub = subcommand(app, "keys", "every key of every file: unit, range, default, meaning",
+                             "sinew keys damping\n  sinew keys joint.hip.damping");
   sub.add_option("WORD", options->words,
                  "a key, how it begins, or words of its description; without one, the tables");
-  const Option kind = sub.add_option("--kind", options->kind, "of one kind of file alone")
-                          .is_one_of(files::key_kinds());
-  const Option json = sub.add_flag("--json", options->json, "as JSON");
-  Option schema = sub.add_option("--schema", options->schema,
-                                 "a JSON schema of that kind of file, for an editor")
-                      .is_one_of(kinds_with_a_schema());
-  Option page =
+  CLI::Option* kind = sub.add_option("--kind", options->kind, "of one kind of file alone")
+                          ->check(one_of(files::key_kinds()));
+  CLI::Option* json = sub.add_flag("--json", options->json, "as JSON");
+  CLI::Option* schema = sub.add_option("--schema", options->schema,
+                                       "a JSON schema of that kind of file, for an editor")
+                            ->check(one_of(kinds_with_a_schema()));
+  CLI::Option* page =
       sub.add_flag("--page", options->page, "all keys as Markdown, docs/reference/keys.md");
-  const Option words = sub.option("WORD");
-  for (const Option& other : {kind, json, words}) {
-    schema.excludes(other);
-    page.excludes(other);
+  CLI::Option* words = sub.get_option("WORD");
+  for (CLI::Option* other : {kind, json, words}) {
+    schema->excludes(other);
+    page->excludes(other);
   }
-  page.excludes(schema);
+  page->excludes(schema);
   sub.callback([=, &action] { action = [=] { return keys(*options); }; });
 }
 

@@ -154,15 +154,15 @@ ExitCode run_kinematics(const KinematicsOptions& options) {
 
 }  // namespace
 
-void add_kinematics(Command app, Action& action) {
+void add_kinematics(CLI::App& app, Action& action) {
   auto options = std::make_shared<KinematicsOptions>();
-  Command sub =
-      app.subcommand("kinematics", "foot to joint angles, muscle lengths and torques, and back",
-                     "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
-                     "--force \"0 lbf, -20 lbf\"");
-  sub.add_option("ROBOT", options->file, "robot or experiment file").required();
+  CLI::App& sub =
+      subcommand(app, "kinematics", "foot to joint angles, muscle lengths and torques, and back",
+                 "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
+                 "--force \"0 lbf, -20 lbf\"");
+  sub.add_option("ROBOT", options->file, "robot or experiment file")->required();
   sub.add_option("--leg", options->leg, "of a robot with several: its name");
-  Command target = sub.one_of("target");
+  CLI::App& target = alternatives(sub, "target");
   target.add_option("--foot", options->foot, "x, y about the first joint: all ways to stand there");
   target.add_option("--angles", options->angles, "one per joint, in the robot's order");
   sub.add_option("--force", options->force,

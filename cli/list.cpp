@@ -45,14 +45,14 @@ ExitCode list(const ListOptions& options) {
 
 }  // namespace
 
-void add_list(Command app, Action& action) {
+void add_list(CLI::App& app, Action& action) {
   auto options = std::make_shared<ListOptions>();
-  Command sub =
-      app.subcommand("list", "robots, experiments and more: with Sinew and in this folder",
-                     "sinew list experiments");
+  CLI::App& sub =
+      subcommand(app, "list", "robots, experiments and more: with Sinew and in this folder",
+                 "sinew list experiments");
   std::vector<std::string> kinds;
   for (const std::string_view kind : files::listed_kinds()) kinds.emplace_back(kind);
-  sub.add_option("KIND", options->kind, "one kind alone; else all").is_one_of(kinds);
+  sub.add_option("KIND", options->kind, "one kind alone; else all")->check(one_of(kinds));
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return list(*options); }; });
 }

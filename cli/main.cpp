@@ -1,7 +1,7 @@
-// cli/main.cpp - the program `sinew`: understands the command line and runs one subcommand.
+// cli/main.cpp - the program `sinew`: reads the command line and runs one subcommand.
 //
-// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage, to
-// which a wrong value behind an option belongs.
+// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage,
+// which includes a wrong value of an option.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,8 +25,8 @@ namespace {
 
 using namespace sinew;
 
-// Returns the error's words. Where a robot was given in place of an experiment, they name the
-// command that makes an experiment from a robot, with its option, which the library does not have.
+// Returns the error's text. Where a robot was given in place of an experiment, it names the command
+// that makes an experiment from a robot, as the library has no commands.
 std::string words_of(const std::exception& e) {
   const auto* file = dynamic_cast<const config::Error*>(&e);
   if (!file || file->problems().size() != 1) return e.what();
@@ -54,7 +54,7 @@ cli::ExitCode run_safely(const cli::Action& action) {
 // The commands, in the order of `sinew help commands`.
 struct Entry {
   std::string_view name;
-  void (*add)(cli::Command program, cli::Action& action);
+  cli::Add* add;
 };
 constexpr Entry commands[] = {
     {"run", cli::add_run},
@@ -90,34 +90,33 @@ constexpr Entry commands[] = {
     {"help", cli::add_help},
 };
 
-// What the program understands, with all commands or only one.
+// The description of the command line, with all commands or only one.
 struct Program {
   CLI::App app{
       "Sinew simulates, identifies, tunes and controls robots with braided pneumatic muscles."};
-  cli::Command command{app};
   cli::Action action;  // of the line that was parsed
 
   explicit Program(std::string_view only = "") {
     app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
     app.set_help_flag("-h,--help", "this text");
     app.require_subcommand(1);
-    command.shows_help(cli::help_of);
+    app.formatter(std::make_shared<cli::Help>());
     for (const Entry& entry : commands)
-      if (only.empty() || entry.name == only) entry.add(command, action);
+      if (only.empty() || entry.name == only) entry.add(app, action);
+    cli::complete_description(app);
   }
   Program(const Program&) = delete;  // the commands hold references to `action`
 
-  // Throws CLI::ParseError if the words are not understood, or ask for help or the version.
+  // Throws CLI::ParseError if the words are not understood, or request the help or the version.
   void parse(std::vector<std::string> words) {
-    words = cli::with_help_first(std::move(words), command.tree());
-    words = cli::with_columns_first(std::move(words));
+    words = cli::with_help_first(std::move(words), app);
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(std::move(words));
   }
 };
 
-// Returns the command that the line names first if all that the line can need is that command's
-// options, else "". To build the options of all commands takes 12 ms, as long as a short command
+// Returns the command that the line names first if the line can only need the options of that
+// command, else "". Adding the options of all commands takes 12 ms, as long as a short command
 // runs.
 std::string_view only_command(const std::vector<std::string>& words) {
   if (words.empty() || words.back() == "help") return "";
@@ -139,7 +138,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return program.app.exit(e);
   }
-  // What was meant may be an option of another command, therefore the message needs all of them.
+  // The message names other commands that have the option, so that it needs all of them.
   Program whole;
   try {
     whole.parse(words);

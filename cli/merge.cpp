@@ -27,14 +27,14 @@ ExitCode merge_all(const MergeOptions& options) {
 
 }  // namespace
 
-void add_merge(Command app, Action& action) {
+void add_merge(CLI::App& app, Action& action) {
   auto options = std::make_shared<MergeOptions>();
-  Command sub = app.subcommand("merge", "files of one study as one file",
-                               "sinew merge a.db b.db c.db -o all.db");
+  CLI::App& sub = subcommand(app, "merge", "files of one study as one file",
+                             "sinew merge a.db b.db c.db -o all.db");
   sub.add_option("FILE", options->files, "what sinew sweep --results wrote, each another --shard")
-      .required();
+      ->required();
   sub.add_option("-o,--output", options->out, "the file for all rows; one of the same study grows")
-      .required();
+      ->required();
   sub.callback([=, &action] { action = [=] { return merge_all(*options); }; });
 }
 

@@ -46,13 +46,13 @@ ExitCode migrate_all(const MigrateCommandOptions& options) {
 
 }  // namespace
 
-void add_migrate(Command app, Action& action) {
+void add_migrate(CLI::App& app, Action& action) {
   auto options = std::make_shared<MigrateCommandOptions>();
-  Command sub = app.subcommand("migrate", "files of older formats in today's, comments kept",
-                               "sinew migrate my-leg/*.toml --dry-run");
+  CLI::App& sub = subcommand(app, "migrate", "files of older formats in today's, comments kept",
+                             "sinew migrate my-leg/*.toml --dry-run");
   sub.add_option("FILE", options->files,
                  "experiment, rig, plan, tuning, robot, actuator, valves or wiring file")
-      .required();
+      ->required();
   sub.add_option("-o,--output", options->how.folder,
                  "folder of the new files; without it each takes the place of the old one, which "
                  "is kept as FILE.bak");

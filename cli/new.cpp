@@ -52,16 +52,16 @@ ExitCode write(const NewCommandOptions& options) {
 
 }  // namespace
 
-void add_new(Command app, Action& action) {
+void add_new(CLI::App& app, Action& action) {
   auto options = std::make_shared<NewCommandOptions>();
-  Command sub = app.subcommand("new", "a commented file to begin with, valid as written",
-                               "sinew new robot my-arm --metric");
+  CLI::App& sub = subcommand(app, "new", "a commented file to begin with, valid as written",
+                             "sinew new robot my-arm --metric");
   std::vector<std::string> kinds;
   for (const std::string_view kind : files::new_kinds()) kinds.emplace_back(kind);
-  sub.add_option("KIND", options->kind, "what it describes").required().is_one_of(kinds);
+  sub.add_option("KIND", options->kind, "what it describes")->required()->check(one_of(kinds));
   sub.add_option("NAME", options->name,
                  "its name; a robot and a rig become a folder NAME, any other a file NAME.toml")
-      .required();
+      ->required();
   sub.add_option("-o,--output", options->how.folder,
                  "folder in which it is written; else this one");
   sub.add_option(

@@ -38,14 +38,14 @@ ExitCode replay_run(ReplayOptions options) {
 
 }  // namespace
 
-void add_replay(Command app, Action& action) {
+void add_replay(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReplayOptions>();
-  Command sub = app.subcommand("replay", "a recording through today's controller, or plant",
-                               "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
-  sub.add_option("DIR", options->request.run, "a run's folder, or a log file").required();
+  CLI::App& sub = subcommand(app, "replay", "a recording through today's controller, or plant",
+                             "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
+  sub.add_option("DIR", options->request.run, "a run's folder, or a log file")->required();
   sub.add_option("--of", options->of,
                  "controller: it is fed the readings; plant: it is fed the valves' commands")
-      .is_one_of({"controller", "plant"});
+      ->check(one_of({"controller", "plant"}));
   sub.add_option("--machine", options->request.machine, "what was run, in place of the folder's");
   add_sets(sub, options->request.sets);
   sub.add_option("--band", options->band,

@@ -47,13 +47,14 @@ ExitCode report_run(const ReportOptions& options) {
 
 }  // namespace
 
-void add_report(Command app, Action& action) {
+void add_report(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReportOptions>();
-  Command sub = app.subcommand("report", "a run or a study as one page, which opens in any browser",
-                               "sinew report runs/walk-test-1/1 -o walk.html");
+  CLI::App& sub =
+      subcommand(app, "report", "a run or a study as one page, which opens in any browser",
+                 "sinew report runs/walk-test-1/1 -o walk.html");
   sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")
-      .required()
-      .takes(1, 2, "1 or 2, REQUIRED");
+      ->required()
+      ->expected(1, 2);
   sub.add_option("-o,--output", options->out,
                  "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
   sub.add_option("--machine", options->machine,

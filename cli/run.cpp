@@ -57,12 +57,12 @@ std::string a_pace(const std::string& text) {
   return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
-void add_run_options(Command sub, const std::string& port, RunOptions& options) {
+void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option(port, request.port,
                  "where it runs: simulated, serial:DEVICE[@RATE], emulated:FILE, lock-step:FILE or "
                  "comedi:DEVICE")
-      .check(run::problem_of_place);
+      ->transform(passes(run::problem_of_place));
   sub.add_flag("--clear-fault", request.clear_fault,
                "a board that dumped by itself, or whose watchdog has bitten, was looked into");
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
@@ -76,15 +76,14 @@ void add_run_options(Command sub, const std::string& port, RunOptions& options) 
   sub.add_flag("--quiet", options.quiet, "only errors on stderr");
 }
 
-void add_run(Command app, Action& action) {
+void add_run(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
-  Command sub =
-      app.subcommand("run", "an experiment; its log and numbers go into a new folder",
-                     "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
-  sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment").required();
+  CLI::App& sub = subcommand(app, "run", "an experiment; its log and numbers go into a new folder",
+                             "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
+  sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment")->required();
   add_run_options(sub, "--port", *options);
   sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
-      .check(a_pace);
+      ->transform(passes(a_pace));
   sub.callback([=, &action] { action = [=] { return run_experiment(*options); }; });
 }
 

@@ -22,7 +22,7 @@ struct RunOptions {
 };
 
 // EXPERIMENT, -o, --force, --set, --allow-unreachable, --no-report, --units, --json, --quiet.
-void add_run_options(Command sub, const std::string& port, RunOptions& options);
+void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options);
 
 // Returns "" for what --pace may be, else what is wrong.
 std::string a_pace(const std::string& text);

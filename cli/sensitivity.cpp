@@ -85,26 +85,26 @@ ExitCode tell_sensitivity(const SensitivityOptions& options) {
 
 }  // namespace
 
-void add_sensitivity(Command app, Action& action) {
+void add_sensitivity(CLI::App& app, Action& action) {
   auto options = std::make_shared<SensitivityOptions>();
-  Command sub = app.subcommand(
-      "sensitivity", "which ranges a figure follows, and how strongly",
+  CLI::App& sub = subcommand(
+      app, "sensitivity", "which ranges a figure follows, and how strongly",
       "sinew sensitivity experiments/walk-test-1.toml --range \"joint.hip.angle_gain=0.02:0.08 "
       "%/count\" --range \"air.supply.pressure=70:90 psi gauge\" --report \"trolley.distance_m "
       "[in]\"");
-  sub.add_option("FILE", options->study.experiment, "the experiment").required();
+  sub.add_option("FILE", options->study.experiment, "the experiment")->required();
   add_runs(sub, options->study, options->run);
   sub.add_option(
          "--method", options->method,
          "sobol: shares of the variance; morris: effects along paths; ends: to both ends of "
          "one range at a time")
-      .is_one_of({"sobol", "morris", "ends"});
+      ->check(one_of({"sobol", "morris", "ends"}));
   sub.add_option("--points", options->points,
                  "sobol: rows, each as many runs as ranges and 2, a power of two; 256. morris: "
                  "paths, each as many runs as ranges and 1; 20")
-      .is_between(2, 1000000);
+      ->transform(between(2, 1000000));
   sub.add_option("--sample-seed", options->seed, "other points of the same kind; 1")
-      .is_between(0, 2147483647);
+      ->transform(between(0, 2147483647));
   sub.add_option("-o,--output", options->out, "also write the table to this CSV file");
   sub.add_option("--runs", options->runs, "also write every run to this CSV file");
   sub.add_flag("--force", options->force, "replace those files");

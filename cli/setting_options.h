@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/command.h"
 #include "sinew/identify/task/settings.h"
 
 namespace sinew::cli {
@@ -15,30 +15,31 @@ namespace sinew::cli {
 class SettingOptions : public identify::RowVisitor<SettingOptions> {
  public:
   using Row = identify::Setting;
-  explicit SettingOptions(Command sub) : sub_(sub) {}
+  explicit SettingOptions(CLI::App& sub) : sub_(sub) {}
 
   void row(const Row& row, std::string& value) {
-    Option option = sub_.add_option(names_of(row), value, std::string(row.doc));
-    if (row.is_required) option.required();
-    if (!row.words.empty()) option.is_one_of(row.words);
-    if (!value.empty()) option.show_default();
+    CLI::Option* option = sub_.add_option(names_of(row), value, std::string(row.doc));
+    if (row.is_required) option->required();
+    if (!row.words.empty()) option->check(one_of(row.words));
+    if (!value.empty()) option->capture_default_str();
   }
   void row(const Row& row, int& value) {
-    sub_.add_option(names_of(row), value, std::string(row.doc)).show_default();
+    sub_.add_option(names_of(row), value, std::string(row.doc))->capture_default_str();
   }
   void row(const Row& row, double& value) {
-    sub_.add_option(names_of(row), value, std::string(row.doc)).show_default();
+    sub_.add_option(names_of(row), value, std::string(row.doc))->capture_default_str();
   }
   void row(const Row& row, bool& value) {
     sub_.add_flag(names_of(row), value, std::string(row.doc));
   }
   void row(const Row& row, std::vector<std::string>& value) {
-    Option option = sub_.add_option(names_of(row), value, std::string(row.doc)).takes_one();
-    if (row.is_at_commas) option.split_at(',');
+    CLI::Option* option =
+        sub_.add_option(names_of(row), value, std::string(row.doc))->allow_extra_args(false);
+    if (row.is_at_commas) option->delimiter(',');
   }
   void row(const Row& row, identify::HeldOut& value) {
-    Option option = sub_.add_option(names_of(row), value.texts, std::string(row.doc));
-    row.is_repeated ? option.takes_one() : option.once();
+    CLI::Option* option = sub_.add_option(names_of(row), value.texts, std::string(row.doc));
+    row.is_repeated ? option->allow_extra_args(false) : option->expected(1);
   }
 
  private:
@@ -51,7 +52,7 @@ class SettingOptions : public identify::RowVisitor<SettingOptions> {
     return out;
   }
 
-  Command sub_;
+  CLI::App& sub_;
 };
 
 }  // namespace sinew::cli

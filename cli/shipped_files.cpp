@@ -21,8 +21,8 @@ bool could_be_shipped(const std::string& word) {
 }  // namespace
 
 std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
-  if (words.empty() || words[0] == "new" || words[0] == "migrate" || words[0] == "help")
-    return words;
+  constexpr std::string_view kept[] = {"new", "migrate", "help", "completion"};
+  if (words.empty() || std::ranges::find(kept, words[0]) != std::end(kept)) return words;
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string& before = words[i - 1];
     if (before == "-o" || before == "--output" || before == "--out" || !could_be_shipped(words[i]))

@@ -30,12 +30,12 @@ ExitCode show(const ShowOptions& options) {
 
 }  // namespace
 
-void add_show(Command app, Action& action) {
+void add_show(CLI::App& app, Action& action) {
   auto options = std::make_shared<ShowOptions>();
-  Command sub = app.subcommand("show", "values of a file, and where each one came from",
-                               "sinew show robots/leg/robot.toml joint.knee muscle.hip");
+  CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
+                             "sinew show robots/leg/robot.toml joint.knee muscle.hip");
   sub.add_option("FILE", options->file, "experiment, rig, robot, actuator, valves or wiring file")
-      .required();
+      ->required();
   sub.add_option("KEY", options->keys, "keys, or how they begin");
   add_sets(sub, options->sets);
   add_units(sub, options->units, "of the column beside what is written, else SI");

@@ -47,40 +47,40 @@ ExitCode sweep_all(const SweepOptions& options) {
   return ok;
 }
 
-void add_sample(Command sub, SweepOptions& options) {
+void add_sample(CLI::App& sub, SweepOptions& options) {
   sub.add_option("--points", options.said.study.points, "of the sample, each a row or more")
-      .is_between(1, 1000000);
+      ->transform(between(1, 1000000));
   sub.add_option("--sample", options.said.sample, "how the points lie: sobol, latin, random; sobol")
-      .is_one_of({"sobol", "latin", "random"});
+      ->check(one_of({"sobol", "latin", "random"}));
   sub.add_option("--sample-seed", options.said.sample_seed, "other points of the same kind; 1")
-      .is_between(0, 2147483647);
+      ->transform(between(0, 2147483647));
 }
 
 }  // namespace
 
-void add_sweep(Command app, Action& action) {
+void add_sweep(CLI::App& app, Action& action) {
   auto options = std::make_shared<SweepOptions>();
-  Command sub = app.subcommand(
-      "sweep", "many runs of one experiment as one table",
+  CLI::App& sub = subcommand(
+      app, "sweep", "many runs of one experiment as one table",
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
   sub.add_option("FILE", options->file, "the experiment, or a plan: the same options as a file")
-      .required();
+      ->required();
   add_words(sub, "--vary", options->said.study.vary,
             "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
   add_runs(sub, options->said.study, options->runs);
   sub.add_option("--shard", options->runs.shard,
                  "i/n: of all points every n-th from the i-th on; sinew merge joins the files")
-      .needs(sub.option("--results"));
+      ->needs(sub.get_option("--results"));
   add_sample(sub, *options);
   sub.add_option("--seeds", options->said.study.seeds, "each point with the noise of seeds 1 … N")
-      .is_between(1, 10000);
+      ->transform(between(1, 10000));
   sub.add_option("--largest", options->said.study.largest,
                  "the largest value of one more key for which --where holds; written like --vary");
   add_words(sub, "--where", options->said.study.where,
             "\"key < value\" of summary.json, also <=, >, >=; repeated: all must hold");
   sub.add_option("--halvings", options->said.halvings, "of the interval that --largest finds; 6")
-      .is_between(0, 50);
+      ->transform(between(0, 50));
   sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
   sub.add_flag("--force", options->force, "replace that file");
   sub.add_flag("--json", options->json, "print the table as JSON");

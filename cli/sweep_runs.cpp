@@ -57,12 +57,12 @@ std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   return rows;
 }
 
-void add_words(Command sub, const char* name, std::vector<std::string>& words,
+void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
                const char* description) {
-  sub.add_option(name, words, description).takes_one();
+  sub.add_option(name, words, description)->allow_extra_args(false);
 }
 
-void add_runs(Command sub, tune::Study& study, RunsOptions& options) {
+void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
             "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   add_words(sub, "--report", study.report,
@@ -73,9 +73,9 @@ void add_runs(Command sub, tune::Study& study, RunsOptions& options) {
   add_keeping(sub, options);
 }
 
-void add_keeping(Command sub, RunsOptions& options) {
+void add_keeping(CLI::App& sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "at a time; as many as the machine has")
-      .is_between(1, 1024);
+      ->transform(between(1, 1024));
   sub.add_option("--results", options.results,
                  "a study's file: each row as soon as its run is done; what is there is not run "
                  "again");

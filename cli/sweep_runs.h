@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/command.h"
 #include "cli/terminal.h"
 #include "sinew/tune/mpi/work.h"
 #include "sinew/tune/results/results.h"
@@ -43,13 +43,13 @@ std::vector<tune::Row> run_rows(const tune::Sweep& sweep, const SweepRuns& how);
 
 // --range, --set, --report, --units, --allow-unreachable, --threads, --results: what every command
 // with runs takes.
-void add_runs(Command sub, tune::Study& study, RunsOptions& options);
+void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options);
 
 // --threads and --results alone.
-void add_keeping(Command sub, RunsOptions& options);
+void add_keeping(CLI::App& sub, RunsOptions& options);
 
 // An option that takes one word each time that it is named, so that what follows stays what it is.
-void add_words(Command sub, const char* name, std::vector<std::string>& words,
+void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
                const char* description);
 
 }  // namespace sinew::cli

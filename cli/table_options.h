@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/command.h"
 #include "sinew/recording/mapping.h"
 
 namespace sinew::cli {
@@ -23,6 +23,6 @@ struct TableOptions {
 // The heading of these options in a command's help.
 inline constexpr const char* table_heading = "How a table is read";
 
-void add_table_options(Command sub, TableOptions& options);
+void add_table_options(CLI::App& sub, TableOptions& options);
 
 }  // namespace sinew::cli

@@ -130,20 +130,20 @@ ExitCode tune_all(const TuneOptions& given) {
 
 }  // namespace
 
-void add_tune(Command app, Action& action) {
+void add_tune(CLI::App& app, Action& action) {
   auto options = std::make_shared<TuneOptions>();
-  Command sub = app.subcommand("tune", "the best values of an experiment's keys",
-                               "sinew tune studies/faster-walk.toml --best faster-walk.toml");
+  CLI::App& sub = subcommand(app, "tune", "the best values of an experiment's keys",
+                             "sinew tune studies/faster-walk.toml --best faster-walk.toml");
   sub.add_option("FILE", options->file, "what is tuned, by which goals: docs/how-to/studies.md")
-      .required();
+      ->required();
   add_sets(sub, options->sets);
   add_keeping(sub, options->runs);
   sub.add_option("--generations", options->generations, "in place of the file's number")
-      .is_between(1, 100000);
+      ->transform(between(1, 100000));
   sub.add_option("--best", options->best, "also write the best candidate as this experiment");
   sub.add_option("--candidate", options->candidate, "write this one in its place")
-      .is_between(0, 1000000)
-      .needs(sub.option("--best"));
+      ->transform(between(0, 1000000))
+      ->needs(sub.get_option("--best"));
   sub.add_option("-o,--output", options->out, "also write all candidates to this CSV file");
   add_units(sub, options->units, "of the table, else the file's; what is written keeps the file's");
   sub.add_flag("--force", options->force, "replace those files");

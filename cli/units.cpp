@@ -4,15 +4,15 @@
 
 namespace sinew::cli {
 
-Option add_units(Command sub, std::string& units, const std::string& of) {
+CLI::Option* add_units(CLI::App& sub, std::string& units, const std::string& of) {
   return sub
       .add_option("--units", units, "si, thesis, metric, or with choices, metric,length=cm: " + of)
-      .check([](const std::string& text) {
+      ->transform(passes([](const std::string& text) {
         const units::ShownUnitsReading read = units::read_shown_units(text);
         return read.ok() ? std::string()
                          : fmt::format("found {}; expected {}; try {}", read.found, read.expected,
                                        read.try_this);
-      });
+      }));
 }
 
 config::UnitsToShow units_asked(const std::string& option, units::UnitSet otherwise,

@@ -12,7 +12,7 @@ namespace sinew::cli {
 
 // Adds `--units`; `of` ends its line of help: "of the tables; --json is in SI". Wrong words are
 // wrong usage.
-Option add_units(Command sub, std::string& units, const std::string& of);
+CLI::Option* add_units(CLI::App& sub, std::string& units, const std::string& of);
 
 // What was said about units: by the option, by SINEW_UNITS, by the run (null: none) and by the
 // person's settings.

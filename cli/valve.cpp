@@ -99,26 +99,28 @@ ExitCode run_valve(const ValveOptions& options) {
 
 }  // namespace
 
-void add_valve(Command app, Action& action) {
+void add_valve(CLI::App& app, Action& action) {
   auto options = std::make_shared<ValveOptions>();
-  Command sub =
-      app.subcommand("valve", "flow, filling times and delays of a valve",
-                     "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
-                     "--downstream \"0 psi gauge\" --volume \"1 in3\"");
-  sub.add_option("FILE", options->file, "valves, robot or experiment file").required();
-  sub.add_option("NAME", options->name, "of the valve").required();
-  sub.add_option("--upstream", options->upstream, "pressure, gauge or abs").required();
-  sub.add_option("--downstream", options->downstream, "pressure, gauge or abs").required();
-  Option volume = sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
-  Option walls =
+  CLI::App& sub =
+      subcommand(app, "valve", "flow, filling times and delays of a valve",
+                 "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
+                 "--downstream \"0 psi gauge\" --volume \"1 in3\"");
+  sub.add_option("FILE", options->file, "valves, robot or experiment file")->required();
+  sub.add_option("NAME", options->name, "of the valve")->required();
+  sub.add_option("--upstream", options->upstream, "pressure, gauge or abs")->required();
+  sub.add_option("--downstream", options->downstream, "pressure, gauge or abs")->required();
+  CLI::Option* volume =
+      sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
+  CLI::Option* walls =
       sub.add_option("--wall-time", options->wall_time,
                      "of the heat between its air and walls; else both limits, or the file's");
-  walls.needs(volume);
+  walls->needs(volume);
   sub.add_option("--exponent", options->exponent, "by a polytrope, as the air of a muscle's file")
-      .needs(volume)
-      .excludes(walls);
-  Option duty = sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
-  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz").needs(duty);
+      ->needs(volume)
+      ->excludes(walls);
+  CLI::Option* duty =
+      sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
+  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz")->needs(duty);
   add_units(sub, options->units, "of what is printed; --json is in SI");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");

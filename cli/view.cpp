@@ -72,34 +72,35 @@ ExitCode view_live(const ViewOptions& o) {
 
 }  // namespace
 
-void add_view(Command app, Action& action) {
+void add_view(CLI::App& app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
-  Command sub = app.subcommand("view", "a run or a study in the browser, recorded or while it goes",
-                               "sinew view --live experiments/tune-in-air.toml");
-  Option dir =
+  CLI::App& sub =
+      subcommand(app, "view", "a run or a study in the browser, recorded or while it goes",
+                 "sinew view --live experiments/tune-in-air.toml");
+  CLI::Option* dir =
       sub.add_option("DIR", options->what,
                      "a run's folder, a folder of runs, a log file, one or two studies; else "
                      "the newest of runs/");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
-  Option live =
+  CLI::Option* live =
       sub.add_option("--live", options->live.run.experiment, "run this experiment and watch it");
-  live.excludes(dir);
+  live->excludes(dir);
   sub.add_option("--port", options->port,
                  "on 127.0.0.1; 0: a free one; else the one that this folder has each time")
-      .is_between(0, 65535);
+      ->transform(between(0, 65535));
   sub.add_flag("!--no-open", options->open, "only print where it is");
   options->live.pace = 1;
   sub.add_option("--pace", options->live.pace,
                  "simulated seconds per second of wall time; 0: no limit")
-      .check(a_pace)
-      .needs(live);
-  sub.add_flag("--paused", options->paused, "the run waits for the page's button").needs(live);
-  sub.add_flag("--once", options->once, "end with the run").needs(live);
+      ->transform(passes(a_pace))
+      ->needs(live);
+  sub.add_flag("--paused", options->paused, "the run waits for the page's button")->needs(live);
+  sub.add_flag("--once", options->once, "end with the run")->needs(live);
   add_run_options(sub, "--place", options->live);
   for (const char* of_a_run : {"--place", "--clear-fault", "--output", "--force", "--set",
                                "--allow-unreachable", "--no-report", "--units", "--json"})
-    sub.option(of_a_run).needs(live);
+    sub.get_option(of_a_run)->needs(live);
   sub.callback([=, &action] {
     action = [=] {
       return options->live.run.experiment.empty() ? view_recorded(*options) : view_live(*options);
