@@ -7,8 +7,8 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/diagnostics.h"
@@ -78,7 +78,7 @@ ExitCode run_actuator(const ActuatorOptions& options) {
     fmt::print("{}\n", out.text(2));
     return ok;
   }
-  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
   const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
   fmt::print("{}", points.size() == 1
                        ? run::text_of(points[0], shown)

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "cli/verdicts.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
@@ -56,7 +56,7 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
         run.log.string() +
         " was cut off or is damaged; the numbers are of what stands before, without verdicts");
 
-  const config::UnitsToShow units = units_asked(options.units, units::UnitSet::si, &file);
+  const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si, &file);
   return tell(options, messages, table, analysis::read_machine(file), units);
 }
 

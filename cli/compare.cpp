@@ -3,8 +3,8 @@
 
 #include "cli/alignment.h"
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/report/compare/comparison_text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/compared.h"
@@ -26,7 +26,7 @@ struct CompareOptions {
 
 report::ComparisonText shown_as(const CompareOptions& options) {
   const fs::path first = run::recorded_run(options.runs.front()).resolved;
-  return {.units = units_asked(options.units, units::UnitSet::thesis, first).units,
+  return {.units = chosen_units(options.units, units::UnitSet::thesis, first).units,
           .all = options.all,
           .width = width_of_output(),
           .see_all = "--all",
@@ -61,7 +61,7 @@ ExitCode compare_runs(const CompareOptions& options) {
   if (!options.out.empty()) {
     const fs::path first = run::recorded_run(options.runs.front()).resolved;
     const std::string page =
-        report::page(comparison, units_asked(options.units, units::UnitSet::si, first).units);
+        report::page(comparison, chosen_units(options.units, units::UnitSet::si, first).units);
     run::write_file(options.out, page);
     messages.note(
         fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));

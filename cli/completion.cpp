@@ -57,7 +57,7 @@ function __sinew_words
     set -l last (commandline -ct)
     $line[1] completion fish --line=(string join \t -- $line "$last") 2>/dev/null
 end
-complete -c sinew -a '(__sinew_words)'
+complete -c sinew -f -a '(__sinew_words; or __fish_complete_path (commandline -ct))'
 )script";
 
 // A word, and what it is.
@@ -148,8 +148,9 @@ std::vector<std::string> words_of_line(const std::string& text) {
   return out;
 }
 
-// Prints one offer a line, with its description behind a tab.
-ExitCode print_offers(std::vector<std::string> line, const CLI::App& program) {
+// Prints one offer a line, with its description behind a tab. Fails where there is none: fish then
+// offers files.
+ExitCode print_offers(std::vector<std::string> line, const CLI::App& program) try {
   bool split = false;
   for (std::size_t i = 1; i < line.size(); ++i) {
     if (line[i] != "=") continue;
@@ -161,14 +162,15 @@ ExitCode print_offers(std::vector<std::string> line, const CLI::App& program) {
   }
   const std::string& last = line.back();
   const std::string begin = split ? last.substr(last.find('=') + 1) : last;
-  try {
-    for (const auto& [word, meaning] : offers(line, split, program))
-      if (is_plain(word) && word.starts_with(begin))
-        fmt::print("{}{}{}\n", word, meaning.empty() ? "" : "\t", meaning);
-  } catch (const std::exception&) {
-    return failed;  // a file with mistakes offers nothing
+  bool offered = false;
+  for (const auto& [word, meaning] : offers(line, split, program)) {
+    if (!is_plain(word) || !word.starts_with(begin)) continue;
+    fmt::print("{}{}{}\n", word, meaning.empty() ? "" : "\t", meaning);
+    offered = true;
   }
-  return ok;
+  return offered ? ok : failed;
+} catch (const std::exception&) {
+  return failed;  // a file with mistakes offers nothing
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <memory>
 #include <sstream>
 
-#include "cli/table_options.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 
@@ -69,17 +69,17 @@ std::string wrapped(std::string_view text, std::size_t indent) {
 }
 
 // A title and its description, in two columns.
-struct Row {
+struct HelpRow {
   std::string title, words;
 };
 
-std::string table(const std::vector<Row>& rows, std::size_t title_width = 0) {
+std::string table(const std::vector<HelpRow>& rows, std::size_t title_width = 0) {
   constexpr std::size_t widest_title = 26;
-  for (const Row& row : rows)
+  for (const HelpRow& row : rows)
     if (const std::size_t n = letters(row.title); n <= widest_title)
       title_width = std::max(title_width, n);
   std::string out;
-  for (const Row& row : rows) {
+  for (const HelpRow& row : rows) {
     const std::size_t n = letters(row.title), begin = 2 + title_width + 2;
     out += "  " + row.title;
     out += n > title_width ? "\n" + std::string(begin, ' ') : std::string(begin - 2 - n, ' ');
@@ -132,7 +132,7 @@ std::string words_of(const CLI::Option& option) {
 // the arguments that are no options.
 std::string section(const CLI::App& command, std::string_view title, bool named,
                     std::string_view heading = "Options") {
-  std::vector<Row> rows;
+  std::vector<HelpRow> rows;
   for (const CLI::Option* option : options_of(command))
     if (option->get_positional() != named && option->get_group() == heading)
       rows.push_back(
@@ -204,12 +204,12 @@ std::string all_commands(const CLI::App& app) {
 
 std::string overview(const CLI::App& program) {
   std::string out = program.get_description() + "\n\nUsage: sinew COMMAND …\n";
-  const auto add = [&](std::string_view title, const std::vector<Row>& rows,
+  const auto add = [&](std::string_view title, const std::vector<HelpRow>& rows,
                        std::string_view example) {
     out += fmt::format("\n{}:\n{}    {}\n", title, table(rows, 13), example);
   };
   for (const Task& task : tasks) {
-    std::vector<Row> rows;
+    std::vector<HelpRow> rows;
     std::istringstream names{std::string(task.commands)};
     for (std::string name; names >> name;)
       if (const CLI::App* command = find_command(program, name))
@@ -229,7 +229,7 @@ std::string help_of(const CLI::App& command) {
   if (!command.get_parent()) return overview(command);
   std::string out = fmt::format("{}: {}\n\nUsage: {}\n", words_to(command),
                                 command.get_description(), usage_of(command));
-  std::vector<Row> rows;
+  std::vector<HelpRow> rows;
   for (const CLI::App* sub : commands_of(command))
     rows.push_back({sub->get_name(), sub->get_description()});
   if (!rows.empty()) out += "\nCommands:\n" + table(rows);

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/option_groups.h"
 #include "cli/run.h"
-#include "cli/table_options.h"
 #include "cli/terminal.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"

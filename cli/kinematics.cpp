@@ -11,7 +11,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/units.h"
+#include "cli/option_groups.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/json/json.h"
@@ -39,7 +39,7 @@ std::string unit_in(const config::Origins& origins, std::string_view table, std:
 // and its first joint, and of the torques by the force that is given.
 run::StanceUnits stance_units(const experiment::Experiment& e, const KinematicsOptions& options) {
   const std::string& force = options.force;
-  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
   if (asked.asked) {
     const std::string length = asked.units.of("m").name;
     return {length, asked.units.of("rad").name, asked.units.of("N m").name, length + "/rad"};

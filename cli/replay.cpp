@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/run/folder/replayed.h"
 
 namespace sinew::cli {
@@ -27,7 +27,7 @@ ExitCode replay_run(ReplayOptions options) {
   if (options.json)
     fmt::print("{}", to_json(replayed));
   else
-    fmt::print("{}", text_of(replayed, units_for(options.units, units::UnitSet::thesis),
+    fmt::print("{}", text_of(replayed, chosen_units(options.units, units::UnitSet::thesis).units,
                              width_of_output()));
   if (replayed.folder) messages.note(replayed.folder->string());
   // A plant that parts from a measurement is a result; a controller that does is a change.

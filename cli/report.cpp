@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/tune/page/study_view.h"

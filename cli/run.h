@@ -7,8 +7,8 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "cli/verdicts.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/page.h"
@@ -39,7 +39,7 @@ inline void tell(const run::Kept& kept, const RunOptions& options, const Message
     messages.note(kept.folder.string());
   } else {
     const config::UnitsToShow units =
-        units_asked(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
+        chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
     print_verdicts(kept.summary, kept.machine, units.asked ? &units.units : nullptr);
     messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", kept.duration, kept.wall,
                               kept.folder.string()));

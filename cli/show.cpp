@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/units.h"
+#include "cli/option_groups.h"
 #include "sinew/files/values.h"
 #include "sinew/json/json.h"
 
@@ -20,7 +20,7 @@ struct ShowOptions {
 
 ExitCode show(const ShowOptions& options) {
   const files::Values values = files::values(options.file, options.sets, options.keys);
-  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si, &values.in_si);
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si, &values.in_si);
   if (options.json)
     fmt::print("{}\n", Json::parse(files::json_of(values)).text(2));
   else

@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
-#include "cli/units.h"
+#include "cli/option_groups.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/tune/results/results.h"
 

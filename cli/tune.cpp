@@ -7,8 +7,8 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/option_groups.h"
 #include "cli/sweep_runs.h"
-#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/tune/optimizer/candidate_file.h"
@@ -67,7 +67,7 @@ void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const Tun
 // Prints the table. Units that were asked for now are stronger than those that the file names, and
 // these are stronger than the units of the person's settings.
 void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const TuneOptions& options) {
-  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
   const char* session = std::getenv(config::units_variable);
   const tune::TableUnits shown{asked.units, !options.units.empty() || (session && *session)};
   fmt::print("{}", tune::text_of(tuning, tuned, asked.asked ? &shown : nullptr));

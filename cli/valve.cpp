@@ -6,8 +6,8 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
@@ -89,7 +89,7 @@ ExitCode run_valve(const ValveOptions& options) {
     fmt::print("{}\n", (Json::parse(run::json_of(valve, f, times, duties))).text(2));
     return ok;
   }
-  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
   const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
   fmt::print("{}{}{}", run::text_of(valve, f, shown),
              run::text_of(times, volume, f, shown, air.atmosphere),

@@ -169,7 +169,7 @@ py::dict identify_columns(const std::string& method) {
   return out;
 }
 
-// Returns what `sinew identify METHOD --columns --json` prints.
+// Returns what `sinew identify columns METHOD --json` prints.
 py::object identify_inputs(const std::string& method) {
   return loaded(to_json(identify::inputs_of(method)).text());
 }

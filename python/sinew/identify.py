@@ -198,7 +198,7 @@ def scale(
 
 
 def columns(method: str) -> Dict[str, Any]:
-    """Return which columns a method of `sinew identify` reads, as `--columns --json` prints it.
+    """Return which columns a method of identification reads, as `sinew identify columns --json` prints it.
 
     method: "static", "dynamic", ... For each column its quantity, accepted units, meaning, and whether it is
     needed; for each kind of table what a row is. Raises sinew.InputError for a method that there is not.
@@ -207,7 +207,7 @@ def columns(method: str) -> Dict[str, Any]:
 
 
 def template(method: str, kind: str = "") -> str:
-    """Return a table to fill in, as `--template` writes it: CSV that the method reads as it is.
+    """Return a table to fill in, as `sinew identify columns --template` writes it: the method reads this CSV.
 
     kind: of table, where a method takes several, "chart"; else the usual one.
     """

@@ -49,7 +49,7 @@ std::string quantity_of(const Wanted& column);
 // "optional".
 std::string need_of(const MethodInputs& inputs, std::string_view column);
 
-// Returns all of it, as `--columns --json` prints it.
+// Returns all of it, as `sinew identify columns --json` prints it.
 Json to_json(const MethodInputs& inputs);
 
 // Returns a CSV that the method reads as it is, with comments that say what to fill in. `kind` is
