@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "cli/alignment.h"
-#include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
 #include "sinew/film/film.h"
 #include "sinew/film/video.h"
 #include "sinew/run/folder/files.h"
@@ -26,8 +26,10 @@ struct FilmCommandOptions {
 
 film::FilmOptions film_of(const FilmCommandOptions& options) {
   film::FilmOptions out = options.film;
-  if (!options.from.empty()) out.from = argument("--from", options.from, "s", units::atmosphere);
-  if (!options.to.empty()) out.to = argument("--to", options.to, "s", units::atmosphere);
+  if (!options.from.empty())
+    out.from = config::quantity_setting("from", options.from, "s", units::atmosphere);
+  if (!options.to.empty())
+    out.to = config::quantity_setting("to", options.to, "s", units::atmosphere);
   return out;
 }
 

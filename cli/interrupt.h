@@ -6,6 +6,8 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
+#include <thread>
 
 namespace sinew::cli {
 
@@ -27,6 +29,22 @@ class Interrupt {
  private:
   std::array<struct sigaction, 5> before_{};
   std::size_t count_ = 0;
+};
+
+// While it lives, the space bar calls `stop`, and so does a terminal that is gone; nothing where
+// stdin is no terminal. The terminal is as it was afterwards.
+class SpaceBar {
+ public:
+  explicit SpaceBar(std::function<void()> stop);
+  ~SpaceBar();
+  SpaceBar(const SpaceBar&) = delete;
+  SpaceBar& operator=(const SpaceBar&) = delete;
+
+  bool listens() const { return thread_.joinable(); }
+
+ private:
+  int end_[2] = {-1, -1};  // a pipe that ends the thread
+  std::thread thread_;
 };
 
 // A file that may not grow further is an error of write(), which is told, and not this program's

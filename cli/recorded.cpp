@@ -1,0 +1,271 @@
+// cli/recorded.cpp - pages, comparisons and tables of recorded runs: report, compare and export.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/alignment.h"
+#include "cli/command.h"
+#include "cli/option_groups.h"
+#include "cli/terminal.h"
+#include "sinew/analysis/record/derived.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/config/compose.h"
+#include "sinew/experiment/globs.h"
+#include "sinew/log/csv.h"
+#include "sinew/log/reader.h"
+#include "sinew/report/compare/comparison_text.h"
+#include "sinew/report/page/page.h"
+#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/tune/page/study_view.h"
+#include "thesis/out_dat/out_dat.h"
+#include "thesis/out_dat/ports.h"
+
+namespace sinew::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// --- report ---
+
+struct ReportOptions {
+  std::vector<std::string> runs;
+  std::string machine, out, units;
+  bool force = false, quiet = false;
+};
+
+ExitCode write(const std::filesystem::path& out, const std::string& page,
+               const Messages& messages) {
+  run::write_file(out, page);
+  messages.note(
+      fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
+  return ok;
+}
+
+ExitCode report_study(const ReportOptions& options) {
+  std::filesystem::path out = options.out;
+  if (out.empty()) out = std::filesystem::path(options.runs[0]).replace_extension(".html");
+  const std::vector<std::filesystem::path> files(options.runs.begin(), options.runs.end());
+  run::refuse_to_overwrite(out, options.force, files);
+  return write(out, tune::study_page_of(files), Messages(options.quiet));
+}
+
+ExitCode report_run(const ReportOptions& options) {
+  const Messages messages(options.quiet);
+  const run::RecordedRun recorded = run::recorded_run(options.runs[0]);
+  const std::filesystem::path out = options.out.empty()
+                                        ? recorded.log.parent_path() / run::report_name
+                                        : std::filesystem::path(options.out);
+  run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
+  return write(out, run::page_of(recorded, options.machine, messages.notices(), options.units),
+               messages);
+}
+
+// --- compare ---
+
+struct CompareOptions {
+  std::vector<std::string> runs, channels;
+  Alignment alignment;
+  std::string out, residuals, units;
+  bool json = false, all = false, force = false, quiet = false;
+};
+
+report::ComparisonText shown_as(const CompareOptions& options) {
+  const fs::path first = run::recorded_run(options.runs.front()).resolved;
+  return {.units = chosen_units(options.units, units::UnitSet::thesis, first).units,
+          .all = options.all,
+          .width = width_of_output(),
+          .see_all = "--all",
+          .fit_clock = "--clock fit",
+          .color = output_has_color()};
+}
+
+// Nothing that was there is written over unasked, nor a run that is read.
+void refuse_outputs(const CompareOptions& options) {
+  if (!options.out.empty()) report::require_page(options.out);
+  std::vector<fs::path> inputs;
+  for (const std::string& named : options.runs) {
+    const run::RecordedRun run = run::recorded_run(named);
+    inputs.insert(inputs.end(), {run.log, run.resolved});
+  }
+  for (const std::string& out : {options.out, options.residuals})
+    if (!out.empty()) run::refuse_to_overwrite(out, options.force, inputs);
+}
+
+ExitCode compare_runs(const CompareOptions& options) {
+  const Messages messages(options.quiet);
+  refuse_outputs(options);
+  const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
+                                                          options.channels, messages.notices());
+
+  // Files come before what is printed: a reader that ends early, such as head, ends the
+  // program.
+  if (!options.residuals.empty()) {
+    run::write_file(options.residuals, report::residuals_csv(comparison));
+    messages.note(options.residuals);
+  }
+  if (!options.out.empty()) {
+    const fs::path first = run::recorded_run(options.runs.front()).resolved;
+    const std::string page =
+        report::page(comparison, chosen_units(options.units, units::UnitSet::si, first).units);
+    run::write_file(options.out, page);
+    messages.note(
+        fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));
+  }
+  if (options.json)
+    fmt::print("{}", to_json(comparison));
+  else
+    fmt::print("{}", text_of(comparison, shown_as(options)));
+  return ok;
+}
+
+// --- export ---
+
+struct ExportOptions {
+  std::string run, out, machine;
+  std::string format = "csv";
+  std::vector<std::string> channels;
+  bool csv = false, derived = false, force = false, quiet = false;
+};
+
+std::vector<std::string> chosen_topics(const ExportOptions& options, const signals::Table& table) {
+  if (options.channels.empty()) return {};
+  const std::vector<std::string_view> names = experiment::names_of(table);
+  const std::vector<bool> chosen =
+      experiment::select(options.channels, names, {"--channels", 0, 0});
+  std::vector<std::string> topics;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (chosen[i]) topics.emplace_back(names[i]);
+  return topics;
+}
+
+// What is only CSV's.
+void refuse_csv_options(const ExportOptions& options) {
+  if (options.format == "csv" || (options.channels.empty() && !options.derived)) return;
+  config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
+               "csv, for --channels and --derived");
+}
+
+experiment::Experiment experiment_of(const run::RecordedRun& run, const ExportOptions& options) {
+  const std::string file = run::machine_of(run, options.machine).string();
+  return run::buildable_robot(config::compose(file), file);
+}
+
+// Line by line, since a long run's text is longer than memory.
+void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
+  if (options.derived) {
+    const config::Node root = config::compose(run::machine_of(run, options.machine).string());
+    signals::Table derived = analysis::derive(table, analysis::read_machine(root));
+    for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
+  }
+  const std::vector<std::string> topics = chosen_topics(options, table);
+  if (!options.out.empty()) {
+    run::require_folder_of(options.out);
+    return log::write_csv(table, options.out, topics);
+  }
+  log::write_csv(table, std::cout, topics);
+  std::cout.flush();
+}
+
+void put(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
+  if (options.format == "csv") return put_csv(run, options, std::move(table));
+  const experiment::Experiment e = experiment_of(run, options);
+  const std::string text =
+      options.format == "ports" ? thesis::write_ports(table, e) : thesis::write_out_dat(table, e);
+  if (!options.out.empty()) return run::write_file(options.out, text);
+  fmt::print("{}", text);
+}
+
+ExitCode export_run(const ExportOptions& options) {
+  const Messages messages(options.quiet);
+  refuse_csv_options(options);
+  const run::RecordedRun run = run::recorded_run(options.run);
+  if (!options.out.empty())
+    run::refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
+
+  signals::Table table = log::read(run.log);
+  if (!table.complete)
+    messages.warning(
+        fmt::format("{} was cut off; what stands before is exported", run.log.string()));
+  put(run, options, std::move(table));
+  if (!options.out.empty()) messages.note(options.out);
+  return ok;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App& sub =
+      subcommand(app, "report", "a run or a study as one page, which opens in any browser",
+                 "sinew report runs/walk-test-1/1 -o walk.html");
+  sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")
+      ->required()
+      ->expected(1, 2);
+  sub.add_option("-o,--output", options->out,
+                 "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
+  sub.add_option("--machine", options->machine,
+                 "what was run, in place of the folder's resolved.toml");
+  add_units(sub, options->units, "in which the page of a run begins, else as set");
+  sub.add_flag("--force", options->force, "replace the file");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] {
+    const bool study = tune::is_study(options->runs.front());
+    if (!study && options->runs.size() > 1)
+      refuse("DIR", "two runs", "one run, or studies; sinew compare shows runs beside each other");
+    if (study && !options->machine.empty())
+      refuse("--machine", "a study beside it", "a run: a study has no machine of its own");
+    action = [=] { return study ? report_study(*options) : report_run(*options); };
+  });
+}
+
+void add_compare(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App& sub =
+      subcommand(app, "compare", "runs beside each other: numbers, parameters, channels",
+                 "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
+  sub.add_option("RUN", options->runs, "folders of runs, or log files; the first is compared with")
+      ->required()
+      ->expected(2, most_runs);
+  sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
+  sub.add_option("--residuals", options->residuals,
+                 "also write what each run differs by, a column per channel, as CSV");
+  add_alignment(sub, options->alignment);
+  sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'")
+      ->expected(1, CLI::detail::expected_max_vector_size);
+  add_units(sub, options->units, "of the tables, else thesis, and of the page; --json is in SI");
+  sub.add_flag("--all", options->all, "every figure and channel, equal ones too");
+  sub.add_flag("--json", options->json, "all of it as JSON");
+  sub.add_flag("--force", options->force, "replace the page");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return compare_runs(*options); }; });
+}
+
+void add_export(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App& sub = subcommand(
+      app, "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
+      "sinew export runs/walk-test-1/1 --csv -o walk.csv");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  CLI::App& how = alternatives(sub, "format");
+  how.add_option("--format", options->format,
+                 "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
+                 "of the valves' "
+                 "ports")
+      ->check(one_of({"csv", "out.dat", "ports"}));
+  how.add_flag("--csv", options->csv, "the same as --format csv");
+  sub.add_option("-o,--output", options->out, "the file to write; else stdout");
+  sub.add_option("--channels", options->channels, "csv: topics only; * stands for anything");
+  sub.add_flag("--derived", options->derived, "csv: also what the analysis derives");
+  sub.add_option("--machine", options->machine, "what was run, in place of the folder's");
+  sub.add_flag("--force", options->force, "replace the file");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return export_run(*options); }; });
+}
+
+}  // namespace sinew::cli
