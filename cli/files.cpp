@@ -67,25 +67,9 @@ struct ListOptions {
   bool json = false;
 };
 
-Json json_of(const files::Listing& listing) {
-  Json all{{"format", "sinew.list/1"}};
-  if (!listing.shipped_from.empty()) all["shipped_from"] = listing.shipped_from;
-  all["cut"] = listing.cut;
-  all["files"] = Json::array();
-  for (const files::Listed& one : listing.files) {
-    all["files"].push_back(
-        {{"kind", one.kind}, {"path", one.path}, {"title", one.title}, {"shipped", one.shipped}});
-    if (!one.problem.empty()) all["files"].back()["problem"] = one.problem;
-  }
-  return all;
-}
-
 ExitCode list(const ListOptions& options) {
   const files::Listing listing = files::list(options.kind);
-  if (options.json)
-    fmt::print("{}\n", json_of(listing).text(2));
-  else
-    fmt::print("{}", files::text_of(listing, options.kind));
+  fmt::print("{}", options.json ? files::json_of(listing) : files::text_of(listing, options.kind));
   const Messages messages(false);
   if (listing.shipped_from.empty())
     messages.warning(
@@ -150,29 +134,20 @@ ExitCode show(const ShowOptions& options) {
 
 // --- check ---
 
-using files::Finding;
-
 struct CheckOptions {
   std::vector<std::string> files;
   bool json = false;
 };
 
 ExitCode check_all(const CheckOptions& options) {
-  bool good = true;
-  Json report = Json::array();
+  std::vector<files::Finding> findings;
   for (const std::string& file : options.files) {
-    const Finding finding = files::check(file);
-    good = good && finding.problems.empty();
-    report.push_back(
-        {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
-    if (!finding.faults.empty()) report.back()["faults"] = finding.faults;
-    for (const files::Unsourced& one : finding.unsourced)
-      report.back()["unsourced"].push_back(
-          {{"key", one.key}, {"value", one.value}, {"file", one.file}, {"line", one.line}});
-    if (!options.json) fmt::print("{}", files::text_of(finding));
+    findings.push_back(files::check(file));
+    if (!options.json) fmt::print("{}", files::text_of(findings.back()));
   }
-  if (options.json) fmt::print("{}\n", report.text(2));
-  return good ? ok : failed;
+  if (options.json) fmt::print("{}", files::json_of(findings));
+  const auto is_good = [](const files::Finding& finding) { return finding.problems.empty(); };
+  return std::ranges::all_of(findings, is_good) ? ok : failed;
 }
 
 // --- migrate ---

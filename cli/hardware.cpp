@@ -215,59 +215,12 @@ struct FmuOptions {
   bool force = false, json = false;
 };
 
-Json start_of(const fmu::Variable& v) {
-  using T = fmu::Variable::Type;
-  if (v.type == T::boolean) return v.start != 0;
-  return v.type == T::integer ? Json(static_cast<int>(v.start)) : Json(v.start);
-}
-
-void print_json(const fmu::Fmu& made, const std::string& file) {
-  Json out{{"file", file},
-           {"kind", made.kind},
-           {"name", made.name},
-           {"model_identifier", made.identifier},
-           {"token", made.token}};
-  for (std::size_t k = 0; k < made.variables.size(); ++k) {
-    const fmu::Variable& v = made.variables[k];
-    Json entry{{"name", v.name},
-               {"value_reference", k},
-               {"type", fmu::word(v.type)},
-               {"causality", fmu::word(v.causality)}};
-    if (!v.unit.empty()) entry["unit"] = v.unit;
-    using C = fmu::Variable::Causality;
-    if (v.causality == C::parameter || v.causality == C::input) entry["start"] = start_of(v);
-    entry["meaning"] = v.doc;
-    out["variables"].push_back(entry);
-  }
-  fmt::print("{}\n", out.text(2));
-}
-
-void print_text(const fmu::Fmu& made, const std::string& file) {
-  using C = fmu::Variable::Causality;
-  const auto row = [&](C causality, const char* title) {
-    std::string names;
-    int count = 0;
-    for (const fmu::Variable& v : made.variables)
-      if (v.causality == causality && ++count <= 12) names += (count > 1 ? ", " : "") + v.name;
-    if (count > 12) names += fmt::format(", … {} in all", count);
-    if (count > 0) fmt::print("{:<12}{}\n", title, names);
-  };
-  fmt::print("{}: {} \"{}\", {:.0f} KB\n", file, made.kind, made.name,
-             static_cast<double>(made.bytes.size()) / 1000);
-  row(C::input, "inputs");
-  row(C::output, "outputs");
-  row(C::parameter, "parameters");
-}
-
 ExitCode export_fmu(const FmuOptions& options) {
   const fmu::Fmu made = fmu::make_fmu(options.asked);
   const std::string file = options.out.empty() ? made.identifier + ".fmu" : options.out;
   run::refuse_to_overwrite(file, options.force, {options.asked.file}, ".fmu");
   run::write_file(file, made.bytes);
-  if (options.json)
-    print_json(made, file);
-  else
-    print_text(made, file);
+  fmt::print("{}", options.json ? fmu::json_of(made, file) : fmu::text_of(made, file));
   return ok;
 }
 

@@ -1,5 +1,5 @@
 // cli/help.h - `sinew help`: commands by purpose, the arguments and options of each command, and
-// pages about what all of them share.
+// pages about what all of them share; and what is wrong with a line.
 #pragma once
 
 #include <string>
@@ -24,5 +24,9 @@ std::string help_command(const std::string& words);
 // Returns the line's words with a last `help` in front: `sinew identify static help` is `sinew help
 // identify static`.
 std::vector<std::string> with_help_first(std::vector<std::string> words, const CLI::App& program);
+
+// Returns what is wrong with the line that `program` has read and for which CLI11 threw `error`: a
+// problem in each line, and after them the command that prints the help.
+std::string problems_of_line(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace sinew::cli

@@ -180,17 +180,9 @@ void refuse_together(const Options<identify::GeometrySettings>& options) {
 
 // --- tables ---
 
-// "force=F_N"
-void add_pair(std::string_view option, const std::string& text,
-              std::map<std::string, std::string>& pairs) {
-  const std::size_t equals = text.find('=');
-  if (equals == text.npos || equals == 0 || equals + 1 == text.size())
-    config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "name=value");
-  pairs[text.substr(0, equals)] = text.substr(equals + 1);
-}
-
-// "force=F_N,length=Lage, mm": a comma parts two pairs where a pair follows; else a name has it.
-std::vector<std::string> pairs_of(const std::vector<std::string>& texts) {
+// Returns the texts of "force=F_N,length=Lage, mm": a comma separates two pairs where a pair
+// follows; else it is of a name.
+std::vector<std::string> split_pairs(const std::vector<std::string>& texts) {
   std::vector<std::string> out;
   for (const std::string& text : texts) {
     bool is_first = true;
@@ -214,10 +206,14 @@ std::vector<identify::Source> sources_of(const DataOptions& options,
                                          const std::vector<std::string>& held_out = {}) {
   identify::Source how;
   const TableOptions& table = options.table;
-  for (const std::string& map : pairs_of(table.maps)) add_pair("--map", map, how.names);
-  for (const std::string& unit : table.units) add_pair("--unit", unit, how.units);
-  for (const std::string& where : table.where) add_pair("--where", where, how.where);
-  for (const std::string& offset : table.offsets) add_pair("--offset", offset, how.offsets);
+  const auto take = [](const char* option, const std::vector<std::string>& texts,
+                       std::map<std::string, std::string>& into) {
+    for (const auto& [name, value] : pairs_of(option, texts)) into[name] = value;
+  };
+  take("--map", split_pairs(table.maps), how.names);
+  take("--unit", table.units, how.units);
+  take("--where", table.where, how.where);
+  take("--offset", table.offsets, how.offsets);
   how.values = table.values;
   std::vector<std::string> files = options.files;
   for (const std::string& text : held_out)  // or the words of a rule, "level"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,10 +17,9 @@
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/settings.h"
-#include "cli/shipped_files.h"
 #include "cli/terminal.h"
-#include "cli/usage.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/files/shipped.h"
 
 namespace {
 
@@ -124,13 +124,42 @@ std::string_view only_command(const std::vector<std::string>& words) {
   return it == std::end(commands) || it->name == "help" || it->name == "completion" ? "" : it->name;
 }
 
+bool could_be_shipped(const std::string& word) {
+  constexpr const char* folders[] = {"robots/", "experiments/", "studies/", "data/"};
+  std::error_code none;
+  return std::ranges::any_of(folders, [&](const char* f) { return word.starts_with(f); }) &&
+         !std::filesystem::exists(word, none);
+}
+
+// Returns the words of a line with names that help and `sinew list` show, such as
+// "experiments/walk-test-1.toml", as paths of Sinew's own files, where the current folder has no
+// file of that name. A file that a command writes keeps its name: what follows --output, --out or
+// -o, and the words of `new` and `migrate`.
+std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
+  constexpr std::string_view kept[] = {"new", "migrate", "help", "completion"};
+  if (words.empty() || std::ranges::find(kept, words[0]) != std::end(kept)) return words;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string& before = words[i - 1];
+    if (before == "-o" || before == "--output" || before == "--out" || !could_be_shipped(words[i]))
+      continue;
+    try {
+      std::error_code none;
+      const std::filesystem::path own = files::shipped_folder() / words[i];
+      if (std::filesystem::is_regular_file(own, none)) words[i] = own.string();
+    } catch (const config::Error&) {
+      return words;  // nothing is installed near the program: the command names what is missing
+    }
+  }
+  return words;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   cli::fill_closed_streams();
   cli::survive_file_limits();
   const std::vector<std::string> words =
-      cli::with_shipped_files(std::vector<std::string>(argv + 1, argv + argc));
+      with_shipped_files(std::vector<std::string>(argv + 1, argv + argc));
   Program program(only_command(words));
   try {
     program.parse(words);

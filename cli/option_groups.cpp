@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "sinew/config/diagnostics.h"
+
 namespace sinew::cli {
 
 void add_units(CLI::App& sub, std::string& units, const std::string& of) {
@@ -72,6 +74,18 @@ void add_table_options(CLI::App& sub, TableOptions& options) {
       ->check(one_of({".", ",", " ", "'"}));
   add("--dates", settings.dates, "what comes first in 11/03/2026, or excel for days since 1900")
       ->check(one_of({"day first", "month first", "excel"}));
+}
+
+Pairs pairs_of(const char* option, const std::vector<std::string>& texts, Equals separator,
+               const char* expected) {
+  Pairs out;
+  for (const std::string& text : texts) {
+    const std::size_t at = separator == Equals::first ? text.find('=') : text.rfind('=');
+    if (at == text.npos || at == 0 || at + 1 == text.size())
+      config::fail({option, 0, 0}, "", config::in_quotes(text), expected);
+    out.emplace_back(text.substr(0, at), text.substr(at + 1));
+  }
+  return out;
 }
 
 void SettingOptions::row(const Row& row, std::string& value) {

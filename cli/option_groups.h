@@ -48,6 +48,13 @@ inline constexpr const char* table_heading = "How a table is read";
 
 void add_table_options(CLI::App& sub, TableOptions& options);
 
+// Return the names and values of texts "name=value". A unit or a value has no "=", a column's name
+// may have some: then the last one separates. Throws config::Error for any other text.
+enum class Equals { first, last };
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+Pairs pairs_of(const char* option, const std::vector<std::string>& texts,
+               Equals separator = Equals::first, const char* expected = "name=value");
+
 // --- the settings of a method as options ---
 
 // Adds an option for each row. A visitor of identify/task/settings.h.

@@ -230,51 +230,34 @@ struct ImportOptions {
   bool json = false, quiet = false;
 };
 
-struct Pair {
-  std::string name, value;
-};
-
-// A unit or a value holds no "=", a column's name may.
-Pair pair_at(std::size_t equals, const std::string& text, const char* option,
-             const char* expected) {
-  if (equals == text.npos || equals == 0 || equals + 1 == text.size())
-    config::fail({option, 0, 0}, "", config::in_quotes(text), expected);
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 void take_pairs(ImportOptions& options) {
   recording::Mapping& mapping = options.request.mapping;
   mapping.table = options.table.settings;
   mapping.table.columns = config::at_commas(options.table.columns);
   mapping.clock.rate = options.table.rate;
   options.request.values = options.table.values;
-  for (const std::string& text : options.table.maps) {
-    const Pair p =
-        pair_at(text.find('='), text, "--map", "CHANNEL=COLUMN, /joint/elbow/angle=Winkel");
-    map_channel(mapping, p.name, p.value);
+  const TableOptions& table = options.table;
+  for (const auto& [name, value] :
+       pairs_of("--map", table.maps, Equals::first, "CHANNEL=COLUMN, /joint/elbow/angle=Winkel"))
+    map_channel(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--unit", table.units, Equals::last, "COLUMN=UNIT, Winkel=deg"))
+    map_unit(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--scale", options.scales, Equals::last, "COLUMN=NUMBER, Winkel=-1")) {
+    const auto number = recording::number_in(value);
+    if (!number) config::fail({"--scale", 0, 0}, "", config::in_quotes(value), "a number");
+    map_scale(mapping, name, *number);
   }
-  for (const std::string& text : options.table.units) {
-    const Pair p = pair_at(text.rfind('='), text, "--unit", "COLUMN=UNIT, Winkel=deg");
-    map_unit(mapping, p.name, p.value);
-  }
-  for (const std::string& text : options.scales) {
-    const Pair p = pair_at(text.rfind('='), text, "--scale", "COLUMN=NUMBER, Winkel=-1");
-    const auto number = recording::number_in(p.value);
-    if (!number) config::fail({"--scale", 0, 0}, "", config::in_quotes(p.value), "a number");
-    map_scale(mapping, p.name, *number);
-  }
-  for (const std::string& text : options.table.offsets) {
-    const Pair p = pair_at(text.rfind('='), text, "--offset", "COLUMN=VALUE, \"Winkel=90 deg\"");
-    map_offset(mapping, p.name, p.value);
-  }
-  for (const std::string& text : options.table.where) {
-    const Pair p = pair_at(text.find('='), text, "--where", "COLUMN=VALUE, test=3");
-    map_where(mapping, p.name, p.value);
-  }
-  for (const std::string& text : options.shifts) {
-    const Pair p = pair_at(text.rfind('='), text, "--shift", "FILE=TIME, \"force.csv=0.12 s\"");
-    options.request.shifts[p.name] = p.value;
-  }
+  for (const auto& [name, value] :
+       pairs_of("--offset", table.offsets, Equals::last, "COLUMN=VALUE, \"Winkel=90 deg\""))
+    map_offset(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--where", table.where, Equals::first, "COLUMN=VALUE, test=3"))
+    map_where(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--shift", options.shifts, Equals::last, "FILE=TIME, \"force.csv=0.12 s\""))
+    options.request.shifts[name] = value;
 }
 
 bool is_out_dat(const std::string& path) {

@@ -1,5 +1,7 @@
-#include "cli/usage.h"
-
+// cli/usage.cpp - what is wrong with a line that the program does not understand.
+//
+// CLI11 stops at the first problem and names types and internal terms. Here the line is examined
+// again and every problem is reported: `--untis: found no such option of sinew compare; …`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -30,4 +30,7 @@ Finding check(const std::string& path);
 // there are.
 std::string text_of(const Finding& finding);
 
+// Returns them as an array of JSON, an object for each file.
+std::string json_of(const std::vector<Finding>& findings);
+
 }  // namespace sinew::files

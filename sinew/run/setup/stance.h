@@ -45,6 +45,23 @@ struct StanceUnits {
   std::string length = "m", angle = "deg", torque = "N m", jacobian = "m/rad";
 };
 
+// Returns the units of the robot's file, by its first link and joint, and those of torques by the
+// force, "0 lbf, -20 lbf"; may be empty.
+StanceUnits units_of_file(const experiment::Experiment& experiment, const std::string& force);
+
+// Where a machine is to stand: by its foot or its angles, as text.
+struct StanceRequest {
+  std::string leg;           // of a robot with several
+  std::string foot, angles;  // "-2 in, -13 in" about the first joint; or one angle per joint
+  std::string force;         // of the foot: the torques for it, [71]; may be empty
+};
+
+// Returns all ways to stand so; the experiment keeps the one leg alone, with its own names. Throws
+// config::Error where a text is no quantity, the foot cannot be there, or there is no such leg, and
+// std::invalid_argument for a robot that has no joints or no two links.
+std::vector<Stance> stances(experiment::Experiment& experiment, const StanceRequest& request,
+                            const StanceUnits& units = {});
+
 // Returns lines of text: foot, joints, muscles, Jacobian, torques.
 std::string text_of(const robot::Robot& robot, const Stance& stance, const StanceUnits& units);
 
