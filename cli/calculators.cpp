@@ -44,9 +44,8 @@ using config::QuantityRange;
 
 // --- actuator ---
 
-struct ActuatorOptions {
+struct ActuatorOptions : Flags {
   std::string file, name, length, pressure, velocity, external_volume = "0 m3", units;
-  bool json = false, quiet = false;
 };
 
 using Point = actuator::OperatingPoint;
@@ -113,10 +112,9 @@ ExitCode run_actuator(const ActuatorOptions& options) {
 
 // --- valve ---
 
-struct ValveOptions {
+struct ValveOptions : Flags {
   std::string file, name, upstream, downstream, volume, wall_time, exponent, duty,
       frequency = "100 Hz", units;
-  bool json = false, quiet = false;
 };
 
 std::vector<run::Delivered> deliveries(const gas::Valve& valve, const ValveOptions& options) {
@@ -193,7 +191,7 @@ ExitCode run_valve(const ValveOptions& options) {
 // --- kinematics ---
 
 struct KinematicsOptions {
-  std::string file, units;
+  std::string file, leg, units;
   run::StanceRequest request;
   bool json = false;
 };
@@ -206,14 +204,29 @@ run::StanceUnits stance_units(const experiment::Experiment& e, const KinematicsO
   return {length, chosen.units.of("rad").name, chosen.units.of("N m").name, length + "/rad"};
 }
 
+// Leaves the one leg that is requested, its parts named as within it; its first joint is the
+// origin.
+void choose_leg(experiment::Experiment& e, const std::string& leg) {
+  const std::vector<std::string_view> names = config::names_of(e.robot.legs);
+  if (names.empty() && leg.empty()) return;
+  const auto found = std::ranges::find(names, leg);
+  if (found == names.end())
+    config::fail(
+        {"--leg", 0, 0}, "", leg.empty() ? "none" : config::in_quotes(leg),
+        names.empty() ? "nothing: " + e.robot.name + " has one leg" : config::either(names),
+        names.empty() ? "" : "--leg " + std::string(names.front()));
+  e.robot = robot::only_leg(e.robot, static_cast<std::size_t>(found - names.begin()));
+}
+
 ExitCode run_kinematics(const KinematicsOptions& options) {
   auto file = experiment::load_machine_file(options.file);
+  choose_leg(file.experiment, options.leg);
   const run::StanceUnits units = stance_units(file.experiment, options);
   const std::vector<run::Stance> branches = run::stances(file.experiment, options.request, units);
   const robot::Robot& robot = file.experiment.robot;
   if (options.json) {
     Json out{{"robot", robot.name}};
-    if (!options.request.leg.empty()) out["leg"] = options.request.leg;
+    if (!options.leg.empty()) out["leg"] = options.leg;
     for (const run::Stance& b : branches) out["branches"].push_back(Json::parse(json_of(robot, b)));
     fmt::print("{}\n", out.text(2));
     return ok;
@@ -228,70 +241,65 @@ ExitCode run_kinematics(const KinematicsOptions& options) {
 }  // namespace
 
 void add_actuator(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ActuatorOptions>();
   CLI::App& sub =
       subcommand(app, "actuator", "tension, stiffness and geometry of one braided actuator",
                  "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "
                  "\"60 psi gauge\" --velocity \"-2 in/s\"");
-  sub.add_option("FILE", options->file, "actuator, robot or experiment file")->required();
-  sub.add_option("--length", options->length, "a length, or from:to:step")->required();
-  sub.add_option("--pressure", options->pressure, "gauge or abs, or from:to:step")->required();
-  sub.add_option("--velocity", options->velocity,
+  ActuatorOptions& options = runs(sub, action, run_actuator);
+  sub.add_option("FILE", options.file, "actuator, robot or experiment file")->required();
+  sub.add_option("--length", options.length, "a length, or from:to:step")->required();
+  sub.add_option("--pressure", options.pressure, "gauge or abs, or from:to:step")->required();
+  sub.add_option("--velocity", options.velocity,
                  "of the length, below 0 while it contracts: the tension with its losses, [33]");
-  sub.add_option("--name", options->name, "which actuator, where the file has several");
-  sub.add_option("--external-volume", options->external_volume,
+  sub.add_option("--name", options.name, "which actuator, where the file has several");
+  sub.add_option("--external-volume", options.external_volume,
                  "of hose and fittings, for the stiffness with valves shut; 0");
-  add_units(sub, options->units, "of what is printed, else SI and inches; --json is in SI");
-  sub.add_flag("--json", options->json, "as JSON, SI");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return run_actuator(*options); }; });
+  add_units(sub, options.units, "of what is printed, else SI and inches; --json is in SI");
+  add_flags(sub, options, "", "as JSON, SI");
 }
 
 void add_valve(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ValveOptions>();
   CLI::App& sub =
       subcommand(app, "valve", "flow, filling times and delays of a valve",
                  "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
                  "--downstream \"0 psi gauge\" --volume \"1 in3\"");
-  sub.add_option("FILE", options->file, "valves, robot or experiment file")->required();
-  sub.add_option("NAME", options->name, "of the valve")->required();
-  sub.add_option("--upstream", options->upstream, "pressure, gauge or abs")->required();
-  sub.add_option("--downstream", options->downstream, "pressure, gauge or abs")->required();
+  ValveOptions& options = runs(sub, action, run_valve);
+  sub.add_option("FILE", options.file, "valves, robot or experiment file")->required();
+  sub.add_option("NAME", options.name, "of the valve")->required();
+  sub.add_option("--upstream", options.upstream, "pressure, gauge or abs")->required();
+  sub.add_option("--downstream", options.downstream, "pressure, gauge or abs")->required();
   CLI::Option* volume =
-      sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
+      sub.add_option("--volume", options.volume, "rigid, to be filled and vented");
   CLI::Option* walls =
-      sub.add_option("--wall-time", options->wall_time,
+      sub.add_option("--wall-time", options.wall_time,
                      "of the heat between its air and walls; else both limits, or the file's");
   walls->needs(volume);
-  sub.add_option("--exponent", options->exponent, "by a polytrope, as the air of a muscle's file")
+  sub.add_option("--exponent", options.exponent, "by a polytrope, as the air of a muscle's file")
       ->needs(volume)
       ->excludes(walls);
   CLI::Option* duty =
-      sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
-  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz")->needs(duty);
-  add_units(sub, options->units, "of what is printed; --json is in SI");
-  sub.add_flag("--json", options->json, "as JSON, SI");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return run_valve(*options); }; });
+      sub.add_option("--duty", options.duty, "share of the period, or from:to:step");
+  sub.add_option("--frequency", options.frequency, "of the pulses; 100 Hz")->needs(duty);
+  add_units(sub, options.units, "of what is printed; --json is in SI");
+  add_flags(sub, options, "", "as JSON, SI");
 }
 
 void add_kinematics(CLI::App& app, Action& action) {
-  auto options = std::make_shared<KinematicsOptions>();
   CLI::App& sub =
       subcommand(app, "kinematics", "foot to joint angles, muscle lengths and torques, and back",
                  "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
                  "--force \"0 lbf, -20 lbf\"");
-  sub.add_option("ROBOT", options->file, "robot or experiment file")->required();
-  sub.add_option("--leg", options->request.leg, "of a robot with several: its name");
+  KinematicsOptions& options = runs(sub, action, run_kinematics);
+  sub.add_option("ROBOT", options.file, "robot or experiment file")->required();
+  sub.add_option("--leg", options.leg, "of a robot with several: its name");
   CLI::App& target = alternatives(sub, "target");
-  target.add_option("--foot", options->request.foot,
+  target.add_option("--foot", options.request.foot,
                     "x, y about the first joint: all ways to stand there");
-  target.add_option("--angles", options->request.angles, "one per joint, in the robot's order");
-  sub.add_option("--force", options->request.force,
+  target.add_option("--angles", options.request.angles, "one per joint, in the robot's order");
+  sub.add_option("--force", options.request.force,
                  "x, y of what the foot pushes with: the joints' torques for it, [71]");
-  add_units(sub, options->units, "of what is printed, else those of the robot's file");
-  sub.add_flag("--json", options->json, "as JSON, SI");
-  sub.callback([=, &action] { action = [=] { return run_kinematics(*options); }; });
+  add_units(sub, options.units, "of what is printed, else those of the robot's file");
+  sub.add_flag("--json", options.json, "as JSON, SI");
 }
 
 }  // namespace sinew::cli

@@ -72,6 +72,16 @@ CLI::App& subcommand(CLI::App& app, const std::string& name, const std::string& 
   return sub;
 }
 
+void add_flags(CLI::App& sub, Flags& flags, const char* force, const char* json,
+               const char* quiet) {
+  const auto add = [&](const char* name, bool& flag, const char* description) {
+    if (*description) sub.add_flag(name, flag, description);
+  };
+  add("--force", flags.force, force);
+  add("--json", flags.json, json);
+  add("--quiet", flags.quiet, quiet);
+}
+
 CLI::App& alternatives(CLI::App& sub, const std::string& name) {
   CLI::App& group = *sub.add_option_group(name);
   group.require_option(1);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,21 @@ Add add_run, add_analyze, add_report, add_compare, add_export, add_import, add_r
 // help: one line, or several with two blanks before each but the first.
 CLI::App& subcommand(CLI::App& app, const std::string& name, const std::string& description,
                      const std::string& example);
+
+// Makes `run` the action of a command and returns its options, which live as long as the action.
+template <class Options>
+Options& runs(CLI::App& sub, Action& action, ExitCode (*run)(const Options&)) {
+  auto options = std::make_shared<Options>();
+  sub.callback([options, run, &action] { action = [options, run] { return run(*options); }; });
+  return *options;
+}
+
+// --force, --json and --quiet. Options without a description are not added.
+struct Flags {
+  bool force = false, json = false, quiet = false;
+};
+void add_flags(CLI::App& sub, Flags& flags, const char* force, const char* json,
+               const char* quiet = "only errors on stderr");
 
 // Returns a group of options of which just one is to be given.
 CLI::App& alternatives(CLI::App& sub, const std::string& name);

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FiguresOptions {
+struct FiguresOptions : Flags {
   std::vector<std::string> runs;  // folders, logs, or files of muscles
   std::string out;                // empty: figures/ in each run's folder
   run::DrawingRequest drawing;
@@ -39,7 +39,6 @@ struct FiguresOptions {
   std::string align = "start", event, clock = "none";  // of runs in the same axes
   std::string root = ".";                              // of the thesis
   bool thesis = false, overlay = false, labels_template = false;
-  bool force = false, json = false, quiet = false;
 
   bool overlaid() const { return overlay || !labels.empty() || align != "start"; }
 };
@@ -237,9 +236,8 @@ void add_figures(CLI::App& app, Action& action) {
   sub.add_option("--format", options->formats, "pdf, svg, png or csv; svg,png")
       ->allow_extra_args(false);
   add_options_of_runs(sub, *options, thesis);
-  sub.add_flag("--force", options->force, "replace the figures that are there");
-  sub.add_flag("--json", options->json, "print index.json; of runs all of them");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  add_flags(sub, *options, "replace the figures that are there",
+            "print index.json; of runs all of them");
   sub.callback([=, &action] {
     if (!options->thesis && options->runs.empty())
       require("DIR", "the folder of a run, or --thesis in its place");

@@ -189,88 +189,82 @@ ExitCode migrate_all(const MigrateCommandOptions& options) {
 }  // namespace
 
 void add_new(CLI::App& app, Action& action) {
-  auto options = std::make_shared<NewCommandOptions>();
   CLI::App& sub = subcommand(app, "new", "a commented file to begin with, valid as written",
                              "sinew new robot my-arm --metric");
+  NewCommandOptions& options = runs(sub, action, write);
   std::vector<std::string> kinds;
   for (const std::string_view kind : files::new_kinds()) kinds.emplace_back(kind);
-  sub.add_option("KIND", options->kind, "what it describes")->required()->check(one_of(kinds));
-  sub.add_option("NAME", options->name,
+  sub.add_option("KIND", options.kind, "what it describes")->required()->check(one_of(kinds));
+  sub.add_option("NAME", options.name,
                  "its name; a robot and a rig become a folder NAME, any other a file NAME.toml")
       ->required();
-  sub.add_option("-o,--output", options->how.folder,
-                 "folder in which it is written; else this one");
+  sub.add_option("-o,--output", options.how.folder, "folder in which it is written; else this one");
   sub.add_option(
-      "--of", options->how.of,
+      "--of", options.how.of,
       "experiment: the robot's file; plan and tuning: the experiment's; else one that comes with "
       "Sinew");
-  sub.add_option("--actuator", options->how.actuator,
+  sub.add_option("--actuator", options.how.actuator,
                  "robot: the file of its muscles, as sinew identify static writes it");
-  sub.add_flag("--metric", options->how.metric,
+  sub.add_flag("--metric", options.how.metric,
                "mm, N and bar; else in, lbf and psi, as in the thesis");
-  sub.callback([=, &action] { action = [=] { return write(*options); }; });
 }
 
 void add_list(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ListOptions>();
   CLI::App& sub =
       subcommand(app, "list", "robots, experiments and more: with Sinew and in this folder",
                  "sinew list experiments");
+  ListOptions& options = runs(sub, action, list);
   std::vector<std::string> kinds;
   for (const std::string_view kind : files::listed_kinds()) kinds.emplace_back(kind);
-  sub.add_option("KIND", options->kind, "one kind alone; else all")->check(one_of(kinds));
-  sub.add_flag("--json", options->json, "as JSON");
-  sub.callback([=, &action] { action = [=] { return list(*options); }; });
+  sub.add_option("KIND", options.kind, "one kind alone; else all")->check(one_of(kinds));
+  sub.add_flag("--json", options.json, "as JSON");
 }
 
 void add_keys(CLI::App& app, Action& action) {
-  auto options = std::make_shared<KeysOptions>();
   CLI::App& sub = subcommand(app, "keys", "every key of every file: unit, range, default, meaning",
                              "sinew keys damping\n  sinew keys joint.hip.damping");
-  sub.add_option("WORD", options->words,
+  KeysOptions& options = runs(sub, action, keys);
+  sub.add_option("WORD", options.words,
                  "a key, how it begins, or words of its description; without one, the tables");
-  CLI::Option* kind = sub.add_option("--kind", options->kind, "of one kind of file alone")
+  CLI::Option* kind = sub.add_option("--kind", options.kind, "of one kind of file alone")
                           ->check(one_of(files::key_kinds()));
-  CLI::Option* json = sub.add_flag("--json", options->json, "as JSON");
-  CLI::Option* schema = sub.add_option("--schema", options->schema,
+  CLI::Option* json = sub.add_flag("--json", options.json, "as JSON");
+  CLI::Option* schema = sub.add_option("--schema", options.schema,
                                        "a JSON schema of that kind of file, for an editor")
                             ->check(one_of(kinds_with_a_schema()));
   CLI::Option* page =
-      sub.add_flag("--page", options->page, "all keys as Markdown, docs/reference/keys.md");
+      sub.add_flag("--page", options.page, "all keys as Markdown, docs/reference/keys.md");
   CLI::Option* words = sub.get_option("WORD");
   for (CLI::Option* other : {kind, json, words}) {
     schema->excludes(other);
     page->excludes(other);
   }
   page->excludes(schema);
-  sub.callback([=, &action] { action = [=] { return keys(*options); }; });
 }
 
 void add_show(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ShowOptions>();
   CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
                              "sinew show robots/leg/robot.toml joint.knee muscle.hip");
-  sub.add_option("FILE", options->file, "experiment, rig, robot, actuator, valves or wiring file")
+  ShowOptions& options = runs(sub, action, show);
+  sub.add_option("FILE", options.file, "experiment, rig, robot, actuator, valves or wiring file")
       ->required();
-  sub.add_option("KEY", options->keys, "keys, or how they begin");
-  add_sets(sub, options->sets);
-  add_units(sub, options->units, "of the column beside what is written, else SI");
-  sub.add_flag("--json", options->json, "as JSON");
-  sub.callback([=, &action] { action = [=] { return show(*options); }; });
+  sub.add_option("KEY", options.keys, "keys, or how they begin");
+  add_sets(sub, options.sets);
+  add_units(sub, options.units, "of the column beside what is written, else SI");
+  sub.add_flag("--json", options.json, "as JSON");
 }
 
 void add_check(CLI::App& app, Action& action) {
-  auto options = std::make_shared<CheckOptions>();
   CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
                              "sinew check robots/leg/*.toml robots/leg/predict.dat");
+  CheckOptions& options = runs(sub, action, check_all);
   sub.add_option(
-         "FILE", options->files,
+         "FILE", options.files,
          "experiment, rig, plan, tuning, robot, actuator, valves, wiring file, predict.dat, "
          "gain*.dat, or a "
          "run's folder or log")
       ->required();
-  sub.add_flag("--json", options->json, "as JSON");
-  sub.callback([=, &action] { action = [=] { return check_all(*options); }; });
+  sub.add_flag("--json", options.json, "as JSON");
 }
 
 void add_migrate(CLI::App& app, Action& action) {

@@ -227,34 +227,32 @@ ExitCode export_fmu(const FmuOptions& options) {
 }  // namespace
 
 void add_doctor(CLI::App& app, Action& action) {
-  auto options = std::make_shared<DoctorOptions>();
   CLI::App& sub = subcommand(app, "doctor", "is this computer ready to drive a machine?",
                              "sinew doctor --for comedi");
-  sub.add_option("--for", options->place,
+  DoctorOptions& options = runs(sub, action, examine);
+  sub.add_option("--for", options.place,
                  "exit 1 where what such a place needs is missing: simulated, serial, emulated, "
                  "comedi")
       ->check(one_of({"simulated", "serial", "emulated", "comedi"}))
       ->capture_default_str();
-  sub.add_flag("--json", options->json, "print the findings as JSON");
-  sub.callback([=, &action] { action = [=] { return examine(*options); }; });
+  sub.add_flag("--json", options.json, "print the findings as JSON");
 }
 
 void add_bring_up(CLI::App& app, Action& action) {
-  auto options = std::make_shared<BringUpOptions>();
   CLI::App& sub = subcommand(app, "bring-up", "a machine's first day at the bench, step by step",
                              "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
-  sub.add_option("ROBOT", options->robot, "file of the robot")->required();
-  sub.add_option("--port", options->place,
+  BringUpOptions& options = runs(sub, action, bring_up);
+  sub.add_option("ROBOT", options.robot, "file of the robot")->required();
+  sub.add_option("--port", options.place,
                  "its board: serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE")
       ->required()
       ->transform(passes(problem_of_port));
-  sub.add_option("-o,--output", options->folder,
+  sub.add_option("-o,--output", options.folder,
                  "folder of what is done and learned; else bring-up/<robot>");
-  add_sets(sub, options->sets);
-  sub.add_flag("--clear-fault", options->clear_fault,
+  add_sets(sub, options.sets);
+  sub.add_flag("--clear-fault", options.clear_fault,
                "the board's watchdog or memory fault has been looked into");
-  sub.add_flag("--yes", options->yes, "every question is answered with yes: for a simulated bench");
-  sub.callback([=, &action] { action = [=] { return bring_up(*options); }; });
+  sub.add_flag("--yes", options.yes, "every question is answered with yes: for a simulated bench");
 }
 
 void add_firmware(CLI::App& app, Action& action) {
@@ -293,8 +291,6 @@ void add_firmware(CLI::App& app, Action& action) {
 }
 
 void add_fmu(CLI::App& app, Action& action) {
-  auto options = std::make_shared<FmuOptions>();
-  fmu::Asked& asked = options->asked;
   CLI::App& fmu = subcommand(app, "fmu", "FMUs for co-simulation in other programs",
                              "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");
   fmu.require_subcommand();
@@ -305,13 +301,15 @@ void add_fmu(CLI::App& app, Action& action) {
                  "an FMU",
                  "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
                  "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
+  FmuOptions& options = runs(sub, action, export_fmu);
+  fmu::Asked& asked = options.asked;
   sub.add_option(
          "FILE", asked.file,
          "actuator: a tube; rig: its muscle; robot: its joints; experiment: the machine with "
          "its controllers")
       ->required();
-  sub.add_option("-o,--out", options->out, "the FMU; NAME.fmu here");
-  sub.add_flag("--force", options->force, "replace a file that is there");
+  sub.add_option("-o,--out", options.out, "the FMU; NAME.fmu here");
+  sub.add_flag("--force", options.force, "replace a file that is there");
   sub.add_option("--muscle", asked.muscle, "this muscle alone, with its valves");
   sub.add_flag("--without-valves", asked.without_valves, "a muscle whose pressure is an input");
   sub.add_option("--joint", asked.joints, "this joint with its muscles; may be repeated")
@@ -331,8 +329,7 @@ void add_fmu(CLI::App& app, Action& action) {
       ->capture_default_str();
   sub.add_option("--name", asked.name, "of the model; from the file, the muscle or the joints");
   add_sets(sub, asked.sets);
-  sub.add_flag("--json", options->json, "what was written, as JSON");
-  sub.callback([=, &action] { action = [=] { return export_fmu(*options); }; });
+  sub.add_flag("--json", options.json, "what was written, as JSON");
 }
 
 }  // namespace sinew::cli

@@ -512,9 +512,8 @@ void add_method(CLI::App& app, Action& action) {
 
 // --- columns ---
 
-struct ColumnsOptions {
+struct ColumnsOptions : Flags {
   std::string method, kind, file;
-  bool json = false, force = false, quiet = false;
 };
 
 constexpr std::size_t shown_units = 5;
@@ -567,27 +566,23 @@ ExitCode run_columns(const ColumnsOptions& options) {
 }
 
 void add_columns(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ColumnsOptions>();
   CLI::App& sub = subcommand(app, "columns", "which columns a method reads, and a table to fill in",
                              "sinew identify columns static --template forces.csv");
+  ColumnsOptions& options = runs(sub, action, run_columns);
   std::vector<std::string> names;
   for (const identify::MethodInputs& inputs : identify::method_inputs())
     names.emplace_back(inputs.method);
-  sub.add_option("METHOD", options->method, "of sinew identify")->required()->check(one_of(names));
-  sub.add_option("--kind", options->kind, "of table, where a method takes several: chart");
-  sub.add_option("--template", options->file, "FILE.csv: a table to fill in");
-  sub.add_flag("--force", options->force, "replace the file");
-  sub.add_flag("--json", options->json, "print as JSON");
-  sub.add_flag("--quiet", options->quiet, "only errors");
-  sub.callback([options, &action] { action = [options] { return run_columns(*options); }; });
+  sub.add_option("METHOD", options.method, "of sinew identify")->required()->check(one_of(names));
+  sub.add_option("--kind", options.kind, "of table, where a method takes several: chart");
+  sub.add_option("--template", options.file, "FILE.csv: a table to fill in");
+  add_flags(sub, options, "replace the file", "print as JSON");
 }
 
 // --- force-beam ---
 
-struct ForceBeamOptions {
+struct ForceBeamOptions : Flags {
   identify::TransducerSettings settings;
   std::string units;
-  bool json = false, quiet = false;
 };
 
 ExitCode run_force_beam(const ForceBeamOptions& options) {
@@ -619,17 +614,16 @@ void add_identify(CLI::App& app, Action& action) {
 }
 
 void add_force_beam(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ForceBeamOptions>();
-  const identify::MethodRow row = identify::SettingList(options->settings).of;
+  identify::TransducerSettings named;
+  const identify::MethodRow row = identify::SettingList(named).of;
   CLI::App& sub =
       subcommand(app, std::string(row.name), std::string(row.doc),
                  "sinew force-beam --load \"20 lbf\" --gain 400 --sensitivity \"0.1 V/lbf\"");
+  ForceBeamOptions& options = runs(sub, action, run_force_beam);
   SettingOptions rows(sub);
-  fields(rows, options->settings);
-  add_units(sub, options->units, "of what is printed, else SI and inches; --json is in SI");
-  sub.add_flag("--json", options->json, "as JSON, SI");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return run_force_beam(*options); }; });
+  fields(rows, options.settings);
+  add_units(sub, options.units, "of what is printed, else SI and inches; --json is in SI");
+  add_flags(sub, options, "", "as JSON, SI");
 }
 
 }  // namespace sinew::cli

@@ -93,10 +93,9 @@ void add_alignment(CLI::App& sub, Alignment& alignment) {
 
 // --- report ---
 
-struct ReportOptions {
+struct ReportOptions : Flags {
   std::vector<std::string> runs;
   std::string machine, out, units;
-  bool force = false, quiet = false;
 };
 
 ExitCode write(const std::filesystem::path& out, const std::string& page,
@@ -128,11 +127,11 @@ ExitCode report_run(const ReportOptions& options) {
 
 // --- compare ---
 
-struct CompareOptions {
+struct CompareOptions : Flags {
   std::vector<std::string> runs, channels;
   Alignment alignment;
   std::string out, residuals, units;
-  bool json = false, all = false, force = false, quiet = false;
+  bool all = false;
 };
 
 report::ComparisonText shown_as(const CompareOptions& options) {
@@ -186,11 +185,11 @@ ExitCode compare_runs(const CompareOptions& options) {
 
 // --- export ---
 
-struct ExportOptions {
+struct ExportOptions : Flags {
   std::string run, out, machine;
   std::string format = "csv";
   std::vector<std::string> channels;
-  bool csv = false, derived = false, force = false, quiet = false;
+  bool csv = false, derived = false;
 };
 
 std::vector<std::string> chosen_topics(const ExportOptions& options, const signals::Table& table) {
@@ -259,12 +258,11 @@ ExitCode export_run(const ExportOptions& options) {
 
 // --- film ---
 
-struct FilmCommandOptions {
+struct FilmCommandOptions : Flags {
   std::vector<std::string> runs;
   Alignment alignment;
   std::string machine, out, from, to;
   film::FilmOptions film;
-  bool force = false, quiet = false;
 };
 
 film::FilmOptions film_of(const FilmCommandOptions& options) {
@@ -335,8 +333,7 @@ void add_report(CLI::App& app, Action& action) {
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   add_units(sub, options->units, "in which the page of a run begins, else as set");
-  sub.add_flag("--force", options->force, "replace the file");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  add_flags(sub, *options, "replace the file", "");
   sub.callback([=, &action] {
     const bool study = tune::is_study(options->runs.front());
     if (!study && options->runs.size() > 1)
@@ -348,64 +345,60 @@ void add_report(CLI::App& app, Action& action) {
 }
 
 void add_compare(CLI::App& app, Action& action) {
-  auto options = std::make_shared<CompareOptions>();
   CLI::App& sub =
       subcommand(app, "compare", "runs beside each other: numbers, parameters, channels",
                  "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
-  sub.add_option("RUN", options->runs, "folders of runs, or log files; the first is compared with")
+  CompareOptions& options = runs(sub, action, compare_runs);
+  sub.add_option("RUN", options.runs, "folders of runs, or log files; the first is compared with")
       ->required()
       ->expected(2, most_runs);
-  sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
-  sub.add_option("--residuals", options->residuals,
+  sub.add_option("-o,--output", options.out, "also write a page with overlaid plots");
+  sub.add_option("--residuals", options.residuals,
                  "also write what each run differs by, a column per channel, as CSV");
-  add_alignment(sub, options->alignment);
-  sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'")
+  add_alignment(sub, options.alignment);
+  sub.add_option("--channels", options.channels, "only these: '/joint/*/angle'")
       ->expected(1, CLI::detail::expected_max_vector_size);
-  add_units(sub, options->units, "of the tables, else thesis, and of the page; --json is in SI");
-  sub.add_flag("--all", options->all, "every figure and channel, equal ones too");
-  sub.add_flag("--json", options->json, "all of it as JSON");
-  sub.add_flag("--force", options->force, "replace the page");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return compare_runs(*options); }; });
+  add_units(sub, options.units, "of the tables, else thesis, and of the page; --json is in SI");
+  sub.add_flag("--all", options.all, "every figure and channel, equal ones too");
+  sub.add_flag("--json", options.json, "all of it as JSON");
+  add_flags(sub, options, "replace the page", "");
 }
 
 void add_export(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ExportOptions>();
   CLI::App& sub = subcommand(
       app, "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
       "sinew export runs/walk-test-1/1 --csv -o walk.csv");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  ExportOptions& options = runs(sub, action, export_run);
+  sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
   CLI::App& how = alternatives(sub, "format");
-  how.add_option("--format", options->format,
+  how.add_option("--format", options.format,
                  "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
                  "of the valves' "
                  "ports")
       ->check(one_of({"csv", "out.dat", "ports"}));
-  how.add_flag("--csv", options->csv, "the same as --format csv");
-  sub.add_option("-o,--output", options->out, "the file to write; else stdout");
-  sub.add_option("--channels", options->channels, "csv: topics only; * stands for anything");
-  sub.add_flag("--derived", options->derived, "csv: also what the analysis derives");
-  sub.add_option("--machine", options->machine, "what was run, in place of the folder's");
-  sub.add_flag("--force", options->force, "replace the file");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return export_run(*options); }; });
+  how.add_flag("--csv", options.csv, "the same as --format csv");
+  sub.add_option("-o,--output", options.out, "the file to write; else stdout");
+  sub.add_option("--channels", options.channels, "csv: topics only; * stands for anything");
+  sub.add_flag("--derived", options.derived, "csv: also what the analysis derives");
+  sub.add_option("--machine", options.machine, "what was run, in place of the folder's");
+  add_flags(sub, options, "replace the file", "");
 }
 
 void add_film(CLI::App& app, Action& action) {
-  auto options = std::make_shared<FilmCommandOptions>();
-  film::FilmOptions& film = options->film;
   CLI::App& sub =
       subcommand(app, "film", "the replay of a run, or of several, as a GIF, an MP4 or a WebM",
                  "sinew film runs/walk-test-1/1 -o walk.gif --from \"2 s\" --to "
                  "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
                  "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
-  sub.add_option("RUN", options->runs,
+  FilmCommandOptions& options = runs(sub, action, make);
+  film::FilmOptions& film = options.film;
+  sub.add_option("RUN", options.runs,
                  "folders of runs, or log files; the others are ghosts over the first")
       ->required()
       ->expected(1, most_runs);
-  sub.add_option("-o,--output", options->out, "the file to write: .gif, .mp4 or .webm")->required();
-  sub.add_option("--from", options->from, "\"2 s\" of the run; else its begin");
-  sub.add_option("--to", options->to, "else the run's end");
+  sub.add_option("-o,--output", options.out, "the file to write: .gif, .mp4 or .webm")->required();
+  sub.add_option("--from", options.from, "\"2 s\" of the run; else its begin");
+  sub.add_option("--to", options.to, "else the run's end");
   sub.add_option("--speed", film.speed, "seconds of the run in a second of the film")
       ->capture_default_str();
   sub.add_option("--width", film.width, "pixels")->capture_default_str();
@@ -413,12 +406,10 @@ void add_film(CLI::App& app, Action& action) {
   sub.add_option("--fps", film.frames_per_second, "frames per second")->capture_default_str();
   sub.add_flag("--dark", film.dark, "light on dark");
   sub.add_flag("--still", film.still, "the camera stands and shows the whole way");
-  add_alignment(sub, options->alignment);
-  sub.add_option("--machine", options->machine,
+  add_alignment(sub, options.alignment);
+  sub.add_option("--machine", options.machine,
                  "of one run: what was run, in place of the folder's resolved.toml");
-  sub.add_flag("--force", options->force, "replace the file");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return make(*options); }; });
+  add_flags(sub, options, "replace the file", "");
 }
 
 }  // namespace sinew::cli

@@ -195,14 +195,14 @@ ExitCode view_live(const ViewOptions& o) {
 
 // --- replay ---
 
-struct ReplayOptions {
+struct ReplayOptions : Flags {
   run::ReplayRequest request;
   std::string of = "controller", folder, units;
   double band = 5;  // [%]
-  bool json = false, quiet = false;
 };
 
-ExitCode replay_run(ReplayOptions options) {
+ExitCode replay_run(const ReplayOptions& given) {
+  ReplayOptions options = given;
   const Messages messages(options.quiet);
   options.request.of = options.of == "plant" ? run::ReplayOf::plant : run::ReplayOf::controller;
   options.request.band = 0.01 * options.band;
@@ -222,12 +222,11 @@ ExitCode replay_run(ReplayOptions options) {
 
 // --- import ---
 
-struct ImportOptions {
+struct ImportOptions : Flags {
   run::ImportRequest request;
   TableOptions table;
   std::vector<std::string> scales, shifts;  // "name=value"
   std::string join = "side";
-  bool json = false, quiet = false;
 };
 
 void take_pairs(ImportOptions& options) {
@@ -306,7 +305,8 @@ std::int64_t bytes_to_show(const std::vector<std::string>& files) {
   return files.size() == 1 && !none && size > large ? static_cast<std::int64_t>(size) : 0;
 }
 
-ExitCode import_recording(ImportOptions& options) {
+ExitCode import_recording(const ImportOptions& given) {
+  ImportOptions options = given;
   const Messages messages(options.quiet);
   take_pairs(options);
   options.request.join_at_end = options.join == "end";
@@ -397,14 +397,13 @@ ExitCode analyze_run(const AnalyzeOptions& options) {
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-  auto options = std::make_shared<RunOptions>();
   CLI::App& sub = subcommand(app, "run", "an experiment; its log and numbers go into a new folder",
                              "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
-  sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment")->required();
-  add_run_options(sub, "--port", *options);
-  sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
+  RunOptions& options = runs(sub, action, run_experiment);
+  sub.add_option("EXPERIMENT", options.run.experiment, "file of the experiment")->required();
+  add_run_options(sub, "--port", options);
+  sub.add_option("--pace", options.pace, "simulated seconds per second of wall time; 0: no limit")
       ->transform(passes(a_pace));
-  sub.callback([=, &action] { action = [=] { return run_experiment(*options); }; });
 }
 
 void add_view(CLI::App& app, Action& action) {
@@ -444,62 +443,57 @@ void add_view(CLI::App& app, Action& action) {
 }
 
 void add_replay(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ReplayOptions>();
   CLI::App& sub = subcommand(app, "replay", "a recording through today's controller, or plant",
                              "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
-  sub.add_option("DIR", options->request.run, "a run's folder, or a log file")->required();
-  sub.add_option("--of", options->of,
+  ReplayOptions& options = runs(sub, action, replay_run);
+  sub.add_option("DIR", options.request.run, "a run's folder, or a log file")->required();
+  sub.add_option("--of", options.of,
                  "controller: it is fed the readings; plant: it is fed the valves' commands")
       ->check(one_of({"controller", "plant"}));
-  sub.add_option("--machine", options->request.machine, "what was run, in place of the folder's");
-  add_sets(sub, options->request.sets);
-  sub.add_option("--band", options->band,
+  sub.add_option("--machine", options.request.machine, "what was run, in place of the folder's");
+  add_sets(sub, options.request.sets);
+  sub.add_option("--band", options.band,
                  "of a plant: has parted beyond this share of a channel's range, in %");
-  sub.add_option("-o,--output", options->folder, "keep the replay in this folder, as a run");
-  sub.add_flag("--force", options->request.force, "replace the run that is in the folder");
-  add_units(sub, options->units, "of the table; --json is in SI");
-  sub.add_flag("--json", options->json, "as JSON");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return replay_run(*options); }; });
+  sub.add_option("-o,--output", options.folder, "keep the replay in this folder, as a run");
+  sub.add_flag("--force", options.request.force, "replace the run that is in the folder");
+  add_units(sub, options.units, "of the table; --json is in SI");
+  add_flags(sub, options, "", "as JSON");
 }
 
 void add_import(CLI::App& app, Action& action) {
-  auto options = std::make_shared<ImportOptions>();
-  run::ImportRequest& request = options->request;
   CLI::App& sub = subcommand(
       app, "import", "a recording of a laboratory as the folder of a run",
       "sinew import rig.csv --experiment one-joint.toml --map /joint/elbow/angle=Winkel");
+  ImportOptions& options = runs(sub, action, import_recording);
+  run::ImportRequest& request = options.request;
   sub.add_option("FILE", request.files,
                  "a table as CSV, a log as MCAP, a .mat of MATLAB, or the thesis's out.dat")
       ->required();
   sub.add_option("--experiment", request.experiment, "what was run: its robot or stand, its phases")
       ->required();
-  add_mapping_options(sub, *options);
-  add_clock_options(sub, *options);
+  add_mapping_options(sub, options);
+  add_clock_options(sub, options);
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", request.force, "replace the run that is in the folder");
   add_sets(sub, request.sets);
-  sub.add_flag("--json", options->json, "print summary.json");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return import_recording(*options); }; });
+  add_flags(sub, options, "", "print summary.json");
 }
 
 void add_analyze(CLI::App& app, Action& action) {
-  auto options = std::make_shared<AnalyzeOptions>();
   CLI::App& sub =
       subcommand(app, "analyze", "a run's numbers from its log, beside what is reported",
                  "sinew analyze runs/walk-test-1/1 --json");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
-  sub.add_option("--machine", options->machine,
+  AnalyzeOptions& options = runs(sub, action, analyze_run);
+  sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
+  sub.add_option("--machine", options.machine,
                  "what was run, in place of the folder's resolved.toml");
-  sub.add_option("-o,--output", options->out, "also write the summary to this file");
-  sub.add_flag("--force", options->force, "replace that file");
-  CLI::Option* json = sub.add_flag("--json", options->json, "print the summary as JSON");
-  sub.add_flag("--verdicts", options->verdicts, "print what is reported, with verdicts, as JSON")
+  sub.add_option("-o,--output", options.out, "also write the summary to this file");
+  sub.add_flag("--force", options.force, "replace that file");
+  CLI::Option* json = sub.add_flag("--json", options.json, "print the summary as JSON");
+  sub.add_flag("--verdicts", options.verdicts, "print what is reported, with verdicts, as JSON")
       ->excludes(json);
-  add_units(sub, options->units, "of what is printed, else the source's own; --json is in SI");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return analyze_run(*options); }; });
+  add_units(sub, options.units, "of what is printed, else the source's own; --json is in SI");
+  sub.add_flag("--quiet", options.quiet, "only errors on stderr");
 }
 
 }  // namespace sinew::cli

@@ -141,11 +141,10 @@ void write_table(const std::string& file, const std::vector<std::string>& headin
 
 // --- sweep ---
 
-struct SweepOptions {
+struct SweepOptions : Flags {
   std::string file, out;
   tune::Said said;  // besides the plan
   RunsOptions runs;
-  bool force = false, json = false, quiet = false;
 };
 
 ExitCode sweep_all(const SweepOptions& options) {
@@ -186,12 +185,11 @@ void add_sample(CLI::App& sub, SweepOptions& options) {
 
 // --- tune ---
 
-struct TuneOptions {
+struct TuneOptions : Flags {
   std::string file, out, best, units;
   std::vector<std::string> sets;
   RunsOptions runs;
   int generations = 0, candidate = -1;
-  bool force = false, json = false, quiet = false;
 };
 
 tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, tune::Master& master,
@@ -292,12 +290,11 @@ ExitCode tune_all(const TuneOptions& given) {
 
 using tune::Method;
 
-struct SensitivityOptions {
+struct SensitivityOptions : Flags {
   tune::Study study;
   RunsOptions run;
   std::string method = "sobol", out, runs;
   int points = 0, seed = 1;
-  bool force = false, json = false, quiet = false;
 };
 
 tune::Design design_of(const SensitivityOptions& options) {
@@ -389,9 +386,7 @@ void add_sweep(CLI::App& app, Action& action) {
   sub.add_option("--halvings", options->said.halvings, "of the interval that --largest finds; 6")
       ->transform(between(0, 50));
   sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
-  sub.add_flag("--force", options->force, "replace that file");
-  sub.add_flag("--json", options->json, "print the table as JSON");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  add_flags(sub, *options, "replace that file", "print the table as JSON");
   sub.callback([=, &action] {
     if (options->json) options->said.study.units.clear();
     action = [=] { return sweep_all(*options); };
@@ -399,25 +394,22 @@ void add_sweep(CLI::App& app, Action& action) {
 }
 
 void add_tune(CLI::App& app, Action& action) {
-  auto options = std::make_shared<TuneOptions>();
   CLI::App& sub = subcommand(app, "tune", "the best values of an experiment's keys",
                              "sinew tune studies/faster-walk.toml --best faster-walk.toml");
-  sub.add_option("FILE", options->file, "what is tuned, by which goals: docs/how-to/studies.md")
+  TuneOptions& options = runs(sub, action, tune_all);
+  sub.add_option("FILE", options.file, "what is tuned, by which goals: docs/how-to/studies.md")
       ->required();
-  add_sets(sub, options->sets);
-  add_keeping(sub, options->runs);
-  sub.add_option("--generations", options->generations, "in place of the file's number")
+  add_sets(sub, options.sets);
+  add_keeping(sub, options.runs);
+  sub.add_option("--generations", options.generations, "in place of the file's number")
       ->transform(between(1, 100000));
-  sub.add_option("--best", options->best, "also write the best candidate as this experiment");
-  sub.add_option("--candidate", options->candidate, "write this one in its place")
+  sub.add_option("--best", options.best, "also write the best candidate as this experiment");
+  sub.add_option("--candidate", options.candidate, "write this one in its place")
       ->transform(between(0, 1000000))
       ->needs(sub.get_option("--best"));
-  sub.add_option("-o,--output", options->out, "also write all candidates to this CSV file");
-  add_units(sub, options->units, "of the table, else the file's; what is written keeps the file's");
-  sub.add_flag("--force", options->force, "replace those files");
-  sub.add_flag("--json", options->json, "print the result as JSON");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return tune_all(*options); }; });
+  sub.add_option("-o,--output", options.out, "also write all candidates to this CSV file");
+  add_units(sub, options.units, "of the table, else the file's; what is written keeps the file's");
+  add_flags(sub, options, "replace those files", "print the result as JSON");
 }
 
 void add_sensitivity(CLI::App& app, Action& action) {
@@ -442,9 +434,7 @@ void add_sensitivity(CLI::App& app, Action& action) {
       ->transform(between(0, 2147483647));
   sub.add_option("-o,--output", options->out, "also write the table to this CSV file");
   sub.add_option("--runs", options->runs, "also write every run to this CSV file");
-  sub.add_flag("--force", options->force, "replace those files");
-  sub.add_flag("--json", options->json, "print it as JSON");
-  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  add_flags(sub, *options, "replace those files", "print it as JSON");
   sub.callback([=, &action] {
     if (options->json) options->study.units.clear();
     action = [=] { return print_sensitivity(*options); };
@@ -452,14 +442,13 @@ void add_sensitivity(CLI::App& app, Action& action) {
 }
 
 void add_merge(CLI::App& app, Action& action) {
-  auto options = std::make_shared<MergeOptions>();
   CLI::App& sub = subcommand(app, "merge", "files of one study as one file",
                              "sinew merge a.db b.db c.db -o all.db");
-  sub.add_option("FILE", options->files, "what sinew sweep --results wrote, each another --shard")
+  MergeOptions& options = runs(sub, action, merge_all);
+  sub.add_option("FILE", options.files, "what sinew sweep --results wrote, each another --shard")
       ->required();
-  sub.add_option("-o,--output", options->out, "the file for all rows; one of the same study grows")
+  sub.add_option("-o,--output", options.out, "the file for all rows; one of the same study grows")
       ->required();
-  sub.callback([=, &action] { action = [=] { return merge_all(*options); }; });
 }
 
 }  // namespace sinew::cli

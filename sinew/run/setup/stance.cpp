@@ -16,7 +16,6 @@
 #include "sinew/mechanism/planar/muscle_routing.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/robot/actuator_of.h"
-#include "sinew/robot/legs.h"
 
 namespace sinew::run {
 
@@ -174,20 +173,6 @@ void add_torques(const experiment::Experiment& e, const std::string& text,
   }
 }
 
-// Leaves the one leg that is requested, its parts named as within it; its first joint is the
-// origin.
-void choose_leg(experiment::Experiment& e, const std::string& leg) {
-  const std::vector<std::string_view> names = config::names_of(e.robot.legs);
-  if (names.empty() && leg.empty()) return;
-  const auto found = std::ranges::find(names, leg);
-  if (found == names.end())
-    config::fail(
-        {"leg", 0, 0}, "", leg.empty() ? "none" : config::in_quotes(leg),
-        names.empty() ? "nothing: " + e.robot.name + " has one leg" : config::either(names),
-        names.empty() ? "" : std::string("leg=") + std::string(names.front()));
-  e.robot = robot::only_leg(e.robot, static_cast<std::size_t>(found - names.begin()));
-}
-
 }  // namespace
 
 StanceUnits units_of_file(const experiment::Experiment& e, const std::string& force) {
@@ -198,9 +183,8 @@ StanceUnits units_of_file(const experiment::Experiment& e, const std::string& fo
   return out;
 }
 
-std::vector<Stance> stances(experiment::Experiment& e, const StanceRequest& request,
+std::vector<Stance> stances(const experiment::Experiment& e, const StanceRequest& request,
                             const StanceUnits& units) {
-  choose_leg(e, request.leg);
   if (e.robot.joints.empty())
     throw std::invalid_argument(e.robot.name + ": has no joints; try a robot's file");
   std::vector<Stance> out = request.foot.empty() ? std::vector{branch_at(e, request.angles)}

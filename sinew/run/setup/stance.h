@@ -51,15 +51,13 @@ StanceUnits units_of_file(const experiment::Experiment& experiment, const std::s
 
 // Where a machine is to stand: by its foot or its angles, as text.
 struct StanceRequest {
-  std::string leg;           // of a robot with several
   std::string foot, angles;  // "-2 in, -13 in" about the first joint; or one angle per joint
   std::string force;         // of the foot: the torques for it, [71]; may be empty
 };
 
-// Returns all ways to stand so; the experiment keeps the one leg alone, with its own names. Throws
-// config::Error where a text is no quantity, the foot cannot be there, or there is no such leg, and
-// std::invalid_argument for a robot that has no joints or no two links.
-std::vector<Stance> stances(experiment::Experiment& experiment, const StanceRequest& request,
+// Returns all ways in which a robot of one leg stands so. Throws config::Error where a text is no
+// quantity or the foot cannot be there, and std::invalid_argument for a robot without joints.
+std::vector<Stance> stances(const experiment::Experiment& experiment, const StanceRequest& request,
                             const StanceUnits& units = {});
 
 // Returns lines of text: foot, joints, muscles, Jacobian, torques.
