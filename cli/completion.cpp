@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <sstream>
 
 #include "cli/command.h"
 #include "sinew/files/keys.h"
@@ -137,19 +138,16 @@ std::vector<Offer> offers(const std::vector<std::string>& line, bool split,
 
 // Returns the words behind the program's name.
 std::vector<std::string> words_of_line(const std::string& text) {
-  std::vector<std::string> out(1);
-  for (const char c : text)
-    if (c == '\t')
-      out.emplace_back();
-    else
-      out.back() += c;
+  std::vector<std::string> out;
+  std::istringstream in(text + "\t");
+  for (std::string word; std::getline(in, word, '\t');) out.push_back(word);
   out.erase(out.begin());
   if (out.empty()) out.emplace_back();
   return out;
 }
 
-// Prints one offer a line, with its description behind a tab. Fails where there is none: fish then
-// offers files.
+// Prints one offer a line, with its description behind a tab. Fails without any offer: then fish
+// completes files.
 ExitCode print_offers(std::vector<std::string> line, const CLI::App& program) try {
   bool split = false;
   for (std::size_t i = 1; i < line.size(); ++i) {

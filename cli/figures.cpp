@@ -34,10 +34,10 @@ struct FiguresOptions : Flags {
   std::string out;                // empty: figures/ in each run's folder
   run::DrawingRequest drawing;
   std::string from, to;                          // "2 s"; empty: all
-  std::string width, height, font, labels_file;  // of the pictures
+  std::string width, height, font, labels_file;  // pictures
   std::vector<std::string> labels, formats;
-  std::string align = "start", event, clock = "none";  // of runs in the same axes
-  std::string root = ".";                              // of the thesis
+  std::string align = "start", event, clock = "none";  // for runs in the same axes
+  std::string root = ".";                              // thesis
   bool thesis = false, overlay = false, labels_template = false;
 
   bool overlaid() const { return overlay || !labels.empty() || align != "start"; }
@@ -60,43 +60,41 @@ run::FigureFiles files_of(const FiguresOptions& options) {
 }
 
 // These options are for runs alone.
-void add_options_of_runs(CLI::App& sub, FiguresOptions& runs, CLI::Option* thesis) {
-  const auto of_runs = [&](CLI::Option* option) { option->excludes(thesis); };
-  of_runs(sub.add_option("--only", runs.drawing.only, "of runs: these figures alone"));
-  of_runs(sub.add_option("--channels", runs.drawing.channels,
-                         "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a "
-                         "comma begins a plot below; may be repeated")
-              ->allow_extra_args(false));
-  of_runs(sub.add_flag("--overlay", runs.overlay, "the runs in the same axes; needs -o"));
-  of_runs(sub.add_option("--label", runs.labels,
-                         "what a run is called, in their order; the runs are in the same axes")
-              ->allow_extra_args(false));
+void add_options_of_runs(CLI::App& sub, FiguresOptions& o, CLI::Option* thesis) {
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return sub.add_option(name, value, text)->excludes(thesis);
+  };
+  const auto add_flag = [&](const char* name, bool& value, const char* text) {
+    sub.add_flag(name, value, text)->excludes(thesis);
+  };
+  add("--only", o.drawing.only, "of runs: these figures alone");
+  add("--channels", o.drawing.channels,
+      "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a comma begins a plot "
+      "below; may be repeated")
+      ->allow_extra_args(false);
+  add_flag("--overlay", o.overlay, "the runs in the same axes; needs -o");
+  add("--label", o.labels, "name of a run, in their order; the runs are in the same axes")
+      ->allow_extra_args(false);
   CLI::Option* align =
-      sub.add_option("--align", runs.align,
-                     "how the others are aligned with the first run: start, event or "
-                     "correlation; start")
+      add("--align", o.align,
+          "how the others are aligned with the first run: start, event or correlation; start")
           ->check(one_of({"start", "event", "correlation"}));
-  of_runs(align);
-  of_runs(sub.add_option("--event", runs.event,
-                         "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
-              ->needs(align));
-  of_runs(sub.add_option("--clock", runs.clock,
-                         "fit: the rate of another run's clock is taken out, too; none")
-              ->check(one_of({"none", "fit"}))
-              ->needs(align));
-  of_runs(sub.add_option("--title", runs.drawing.title, "above the picture, of one figure"));
-  of_runs(sub.add_option("--width", runs.width, "of the picture; \"89 mm\""));
-  of_runs(sub.add_option("--height", runs.height, "of the picture; else as its plots want"));
-  of_runs(sub.add_option("--font", runs.font, "size of the letters; \"7 pt\""));
-  of_runs(sub.add_option("--labels", runs.labels_file, "a file with labels in your language"));
-  of_runs(sub.add_flag("--labels-template", runs.labels_template,
-                       "print such a file, with all that these figures say"));
-  of_runs(sub.add_option("--units", runs.drawing.units,
-                         "of runs: si, thesis, metric, or metric,length=cm; else as set"));
-  of_runs(sub.add_option("--from", runs.from, "of runs: \"2 s\"; what was before is left out"));
-  of_runs(sub.add_option("--to", runs.to, "of runs: what was after is left out"));
-  of_runs(sub.add_option("--machine", runs.drawing.machine,
-                         "of runs: what was run, in place of the folder's resolved.toml"));
+  add("--event", o.event, "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
+      ->needs(align);
+  add("--clock", o.clock, "fit: the rate of another run's clock is taken out, too; none")
+      ->check(one_of({"none", "fit"}))
+      ->needs(align);
+  add("--title", o.drawing.title, "above the picture, of one figure");
+  add("--width", o.width, "of the picture; \"89 mm\"");
+  add("--height", o.height, "of the picture; else by the number of its plots");
+  add("--font", o.font, "size of the letters; \"7 pt\"");
+  add("--labels", o.labels_file, "a file with labels in your language");
+  add_flag("--labels-template", o.labels_template, "print such a file, for these figures");
+  add("--units", o.drawing.units, "of runs: si, thesis, metric, or metric,length=cm; else as set");
+  add("--from", o.from, "of runs: \"2 s\"; what was before is left out");
+  add("--to", o.to, "of runs: what was after is left out");
+  add("--machine", o.drawing.machine,
+      "of runs: what was run, in place of the folder's resolved.toml");
 }
 
 // Returns nothing where the runs begin together.
@@ -231,8 +229,7 @@ void add_figures(CLI::App& app, Action& action) {
   runs->excludes(thesis);
   sub.add_option("-o,--output", options->out,
                  "folder for the figures and index.json; of runs: else figures/ beside the log");
-  sub.add_option("--root", options->root,
-                 "--thesis: the project's folder, with robots/ and experiments/; .");
+  sub.add_option("--root", options->root, "--thesis: folder of robots/ and experiments/; .");
   sub.add_option("--format", options->formats, "pdf, svg, png or csv; svg,png")
       ->allow_extra_args(false);
   add_options_of_runs(sub, *options, thesis);

@@ -24,7 +24,7 @@ struct NewCommandOptions {
   files::NewOptions how;
 };
 
-// What is done with the new file, as a shell takes it.
+// Returns the commands that use the new file, with quotes for a shell.
 std::vector<std::string> next_commands(const NewCommandOptions& options,
                                        const std::string& written) {
   const std::string file = written.find(' ') == written.npos ? written : "\"" + written + "\"";
@@ -205,8 +205,7 @@ void add_new(CLI::App& app, Action& action) {
       "Sinew");
   sub.add_option("--actuator", options.how.actuator,
                  "robot: the file of its muscles, as sinew identify static writes it");
-  sub.add_flag("--metric", options.how.metric,
-               "mm, N and bar; else in, lbf and psi, as in the thesis");
+  sub.add_flag("--metric", options.how.metric, "mm, N and bar; else in, lbf and psi");
 }
 
 void add_list(CLI::App& app, Action& action) {

@@ -35,8 +35,7 @@ struct DoctorOptions {
 };
 
 std::string_view word(Verdict v) {
-  if (v == Verdict::good) return "good";
-  return v == Verdict::advice ? "advice" : "missing";
+  return v == Verdict::good ? "good" : v == Verdict::advice ? "advice" : "missing";
 }
 
 void print(const std::vector<host::Finding>& findings) {
@@ -67,7 +66,7 @@ void print_json(const std::vector<host::Finding>& findings, const DoctorOptions&
   fmt::print("{}\n", all.text(2));
 }
 
-// As the loop itself would run.
+// Measures as the real-time loop would run.
 host::Latency measure() {
   const host::RealTime real_time;
   return host::measure_latency(1);
@@ -81,8 +80,8 @@ ExitCode examine(const DoctorOptions& options) {
   else
     print(findings);
   if (!ready)
-    error(fmt::format("{}: something that it needs is missing; what to do stands with it",
-                      options.place));
+    error(
+        fmt::format("{}: something that it needs is missing; what to do is above", options.place));
   return ready ? ok : failed;
 }
 
@@ -94,7 +93,7 @@ struct BringUpOptions {
   bool yes = false, clear_fault = false;
 };
 
-// False: a signal came first. poll() is ended by one, a read is not.
+// Returns false if a signal comes first. A signal ends poll(), but not a read.
 bool can_read(const Interrupt& interrupt) {
   while (!interrupt.asked()) {
     pollfd in{0, POLLIN, 0};
@@ -129,11 +128,11 @@ std::string problem_of_port(const std::string& place) {
   return "";
 }
 
-// A person has to stand at a machine.
+// An operator has to be at a machine.
 void refuse_yes_at_a_machine(const BringUpOptions& o) {
   if (o.yes && o.place.starts_with("serial:"))
     config::fail({"bring-up", 0, 0}, "--yes", "yes to everything at " + o.place,
-                 "a person who answers: air may be open and somebody near");
+                 "an operator who answers: air may be open and persons near");
 }
 
 ExitCode bring_up(const BringUpOptions& o) {
@@ -143,13 +142,13 @@ ExitCode bring_up(const BringUpOptions& o) {
       o.folder.empty() ? std::filesystem::path("bring-up") / robot.parent_path().filename()
                        : std::filesystem::path(o.folder);
   const experiment::Experiment bench = run::bench_of(o.robot, folder, o.sets);
-  std::setvbuf(stdin, nullptr, _IONBF, 0);  // what was typed ahead is still there for poll()
-  // From before the board is there until it rests.
+  std::setvbuf(stdin, nullptr, _IONBF, 0);  // so that poll() sees input that was typed ahead
+  // Exists before the board is opened and until the machine rests.
   const Interrupt interrupt(Interrupt::Of::machine);
   run::Place place(o.place, bench);
   if (o.clear_fault) place.board()->allow_clearing();
   std::atomic<bool> space{false};
-  std::optional<SpaceBar> space_bar;  // while valves move; else keys are answers
+  std::optional<SpaceBar> space_bar;  // while valves move; else keys are replies
   run::BringUp steps(
       bench, o.robot, *place.board(), place.lead(),
       {.tell =
@@ -247,8 +246,7 @@ void add_bring_up(CLI::App& app, Action& action) {
                  "its board: serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE")
       ->required()
       ->transform(passes(problem_of_port));
-  sub.add_option("-o,--output", options.folder,
-                 "folder of what is done and learned; else bring-up/<robot>");
+  sub.add_option("-o,--output", options.folder, "folder of the results; else bring-up/<robot>");
   add_sets(sub, options.sets);
   sub.add_flag("--clear-fault", options.clear_fault,
                "the board's watchdog or memory fault has been looked into");

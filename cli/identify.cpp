@@ -3,7 +3,6 @@
 // The options of a method come from the rows of its settings (identify/task/settings.h), and every
 // method runs through run_method(). A method that differs from the others has an overload.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,7 +24,6 @@
 #include "sinew/json/json.h"
 #include "sinew/recording/stated.h"
 #include "sinew/report/page/page.h"
-#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
 
@@ -38,7 +36,7 @@ namespace {
 struct Replaceable {
   std::string_view what, name;  // "page of `sinew identify`", "such a page"
   std::string_view mark;
-  std::string_view ending = "";  // that a name should have, ".csv"
+  std::string_view ending = "";  // recommended, ".csv"
   std::string_view otherwise = "another one";
 };
 constexpr Replaceable page_file{"page of `sinew identify`", "such a page", "\"sinew.fit/", "",
@@ -49,20 +47,21 @@ constexpr Replaceable plan_file{"plan", "a plan", "#Planof`sinewidentifyplan`", 
 constexpr Replaceable template_file{"template of `sinew identify`", "a template",
                                     "#For`sinewidentify", ".csv"};
 
-// How files of measurements are read.
+// Options for reading files of measurements.
 struct DataOptions {
   std::vector<std::string> files;
   TableOptions table;
+  identify::Source how;  // the settings of table options
   std::string atmosphere = "14.7 psi";
 };
 
-// How a result is printed and written.
-struct ResultOptions {
+// Options for printing and writing a result.
+struct ResultOptions : Flags {
   std::string out;     // the parameter file
   std::string beside;  // another file that some methods write
-  std::string report;  // the page; empty: beside `out`
-  std::string units;   // of what is printed; empty: the method's own
-  bool json = false, force = false, quiet = false, no_report = false;
+  std::string report;  // the page; empty: next to `out`
+  std::string units;   // for printing; empty: the method's own
+  bool no_report = false;
 };
 
 // All of one method.
@@ -128,17 +127,18 @@ void add_data_options(CLI::App& sub, identify::Tables tables, DataOptions& optio
   if (tables == identify::Tables::none) return;
   sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run")
       ->required(tables == identify::Tables::needed);
-  add_table_options(sub, options.table);
+  add_table_options(sub, options.table, options.how);
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
       ->capture_default_str();
 }
 
 void add_outputs(CLI::App& sub, const MethodHelp& help, ResultOptions& result) {
   if (!help.out.empty()) sub.add_option("-o,--out", result.out, std::string(help.out));
-  if (help.page || !help.out.empty())
-    sub.add_flag("--force", result.force, help.page ? "replace the files" : "replace the file");
-  sub.add_flag("--json", result.json, "print the result as JSON, in SI");
-  sub.add_flag("--quiet", result.quiet, "only the result and errors");
+  add_flags(sub, result,
+            help.page          ? "replace the files"
+            : help.out.empty() ? ""
+                               : "replace the file",
+            "print the result as JSON, in SI", "only the result and errors");
   result.no_report = !help.page;
   if (help.page) {
     CLI::Option* page =
@@ -152,15 +152,12 @@ void add_outputs(CLI::App& sub, const MethodHelp& help, ResultOptions& result) {
 
 // Adds a second file that a method writes.
 template <class Settings>
-void add_beside(CLI::App&, Options<Settings>&) {}
-
-void add_beside(CLI::App& sub, Options<identify::JointSettings>& options) {
-  sub.add_option("--actuator-out", options.result.beside, "the actuator's file to write");
-}
-
-void add_beside(CLI::App& sub, Options<identify::ValveSettings>& options) {
-  sub.add_option("--predict-dat", options.result.beside,
-                 "FILE for the duties' opening and closing ticks, compensated for the delays");
+void add_beside(CLI::App& sub, const Settings&, std::string& file) {
+  if constexpr (std::is_same_v<Settings, identify::JointSettings>)
+    sub.add_option("--actuator-out", file, "the actuator's file to write");
+  if constexpr (std::is_same_v<Settings, identify::ValveSettings>)
+    sub.add_option("--predict-dat", file,
+                   "FILE for the duties' opening and closing ticks, compensated for the delays");
 }
 
 // Refuses options that do not go together, as wrong usage.
@@ -204,7 +201,7 @@ std::vector<std::string> split_pairs(const std::vector<std::string>& texts) {
 // for what is no name=value, and for a --value of no file.
 std::vector<identify::Source> sources_of(const DataOptions& options,
                                          const std::vector<std::string>& held_out = {}) {
-  identify::Source how;
+  identify::Source how = options.how;
   const TableOptions& table = options.table;
   const auto take = [](const char* option, const std::vector<std::string>& texts,
                        std::map<std::string, std::string>& into) {
@@ -221,13 +218,6 @@ std::vector<identify::Source> sources_of(const DataOptions& options,
   recording::check_stated(how.values, files);
   how.columns = config::at_commas(table.columns);
   how.rate = table.rate;
-  how.drop_incomplete = table.settings.drop_incomplete;
-  how.encoding = table.settings.encoding;
-  how.decimal = table.settings.decimal;
-  how.thousands = table.settings.thousands;
-  how.dates = table.settings.dates;
-  how.spread_times = table.settings.spread_times;
-  how.part = table.settings.part;
   how.atmosphere = identify::atmosphere_setting(options.atmosphere);
   return identify::sources_of(options.files, how);
 }
@@ -261,8 +251,8 @@ std::string page_of(const ResultOptions& options) {
   return std::filesystem::path(options.out).replace_extension(".html").string();
 }
 
-// Throws config::Error for a file that exists already, before the work begins; with `force` for one
-// that is not replaceable, and for one of `inputs`.
+// Throws config::Error for a file that exists already, before the work begins; with `force` only if
+// the file is not replaceable or one of `inputs`.
 void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
                        const std::vector<std::string>& inputs = {}) {
   run::refuse_to_overwrite(path, force, {inputs.begin(), inputs.end()}, old.ending);
@@ -304,16 +294,11 @@ std::string file_of_muscle(const std::string& out, const identify::StaticMuscle&
 
 // Refuses the second file of a method where it exists already.
 template <class Settings>
-void check_beside(const Options<Settings>&) {}
-
-void check_beside(const Options<identify::JointSettings>& options) {
-  if (!options.result.beside.empty())
-    refuse_to_replace(options.result.beside, options.result.force, parameter_file);
-}
-
-void check_beside(const Options<identify::ValveSettings>& options) {
+void check_beside(const Options<Settings>& options) {
   const std::string& file = options.result.beside;
   if (file.empty()) return;
+  if (std::is_same_v<Settings, identify::JointSettings>)
+    return refuse_to_replace(file, options.result.force, parameter_file);
   run::refuse_to_overwrite(file, options.result.force);
   identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
 }
@@ -380,22 +365,7 @@ void print_messages(const Found& found, const Messages& messages) {
   }
 }
 
-template <class Found>
-bool is_ok(const Found&) {
-  return true;
-}
-// So that a script stops.
-bool is_ok(const identify::Checkup& found) { return !identify::has_red(found.checks); }
-
 // --- a method from its options to its files ---
-
-// Calls `find` with a counter of laws that have been tried, and shows it on a terminal.
-template <class Find>
-auto watched(std::size_t laws, bool quiet, const Find& find) {
-  host::Tally tried = 0;
-  const ProgressBar bar(tried, static_cast<std::int64_t>(laws), {.unit = "laws"}, quiet);
-  return find(tried);
-}
 
 template <class Settings>
 auto find(const Options<Settings>& options, const identify::MethodRow& row) {
@@ -404,10 +374,11 @@ auto find(const Options<Settings>& options, const identify::MethodRow& row) {
   if (row.tables != identify::Tables::none)
     sources = sources_of(options.data, held_out_by(settings));
   if constexpr (requires { settings.tried; }) {
-    return watched(row.laws, options.result.quiet, [&](host::Tally& tried) {
-      settings.tried = &tried;
-      return identify::find(sources, settings);
-    });
+    host::Tally tried = 0;
+    const ProgressBar bar(tried, static_cast<std::int64_t>(row.laws), {.unit = "laws"},
+                          options.result.quiet);
+    settings.tried = &tried;
+    return identify::find(sources, settings);
   } else {
     constexpr bool reports_progress = requires { settings.progress; };
     if constexpr (reports_progress)
@@ -489,7 +460,9 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
     error(why);
     return failed;
   }
-  return is_ok(*found) ? ok : failed;
+  if constexpr (requires { found->checks; })  // so that a script stops
+    return identify::has_red(found->checks) ? failed : ok;
+  return ok;
 }
 
 template <class Settings>
@@ -502,7 +475,7 @@ void add_method(CLI::App& app, Action& action) {
   add_data_options(sub, row.tables, options->data);
   SettingOptions rows(sub);
   fields(rows, options->settings);
-  add_beside(sub, *options);
+  add_beside(sub, options->settings, options->result.beside);
   add_outputs(sub, help, options->result);
   sub.callback([options, row, &action] {
     refuse_together(*options);
@@ -516,47 +489,12 @@ struct ColumnsOptions : Flags {
   std::string method, kind, file;
 };
 
-constexpr std::size_t shown_units = 5;
-
-// Returns the first units of a column; --json has all.
-std::string units_of(const identify::Wanted& column) {
-  std::string words;
-  for (const auto& [word, value] : column.words)
-    words += fmt::format("{}{}", words.empty() ? "" : " or ", word);
-  if (!words.empty()) return words;
-  std::vector<std::string> units = identify::accepted_units(column);
-  if (identify::quantity_of(column) == "pressure") {
-    // Each of them exists as gauge and as absolute pressure.
-    std::erase_if(units, [](const std::string& unit) { return !unit.ends_with(" gauge"); });
-    for (std::string& unit : units) unit.resize(unit.size() - std::string_view(" gauge").size());
-    return fmt::format("{}; gauge or abs", fmt::join(units, ", "));
-  }
-  const bool more = units.size() > shown_units;
-  if (more) units.resize(shown_units);
-  return fmt::format("{}{}", fmt::join(units, ", "), more ? ", ..." : "");
-}
-
-void print_columns(const identify::MethodInputs& inputs) {
-  report::TextTable table({"column", "quantity", "needed", "units", "meaning"},
-                          std::vector(5, report::TextTable::Align::left));
-  for (const identify::Wanted& w : inputs.columns())
-    table.add({std::string(w.name), identify::quantity_of(w), identify::need_of(inputs, w.name),
-               units_of(w), std::string(w.doc)});
-  fmt::print("{}\n", table.text());
-  for (const identify::TableKind& kind : inputs.kinds)
-    fmt::print("{}a row: {}\n  {}\n", kind.name.empty() ? "" : fmt::format("{}, ", kind.name),
-               kind.row, kind.header);
-  for (const std::string_view sentence : inputs.advice) fmt::print("{}\n", as_options(sentence));
-}
-
 ExitCode run_columns(const ColumnsOptions& options) {
   const identify::MethodInputs& inputs = identify::inputs_of(options.method);
   const std::string text = identify::template_of(inputs, options.kind);  // refuses an unknown kind
   if (options.file.empty()) {
-    if (options.json)
-      fmt::print("{}\n", to_json(inputs).text(2));
-    else
-      print_columns(inputs);
+    fmt::print("{}", options.json ? to_json(inputs).text(2) + "\n"
+                                  : as_options(identify::text_of(inputs)));
     return ok;
   }
   refuse_to_replace(options.file, options.force, template_file);

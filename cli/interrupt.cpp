@@ -31,7 +31,7 @@ std::int64_t seconds() {
 
 void on_interrupt(int) { interrupted = true; }
 
-// A window that closes sends several signals, and an impatient person as well: they wait.
+// A window that closes sends several signals, and so does an impatient operator: later ones wait.
 void on_interrupt_of_machine(int which) {
   std::int64_t none = 0;
   const std::int64_t now = seconds();
@@ -43,7 +43,7 @@ void on_interrupt_of_machine(int which) {
 
 // --- space bar ---
 
-// Keys at once and without an echo; signals as ever.
+// Delivers keys at once and without an echo; signals are unchanged.
 class KeysAtOnce {
  public:
   KeysAtOnce() {
@@ -99,7 +99,7 @@ void Interrupt::ask() { interrupted = true; }
 void survive_file_limits() { signal(SIGXFSZ, SIG_IGN); }
 
 SpaceBar::SpaceBar(std::function<void()> stop) {
-  // Another program in front has the keyboard: this one would be halted for asking.
+  // In the background this program would be halted for reading the keyboard.
   if (::isatty(0) == 0 || ::tcgetpgrp(0) != ::getpgrp() || ::pipe(end_) != 0) return;
   thread_ = std::thread([end = end_[0], stop = std::move(stop)] { listen(end, stop); });
 }

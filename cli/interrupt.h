@@ -1,5 +1,5 @@
-// cli/interrupt.h - Ctrl-C, SIGTERM and a terminal that closes as a wish, while something is to be
-// brought to an end first.
+// cli/interrupt.h - Ctrl-C, SIGTERM, a terminal that closes and the space bar as requests to stop,
+// so that work is completed first.
 #pragma once
 
 #include <signal.h>
@@ -11,9 +11,9 @@
 
 namespace sinew::cli {
 
-// While it lives, the first of these signals only sets asked(). A second one ends the program as if
-// nobody had listened; where a machine is driven only after ten seconds, in which it is brought to
-// rest, and Ctrl-Z and Ctrl-\ are signals like the others. One of them lives at a time.
+// During its lifetime the first of these signals only sets asked(). A second one ends the program
+// by the signal's default; where a machine is driven only after ten seconds, in which the machine
+// is stopped, and Ctrl-Z and Ctrl-\ are handled alike. At most one object exists at a time.
 class Interrupt {
  public:
   enum class Of { work, machine };
@@ -31,8 +31,8 @@ class Interrupt {
   std::size_t count_ = 0;
 };
 
-// While it lives, the space bar calls `stop`, and so does a terminal that is gone; nothing where
-// stdin is no terminal. The terminal is as it was afterwards.
+// During its lifetime the space bar calls `stop`, and so does a terminal that closes; without
+// effect where stdin is no terminal. The terminal's mode is restored.
 class SpaceBar {
  public:
   explicit SpaceBar(std::function<void()> stop);
@@ -47,8 +47,7 @@ class SpaceBar {
   std::thread thread_;
 };
 
-// A file that may not grow further is an error of write(), which is told, and not this program's
-// death.
+// Makes a file that may not grow further an error of write() instead of the end of this program.
 void survive_file_limits();
 
 }  // namespace sinew::cli

@@ -1,7 +1,7 @@
 // cli/main.cpp - the program `sinew`: reads the command line and runs one subcommand.
 //
-// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage,
-// which includes a wrong value of an option.
+// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage;
+// a wrong value of an option is wrong usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -26,7 +26,7 @@ namespace {
 using namespace sinew;
 
 // Returns the error's text. Where a robot was given in place of an experiment, it names the command
-// that makes an experiment from a robot, as the library has no commands.
+// that makes an experiment from a robot; the library has no commands.
 std::string words_of(const std::exception& e) {
   const auto* file = dynamic_cast<const config::Error*>(&e);
   if (!file || file->problems().size() != 1) return e.what();
@@ -56,45 +56,32 @@ struct Entry {
   std::string_view name;
   cli::Add* add;
 };
+// clang-format off
 constexpr Entry commands[] = {
-    {"run", cli::add_run},
-    {"analyze", cli::add_analyze},
-    {"report", cli::add_report},
-    {"view", cli::add_view},
-    {"bring-up", cli::add_bring_up},
-    {"firmware", cli::add_firmware},
-    {"compare", cli::add_compare},
-    {"export", cli::add_export},
-    {"import", cli::add_import},
-    {"replay", cli::add_replay},
-    {"sweep", cli::add_sweep},
-    {"tune", cli::add_tune},
-    {"merge", cli::add_merge},
-    {"sensitivity", cli::add_sensitivity},
-    {"show", cli::add_show},
-    {"keys", cli::add_keys},
-    {"check", cli::add_check},
-    {"migrate", cli::add_migrate},
-    {"actuator", cli::add_actuator},
-    {"valve", cli::add_valve},
-    {"kinematics", cli::add_kinematics},
-    {"identify", cli::add_identify},
-    {"figures", cli::add_figures},
-    {"film", cli::add_film},
-    {"fmu", cli::add_fmu},
-    {"force-beam", cli::add_force_beam},
-    {"doctor", cli::add_doctor},
-    {"list", cli::add_list},
-    {"new", cli::add_new},
-    {"completion", cli::add_completion},
+    {"run", cli::add_run},                 {"analyze", cli::add_analyze},
+    {"report", cli::add_report},           {"view", cli::add_view},
+    {"bring-up", cli::add_bring_up},       {"firmware", cli::add_firmware},
+    {"compare", cli::add_compare},         {"export", cli::add_export},
+    {"import", cli::add_import},           {"replay", cli::add_replay},
+    {"sweep", cli::add_sweep},             {"tune", cli::add_tune},
+    {"merge", cli::add_merge},             {"sensitivity", cli::add_sensitivity},
+    {"show", cli::add_show},               {"keys", cli::add_keys},
+    {"check", cli::add_check},             {"migrate", cli::add_migrate},
+    {"actuator", cli::add_actuator},       {"valve", cli::add_valve},
+    {"kinematics", cli::add_kinematics},   {"identify", cli::add_identify},
+    {"figures", cli::add_figures},         {"film", cli::add_film},
+    {"fmu", cli::add_fmu},                 {"force-beam", cli::add_force_beam},
+    {"doctor", cli::add_doctor},           {"list", cli::add_list},
+    {"new", cli::add_new},                 {"completion", cli::add_completion},
     {"help", cli::add_help},
 };
+// clang-format on
 
 // The description of the command line, with all commands or only one.
 struct Program {
   CLI::App app{
       "Sinew simulates, identifies, tunes and controls robots with braided pneumatic muscles."};
-  cli::Action action;  // of the line that was parsed
+  cli::Action action;  // given by the parsed line
 
   explicit Program(std::string_view only = "") {
     app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
@@ -167,7 +154,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return program.app.exit(e);
   }
-  // The message names other commands that have the option, so that it needs all of them.
+  // The message names other commands with that option, and therefore needs all commands.
   Program whole;
   try {
     whole.parse(words);

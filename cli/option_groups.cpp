@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/recording/source.h"
 
 namespace sinew::cli {
 
@@ -32,8 +33,12 @@ config::UnitsToShow chosen_units(const std::string& option, units::UnitSet other
   return chosen_units(option, otherwise, &run);
 }
 
-void add_table_options(CLI::App& sub, TableOptions& options) {
-  recording::TableSettings& settings = options.settings;
+void add_machine(CLI::App& sub, std::string& machine) {
+  sub.add_option("--machine", machine, "of one run: in place of the folder's resolved.toml");
+}
+
+template <class Settings>
+void add_table_options(CLI::App& sub, TableOptions& options, Settings& settings) {
   const auto add = [&](const char* name, auto& value, const char* text) {
     return sub.add_option(name, value, text)->group(table_heading);
   };
@@ -75,6 +80,9 @@ void add_table_options(CLI::App& sub, TableOptions& options) {
   add("--dates", settings.dates, "what comes first in 11/03/2026, or excel for days since 1900")
       ->check(one_of({"day first", "month first", "excel"}));
 }
+
+template void add_table_options(CLI::App&, TableOptions&, recording::TableSettings&);
+template void add_table_options(CLI::App&, TableOptions&, recording::Source&);
 
 Pairs pairs_of(const char* option, const std::vector<std::string>& texts, Equals separator,
                const char* expected) {

@@ -30,6 +30,9 @@ config::UnitsToShow chosen_units(const std::string& option, units::UnitSet other
 config::UnitsToShow chosen_units(const std::string& option, units::UnitSet otherwise,
                                  const std::filesystem::path& resolved);
 
+// Adds `--machine` of commands that read a recorded run.
+void add_machine(CLI::App& sub, std::string& machine);
+
 // --- how `sinew import` and the methods of `sinew identify` read a table ---
 
 struct TableOptions {
@@ -39,14 +42,15 @@ struct TableOptions {
   std::vector<std::string> offsets;      // "length=200 mm"
   std::string columns;                   // "force [N],pressure [kPa gauge]"
   std::string rate;                      // "100 Hz"
-  recording::TableSettings settings;     // without its columns
 };
 
 // The heading of these options in a command's help, which names them; `sinew help tables` describes
 // them.
 inline constexpr const char* table_heading = "How a table is read";
 
-void add_table_options(CLI::App& sub, TableOptions& options);
+// `Settings` is recording::TableSettings or identify::Source.
+template <class Settings>
+void add_table_options(CLI::App& sub, TableOptions& options, Settings& settings);
 
 // Return the names and values of texts "name=value". A unit or a value has no "=", a column's name
 // may have some: then the last one separates. Throws config::Error for any other text.

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 
 // --- alignment of runs with the first one ---
 
-constexpr int most_runs = 8;  // colors that can be told apart
+constexpr int most_runs = 8;  // as many colors are distinct
 
 // The options as they are given.
 struct Alignment {
@@ -56,15 +56,15 @@ struct Alignment {
 
 report::AlignWish Alignment::wish() const {
   report::AlignWish wish;
+  wish.event = event;
+  wish.channels = align_by;
+  wish.fit_clock = clock == "fit";
+  wish.most_shift = most_shift;
   for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
     if (to_text(by) == align) wish.by = by;
   // An event or channels choose the way of alignment.
   if (!event.empty()) wish.by = report::Align::event;
   if (!align_by.empty() && wish.by == report::Align::start) wish.by = report::Align::correlation;
-  wish.event = event;
-  wish.channels = align_by;
-  wish.fit_clock = clock == "fit";
-  wish.most_shift = most_shift;
   return wish;
 }
 
@@ -98,8 +98,7 @@ struct ReportOptions : Flags {
   std::string machine, out, units;
 };
 
-ExitCode write(const std::filesystem::path& out, const std::string& page,
-               const Messages& messages) {
+ExitCode write(const fs::path& out, const std::string& page, const Messages& messages) {
   run::write_file(out, page);
   messages.note(
       fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
@@ -107,9 +106,9 @@ ExitCode write(const std::filesystem::path& out, const std::string& page,
 }
 
 ExitCode report_study(const ReportOptions& options) {
-  std::filesystem::path out = options.out;
-  if (out.empty()) out = std::filesystem::path(options.runs[0]).replace_extension(".html");
-  const std::vector<std::filesystem::path> files(options.runs.begin(), options.runs.end());
+  fs::path out = options.out;
+  if (out.empty()) out = fs::path(options.runs[0]).replace_extension(".html");
+  const std::vector<fs::path> files(options.runs.begin(), options.runs.end());
   run::refuse_to_overwrite(out, options.force, files);
   return write(out, tune::study_page_of(files), Messages(options.quiet));
 }
@@ -117,9 +116,8 @@ ExitCode report_study(const ReportOptions& options) {
 ExitCode report_run(const ReportOptions& options) {
   const Messages messages(options.quiet);
   const run::RecordedRun recorded = run::recorded_run(options.runs[0]);
-  const std::filesystem::path out = options.out.empty()
-                                        ? recorded.log.parent_path() / run::report_name
-                                        : std::filesystem::path(options.out);
+  const fs::path out =
+      options.out.empty() ? recorded.log.parent_path() / run::report_name : fs::path(options.out);
   run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
   return write(out, run::page_of(recorded, options.machine, messages.notices(), options.units),
                messages);
@@ -144,7 +142,7 @@ report::ComparisonText shown_as(const CompareOptions& options) {
           .color = output_has_color()};
 }
 
-// Nothing that was there is written over unasked, nor a run that is read.
+// Refuses to replace a file without --force, and a run that is read.
 void refuse_outputs(const CompareOptions& options) {
   if (!options.out.empty()) report::require_page(options.out);
   std::vector<fs::path> inputs;
@@ -172,9 +170,7 @@ ExitCode compare_runs(const CompareOptions& options) {
     const fs::path first = run::recorded_run(options.runs.front()).resolved;
     const std::string page =
         report::page(comparison, chosen_units(options.units, units::UnitSet::si, first).units);
-    run::write_file(options.out, page);
-    messages.note(
-        fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));
+    write(options.out, page, messages);
   }
   if (options.json)
     fmt::print("{}", to_json(comparison));
@@ -203,19 +199,7 @@ std::vector<std::string> chosen_topics(const ExportOptions& options, const signa
   return topics;
 }
 
-// What is only CSV's.
-void refuse_csv_options(const ExportOptions& options) {
-  if (options.format == "csv" || (options.channels.empty() && !options.derived)) return;
-  config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
-               "csv, for --channels and --derived");
-}
-
-experiment::Experiment experiment_of(const run::RecordedRun& run, const ExportOptions& options) {
-  const std::string file = run::machine_of(run, options.machine).string();
-  return run::buildable_robot(config::compose(file), file);
-}
-
-// Line by line, since a long run's text is longer than memory.
+// Writes line by line, since the text of a long run is longer than memory.
 void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
   if (options.derived) {
     const config::Node root = config::compose(run::machine_of(run, options.machine).string());
@@ -233,7 +217,8 @@ void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals:
 
 void put(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
   if (options.format == "csv") return put_csv(run, options, std::move(table));
-  const experiment::Experiment e = experiment_of(run, options);
+  const std::string file = run::machine_of(run, options.machine).string();
+  const experiment::Experiment e = run::buildable_robot(config::compose(file), file);
   const std::string text =
       options.format == "ports" ? thesis::write_ports(table, e) : thesis::write_out_dat(table, e);
   if (!options.out.empty()) return run::write_file(options.out, text);
@@ -242,7 +227,9 @@ void put(const run::RecordedRun& run, const ExportOptions& options, signals::Tab
 
 ExitCode export_run(const ExportOptions& options) {
   const Messages messages(options.quiet);
-  refuse_csv_options(options);
+  if (options.format != "csv" && (!options.channels.empty() || options.derived))
+    config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
+                 "csv, for --channels and --derived");
   const run::RecordedRun run = run::recorded_run(options.run);
   if (!options.out.empty())
     run::refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
@@ -267,24 +254,9 @@ struct FilmCommandOptions : Flags {
 
 film::FilmOptions film_of(const FilmCommandOptions& options) {
   film::FilmOptions out = options.film;
-  if (!options.from.empty())
-    out.from = config::quantity_setting("from", options.from, "s", units::atmosphere);
-  if (!options.to.empty())
-    out.to = config::quantity_setting("to", options.to, "s", units::atmosphere);
+  if (!options.from.empty()) out.from = config::quantity_setting("from", options.from, "s");
+  if (!options.to.empty()) out.to = config::quantity_setting("to", options.to, "s");
   return out;
-}
-
-// Refuses options that are for one run alone where there are several, and the other way round.
-void check_runs(const FilmCommandOptions& options) {
-  const auto wrong = [](const std::string& name, std::string found, std::string expected) {
-    config::fail({name, 0, 0}, "", std::move(found), std::move(expected));
-  };
-  const std::string given = options.alignment.given();
-  if (options.runs.size() == 1 && !given.empty())
-    wrong(given, "one run", "two runs or more, which are aligned with each other");
-  if (options.runs.size() > 1 && !options.machine.empty())
-    wrong("machine", config::in_quotes(options.machine),
-          "none: of several runs each says itself what was run");
 }
 
 film::Filming filming_of(const FilmCommandOptions& options, const film::FilmOptions& film,
@@ -296,12 +268,18 @@ film::Filming filming_of(const FilmCommandOptions& options, const film::FilmOpti
 ExitCode make(const FilmCommandOptions& options) {
   const Messages messages(options.quiet);
   const film::FilmOptions film = film_of(options);
-  // Mistakes that show without a look at the run are told first: a browser takes its time.
+  // Errors of the options are reported before a browser starts.
   const film::Kind kind = film::kind_of(options.out);
   film::check(film, kind);
-  check_runs(options);
+  const bool several = options.runs.size() > 1;
+  if (const std::string given = options.alignment.given(); !several && !given.empty())
+    config::fail({given, 0, 0}, "", "one run",
+                 "two runs or more, which are aligned with each other");
+  if (several && !options.machine.empty())
+    config::fail({"machine", 0, 0}, "", config::in_quotes(options.machine),
+                 "no option: each of several runs has its own machine");
   run::refuse_to_overwrite(options.out, options.force, {},
-                           std::filesystem::path(options.out).extension().string());
+                           fs::path(options.out).extension().string());
   run::require_folder_of(options.out);
   if (kind != film::Kind::gif) film::require_ffmpeg();
 
@@ -330,8 +308,7 @@ void add_report(CLI::App& app, Action& action) {
       ->expected(1, 2);
   sub.add_option("-o,--output", options->out,
                  "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
-  sub.add_option("--machine", options->machine,
-                 "what was run, in place of the folder's resolved.toml");
+  add_machine(sub, options->machine);
   add_units(sub, options->units, "in which the page of a run begins, else as set");
   add_flags(sub, *options, "replace the file", "");
   sub.callback([=, &action] {
@@ -380,7 +357,7 @@ void add_export(CLI::App& app, Action& action) {
   sub.add_option("-o,--output", options.out, "the file to write; else stdout");
   sub.add_option("--channels", options.channels, "csv: topics only; * stands for anything");
   sub.add_flag("--derived", options.derived, "csv: also what the analysis derives");
-  sub.add_option("--machine", options.machine, "what was run, in place of the folder's");
+  add_machine(sub, options.machine);
   add_flags(sub, options, "replace the file", "");
 }
 
@@ -399,16 +376,14 @@ void add_film(CLI::App& app, Action& action) {
   sub.add_option("-o,--output", options.out, "the file to write: .gif, .mp4 or .webm")->required();
   sub.add_option("--from", options.from, "\"2 s\" of the run; else its begin");
   sub.add_option("--to", options.to, "else the run's end");
-  sub.add_option("--speed", film.speed, "seconds of the run in a second of the film")
-      ->capture_default_str();
+  sub.add_option("--speed", film.speed, "seconds of the run per second")->capture_default_str();
   sub.add_option("--width", film.width, "pixels")->capture_default_str();
   sub.add_option("--height", film.height, "pixels")->capture_default_str();
   sub.add_option("--fps", film.frames_per_second, "frames per second")->capture_default_str();
   sub.add_flag("--dark", film.dark, "light on dark");
   sub.add_flag("--still", film.still, "the camera stands and shows the whole way");
   add_alignment(sub, options.alignment);
-  sub.add_option("--machine", options.machine,
-                 "of one run: what was run, in place of the folder's resolved.toml");
+  add_machine(sub, options.machine);
   add_flags(sub, options, "replace the file", "");
 }
 

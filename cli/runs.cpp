@@ -97,7 +97,7 @@ ExitCode run_experiment(const RunOptions& options) {
   if (options.pace > 0 && run::keeps_its_own_time(options.run.port))
     config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
                  "no pace: the machine keeps its own time");
-  // From before a board is there until it rests.
+  // From before a board is opened until the machine rests.
   Interrupt interrupt(run::is_elsewhere(options.run.port) ? Interrupt::Of::machine
                                                           : Interrupt::Of::work);
   run::RunRequest request = options.run;
@@ -147,8 +147,8 @@ struct ViewOptions {
   bool open = true, once = false, paused = false;
 };
 
-// The one that is asked for, or else the one of the folder in which somebody works: a browser finds
-// there what a reader arranged the last time.
+// Returns the requested port, or else that of the current folder: there a browser finds the page as
+// the reader arranged it the last time.
 live::Port port_of(const ViewOptions& o) {
   if (o.port) return {.number = static_cast<std::uint16_t>(*o.port)};
   return live::folder_port(std::filesystem::current_path());
@@ -231,7 +231,6 @@ struct ImportOptions : Flags {
 
 void take_pairs(ImportOptions& options) {
   recording::Mapping& mapping = options.request.mapping;
-  mapping.table = options.table.settings;
   mapping.table.columns = config::at_commas(options.table.columns);
   mapping.clock.rate = options.table.rate;
   options.request.values = options.table.values;
@@ -266,7 +265,7 @@ bool is_out_dat(const std::string& path) {
   return thesis::is_out_dat(begin);
 }
 
-// The thesis's own log knows what its columns are.
+// Imports the thesis's own log, whose columns are fixed.
 run::Kept import_out_dat(const ImportOptions& options, const Messages& messages) {
   const run::ImportRequest& request = options.request;
   const std::string& path = request.files.front();
@@ -297,12 +296,11 @@ ExitCode tell_kept(const run::Kept& kept, const ImportOptions& options, const Me
   return ok;
 }
 
-// Returns the size of a recording that takes a while to read, 0 for any other and for several.
-std::int64_t bytes_to_show(const std::vector<std::string>& files) {
-  constexpr std::uintmax_t large = 50'000'000;
+// Returns the size of one recording; 0 for several.
+std::int64_t bytes_of(const std::vector<std::string>& files) {
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(files.front(), none);
-  return files.size() == 1 && !none && size > large ? static_cast<std::int64_t>(size) : 0;
+  return files.size() > 1 || none ? 0 : static_cast<std::int64_t>(size);
 }
 
 ExitCode import_recording(const ImportOptions& given) {
@@ -314,14 +312,14 @@ ExitCode import_recording(const ImportOptions& given) {
     return tell_kept(import_out_dat(options, messages), options, messages);
   std::atomic<std::int64_t> read{0};
   options.request.read = &read;
-  const ProgressBar bar(read, bytes_to_show(options.request.files),
+  const ProgressBar bar(read, bytes_of(options.request.files),
                         {.each = 1e-6, .unit = "MB", .decimals = 0}, options.quiet);
   return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
 }
 
 void add_mapping_options(CLI::App& sub, ImportOptions& options) {
   run::ImportRequest& request = options.request;
-  add_table_options(sub, options.table);
+  add_table_options(sub, options.table, request.mapping.table);
   sub.add_option(
          "--scale", options.scales,
          "COLUMN=NUMBER: by which its numbers are multiplied, before --offset; -1 turns the "
@@ -330,16 +328,14 @@ void add_mapping_options(CLI::App& sub, ImportOptions& options) {
   sub.add_option("--mapping", request.mapping_file,
                  "a file with these and the options of how a table is read, sinew.mapping/1");
   sub.add_option("--save-mapping", request.save_mapping, "write such a file, for the next time");
-  sub.add_flag("--all", request.mapping.keep_others,
-               "keep columns that are no channel, as /recorded/NAME");
+  sub.add_flag("--all", request.mapping.keep_others, "keep other columns, as /recorded/NAME");
 }
 
 void add_clock_options(CLI::App& sub, ImportOptions& options) {
   recording::ClockMapping& clock = options.request.mapping.clock;
   sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
   sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
-  sub.add_option("--clock-scale", clock.scale,
-                 "true seconds in a second of the recording's clock: 0.997");
+  sub.add_option("--clock-scale", clock.scale, "true seconds per second of its clock: 0.997");
   sub.add_option("--start", clock.start,
                  "the recording's time that becomes 0, \"12.5 s\"; else its first sample");
   sub.add_option("--join", options.join, "several files: side by side in time, or end to end")
@@ -415,8 +411,7 @@ void add_view(CLI::App& app, Action& action) {
       sub.add_option("DIR", options->what,
                      "a run's folder, a folder of runs, a log file, one or two studies; else "
                      "the newest of runs/");
-  sub.add_option("--machine", options->machine,
-                 "what was run, in place of the folder's resolved.toml");
+  add_machine(sub, options->machine);
   CLI::Option* live =
       sub.add_option("--live", options->live.run.experiment, "run this experiment and watch it");
   live->excludes(dir);
@@ -450,10 +445,9 @@ void add_replay(CLI::App& app, Action& action) {
   sub.add_option("--of", options.of,
                  "controller: it is fed the readings; plant: it is fed the valves' commands")
       ->check(one_of({"controller", "plant"}));
-  sub.add_option("--machine", options.request.machine, "what was run, in place of the folder's");
+  add_machine(sub, options.request.machine);
   add_sets(sub, options.request.sets);
-  sub.add_option("--band", options.band,
-                 "of a plant: has parted beyond this share of a channel's range, in %");
+  sub.add_option("--band", options.band, "of a plant: tolerance in % of a channel's range");
   sub.add_option("-o,--output", options.folder, "keep the replay in this folder, as a run");
   sub.add_flag("--force", options.request.force, "replace the run that is in the folder");
   add_units(sub, options.units, "of the table; --json is in SI");
@@ -485,8 +479,7 @@ void add_analyze(CLI::App& app, Action& action) {
                  "sinew analyze runs/walk-test-1/1 --json");
   AnalyzeOptions& options = runs(sub, action, analyze_run);
   sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
-  sub.add_option("--machine", options.machine,
-                 "what was run, in place of the folder's resolved.toml");
+  add_machine(sub, options.machine);
   sub.add_option("-o,--output", options.out, "also write the summary to this file");
   sub.add_flag("--force", options.force, "replace that file");
   CLI::Option* json = sub.add_flag("--json", options.json, "print the summary as JSON");

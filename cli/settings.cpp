@@ -115,7 +115,7 @@ std::string as_options(std::string_view text) {
 
 bool is_of_option(const std::exception& error) {
   const auto* all = dynamic_cast<const config::Error*>(&error);
-  // "--width: found …", "rig.csv: --part: found …"; what has a line is a mistake of that file.
+  // "--width: found …", "rig.csv: --part: found …"; a problem with a line is of that file.
   const auto of_option = [](const config::Problem& problem) {
     std::string text = as_options(config::to_text(problem));
     const std::string file = problem.where.file + ": ";

@@ -49,8 +49,6 @@ struct SweepRuns {
   tune::TableFile* csv = nullptr;  // takes the rows, as they come where no other file keeps them
 };
 
-int threads_of(const RunsOptions& options) { return host::threads_of(options.threads); }
-
 // Runs what other processes of mpirun hand out, unless this process is the first one or alone: then
 // it returns false. `sweep` returns the sweep of this command line. A signal is for the first
 // process, which then ends this one.
@@ -67,7 +65,7 @@ bool is_worker_of(const tune::Ranks& ranks, const RunsOptions& options,
 // config::Error where a figure has no row; both name what holds the rows.
 std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const std::string& file = how.options.results;
-  tune::Options options{.threads = threads_of(how.options)};
+  tune::Options options{.threads = host::threads_of(how.options.threads)};
   if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
   std::optional<tune::Results> results;
   tune::open_results(s, file, options, results, how.messages.notices());
@@ -197,7 +195,7 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   const auto all = static_cast<std::int64_t>(tune::points(tuning.runs));
   std::atomic<std::int64_t> progress{0};
   Interrupt interrupt;
-  tune::KeptOptions kept{.tune = {.runs = {.threads = threads_of(options.runs)}},
+  tune::KeptOptions kept{.tune = {.runs = {.threads = host::threads_of(options.runs.threads)}},
                          .ask_to_stop = [&] { interrupt.ask(); },
                          .notices = messages.notices()};
   kept.tune.runs.stop = &interrupt.asked();
@@ -368,8 +366,7 @@ void add_sweep(CLI::App& app, Action& action) {
       app, "sweep", "many runs of one experiment as one table",
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
-  sub.add_option("FILE", options->file, "the experiment, or a plan: the same options as a file")
-      ->required();
+  sub.add_option("FILE", options->file, "the experiment, or a plan of sweeps")->required();
   add_words(sub, "--vary", options->said.study.vary,
             "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
   add_runs(sub, options->said.study, options->runs);
@@ -397,8 +394,7 @@ void add_tune(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(app, "tune", "the best values of an experiment's keys",
                              "sinew tune studies/faster-walk.toml --best faster-walk.toml");
   TuneOptions& options = runs(sub, action, tune_all);
-  sub.add_option("FILE", options.file, "what is tuned, by which goals: docs/how-to/studies.md")
-      ->required();
+  sub.add_option("FILE", options.file, "the tuning: docs/how-to/studies.md")->required();
   add_sets(sub, options.sets);
   add_keeping(sub, options.runs);
   sub.add_option("--generations", options.generations, "in place of the file's number")
@@ -445,10 +441,9 @@ void add_merge(CLI::App& app, Action& action) {
   CLI::App& sub = subcommand(app, "merge", "files of one study as one file",
                              "sinew merge a.db b.db c.db -o all.db");
   MergeOptions& options = runs(sub, action, merge_all);
-  sub.add_option("FILE", options.files, "what sinew sweep --results wrote, each another --shard")
+  sub.add_option("FILE", options.files, "of sinew sweep --results, each another --shard")
       ->required();
-  sub.add_option("-o,--output", options.out, "the file for all rows; one of the same study grows")
-      ->required();
+  sub.add_option("-o,--output", options.out, "the file for all rows, new or grown")->required();
 }
 
 }  // namespace sinew::cli

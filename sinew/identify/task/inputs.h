@@ -56,4 +56,7 @@ Json to_json(const MethodInputs& inputs);
 // one of its kinds of tables; empty: the usual one. Throws config::Error for one that there is not.
 std::string template_of(const MethodInputs& inputs, std::string_view kind = "");
 
+// Returns a table of the columns with their units, then what a row is and advice.
+std::string text_of(const MethodInputs& inputs);
+
 }  // namespace sinew::identify
