@@ -1,182 +1,193 @@
-// cli/completion.cpp - `sinew completion`: what a shell needs to complete a command line of sinew.
+// cli/completion.cpp - `sinew completion`: completion of a line of sinew in bash, zsh and fish.
 //
-// The script is made of the program's own commands and options, so that it cannot say anything
-// else. Keys behind --set are asked of the program while somebody types: `sinew show FILE --json`
-// of the first .toml file in the line.
+// The scripts pass the words of the line, with tabs between them, as --line to this command, which
+// prints what may be in place of the last one. So commands, options and keys are listed in one
+// place.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
-#include <string_view>
-#include <utility>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <sstream>
 
 #include "cli/command.h"
-#include "cli/completion_scripts.h"
+#include "sinew/files/keys.h"
+#include "sinew/files/values.h"
 
 namespace sinew::cli {
 
 namespace {
 
-// Their values begin with a key of the file in the line.
-constexpr std::string_view keyed = "--set|--vary|--range|--largest";
+// In all three, a key ends with "=" and gets no blank after it.
+constexpr std::string_view bash_script = R"script(# bash completion of sinew
+_sinew() {
+  local IFS=$'\t'
+  mapfile -t COMPREPLY < <("$1" completion bash --line="${COMP_WORDS[*]:0:COMP_CWORD+1}" 2>/dev/null)
+  COMPREPLY=("${COMPREPLY[@]%%$'\t'*}")
+  [[ ${COMPREPLY[0]-} != *= ]] || compopt -o nospace 2>/dev/null
+}
+complete -o default -F _sinew sinew
+)script";
 
-// Options that take more than some words, and the words that they begin with.
-constexpr std::pair<std::string_view, std::string_view> begun[] = {{"--units", "si thesis metric"}};
-
-std::vector<std::string> choices_for(const CommandTree::Shape& option) {
-  std::vector<std::string> out;  // without marks, which a shell would take for its own
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
-  for (const std::string& word : option.choices)
-    if (!word.empty() && std::ranges::all_of(word, plain)) out.push_back(word);
-  if (!option.choices.empty()) return out;
-  for (const auto& [name, words] : begun)
-    if (std::ranges::find(option.names, name) != option.names.end()) return {std::string(words)};
-  return {};
+constexpr std::string_view zsh_script = R"script(#compdef sinew
+# zsh completion of sinew
+_sinew() {
+  local offered=(${(f)"$("${words[1]}" completion zsh --line="${(pj:\t:)words[1,CURRENT]}" 2>/dev/null)"})
+  offered=(${offered%%$'\t'*})
+  if ((!$#offered)); then
+    _files
+  else
+    compadd -S '' -- ${(M)offered:#*=}
+    compadd -- ${offered:#*=}
+  fi
 }
 
-// A command with the words that lead to it: "identify static"; empty for the program's own.
-struct Place {
-  std::string words;
-  const CommandTree* command;
-};
+if [[ $zsh_eval_context[-1] == loadautofunc ]]; then
+  _sinew "$@"
+else
+  compdef _sinew sinew
+fi
+)script";
 
-void collect(const CommandTree& command, const std::string& words, std::vector<Place>& out) {
-  out.push_back({words, &command});
-  for (const CommandTree& sub : command.commands)
-    collect(sub, words.empty() ? sub.name : words + " " + sub.name, out);
+constexpr std::string_view fish_script = R"script(# fish completion of sinew
+function __sinew_words
+    set -l line (commandline -opc)
+    set -l last (commandline -ct)
+    $line[1] completion fish --line=(string join \t -- $line "$last") 2>/dev/null
+end
+complete -c sinew -f -a '(__sinew_words; or __fish_complete_path (commandline -ct))'
+)script";
+
+// A word, and what it is.
+using Offer = std::pair<std::string, std::string>;
+
+// Words of other letters are left out: a shell would interpret them.
+bool is_plain(const std::string& word) {
+  return !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("-_.[]=").find(static_cast<char>(c)) != std::string_view::npos;
+  });
 }
 
-// Words as the three shells list them.
-struct Words {
-  std::vector<std::string> commands, options, valued, choices;
-  // Of an option that takes one of some words: its names and those words.
-  std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> chosen;
-};
+// Adds the keys of the first file in the line, each followed by `end`.
+void add_keys_of(const std::vector<std::string>& line, const char* end, std::vector<Offer>& out) {
+  for (std::string word : line) {
+    const char* home = std::getenv("HOME");
+    if (home && word.starts_with("~/")) word.replace(0, 1, home);
+    if (!word.ends_with(".toml") || !std::filesystem::is_regular_file(word)) continue;
+    for (const config::Origin& value : files::values(word).origins)
+      out.emplace_back(value.path + end, "");
+    return;
+  }
+}
 
-Words words_of(const CommandTree& command) {
-  Words out;
-  for (const CommandTree& sub : command.commands) out.commands.push_back(sub.name);
-  for (const CommandTree::Shape& option : command.options) {
-    const std::vector<std::string>& names = option.names;
-    if (names.empty()) {
-      out.choices.insert(out.choices.end(), option.choices.begin(), option.choices.end());
-      continue;
-    }
-    out.options.insert(out.options.end(), names.begin(), names.end());
-    if (!option.takes_value()) continue;
-    out.valued.insert(out.valued.end(), names.begin(), names.end());
-    if (auto choices = choices_for(option); !choices.empty())
-      out.chosen.emplace_back(names, std::move(choices));
+// Adds the words that a key may have, after `begin`.
+void add_words_of(const std::string& key, const std::string& begin, std::vector<Offer>& out) {
+  std::set<std::string> words;
+  for (const files::Key& one : files::find_keys({key}, ""))
+    words.insert(one.choices.begin(), one.choices.end());
+  for (const std::string& word : words) out.emplace_back(begin + word, "");
+}
+
+// Adds what may be the value of an option; nothing for a file's name or any other text.
+void add_values(const CLI::Option& option, const std::string& name,
+                const std::vector<std::string>& line, bool split, std::vector<Offer>& out) {
+  for (const std::string keyed : {"--set", "--vary", "--range", "--largest"}) {
+    if (name != keyed) continue;
+    const std::size_t equals = line.back().find('=');
+    if (equals == std::string::npos) return add_keys_of(line, "=", out);
+    const std::string key = line.back().substr(0, equals);
+    return add_words_of(key, split ? "" : key + "=", out);
+  }
+  if (name == "--units") out = {{"si", ""}, {"thesis", ""}, {"metric", ""}};
+  for (const std::string& word : choices_of(option)) out.emplace_back(word, "");
+}
+
+// Returns what may be in place of the last word. `split`: bash passes "key=value" as three words.
+std::vector<Offer> offers(const std::vector<std::string>& line, bool split,
+                          const CLI::App& program) {
+  std::vector<Offer> out;
+  const CLI::App* at = &program;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    if (const CLI::App* sub = find_command(*at, line[i])) at = sub;
+  const std::string before = line.size() > 1 ? line[line.size() - 2] : "";
+  for (const CLI::Option* option : options_of(*at))
+    for (const std::string& name : names_of(*option))
+      if (name == before && takes_value(*option)) {
+        add_values(*option, name, line, split, out);
+        return out;
+      }
+  if (line.back().starts_with("-")) {
+    for (const CLI::Option* option : options_of(*at))
+      for (const std::string& name : names_of(*option))
+        out.emplace_back(name, option->get_description());
+  } else if (words_to(*at) == "sinew show") {
+    add_keys_of(line, "", out);
+  } else {
+    for (const CLI::App* sub : commands_of(*at))
+      out.emplace_back(sub->get_name(), sub->get_description());
+    for (const CLI::Option* option : options_of(*at))
+      if (option->get_positional())
+        for (const std::string& word : choices_of(*option)) out.emplace_back(word, "");
   }
   return out;
 }
 
-// 'text' for the shell: bash and zsh end the quote for a quote, fish escapes it.
-std::string in_shell_quotes(std::string_view text, bool fish = false) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (fish && (c == '\'' || c == '\\')) out += '\\';
-    out += c == '\'' && !fish ? "'\\''" : std::string(1, c);
+// Returns the words behind the program's name.
+std::vector<std::string> words_of_line(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text + "\t");
+  for (std::string word; std::getline(in, word, '\t');) out.push_back(word);
+  out.erase(out.begin());
+  if (out.empty()) out.emplace_back();
+  return out;
+}
+
+// Prints one offer a line, with its description behind a tab. Fails without any offer: then fish
+// completes files.
+ExitCode print_offers(std::vector<std::string> line, const CLI::App& program) try {
+  bool split = false;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i] != "=") continue;
+    const std::size_t last = std::min(i + 2, line.size());
+    split = last == line.size();
+    line[i - 1] += "=" + (i + 1 < line.size() ? line[i + 1] : "");
+    line.erase(line.begin() + static_cast<std::ptrdiff_t>(i),
+               line.begin() + static_cast<std::ptrdiff_t>(last));
   }
-  return out + "'";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, " "));
-}
-
-// One row of a `case`, which bash and zsh share: what may follow there.
-std::string row(const Place& place) {
-  const Words words = words_of(*place.command);
-  std::string out = fmt::format(
-      "    {}) commands={} options={} valued={} choices={} ;;\n", in_shell_quotes(place.words),
-      in_shell_quotes(joined(words.commands)), in_shell_quotes(joined(words.options)),
-      in_shell_quotes(joined(words.valued)), in_shell_quotes(joined(words.choices)));
-  return out;
-}
-
-std::string rows(const std::vector<Place>& places) {
-  std::string out;
-  for (const Place& place : places) out += row(place);
-  return out;
-}
-
-// Rows of the options that take one of some words.
-std::string chosen_rows(const std::vector<Place>& places) {
-  std::string out;
-  for (const Place& place : places)
-    for (const auto& [names, choices] : words_of(*place.command).chosen)
-      for (const std::string& name : names)
-        out += fmt::format("    {}) choices={} commands='' valued='' ;;\n",
-                           in_shell_quotes(place.words + ":" + name),
-                           in_shell_quotes(joined(choices)));
-  return out;
-}
-
-std::string fish_option(const std::string& at, const CommandTree::Shape& option) {
-  std::string out = fmt::format("complete -c sinew -n {}",
-                                in_shell_quotes("__sinew_at " + in_shell_quotes(at), true));
-  bool has_keys = false;
-  for (const std::string& name : option.names) {
-    out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-    has_keys = has_keys || fmt::format("|{}|", keyed).find("|" + name + "|") != std::string::npos;
+  const std::string& last = line.back();
+  const std::string begin = split ? last.substr(last.find('=') + 1) : last;
+  bool offered = false;
+  for (const auto& [word, meaning] : offers(line, split, program)) {
+    if (!is_plain(word) || !word.starts_with(begin)) continue;
+    fmt::print("{}{}{}\n", word, meaning.empty() ? "" : "\t", meaning);
+    offered = true;
   }
-  if (option.takes_value() && !option.names.empty()) out += " -r";
-  if (const auto choices = choices_for(option); !choices.empty())
-    out += " -f -a " + in_shell_quotes(joined(choices), true);
-  if (has_keys) out += " -f -a '(__sinew_keys)'";
-  if (!option.names.empty()) out += " -d " + in_shell_quotes(option.description, true);
-  return out + "\n";
-}
-
-std::string filled(std::string_view script,
-                   const std::vector<std::pair<std::string_view, std::string>>& words) {
-  std::string out(script);
-  for (const auto& [mark, text] : words)
-    for (std::size_t at = out.find(mark); at != out.npos; at = out.find(mark, at + text.size()))
-      out.replace(at, mark.size(), text);
-  return out;
-}
-
-std::string for_fish(const std::vector<Place>& places) {
-  std::string all, out;
-  for (const Place& place : places) {
-    const std::string at = place.words.empty() ? "" : " " + place.words;
-    if (!at.empty()) all += (all.empty() ? "" : " ") + in_shell_quotes(at, true);
-    for (const CommandTree& sub : place.command->commands)
-      out += fmt::format("complete -c sinew -n {} -f -a {} -d {}\n",
-                         in_shell_quotes("__sinew_at " + in_shell_quotes(at), true), sub.name,
-                         in_shell_quotes(sub.description, true));
-    for (const CommandTree::Shape& option : place.command->options)
-      if (!option.names.empty() || !option.choices.empty()) out += fish_option(at, option);
-  }
-  return filled(fish_script, {{"@all@", all}}) + out;
-}
-
-ExitCode print(const std::string& shell, const CommandTree& program) {
-  std::vector<Place> places;
-  collect(program, "", places);
-  const std::string script = shell == "fish"
-                                 ? for_fish(places)
-                                 : filled(shell == "bash" ? bash_script : zsh_script,
-                                          {{"@functions@", std::string(shell_functions)},
-                                           {"@rows@", rows(places)},
-                                           {"@chosen@", chosen_rows(places)},
-                                           {"@keyed@", std::string(keyed)}});
-  fmt::print("{}", script);
-  return ok;
+  return offered ? ok : failed;
+} catch (const std::exception&) {
+  return failed;  // a file with mistakes offers nothing
 }
 
 }  // namespace
 
-void add_completion(Command app, Action& action) {
+void add_completion(CLI::App& app, Action& action) {
   auto shell = std::make_shared<std::string>();
-  Command sub =
-      app.subcommand("completion", "what bash, zsh or fish needs to complete a line of sinew",
-                     "source <(sinew completion bash)");
-  sub.add_option("SHELL", *shell, "the shell").required().is_one_of({"bash", "zsh", "fish"});
-  sub.callback([=, &action] { action = [=] { return print(*shell, app.tree()); }; });
+  auto line = std::make_shared<std::string>();
+  CLI::App& sub =
+      subcommand(app, "completion", "what bash, zsh or fish needs to complete a line of sinew",
+                 "source <(sinew completion bash)");
+  sub.add_option("SHELL", *shell, "the shell")->required()->check(one_of({"bash", "zsh", "fish"}));
+  CLI::Option* of_script = sub.add_option("--line", *line, "of the scripts")->group("");
+  sub.callback([=, &app, &action] {
+    action = [=, &app] {
+      if (of_script->count() > 0) return print_offers(words_of_line(*line), app);
+      fmt::print("{}", *shell == "bash" ? bash_script : *shell == "zsh" ? zsh_script : fish_script);
+      return ok;
+    };
+  });
 }
 
 }  // namespace sinew::cli

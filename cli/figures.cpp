@@ -1,130 +1,248 @@
-// cli/figures.cpp - `sinew figures`: figures for print, of runs or of the thesis.
+// cli/figures.cpp - `sinew figures`: figures for print, of runs, of muscles or of the thesis.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "cli/command.h"
-#include "cli/figures_runs.h"
-#include "cli/figures_thesis.h"
+#include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
+#include "sinew/host/module.h"
+#include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
+#include "sinew/run/folder/drawn_run.h"
+#include "sinew/run/folder/figure_files.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::cli {
+
 namespace {
 
-struct FiguresOptions {
-  RunFiguresRequest runs;
-  ThesisFiguresRequest thesis;
-  bool of_thesis = false;
+namespace fs = std::filesystem;
+
+struct FiguresOptions : Flags {
+  std::vector<std::string> runs;  // folders, logs, or files of muscles
+  std::string out;                // empty: figures/ in each run's folder
+  run::DrawingRequest drawing;
+  std::string from, to;                          // "2 s"; empty: all
+  std::string width, height, font, labels_file;  // pictures
+  std::vector<std::string> labels, formats;
+  std::string align = "start", event, clock = "none";  // for runs in the same axes
+  std::string root = ".";                              // thesis
+  bool thesis = false, overlay = false, labels_template = false;
+
+  bool overlaid() const { return overlay || !labels.empty() || align != "start"; }
 };
 
-std::vector<report::Picture> parse_formats(const std::vector<std::string>& words) {
-  std::vector<report::Picture> out;
-  for (const std::string& list : words) {
-    std::istringstream in(list);
-    for (std::string word; std::getline(in, word, ',');) {
-      if (word == "csv") continue;
+// Returns the files of --format and --force; "csv" alone draws nothing.
+run::FigureFiles files_of(const FiguresOptions& options) {
+  run::FigureFiles out{.must_draw = !options.formats.empty(), .force = options.force};
+  if (out.must_draw) out.pictures.clear();
+  for (const std::string& list : options.formats)
+    for (const std::string& word : config::at_commas(list)) {
       const std::optional<report::Picture> picture = report::picture_of(word);
-      if (!picture)
-        config::fail({"--format", 0, 0}, "", fmt::format("\"{}\"", word), "pdf, svg, png or csv",
+      if (!picture && word != "csv")
+        config::fail({"--format", 0, 0}, "", config::in_quotes(word), "pdf, svg, png or csv",
                      "--format pdf,png");
-      if (std::ranges::find(out, *picture) == out.end()) out.push_back(*picture);
+      if (picture && std::ranges::find(out.pictures, *picture) == out.pictures.end())
+        out.pictures.push_back(*picture);
     }
+  return out;
+}
+
+// These options are for runs alone.
+void add_options_of_runs(CLI::App& sub, FiguresOptions& o, CLI::Option* thesis) {
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return sub.add_option(name, value, text)->excludes(thesis);
+  };
+  const auto add_flag = [&](const char* name, bool& value, const char* text) {
+    sub.add_flag(name, value, text)->excludes(thesis);
+  };
+  add("--only", o.drawing.only, "of runs: these figures alone");
+  add("--channels", o.drawing.channels,
+      "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a comma begins a plot "
+      "below; may be repeated")
+      ->allow_extra_args(false);
+  add_flag("--overlay", o.overlay, "the runs in the same axes; needs -o");
+  add("--label", o.labels, "name of a run, in their order; the runs are in the same axes")
+      ->allow_extra_args(false);
+  CLI::Option* align =
+      add("--align", o.align,
+          "how the others are aligned with the first run: start, event or correlation; start")
+          ->check(one_of({"start", "event", "correlation"}));
+  add("--event", o.event, "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
+      ->needs(align);
+  add("--clock", o.clock, "fit: the rate of another run's clock is taken out, too; none")
+      ->check(one_of({"none", "fit"}))
+      ->needs(align);
+  add("--title", o.drawing.title, "above the picture, of one figure");
+  add("--width", o.width, "of the picture; \"89 mm\"");
+  add("--height", o.height, "of the picture; else by the number of its plots");
+  add("--font", o.font, "size of the letters; \"7 pt\"");
+  add("--labels", o.labels_file, "a file with labels in your language");
+  add_flag("--labels-template", o.labels_template, "print such a file, for these figures");
+  add("--units", o.drawing.units, "of runs: si, thesis, metric, or metric,length=cm; else as set");
+  add("--from", o.from, "of runs: \"2 s\"; what was before is left out");
+  add("--to", o.to, "of runs: what was after is left out");
+  add("--machine", o.drawing.machine,
+      "of runs: what was run, in place of the folder's resolved.toml");
+}
+
+// Returns nothing where the runs begin together.
+std::optional<analysis::AlignRequest> align_of(const FiguresOptions& request) {
+  if (request.align == "start") return std::nullopt;
+  const bool event = request.align == "event";
+  return analysis::AlignRequest{
+      .by = event ? analysis::AlignBy::event : analysis::AlignBy::correlation,
+      .event = request.event,
+      .fit_clock = request.clock == "fit"};
+}
+
+run::DrawingRequest drawing_of(const FiguresOptions& options) {
+  run::DrawingRequest out = options.drawing;
+  const auto time = [](const char* name, const std::string& text, double& value) {
+    if (!text.empty()) value = config::quantity_setting(name, text, "s", units::atmosphere);
+  };
+  time("from", options.from, out.options.from);
+  time("to", options.to, out.options.to);
+  if (out.options.from >= out.options.to)
+    config::fail({"--from", 0, 0}, "", options.from,
+                 fmt::format("a time before --to, {}", options.to));
+  out.paper = report::read_paper(options.width, options.height, options.font);
+  out.files = files_of(options);
+  if (!options.labels_file.empty()) out.files.labels = report::read_labels(options.labels_file);
+  return out;
+}
+
+// Returns the run's own folder, or one below --output where there are several runs.
+fs::path folder_of(const FiguresOptions& request, const std::string& named) {
+  const fs::path source =
+      run::is_muscle_file(named) ? fs::path(named) : run::recorded_run(named).log;
+  if (request.out.empty()) return source.parent_path() / run::figures_name;
+  if (request.runs.size() == 1) return request.out;
+  return fs::path(request.out) / report::file_name_of(named);
+}
+
+// Returns each folder with the name of its run.
+std::vector<std::pair<fs::path, std::string>> folders_of(const FiguresOptions& request) {
+  std::vector<std::pair<fs::path, std::string>> out;
+  for (const std::string& named : request.runs) {
+    const fs::path folder = folder_of(request, named);
+    for (const auto& [taken, other] : out)
+      if (taken == folder)
+        config::fail({named, 0, 0}, "", "the same run, or one of the same name, a second time",
+                     "each run once", "without -o");
+    out.emplace_back(folder, named);
   }
   return out;
 }
 
-ExitCode draw(FiguresOptions& options) {
-  if (!options.of_thesis) return draw_runs(options.runs);
-  options.thesis.out = options.runs.out;
-  options.thesis.formats = options.runs.formats;
-  options.thesis.force = options.runs.force;
-  options.thesis.json = options.runs.json;
-  options.thesis.quiet = options.runs.quiet;
-  return draw_thesis(options.thesis);
+void print(const Json& runs) {
+  for (const Json& run : runs) {
+    fmt::print("{}\n", run["folder"].string());
+    report::TextTable table({"figure", "", "curves"},
+                            {report::TextTable::Align::left, report::TextTable::Align::left});
+    for (const Json& f : run["figures"])
+      table.add({f["figure"].string(), f["title"].string(), std::to_string(f["curves"].size())});
+    fmt::print("{}", table.text());
+  }
+}
+
+ExitCode draw_runs(const FiguresOptions& request) {
+  const Messages messages(request.quiet);
+  const run::DrawingRequest drawing = drawing_of(request);
+  if (request.labels_template) {
+    fmt::print("{}", run::labels_of_runs({request.runs.begin(), request.runs.end()}, drawing));
+    return ok;
+  }
+  Json out{{"format", "sinew.figures/1"}, {"runs", Json::array()}};
+  const auto add = [&](const fs::path& folder, const std::string& index) {
+    out["runs"].push_back(
+        {{"folder", folder.string()}, {"figures", Json::parse(index)["figures"]}});
+  };
+  if (request.overlaid()) {
+    const run::OverlaidRuns runs{
+        {request.runs.begin(), request.runs.end()}, request.labels, align_of(request)};
+    add(request.out, run::draw_runs(runs, request.out, drawing, messages.notices()));
+  } else {
+    for (const auto& [folder, named] : folders_of(request))
+      add(folder, run::is_muscle_file(named)
+                      ? run::draw_muscles(named, folder, drawing, messages.notices())
+                      : run::draw_run(named, folder, drawing, messages.notices()));
+  }
+  if (request.json)
+    fmt::print("{}\n", out.text(2));
+  else
+    print(out["runs"]);
+  return ok;
+}
+
+// Becomes the program thesis-figures (cli/thesis/figures.cpp).
+ExitCode draw_thesis(const FiguresOptions& request) {
+  const run::FigureFiles files = files_of(request);
+  run::refuse_to_overwrite(std::filesystem::path(request.out) / "index.json", request.force);
+  const std::string program = host::find_module("thesis-figures").string();
+  if (program.empty())
+    throw std::runtime_error(
+        "sinew figures --thesis: found no program thesis-figures beside this one; expected it in "
+        "lib/sinew; try: cmake --preset release && cmake --build --preset all");
+
+  const auto flag = [](bool set) { return set ? "yes" : "no"; };
+  std::vector<std::string> words{program,
+                                 request.root,
+                                 request.out,
+                                 flag(request.force),
+                                 flag(files.must_draw),
+                                 flag(request.json),
+                                 flag(request.quiet)};
+  for (const report::Picture picture : files.pictures) words.emplace_back(report::ending(picture));
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(stdout);
+  execv(program.c_str(), arguments.data());
+  throw std::runtime_error(program + ": " + std::strerror(errno));
 }
 
 }  // namespace
 
-run::FigureFiles files_of(const std::vector<std::string>& formats, bool force) {
-  run::FigureFiles files{.must_draw = !formats.empty(), .force = force};
-  if (files.must_draw) files.pictures = parse_formats(formats);
-  return files;
-}
-
-namespace {
-
-// These options are for runs alone.
-void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
-  const auto of_runs = [&](Option option) { option.excludes(thesis); };
-  of_runs(sub.add_option("--only", runs.only, "of runs: these figures alone"));
-  of_runs(sub.add_option("--channels", runs.channels,
-                         "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a "
-                         "comma begins a plot below; may be repeated")
-              .takes_one());
-  of_runs(sub.add_flag("--overlay", runs.overlay, "the runs in the same axes; needs -o"));
-  of_runs(sub.add_option("--label", runs.labels,
-                         "what a run is called, in their order; the runs are in the same axes")
-              .takes_one());
-  Option align = sub.add_option("--align", runs.align,
-                                "how the others are aligned with the first run: start, event or "
-                                "correlation; start")
-                     .is_one_of({"start", "event", "correlation"});
-  of_runs(align);
-  of_runs(sub.add_option("--event", runs.event,
-                         "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
-              .needs(align));
-  of_runs(sub.add_option("--clock", runs.clock,
-                         "fit: the rate of another run's clock is taken out, too; none")
-              .is_one_of({"none", "fit"})
-              .needs(align));
-  of_runs(sub.add_option("--title", runs.title, "above the picture, of one figure"));
-  of_runs(sub.add_option("--width", runs.width, "of the picture; \"89 mm\""));
-  of_runs(sub.add_option("--height", runs.height, "of the picture; else as its plots want"));
-  of_runs(sub.add_option("--font", runs.font, "size of the letters; \"7 pt\""));
-  of_runs(sub.add_option("--labels", runs.words, "a file with labels in your language"));
-  of_runs(sub.add_flag("--labels-template", runs.labels_template,
-                       "print such a file, with all that these figures say"));
-  of_runs(sub.add_option("--units", runs.units,
-                         "of runs: si, thesis, metric, or metric,length=cm; else as set"));
-  of_runs(sub.add_option("--from", runs.from, "of runs: \"2 s\"; what was before is left out"));
-  of_runs(sub.add_option("--to", runs.to, "of runs: what was after is left out"));
-  of_runs(sub.add_option("--machine", runs.machine,
-                         "of runs: what was run, in place of the folder's resolved.toml"));
-}
-
-}  // namespace
-
-void add_figures(Command app, Action& action) {
+void add_figures(CLI::App& app, Action& action) {
   auto options = std::make_shared<FiguresOptions>();
-  Command sub = app.subcommand(
-      "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
+  CLI::App& sub = subcommand(
+      app, "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
       "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"
       "  sinew figures mine runs/arm/1 --label measured --label simulated -o figures\n"
       "  sinew figures muscle.toml --format pdf\n"
       "  sinew figures --thesis -o figures");
-  Option runs =
-      sub.add_option("DIR", options->runs.runs, "folders of runs, log files, or files of muscles");
-  Option thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
-  runs.excludes(thesis);
-  sub.add_option("-o,--output", options->runs.out,
+  CLI::Option* runs =
+      sub.add_option("DIR", options->runs, "folders of runs, log files, or files of muscles");
+  CLI::Option* thesis = sub.add_flag("--thesis", options->thesis, "those of Colbrunn (2000)");
+  runs->excludes(thesis);
+  sub.add_option("-o,--output", options->out,
                  "folder for the figures and index.json; of runs: else figures/ beside the log");
-  sub.add_option("--root", options->thesis.root,
-                 "--thesis: the project's folder, with robots/ and experiments/; .");
-  sub.add_option("--format", options->runs.formats, "pdf, svg, png or csv; svg,png").takes_one();
-  add_run_options(sub, options->runs, thesis);
-  sub.add_flag("--force", options->runs.force, "replace the figures that are there");
-  sub.add_flag("--json", options->runs.json, "print index.json; of runs all of them");
-  sub.add_flag("--quiet", options->runs.quiet, "only errors on stderr");
+  sub.add_option("--root", options->root, "--thesis: folder of robots/ and experiments/; .");
+  sub.add_option("--format", options->formats, "pdf, svg, png or csv; svg,png")
+      ->allow_extra_args(false);
+  add_options_of_runs(sub, *options, thesis);
+  add_flags(sub, *options, "replace the figures that are there",
+            "print index.json; of runs all of them");
   sub.callback([=, &action] {
-    const RunFiguresRequest& of_runs = options->runs;
-    if (!options->of_thesis && of_runs.runs.empty())
+    if (!options->thesis && options->runs.empty())
       require("DIR", "the folder of a run, or --thesis in its place");
-    if (options->of_thesis && of_runs.out.empty())
+    if (options->thesis && options->out.empty())
       require("--output", "the folder for the figures of --thesis");
-    if (of_runs.overlaid() && !of_runs.labels_template && of_runs.out.empty())
+    if (options->overlaid() && !options->labels_template && options->out.empty())
       require("--output", "a folder for the figures of --overlay, --label or --align");
-    action = [=] { return draw(*options); };
+    action = [=] { return options->thesis ? draw_thesis(*options) : draw_runs(*options); };
   });
 }
 

@@ -1,25 +1,24 @@
 #include "cli/help.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
+#include <memory>
 #include <sstream>
 
-#include "cli/command.h"
-#include "cli/help_topics.h"
-#include "cli/table_options.h"
+#include "cli/option_groups.h"
 #include "cli/terminal.h"
-#include "cli/wrapped.h"
 #include "sinew/config/diagnostics.h"
 
 namespace sinew::cli {
 
+// Returns docs/reference/help.md; the build makes it of the file.
+std::string_view page_of_topics();
+
 namespace {
 
-using Shape = CommandTree::Shape;
-
-// Commands grouped by purpose. A command that no task names is listed under "more".
+// Commands grouped by purpose.
 struct Task {
   std::string_view title, commands, example;
 };
@@ -37,127 +36,186 @@ constexpr Task tasks[] = {
     {"Drive hardware, and other programs", "doctor bring-up firmware fmu", "sinew doctor"},
 };
 
-const CommandTree* find(const CommandTree& command, std::string_view name) {
-  const auto it = std::ranges::find(command.commands, name, &CommandTree::name);
-  return it == command.commands.end() ? nullptr : &*it;
+// --- lines that fit the terminal, or 100 letters ---
+
+std::size_t width() {
+  constexpr std::size_t usual = 100, narrowest = 40;
+  const std::size_t columns = width_of_output();
+  return columns == 0 ? usual : std::clamp(columns, narrowest, usual);
 }
 
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> out;
+// Returns the number of letters, not bytes, of UTF-8.
+std::size_t letters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+// Returns lines with `indent` blanks before each but the first.
+std::string wrapped(std::string_view text, std::size_t indent) {
   std::istringstream in{std::string(text)};
-  for (std::string word; in >> word;) out.push_back(word);
+  std::string out;
+  std::size_t at = indent;
+  for (std::string word; in >> word; at += letters(word)) {
+    if (at > indent && at + 1 + letters(word) > width()) {
+      out += "\n" + std::string(indent, ' ');
+      at = indent;
+    } else if (at > indent) {
+      out += ' ';
+      ++at;
+    }
+    out += word;
+  }
+  return out + "\n";
+}
+
+// A title and its description, in two columns.
+struct HelpRow {
+  std::string title, words;
+};
+
+std::string table(const std::vector<HelpRow>& rows, std::size_t title_width = 0) {
+  constexpr std::size_t widest_title = 26;
+  for (const HelpRow& row : rows)
+    if (const std::size_t n = letters(row.title); n <= widest_title)
+      title_width = std::max(title_width, n);
+  std::string out;
+  for (const HelpRow& row : rows) {
+    const std::size_t n = letters(row.title), begin = 2 + title_width + 2;
+    out += "  " + row.title;
+    out += n > title_width ? "\n" + std::string(begin, ' ') : std::string(begin - 2 - n, ' ');
+    out += wrapped(row.words, begin);
+  }
   return out;
 }
 
 // --- one command ---
 
-// "sobol|morris|ends"; empty where they are many, or one of them would need quotes.
-std::string choices_in_short(const Shape& option) {
-  if (option.choices.empty() || option.names.empty()) return "";
-  if (either_of(option.choices).find('"') != std::string::npos) return "";
-  std::string words;
-  for (const std::string& word : option.choices) words += (words.empty() ? "" : "|") + word;
-  return words.size() <= 24 ? words : "";
+// Returns "sobol|morris|ends"; "WORD" where they are many, or one of them would need quotes.
+std::string choices_in_short(const CLI::Option& option) {
+  constexpr std::size_t longest = 24;
+  const std::vector<std::string> choices = choices_of(option);
+  const std::string words = fmt::format("{}", fmt::join(choices, "|"));
+  const bool quoted = either_of(choices).find('"') != std::string::npos;
+  return quoted || words.size() > longest ? "WORD" : words;
 }
 
-// "--units VALUE", "--method sobol|morris|ends".
-std::string value_of(const Shape& option) {
-  std::string out = option.value;
-  if (!option.choices.empty() && !option.names.empty()) {
-    out = choices_in_short(option);
-    if (out.empty()) out = "WORD";
+// Returns "VALUE", "FILE …", "sobol|morris|ends".
+std::string value_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  std::string out = option.get_positional()      ? option.get_name()
+                    : choices_of(option).empty() ? type.substr(0, type.find(':'))
+                                                 : choices_in_short(option);
+  return option.get_items_expected_max() > 1 && !is_repeated(option) ? out + " …" : out;
+}
+
+// Returns "--units VALUE", "--json".
+std::string with_value(const CLI::Option& option, const std::string& names) {
+  return takes_value(option) ? names + " " + value_of(option) : names;
+}
+
+// Returns the description, the words that the value may have, its default, and how often the option
+// may be given.
+std::string words_of(const CLI::Option& option) {
+  std::string out = option.get_description();
+  const std::vector<std::string> choices = choices_of(option);
+  const bool named = !option.get_positional();
+  if (!choices.empty() && !(named && choices_in_short(option) != "WORD"))
+    out += ": " + either_of(choices);
+  if (takes_value(option) && !option.get_default_str().empty())
+    out += "; default " + option.get_default_str();
+  if (is_repeated(option) && out.find("repeated") == out.npos) out += "; may be repeated";
+  if (option.get_required() && named) out += "; always needed";
+  return out;
+}
+
+// Returns a table under a title of the options of a heading, "Options" for those without one, or of
+// the arguments that are no options.
+std::string section(const CLI::App& command, std::string_view title, bool named,
+                    std::string_view heading = "Options") {
+  std::vector<HelpRow> rows;
+  for (const CLI::Option* option : options_of(command))
+    if (option->get_positional() != named && option->get_group() == heading)
+      rows.push_back(
+          {named ? with_value(*option, fmt::format("{}", fmt::join(names_of(*option), ", ")))
+                 : option->get_name(),
+           words_of(*option)});
+  return rows.empty() ? "" : fmt::format("\n{}{}", title, table(rows));
+}
+
+// Returns the names of the options that many commands share; `sinew help tables` describes them.
+std::string names_of_table_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options_of(command))
+    if (option->get_group() == table_heading) names.push_back(option->get_name());
+  if (names.empty()) return "";
+  return fmt::format("\n{}, described by `sinew help tables`:\n  {}", table_heading,
+                     wrapped(fmt::format("{}", fmt::join(names, ", ")), 2));
+}
+
+// --- pages ---
+
+// Returns the sections of the page of topics, each with its title as its first line.
+std::vector<std::string> topics() {
+  std::vector<std::string> out;
+  const std::string_view page = page_of_topics(), begin = "\n## ";
+  for (std::size_t at = page.find(begin); at != page.npos;) {
+    const std::size_t next = page.find(begin, at + 1);
+    out.emplace_back(page.substr(at + begin.size(), next - at - begin.size()));
+    at = next;
   }
-  return option.most > 1 ? out + " …" : out;
-}
-
-std::string title_of(const Shape& option) {
-  std::string out;
-  for (const std::string& name : option.names) out += (out.empty() ? "" : ", ") + name;
-  if (option.names.empty()) return option.value;
-  return option.takes_value() ? out + " " + value_of(option) : out;
-}
-
-// Returns the description, the words that it may have, its default, and how often it may come.
-std::string words_of(const Shape& option) {
-  std::string out = option.description;
-  if (!option.choices.empty() && choices_in_short(option).empty())
-    out += ": " + either_of(option.choices);
-  if (option.takes_value() && !option.default_text.empty())
-    out += "; default " + option.default_text;
-  if (option.repeats && out.find("repeated") == out.npos) out += "; may be repeated";
-  if (option.required && !option.names.empty()) out += "; always needed";
   return out;
 }
 
-// Returns the rows of the command's words, or of its options (`named`) under a heading. Options
-// without a heading have the empty one.
-std::vector<Row> rows_of(const CommandTree& command, bool named, std::string_view heading = "") {
-  std::vector<Row> out;
-  for (const Shape& option : command.options)
-    if (option.names.empty() != named && option.heading == heading)
-      out.push_back({title_of(option), words_of(option)});
+std::string title_of(const std::string& topic) { return topic.substr(0, topic.find('\n')); }
+
+std::string names_of_topics() {
+  std::vector<std::string> names;
+  for (const std::string& topic : topics()) names.push_back(title_of(topic));
+  names.emplace_back("commands");
+  return either_of(names);
+}
+
+// Returns a section of the page without its marks; code is indented. Empty: no topic has that name.
+std::string topic_text(const std::string& name) {
+  for (const std::string& topic : topics()) {
+    if (title_of(topic) != name) continue;
+    std::istringstream in(topic.substr(std::min(name.size() + 2, topic.size())));
+    std::string out;
+    bool code = false;
+    for (std::string line; std::getline(in, line);) {
+      if (line.starts_with("```")) {
+        code = !code;
+        continue;
+      }
+      std::erase(line, '`');
+      out += (code && !line.empty() ? "  " : "") + line + "\n";
+    }
+    return out;
+  }
+  return "";
+}
+
+std::string all_commands(const CLI::App& app) {
+  std::string out;
+  for (const CLI::App* sub : commands_of(app))
+    out += words_to(*sub).substr(std::string_view("sinew ").size()) + "\n" + all_commands(*sub);
   return out;
 }
 
-// Options that many commands share are named alone: the page `sinew help tables` describes them.
-std::string names_of_table_options(const CommandTree& command) {
-  std::string out;
-  for (const Shape& option : command.options)
-    if (option.heading == table_heading) out += (out.empty() ? "" : ", ") + option.name();
-  if (out.empty()) return "";
-  return fmt::format("\n{}, described by `sinew help tables`:\n{}", table_heading, wrapped(out, 2));
-}
-
-std::string about_tables(const CommandTree& program) {
-  const CommandTree* import = find(program, "import");
-  return wrapped(
-             "Sinew reads separators, decimal marks, units in the header, dates and clocks off a "
-             "table. What a table does not show, these options of sinew import and of the methods "
-             "of sinew identify state. The columns that a method reads: sinew identify columns "
-             "METHOD; the channels of a run: sinew help channels.") +
-         "\n" + (import ? table(rows_of(*import, true, table_heading)) : "");
-}
-
-// Returns the options of a group of which one is given: "--foot VALUE | --angles VALUE".
-std::string alternatives(const CommandTree& command, const std::string& group) {
-  std::string out;
-  for (const Shape& option : command.options)
-    if (option.group == group)
-      out += (out.empty() ? "" : " | ") + option.name() +
-             (option.takes_value() ? " " + value_of(option) : "");
-  return "(" + out + ")";
-}
-
-std::string examples_of(const CommandTree& command) {
-  return command.example.empty() ? "" : "\nExample:\n  " + command.example + "\n";
-}
-
-// --- the whole program ---
-
-std::vector<Row> rows_of_task(const CommandTree& program, std::string_view names,
-                              std::set<std::string>& told) {
-  std::vector<Row> out;
-  for (const std::string& name : split(names))
-    if (const CommandTree* command = find(program, name); command && told.insert(name).second)
-      out.push_back({name, command->description});
-  return out;
-}
-
-std::string overview(const CommandTree& program) {
-  std::string out = program.description + "\n\nUsage: sinew COMMAND …\n";
-  std::set<std::string> told{"help", "completion"};
-  const auto add = [&](std::string_view title, const std::vector<Row>& rows,
+std::string overview(const CLI::App& program) {
+  std::string out = program.get_description() + "\n\nUsage: sinew COMMAND …\n";
+  const auto add = [&](std::string_view title, const std::vector<HelpRow>& rows,
                        std::string_view example) {
-    if (rows.empty()) return;
-    out += fmt::format("\n{}:\n{}", title, table(rows, 13));
-    if (!example.empty()) out += fmt::format("    {}\n", example);
+    out += fmt::format("\n{}:\n{}    {}\n", title, table(rows, 13), example);
   };
-  for (const Task& task : tasks)
-    add(task.title, rows_of_task(program, task.commands, told), task.example);
-  std::vector<Row> more;
-  for (const CommandTree& command : program.commands)
-    if (!told.contains(command.name)) more.push_back({command.name, command.description});
-  add("Do more", more, "");
+  for (const Task& task : tasks) {
+    std::vector<HelpRow> rows;
+    std::istringstream names{std::string(task.commands)};
+    for (std::string name; names >> name;)
+      if (const CLI::App* command = find_command(program, name))
+        rows.push_back({name, command->get_description()});
+    add(task.title, rows, task.example);
+  }
   add("Find your way",
       {{"help COMMAND", "what it takes, with an example"},
        {"help TOPIC", "one of " + names_of_topics()},
@@ -167,124 +225,104 @@ std::string overview(const CommandTree& program) {
   return out;
 }
 
+std::string help_of(const CLI::App& command) {
+  if (!command.get_parent()) return overview(command);
+  std::string out = fmt::format("{}: {}\n\nUsage: {}\n", words_to(command),
+                                command.get_description(), usage_of(command));
+  std::vector<HelpRow> rows;
+  for (const CLI::App* sub : commands_of(command))
+    rows.push_back({sub->get_name(), sub->get_description()});
+  if (!rows.empty()) out += "\nCommands:\n" + table(rows);
+  out += section(command, "Words:\n", false) + section(command, "Options:\n", true);
+  return out + names_of_table_options(command) + "\nExample:\n  " + command.get_footer() + "\n";
+}
+
 // --- sinew help ---
 
-std::string all_commands(const CommandTree& command, const std::string& words) {
-  std::string out;
-  for (const CommandTree& sub : command.commands) {
-    const std::string at = words.empty() ? sub.name : words + " " + sub.name;
-    out += at + "\n" + all_commands(sub, at);
-  }
-  return out;
-}
-
-// Throws where no command, or topic, is of these words.
-[[noreturn]] void refuse_words(const CommandTree& at, const std::string& path,
-                               const std::string& word) {
-  std::vector<std::string_view> names;
-  for (const CommandTree& sub : at.commands) names.push_back(sub.name);
-  std::string expected = names.empty() ? "no word behind " + path : config::either(names);
-  const std::vector<std::string> topics = topics_of_help();
-  if (path == "sinew") {
-    names.insert(names.end(), topics.begin(), topics.end());
+// Throws where no command, or topic, has these words.
+[[noreturn]] void refuse_words(const CLI::App& at, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : commands_of(at)) names.push_back(sub->get_name());
+  std::string expected = names.empty() ? "no word behind " + words_to(at)
+                                       : config::either({names.begin(), names.end()});
+  if (!at.get_parent()) {
+    for (const std::string& topic : topics()) names.push_back(title_of(topic));
     expected = "a command, or one of " + names_of_topics();
   }
-  config::fail({}, help_command(path), config::in_quotes(word), expected,
-               std::string(config::closest(word, names)));
+  config::fail({}, help_command(words_to(at)), config::in_quotes(word), expected,
+               std::string(config::closest(word, {names.begin(), names.end()})));
 }
 
-// The text of a topic, of all commands, or of none.
-std::string shared_page(const std::string& word, const CommandTree& program) {
-  if (word == "tables") return about_tables(program);
-  return word == "commands" ? all_commands(program, "") : topic(word);
-}
-
-ExitCode help(const std::vector<std::string>& words, const CommandTree& program) {
-  const std::string page = words.size() == 1 ? shared_page(words[0], program) : "";
-  if (!page.empty() && !find(program, words[0])) {
+ExitCode help(const std::vector<std::string>& words, const CLI::App& program) try {
+  std::string page;
+  if (words.size() == 1)
+    page = words[0] == "commands" ? all_commands(program) : topic_text(words[0]);
+  if (words == std::vector<std::string>{"tables"})
+    page += section(*find_command(program, "import"), "", true, table_heading);
+  if (!page.empty() && !find_command(program, words[0])) {
     fmt::print("{}", page);
     return ok;
   }
-  const CommandTree* at = &program;
-  std::string path = "sinew";
+  const CLI::App* at = &program;
   for (const std::string& word : words) {
-    const CommandTree* next = find(*at, word);
-    if (!next) refuse_words(*at, path, word);
+    const CLI::App* next = find_command(*at, word);
+    if (!next) refuse_words(*at, word);
     at = next;
-    path += " " + word;
   }
-  fmt::print("{}{}{}", help_of(*at, path), page.empty() ? "" : "\n", page);
+  fmt::print("{}{}{}", help_of(*at), page.empty() ? "" : "\n", page);
   return ok;
-}
-
-// A word that is no command is a slip of the line, not of what it asks for.
-ExitCode help_or_usage(const std::vector<std::string>& words, const CommandTree& program) {
-  try {
-    return help(words, program);
-  } catch (const config::Error& e) {
-    error(e.what());
-    return wrong_usage;
-  }
+} catch (const config::Error& e) {
+  error(e.what());
+  return wrong_usage;
 }
 
 }  // namespace
 
-std::string usage_of(const CommandTree& command, const std::string& words) {
-  std::string out = words;
-  if (!command.commands.empty()) return out + " COMMAND …";
-  std::set<std::string> groups;
-  bool optional = false;
-  for (const Shape& option : command.options) {
-    if (!option.group.empty()) {
-      if (groups.insert(option.group).second) out += " " + alternatives(command, option.group);
-    } else if (option.names.empty()) {
-      const std::string value = value_of(option);
-      out += option.required ? " " + value : " [" + value + "]";
-    } else if (option.required) {
-      out += " " + option.name() + " " + value_of(option);
-    } else {
-      optional = optional || option.name() != "--help";
-    }
-  }
-  return optional ? out + " [OPTIONS]" : out;
+std::string Help::make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const {
+  return help_of(*app);
 }
 
-std::string help_of(const CommandTree& command, const std::string& words) {
-  if (words == "sinew") return overview(command);
-  std::string out =
-      fmt::format("{}: {}\n\nUsage: {}\n", words, command.description, usage_of(command, words));
-  if (!command.commands.empty()) {
-    std::vector<Row> rows;
-    for (const CommandTree& sub : command.commands) rows.push_back({sub.name, sub.description});
-    out += "\nCommands:\n" + table(rows);
+std::string usage_of(const CLI::App& command) {
+  std::string out = words_to(command);
+  if (!commands_of(command).empty()) return out + " COMMAND …";
+  bool optional = false;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name(), value = value_of(*option);
+    if (option->get_positional())
+      out += option->get_required() ? " " + value : " [" + value + "]";
+    else if (option->get_required())
+      out += " " + with_value(*option, name);
+    else
+      optional = optional || (option != command.get_help_ptr() && !option->get_group().empty());
   }
-  if (const std::vector<Row> rows = rows_of(command, false); !rows.empty())
-    out += "\nWords:\n" + table(rows);
-  if (const std::vector<Row> rows = rows_of(command, true); !rows.empty())
-    out += "\nOptions:\n" + table(rows);
-  return out + names_of_table_options(command) + examples_of(command);
+  for (const CLI::App* group : groups_of(command)) {
+    std::vector<std::string> either;
+    for (const CLI::Option* option : group->get_options())
+      either.push_back(with_value(*option, option->get_name()));
+    out += fmt::format(" ({})", fmt::join(either, " | "));
+  }
+  return optional ? out + " [OPTIONS]" : out;
 }
 
 std::string help_command(const std::string& words) {
   return "sinew help" + words.substr(std::string_view("sinew").size());
 }
 
-std::vector<std::string> with_help_first(std::vector<std::string> words,
-                                         const CommandTree& program) {
+std::vector<std::string> with_help_first(std::vector<std::string> words, const CLI::App& program) {
   if (words.size() < 2 || words.back() != "help") return words;
-  const CommandTree* at = &program;
+  const CLI::App* at = &program;
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
-    if (!(at = find(*at, words[i]))) return words;
+    if (!(at = find_command(*at, words[i]))) return words;
   std::rotate(words.begin(), words.end() - 1, words.end());
   return words;
 }
 
-void add_help(Command app, Action& action) {
+void add_help(CLI::App& app, Action& action) {
   auto words = std::make_shared<std::vector<std::string>>();
-  Command sub = app.subcommand("help", "what a command takes, or what all of them share",
-                               "sinew help identify static\n  sinew help units");
+  CLI::App& sub = subcommand(app, "help", "what a command takes, or what all of them share",
+                             "sinew help identify static\n  sinew help units");
   sub.add_option("WORD", *words, "a command, or a topic");
-  sub.callback([=, &action] { action = [=] { return help_or_usage(*words, app.tree()); }; });
+  sub.callback([=, &app, &action] { action = [=, &app] { return help(*words, app); }; });
 }
 
 }  // namespace sinew::cli

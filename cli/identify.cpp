@@ -1,9 +1,7 @@
-// cli/identify.cpp - `sinew identify`: from measurements to parameter files.
+// cli/identify.cpp - `sinew identify`: from measurements to parameter files; `sinew force-beam`.
 //
 // The options of a method come from the rows of its settings (identify/task/settings.h), and every
-// method runs through run_method(). Where one differs from the others it has an overload.
-#include "cli/identify.h"
-
+// method runs through run_method(). A method that differs from the others has an overload.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,16 +9,19 @@
 #include <fstream>
 #include <memory>
 
-#include "cli/setting_options.h"
+#include "cli/command.h"
+#include "cli/option_groups.h"
 #include "cli/settings.h"
-#include "cli/table_options.h"
 #include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/side_by_side.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/page/fit_page.h"
+#include "sinew/identify/task/found_text.h"
+#include "sinew/identify/task/inputs.h"
+#include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/json/json.h"
 #include "sinew/recording/stated.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/files.h"
@@ -30,27 +31,37 @@ namespace sinew::cli {
 
 namespace {
 
+// A file that --force replaces: one that contains `mark`, blanks not counted. Other files stay,
+// such as measurements of another origin.
+struct Replaceable {
+  std::string_view what, name;  // "page of `sinew identify`", "such a page"
+  std::string_view mark;
+  std::string_view ending = "";  // recommended, ".csv"
+  std::string_view otherwise = "another one";
+};
 constexpr Replaceable page_file{"page of `sinew identify`", "such a page", "\"sinew.fit/", "",
                                 "another one, or --no-report"};
 constexpr Replaceable parameter_file{"parameter file", "a parameter file", "format=\"sinew.",
                                      ".toml"};
 constexpr Replaceable plan_file{"plan", "a plan", "#Planof`sinewidentifyplan`", ".csv"};
+constexpr Replaceable template_file{"template of `sinew identify`", "a template",
+                                    "#For`sinewidentify", ".csv"};
 
-// How files of measurements are read.
+// Options for reading files of measurements.
 struct DataOptions {
   std::vector<std::string> files;
   TableOptions table;
-  std::string template_file;  // of the help alone: see with_columns_first()
+  identify::Source how;  // the settings of table options
   std::string atmosphere = "14.7 psi";
 };
 
-// What is done with a result.
-struct ResultOptions {
+// Options for printing and writing a result.
+struct ResultOptions : Flags {
   std::string out;     // the parameter file
   std::string beside;  // another file that some methods write
-  std::string report;  // the page; empty: beside `out`
-  std::string units;   // of what is printed; empty: the method's own
-  bool json = false, force = false, quiet = false, no_report = false;
+  std::string report;  // the page; empty: next to `out`
+  std::string units;   // for printing; empty: the method's own
+  bool no_report = false;
 };
 
 // All of one method.
@@ -61,66 +72,41 @@ struct Options {
   Settings settings;
 };
 
-// The help of a method's outputs; without a text it has no such option.
-struct OutputHelp {
-  std::string_view out, force, json, quiet, units;
-  bool page = true;
-};
-constexpr std::string_view units_help = "of what is printed, else SI; --json and files are in SI";
-constexpr OutputHelp usual_help{
-    "the parameter file to write", "replace the parameter file and the page",
-    "print the report as JSON", "only the report and errors", units_help};
-constexpr OutputHelp creep_help{"", "replace the page", "print the report as JSON",
-                                "only the report and errors", units_help};
-constexpr OutputHelp check_help{"", "", "print all of it as JSON", "", "", false};
-constexpr OutputHelp scale_help{"the new actuator's file",
-                                "replace an old file",
-                                "print it as JSON, in SI",
-                                "only the result and errors",
-                                "",
-                                false};
-constexpr OutputHelp plan_help{"FILE.csv: a row for each reading, to fill in",
-                               "replace it",
-                               "print the plan as JSON",
-                               "only the plan and errors",
-                               "of what is printed, else mm and kPa; --json is in SI",
-                               false};
-
-// Holds the parts of a method's help that are not its settings.
+// Holds the parts of a method's help that are not its settings, and which outputs it has.
 struct MethodHelp {
-  std::string_view method;
-  OutputHelp outputs;
-  std::string_view example;
+  std::string_view method, example;
+  std::string_view out = "the parameter file to write";  // empty: it writes none
+  bool page = true, units = true;
 };
 constexpr MethodHelp methods[] = {
-    {"geometry", usual_help, "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\""},
-    {"sensor", usual_help,
-     "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml"},
-    {"dynamic", usual_help,
+    {"geometry", "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\""},
+    {"sensor", "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml"},
+    {"dynamic",
      "sinew identify dynamic a.csv b.csv --actuator robots/leg/actuator.toml --mass \"6 lb,11 lb\" "
      "--pressure \"60 psi gauge,80 psi gauge\" --external-volume \"0.114 in3\" -o bpa.toml"},
-    {"joint", usual_help,
+    {"joint",
      "sinew identify joint knee.csv --actuator robots/leg/actuator.toml --load \"5 lb\" --lever "
      "\"6 in\" --rest-angle \"310 deg\" --joint knee --base robots/leg/robot.toml -o mine.toml"},
-    {"pair", usual_help,
-     "sinew identify pair moved.csv --hold-out \"7 s..\" --freeze \"delay=0 s\""},
-    {"valve", usual_help, "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml"},
-    {"static", usual_help,
+    {"pair", "sinew identify pair moved.csv --hold-out \"7 s..\" --freeze \"delay=0 s\""},
+    {"valve", "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml"},
+    {"static",
      "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
      "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\" -o my-actuator.toml"},
-    {"creep", creep_help, "sinew identify creep hold.csv"},
-    {"check", check_help,
+    {"creep", "sinew identify creep hold.csv", ""},
+    {"check",
      "sinew identify check map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
-     "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\""},
-    {"scale", scale_help,
-     "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml"},
-    {"run", usual_help,
+     "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\"",
+     "", false, false},
+    {"scale", "sinew identify scale my-actuator.toml --rest-length \"120 mm\" -o short.toml",
+     "the new actuator's file", false, false},
+    {"run",
      "sinew run experiments/one-joint.toml -o runs/bench\n  sinew identify run runs/bench --base "
      "robots/one-joint/robot.toml -o mine.toml\n  sinew identify run runs/bench --fit "
      "friction,valve.inlet.closing_delay --hold-out \"30 %\""},
-    {"plan", plan_help,
+    {"plan",
      "sinew identify plan --rest-length \"250 mm\" --diameter \"10 mm\" --pressure \"600 kPa "
-     "gauge\" --error \"2 %\" -o plan.csv\n  sinew identify plan forces.csv --error \"1.5 %\""},
+     "gauge\" --error \"2 %\" -o plan.csv\n  sinew identify plan forces.csv --error \"1.5 %\"",
+     "FILE.csv: a row for each reading, to fill in", false},
 };
 
 // --- the options of a line ---
@@ -137,46 +123,41 @@ struct NeedsOut : identify::RowVisitor<NeedsOut> {
   void row(const Row& row, const auto&) const { (void)row; }
 };
 
-void add_data_options(Command sub, identify::Tables tables, DataOptions& options) {
+void add_data_options(CLI::App& sub, identify::Tables tables, DataOptions& options) {
   if (tables == identify::Tables::none) return;
   sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run")
-      .required(tables == identify::Tables::needed);
-  add_table_options(sub, options.table);
-  sub.add_option("--template", options.template_file,
-                 "FILE.csv: writes a table to fill in, without DATA; --columns alone lists its "
-                 "columns");
-  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
+      ->required(tables == identify::Tables::needed);
+  add_table_options(sub, options.table, options.how);
+  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
+      ->capture_default_str();
 }
 
-void add_outputs(Command sub, const OutputHelp& help, ResultOptions& result) {
-  const auto flag = [&](const char* name, bool& value, std::string_view text) {
-    if (!text.empty()) sub.add_flag(name, value, std::string(text));
-  };
+void add_outputs(CLI::App& sub, const MethodHelp& help, ResultOptions& result) {
   if (!help.out.empty()) sub.add_option("-o,--out", result.out, std::string(help.out));
-  flag("--force", result.force, help.force);
-  flag("--json", result.json, help.json);
-  flag("--quiet", result.quiet, help.quiet);
+  add_flags(sub, result,
+            help.page          ? "replace the files"
+            : help.out.empty() ? ""
+                               : "replace the file",
+            "print the result as JSON, in SI", "only the result and errors");
   result.no_report = !help.page;
   if (help.page) {
-    Option page =
+    CLI::Option* page =
         sub.add_option("--report", result.report,
-                       "FILE.html: a page with the data beside the models; absent: beside --out");
-    sub.add_flag("--no-report", result.no_report, "no page").excludes(page);
+                       "FILE.html: a page with the data and the models; absent: beside --out");
+    sub.add_flag("--no-report", result.no_report, "no page")->excludes(page);
   }
-  if (!help.units.empty()) add_units(sub, result.units, std::string(help.units));
+  if (help.units)
+    add_units(sub, result.units, "of what is printed, else the method's own; files are in SI");
 }
 
 // Adds a second file that a method writes.
 template <class Settings>
-void add_beside(Command, Options<Settings>&) {}
-
-void add_beside(Command sub, Options<identify::JointSettings>& options) {
-  sub.add_option("--actuator-out", options.result.beside, "the actuator's file to write");
-}
-
-void add_beside(Command sub, Options<identify::ValveSettings>& options) {
-  sub.add_option("--predict-dat", options.result.beside,
-                 "FILE for the duties' opening and closing ticks, compensated for the delays");
+void add_beside(CLI::App& sub, const Settings&, std::string& file) {
+  if constexpr (std::is_same_v<Settings, identify::JointSettings>)
+    sub.add_option("--actuator-out", file, "the actuator's file to write");
+  if constexpr (std::is_same_v<Settings, identify::ValveSettings>)
+    sub.add_option("--predict-dat", file,
+                   "FILE for the duties' opening and closing ticks, compensated for the delays");
 }
 
 // Refuses options that do not go together, as wrong usage.
@@ -196,17 +177,9 @@ void refuse_together(const Options<identify::GeometrySettings>& options) {
 
 // --- tables ---
 
-// "force=F_N"
-void add_pair(std::string_view option, const std::string& text,
-              std::map<std::string, std::string>& pairs) {
-  const std::size_t equals = text.find('=');
-  if (equals == text.npos || equals == 0 || equals + 1 == text.size())
-    config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "name=value");
-  pairs[text.substr(0, equals)] = text.substr(equals + 1);
-}
-
-// "force=F_N,length=Lage, mm": a comma parts two pairs where a pair follows; else a name has it.
-std::vector<std::string> pairs_of(const std::vector<std::string>& texts) {
+// Returns the texts of "force=F_N,length=Lage, mm": a comma separates two pairs where a pair
+// follows; else it is of a name.
+std::vector<std::string> split_pairs(const std::vector<std::string>& texts) {
   std::vector<std::string> out;
   for (const std::string& text : texts) {
     bool is_first = true;
@@ -228,12 +201,16 @@ std::vector<std::string> pairs_of(const std::vector<std::string>& texts) {
 // for what is no name=value, and for a --value of no file.
 std::vector<identify::Source> sources_of(const DataOptions& options,
                                          const std::vector<std::string>& held_out = {}) {
-  identify::Source how;
+  identify::Source how = options.how;
   const TableOptions& table = options.table;
-  for (const std::string& map : pairs_of(table.maps)) add_pair("--map", map, how.names);
-  for (const std::string& unit : table.units) add_pair("--unit", unit, how.units);
-  for (const std::string& where : table.where) add_pair("--where", where, how.where);
-  for (const std::string& offset : table.offsets) add_pair("--offset", offset, how.offsets);
+  const auto take = [](const char* option, const std::vector<std::string>& texts,
+                       std::map<std::string, std::string>& into) {
+    for (const auto& [name, value] : pairs_of(option, texts)) into[name] = value;
+  };
+  take("--map", split_pairs(table.maps), how.names);
+  take("--unit", table.units, how.units);
+  take("--where", table.where, how.where);
+  take("--offset", table.offsets, how.offsets);
   how.values = table.values;
   std::vector<std::string> files = options.files;
   for (const std::string& text : held_out)  // or the words of a rule, "level"
@@ -241,13 +218,6 @@ std::vector<identify::Source> sources_of(const DataOptions& options,
   recording::check_stated(how.values, files);
   how.columns = config::at_commas(table.columns);
   how.rate = table.rate;
-  how.drop_incomplete = table.settings.drop_incomplete;
-  how.encoding = table.settings.encoding;
-  how.decimal = table.settings.decimal;
-  how.thousands = table.settings.thousands;
-  how.dates = table.settings.dates;
-  how.spread_times = table.settings.spread_times;
-  how.part = table.settings.part;
   how.atmosphere = identify::atmosphere_setting(options.atmosphere);
   return identify::sources_of(options.files, how);
 }
@@ -281,6 +251,21 @@ std::string page_of(const ResultOptions& options) {
   return std::filesystem::path(options.out).replace_extension(".html").string();
 }
 
+// Throws config::Error for a file that exists already, before the work begins; with `force` only if
+// the file is not replaceable or one of `inputs`.
+void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
+                       const std::vector<std::string>& inputs = {}) {
+  run::refuse_to_overwrite(path, force, {inputs.begin(), inputs.end()}, old.ending);
+  if (!std::filesystem::exists(path) || log::is_written_directly(path)) return;
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::erase(text, ' ');
+  if (text.find(old.mark) == text.npos)
+    config::fail({path, 0, 0}, "", fmt::format("something that is no {}", old.what),
+                 fmt::format("a name that is free, or that of {}", old.name),
+                 std::string(old.otherwise));
+}
+
 // Refuses files that exist already, before the work begins.
 void check_outputs(const ResultOptions& options, const Replaceable& out = parameter_file,
                    const std::vector<std::string>& inputs = {}) {
@@ -309,16 +294,11 @@ std::string file_of_muscle(const std::string& out, const identify::StaticMuscle&
 
 // Refuses the second file of a method where it exists already.
 template <class Settings>
-void check_beside(const Options<Settings>&) {}
-
-void check_beside(const Options<identify::JointSettings>& options) {
-  if (!options.result.beside.empty())
-    refuse_to_replace(options.result.beside, options.result.force, parameter_file);
-}
-
-void check_beside(const Options<identify::ValveSettings>& options) {
+void check_beside(const Options<Settings>& options) {
   const std::string& file = options.result.beside;
   if (file.empty()) return;
+  if (std::is_same_v<Settings, identify::JointSettings>)
+    return refuse_to_replace(file, options.result.force, parameter_file);
   run::refuse_to_overwrite(file, options.result.force);
   identify::refuse_fitted(sources_of(options.data), "predict_dat", file);
 }
@@ -385,32 +365,7 @@ void print_messages(const Found& found, const Messages& messages) {
   }
 }
 
-template <class Found>
-bool is_ok(const Found&) {
-  return true;
-}
-// So that a script stops.
-bool is_ok(const identify::Checkup& found) { return !identify::has_red(found.checks); }
-
-// Prints the report, if there is one, and what the method adds. Of several sensors it is a table.
-template <class Found>
-void print(const Found& found, const PrintOptions& how) {
-  const std::vector<const identify::Report*> reports = identify::reports_of(found);
-  const bool several = std::is_same_v<Found, identify::SensorFound> && reports.size() > 1;
-  if (!reports.empty() && !several) print_report(*reports[0], how);
-  print_more(found, how);
-  if (!reports.empty() && !several) print_unseen(*reports[0]);
-}
-
 // --- a method from its options to its files ---
-
-// Calls `find` with a counter of laws that have been tried, and shows it on a terminal.
-template <class Find>
-auto watched(std::size_t laws, bool quiet, const Find& find) {
-  host::Tally tried = 0;
-  const ProgressBar bar(tried, static_cast<std::int64_t>(laws), {.unit = "laws"}, quiet);
-  return find(tried);
-}
 
 template <class Settings>
 auto find(const Options<Settings>& options, const identify::MethodRow& row) {
@@ -419,10 +374,11 @@ auto find(const Options<Settings>& options, const identify::MethodRow& row) {
   if (row.tables != identify::Tables::none)
     sources = sources_of(options.data, held_out_by(settings));
   if constexpr (requires { settings.tried; }) {
-    return watched(row.laws, options.result.quiet, [&](host::Tally& tried) {
-      settings.tried = &tried;
-      return identify::find(sources, settings);
-    });
+    host::Tally tried = 0;
+    const ProgressBar bar(tried, static_cast<std::int64_t>(row.laws), {.unit = "laws"},
+                          options.result.quiet);
+    settings.tried = &tried;
+    return identify::find(sources, settings);
   } else {
     constexpr bool reports_progress = requires { settings.progress; };
     if constexpr (reports_progress)
@@ -496,54 +452,116 @@ ExitCode run_method(const Options<Settings>& options, const identify::MethodRow&
   if (options.result.json)
     fmt::print("{}\n", identify::to_json(*found).text(2));
   else
-    print(*found, {options.result.units, identify::atmosphere_setting(data.atmosphere)});
+    fmt::print("{}",
+               as_options(identify::text_of(
+                   *found, {chosen_units(options.result.units, units::UnitSet::si),
+                            identify::atmosphere_setting(data.atmosphere), width_of_output()})));
   if (const std::string why = identify::refused(*found); !why.empty()) {
     error(why);
     return failed;
   }
-  return is_ok(*found) ? ok : failed;
+  if constexpr (requires { found->checks; })  // so that a script stops
+    return identify::has_red(found->checks) ? failed : ok;
+  return ok;
 }
 
 template <class Settings>
-void add_method(Command identify, Action& action) {
+void add_method(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options<Settings>>();
   const identify::MethodRow row = identify::SettingList(options->settings).of;
   const MethodHelp& help = *std::ranges::find(methods, row.name, &MethodHelp::method);
-  Command sub =
-      identify.subcommand(std::string(row.name), std::string(row.doc), std::string(help.example));
+  CLI::App& sub =
+      subcommand(app, std::string(row.name), std::string(row.doc), std::string(help.example));
   add_data_options(sub, row.tables, options->data);
   SettingOptions rows(sub);
   fields(rows, options->settings);
-  add_beside(sub, *options);
-  add_outputs(sub, help.outputs, options->result);
+  add_beside(sub, options->settings, options->result.beside);
+  add_outputs(sub, help, options->result);
   sub.callback([options, row, &action] {
     refuse_together(*options);
     action = [options, row] { return run_method(*options, row); };
   });
 }
 
-}  // namespace
+// --- columns ---
 
-void refuse_to_replace(const std::string& path, bool force, const Replaceable& old,
-                       const std::vector<std::string>& inputs) {
-  run::refuse_to_overwrite(path, force, {inputs.begin(), inputs.end()}, old.ending);
-  if (!std::filesystem::exists(path) || log::is_written_directly(path)) return;
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::erase(text, ' ');
-  if (text.find(old.mark) == text.npos)
-    config::fail({path, 0, 0}, "", fmt::format("something that is no {}", old.what),
-                 fmt::format("a name that is free, or that of {}", old.name),
-                 std::string(old.otherwise));
+struct ColumnsOptions : Flags {
+  std::string method, kind, file;
+};
+
+ExitCode run_columns(const ColumnsOptions& options) {
+  const identify::MethodInputs& inputs = identify::inputs_of(options.method);
+  const std::string text = identify::template_of(inputs, options.kind);  // refuses an unknown kind
+  if (options.file.empty()) {
+    fmt::print("{}", options.json ? to_json(inputs).text(2) + "\n"
+                                  : as_options(identify::text_of(inputs)));
+    return ok;
+  }
+  refuse_to_replace(options.file, options.force, template_file);
+  run::write_file(options.file, text);
+  Messages(options.quiet).note(fmt::format("{}: written", options.file));
+  return ok;
 }
 
-void add_identify(Command app, Action& action) {
-  Command sub = app.subcommand("identify", "from measurements to parameter files",
-                               "sinew identify geometry mesh.csv -o my-actuator.toml");
+void add_columns(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "columns", "which columns a method reads, and a table to fill in",
+                             "sinew identify columns static --template forces.csv");
+  ColumnsOptions& options = runs(sub, action, run_columns);
+  std::vector<std::string> names;
+  for (const identify::MethodInputs& inputs : identify::method_inputs())
+    names.emplace_back(inputs.method);
+  sub.add_option("METHOD", options.method, "of sinew identify")->required()->check(one_of(names));
+  sub.add_option("--kind", options.kind, "of table, where a method takes several: chart");
+  sub.add_option("--template", options.file, "FILE.csv: a table to fill in");
+  add_flags(sub, options, "replace the file", "print as JSON");
+}
+
+// --- force-beam ---
+
+struct ForceBeamOptions : Flags {
+  identify::TransducerSettings settings;
+  std::string units;
+};
+
+ExitCode run_force_beam(const ForceBeamOptions& options) {
+  const identify::Transducer s = transducer_of(options.settings);
+  const std::optional<double> wanted = wanted_sensitivity(options.settings);
+  if (options.json) {
+    fmt::print("{}\n", json_of(s, wanted));
+    return ok;
+  }
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  fmt::print("{}", text_of(s, shown));
+  if (wanted)
+    fmt::print("\n{} with the gages, from the load:\n{}", options.settings.sensitivity,
+               text_of_places(s, *wanted, shown));
+  for (const std::string& doubt : doubts(s)) Messages(options.quiet).warning(doubt);
+  return ok;
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "identify", "from measurements to parameter files",
+                             "sinew identify geometry mesh.csv -o my-actuator.toml");
   sub.require_subcommand();
   identify::for_each_method(
       [&]<class Settings>(const Settings&) { add_method<Settings>(sub, action); });
-  add_identify_columns(sub, action);
+  add_columns(sub, action);
+}
+
+void add_force_beam(CLI::App& app, Action& action) {
+  identify::TransducerSettings named;
+  const identify::MethodRow row = identify::SettingList(named).of;
+  CLI::App& sub =
+      subcommand(app, std::string(row.name), std::string(row.doc),
+                 "sinew force-beam --load \"20 lbf\" --gain 400 --sensitivity \"0.1 V/lbf\"");
+  ForceBeamOptions& options = runs(sub, action, run_force_beam);
+  SettingOptions rows(sub);
+  fields(rows, options.settings);
+  add_units(sub, options.units, "of what is printed, else SI and inches; --json is in SI");
+  add_flags(sub, options, "", "as JSON, SI");
 }
 
 }  // namespace sinew::cli

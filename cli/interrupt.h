@@ -1,17 +1,19 @@
-// cli/interrupt.h - Ctrl-C, SIGTERM and a terminal that closes as a wish, while something is to be
-// brought to an end first.
+// cli/interrupt.h - Ctrl-C, SIGTERM, a terminal that closes and the space bar as requests to stop,
+// so that work is completed first.
 #pragma once
 
 #include <signal.h>
 
 #include <array>
 #include <atomic>
+#include <functional>
+#include <thread>
 
 namespace sinew::cli {
 
-// While it lives, the first of these signals only sets asked(). A second one ends the program as if
-// nobody had listened; where a machine is driven only after ten seconds, in which it is brought to
-// rest, and Ctrl-Z and Ctrl-\ are signals like the others. One of them lives at a time.
+// During its lifetime the first of these signals only sets asked(). A second one ends the program
+// by the signal's default; where a machine is driven only after ten seconds, in which the machine
+// is stopped, and Ctrl-Z and Ctrl-\ are handled alike. At most one object exists at a time.
 class Interrupt {
  public:
   enum class Of { work, machine };
@@ -29,8 +31,23 @@ class Interrupt {
   std::size_t count_ = 0;
 };
 
-// A file that may not grow further is an error of write(), which is told, and not this program's
-// death.
+// During its lifetime the space bar calls `stop`, and so does a terminal that closes; without
+// effect where stdin is no terminal. The terminal's mode is restored.
+class SpaceBar {
+ public:
+  explicit SpaceBar(std::function<void()> stop);
+  ~SpaceBar();
+  SpaceBar(const SpaceBar&) = delete;
+  SpaceBar& operator=(const SpaceBar&) = delete;
+
+  bool listens() const { return thread_.joinable(); }
+
+ private:
+  int end_[2] = {-1, -1};  // a pipe that ends the thread
+  std::thread thread_;
+};
+
+// Makes a file that may not grow further an error of write() instead of the end of this program.
 void survive_file_limits();
 
 }  // namespace sinew::cli

@@ -1,13 +1,14 @@
-// cli/main.cpp - the program `sinew`: understands the command line and runs one subcommand.
+// cli/main.cpp - the program `sinew`: reads the command line and runs one subcommand.
 //
-// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage, to
-// which a wrong value behind an option belongs.
+// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage;
+// a wrong value of an option is wrong usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,17 +17,16 @@
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/settings.h"
-#include "cli/shipped_files.h"
 #include "cli/terminal.h"
-#include "cli/usage.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/files/shipped.h"
 
 namespace {
 
 using namespace sinew;
 
-// Returns the error's words. Where a robot was given in place of an experiment, they name the
-// command that makes an experiment from a robot, with its option, which the library does not have.
+// Returns the error's text. Where a robot was given in place of an experiment, it names the command
+// that makes an experiment from a robot; the library has no commands.
 std::string words_of(const std::exception& e) {
   const auto* file = dynamic_cast<const config::Error*>(&e);
   if (!file || file->problems().size() != 1) return e.what();
@@ -54,75 +54,90 @@ cli::ExitCode run_safely(const cli::Action& action) {
 // The commands, in the order of `sinew help commands`.
 struct Entry {
   std::string_view name;
-  void (*add)(cli::Command program, cli::Action& action);
+  cli::Add* add;
 };
+// clang-format off
 constexpr Entry commands[] = {
-    {"run", cli::add_run},
-    {"analyze", cli::add_analyze},
-    {"report", cli::add_report},
-    {"view", cli::add_view},
-    {"bring-up", cli::add_bring_up},
-    {"firmware", cli::add_firmware},
-    {"compare", cli::add_compare},
-    {"export", cli::add_export},
-    {"import", cli::add_import},
-    {"replay", cli::add_replay},
-    {"sweep", cli::add_sweep},
-    {"tune", cli::add_tune},
-    {"merge", cli::add_merge},
-    {"sensitivity", cli::add_sensitivity},
-    {"show", cli::add_show},
-    {"keys", cli::add_keys},
-    {"check", cli::add_check},
-    {"migrate", cli::add_migrate},
-    {"actuator", cli::add_actuator},
-    {"valve", cli::add_valve},
-    {"kinematics", cli::add_kinematics},
-    {"identify", cli::add_identify},
-    {"figures", cli::add_figures},
-    {"film", cli::add_film},
-    {"fmu", cli::add_fmu},
-    {"force-beam", cli::add_force_beam},
-    {"doctor", cli::add_doctor},
-    {"list", cli::add_list},
-    {"new", cli::add_new},
-    {"completion", cli::add_completion},
+    {"run", cli::add_run},                 {"analyze", cli::add_analyze},
+    {"report", cli::add_report},           {"view", cli::add_view},
+    {"bring-up", cli::add_bring_up},       {"firmware", cli::add_firmware},
+    {"compare", cli::add_compare},         {"export", cli::add_export},
+    {"import", cli::add_import},           {"replay", cli::add_replay},
+    {"sweep", cli::add_sweep},             {"tune", cli::add_tune},
+    {"merge", cli::add_merge},             {"sensitivity", cli::add_sensitivity},
+    {"show", cli::add_show},               {"keys", cli::add_keys},
+    {"check", cli::add_check},             {"migrate", cli::add_migrate},
+    {"actuator", cli::add_actuator},       {"valve", cli::add_valve},
+    {"kinematics", cli::add_kinematics},   {"identify", cli::add_identify},
+    {"figures", cli::add_figures},         {"film", cli::add_film},
+    {"fmu", cli::add_fmu},                 {"force-beam", cli::add_force_beam},
+    {"doctor", cli::add_doctor},           {"list", cli::add_list},
+    {"new", cli::add_new},                 {"completion", cli::add_completion},
     {"help", cli::add_help},
 };
+// clang-format on
 
-// What the program understands, with all commands or only one.
+// The description of the command line, with all commands or only one.
 struct Program {
   CLI::App app{
       "Sinew simulates, identifies, tunes and controls robots with braided pneumatic muscles."};
-  cli::Command command{app};
-  cli::Action action;  // of the line that was parsed
+  cli::Action action;  // given by the parsed line
 
   explicit Program(std::string_view only = "") {
     app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
     app.set_help_flag("-h,--help", "this text");
     app.require_subcommand(1);
-    command.shows_help(cli::help_of);
+    app.formatter(std::make_shared<cli::Help>());
     for (const Entry& entry : commands)
-      if (only.empty() || entry.name == only) entry.add(command, action);
+      if (only.empty() || entry.name == only) entry.add(app, action);
+    cli::complete_description(app);
   }
   Program(const Program&) = delete;  // the commands hold references to `action`
 
-  // Throws CLI::ParseError if the words are not understood, or ask for help or the version.
+  // Throws CLI::ParseError if the words are not understood, or request the help or the version.
   void parse(std::vector<std::string> words) {
-    words = cli::with_help_first(std::move(words), command.tree());
-    words = cli::with_columns_first(std::move(words));
+    words = cli::with_help_first(std::move(words), app);
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(std::move(words));
   }
 };
 
-// Returns the command that the line names first if all that the line can need is that command's
-// options, else "". To build the options of all commands takes 12 ms, as long as a short command
+// Returns the command that the line names first if the line can only need the options of that
+// command, else "". Adding the options of all commands takes 12 ms, as long as a short command
 // runs.
 std::string_view only_command(const std::vector<std::string>& words) {
   if (words.empty() || words.back() == "help") return "";
   const auto it = std::ranges::find(commands, words.front(), &Entry::name);
   return it == std::end(commands) || it->name == "help" || it->name == "completion" ? "" : it->name;
+}
+
+bool could_be_shipped(const std::string& word) {
+  constexpr const char* folders[] = {"robots/", "experiments/", "studies/", "data/"};
+  std::error_code none;
+  return std::ranges::any_of(folders, [&](const char* f) { return word.starts_with(f); }) &&
+         !std::filesystem::exists(word, none);
+}
+
+// Returns the words of a line with names that help and `sinew list` show, such as
+// "experiments/walk-test-1.toml", as paths of Sinew's own files, where the current folder has no
+// file of that name. A file that a command writes keeps its name: what follows --output, --out or
+// -o, and the words of `new` and `migrate`.
+std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
+  constexpr std::string_view kept[] = {"new", "migrate", "help", "completion"};
+  if (words.empty() || std::ranges::find(kept, words[0]) != std::end(kept)) return words;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string& before = words[i - 1];
+    if (before == "-o" || before == "--output" || before == "--out" || !could_be_shipped(words[i]))
+      continue;
+    try {
+      std::error_code none;
+      const std::filesystem::path own = files::shipped_folder() / words[i];
+      if (std::filesystem::is_regular_file(own, none)) words[i] = own.string();
+    } catch (const config::Error&) {
+      return words;  // nothing is installed near the program: the command names what is missing
+    }
+  }
+  return words;
 }
 
 }  // namespace
@@ -131,7 +146,7 @@ int main(int argc, char** argv) {
   cli::fill_closed_streams();
   cli::survive_file_limits();
   const std::vector<std::string> words =
-      cli::with_shipped_files(std::vector<std::string>(argv + 1, argv + argc));
+      with_shipped_files(std::vector<std::string>(argv + 1, argv + argc));
   Program program(only_command(words));
   try {
     program.parse(words);
@@ -139,7 +154,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return program.app.exit(e);
   }
-  // What was meant may be an option of another command, therefore the message needs all of them.
+  // The message names other commands with that option, and therefore needs all commands.
   Program whole;
   try {
     whole.parse(words);

@@ -17,44 +17,33 @@ struct Renamed {
 constexpr Renamed renamed[] = {
     {"names", "map"}, {"units", "unit"}, {"values", "value"}, {"offsets", "offset"}};
 
-// The settings that messages of the library name. A word that is not here stays a word: "time=0" is
-// no option.
+// Settings that messages of the library name with a value. Other words stay: "time=0" is no option.
 constexpr std::string_view settings =
-    " actuator added_volume align anyway base bits candidate columns conductance dates "
-    "decimal diameter down drop_incomplete "
-    "encoding exponent external_volume flexion flexor_length force frequency full_scale hold_out "
-    "keep_force known label largest law_error lever load machine model moment_arm names offsets "
-    "only "
-    "part "
-    "per_volume points port pressure range rate report rest rest_length root sensors shard "
-    "spread_times thousands units values vary volume where ";
+    " actuator added_volume align anyway base bits candidate columns conductance dates decimal "
+    "diameter down drop_incomplete encoding exponent external_volume flexion flexor_length "
+    "force frequency full_scale hold_out keep_force known label largest law_error lever load "
+    "machine model moment_arm names offsets only part per_volume points port pressure range "
+    "rate report rest rest_length root sensors shard spread_times thousands units values vary "
+    "volume where ";
 
-// Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
-// line of it. What has a line is a key of that file.
+// Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
+// What has a line number is a key of that file.
 constexpr std::string_view subjects =
-    " candidate freeze known model names offsets part points prior range report rigs sensors shard "
-    "tie "
-    "units "
-    "values vary where ";
+    " candidate freeze known model names offsets part points prior range report rigs sensors "
+    "shard tie units values vary where ";
 
-// Settings that are so at the begin of a line alone: a file may have a column of that name.
+// Settings that can be the subject at the begin of a line alone: a file may have such a column.
 constexpr std::string_view quantities =
-    " added_volume align align_by atmosphere base bits branch bridge channels clock "
+    " added_volume align align_by angles atmosphere base bits branch bridge channels clock "
     "concentration conductance count criterion dates decimal diameter down encoding error "
-    "event excitation exponent extensor_length external_volume fit "
-    "fit_where flexion "
-    "flexor_length font fps frequency from full_scale gage_factor gages gain height "
-    "hold_out kind "
-    "label law_error length length_error lever limb limb_lever load longest lowest machine mass "
-    "modulus moment_arm most mount_time name noise output poisson predict "
-    "port predict_dat pressure prior rate reading rest rest_angle rest_length sensitivity shortest "
-    "side "
-    "speed "
-    "step_time "
-    "temperature "
-    "thousands thread_thickness threads title to trapezoids volume width window within yield ";
+    "event excitation exponent extensor_length external_volume fit fit_where flexion "
+    "flexor_length font foot force fps frequency from full_scale gage_factor gages gain "
+    "height hold_out kind label law_error length length_error lever limb limb_lever load "
+    "longest lowest machine mass modulus moment_arm most mount_time name noise output poisson "
+    "port predict predict_dat pressure prior rate reading rest rest_angle rest_length "
+    "sensitivity shortest side speed step_time temperature thousands thread_thickness threads "
+    "title to trapezoids volume width window within yield ";
 
-// Words between blanks, " one two ".
 bool is_one_of(std::string_view word, std::string_view words) {
   return words.find(" " + std::string(word) + " ") != words.npos;
 }
@@ -70,17 +59,15 @@ std::string option_of(std::string_view setting) {
   return out;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 bool begins_a_line(std::string_view before) { return before.empty() || before.ends_with('\n'); }
 
 bool can_be_subject(std::string_view before) {
   if (begins_a_line(before)) return true;
-  return before.size() > 2 && before.ends_with(": ") && !is_digit(before[before.size() - 3]);
+  return before.size() > 2 && before.ends_with(": ") &&
+         std::isdigit(before[before.size() - 3]) == 0;
 }
 
-// Returns the setting that begins at `at` as its option; empty: none does. `taken` is how many
-// letters it stands for.
+// Returns the setting that begins at `at` as its option, "" for none; `taken` is its length.
 std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken) {
   const std::string_view text = whole.substr(at);
   const std::size_t end =
@@ -128,7 +115,7 @@ std::string as_options(std::string_view text) {
 
 bool is_of_option(const std::exception& error) {
   const auto* all = dynamic_cast<const config::Error*>(&error);
-  // "--width: found …", "rig.csv: --part: found …"; what has a line is a mistake of that file.
+  // "--width: found …", "rig.csv: --part: found …"; a problem with a line is of that file.
   const auto of_option = [](const config::Problem& problem) {
     std::string text = as_options(config::to_text(problem));
     const std::string file = problem.where.file + ": ";

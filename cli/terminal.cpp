@@ -36,14 +36,13 @@ std::string in_color(int stream, std::string_view text, std::string_view code) {
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
-// Ignores a stderr that is full or missing: a message that is lost must not end the work it tells
-// of.
+// Ignores a stderr that is full or missing: a lost message must not end the work.
 void to_stderr(std::string_view text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
 
 }  // namespace
 
-// Else the next file that is opened would be taken for the stream. Nothing can be written to the
-// stdout that is put there, so that a result without a place is told of.
+// Otherwise the next file that is opened would get the stream's number. The stdout that is opened
+// here cannot be written, so that a lost result is an error.
 void fill_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0)

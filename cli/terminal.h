@@ -19,44 +19,44 @@ namespace sinew::cli {
 // gets their numbers. Call it before any file is opened.
 void fill_closed_streams();
 
-// An error's words. What the library says of its settings, here and in the messages below, is said
-// of the options they come from (cli/settings.h).
+// Prints an error. Here and in the messages below, settings of the library are named as the options
+// that they come from (cli/settings.h).
 void error(std::string_view text);
 
-// Everything but errors, unless it is to be quiet.
+// Prints warnings and notes, unless it is quiet.
 class Messages {
  public:
   explicit Messages(bool quiet) : quiet_(quiet) {}
 
   void warning(std::string_view text) const;
   void note(std::string_view text) const;
-  run::Notices notices() const;  // the same two, for the library
+  run::Notices notices() const;  // passes them to the library
   bool quiet() const { return quiet_; }
 
  private:
   bool quiet_;
 };
 
-// Letters in a line of stdout; 0 where it is no terminal, and any number will do.
+// Returns the letters in a line of stdout; 0 where it is no terminal.
 std::size_t width_of_output();
 
-// Green for what is as it should be, red for what is not; plain where stdout takes no color.
+// Return the text in green or red; plain where stdout takes no color.
 std::string in_green(std::string_view text);
 std::string in_red(std::string_view text);
 bool output_has_color();
 
-// What one step of a progress bar stands for, as people count.
+// One step of a progress bar, in the unit that is shown.
 struct Steps {
   double each = 1;
   std::string_view unit;
   int decimals = 0;
 };
 
-// Shows how far `now` is on its way to `end` until it is destroyed. Reads, never writes.
+// Shows the progress of `now` to `end` until it is destroyed. Reads, never writes.
 class ProgressBar {
  public:
   ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps, bool quiet);
-  // Shows the seconds of work of which the end is unknown.
+  // Shows the seconds of work whose end is unknown.
   explicit ProgressBar(bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;

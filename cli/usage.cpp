@@ -1,9 +1,10 @@
-#include "cli/usage.h"
-
+// cli/usage.cpp - what is wrong with a line that the program does not understand.
+//
+// CLI11 stops at the first problem and names types and internal terms. Here the line is examined
+// again and every problem is reported: `--untis: found no such option of sinew compare; …`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
 
@@ -14,51 +15,43 @@ namespace sinew::cli {
 
 namespace {
 
-constexpr std::size_t few = 8;            // words that a message may list
-constexpr std::size_t few_commands = 18;  // commands, which are what one came for
+constexpr std::size_t few = 8, few_commands = 18;  // words that a message may list
 
+using Names = std::vector<std::string>;
 using Problems = std::vector<config::Problem>;
 
-config::Problem problem(std::string of, std::string found, std::string expected,
-                        std::string try_this = "") {
-  return {{}, std::move(of), std::move(found), std::move(expected), std::move(try_this)};
+void add(Problems& out, std::string of, std::string found, std::string expected,
+         std::string try_this = "") {
+  out.push_back({{}, std::move(of), std::move(found), std::move(expected), std::move(try_this)});
 }
 
-// The last command that the line names.
-const CLI::App& asked(const CLI::App& program) {
+// Returns the last command that the line names.
+const CLI::App& command_of(const CLI::App& program) {
   const CLI::App* at = &program;
   while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
   return *at;
 }
 
-// The command's own options, and those of its groups.
-std::vector<const CLI::Option*> options_of(const CLI::App& command) {
-  std::vector<const CLI::Option*> out = command.get_options();
-  for (const CLI::App* group :
-       command.get_subcommands([](const CLI::App* a) { return a->get_name().empty(); }))
-    for (const CLI::Option* option : group->get_options()) out.push_back(option);
-  return out;
-}
-
-std::vector<std::string> names_of_options(const CLI::App& command) {
-  std::vector<std::string> out;
+Names names_of_options(const CLI::App& command) {
+  Names out;
   for (const CLI::Option* option : options_of(command))
-    for (const std::string& name : shape_of(*option).names) out.push_back(name);
+    for (const std::string& name : names_of(*option)) out.push_back(name);
   return out;
 }
 
-std::vector<std::string> names_of_commands(const CLI::App& command) {
-  std::vector<std::string> out;
-  for (const CLI::App* sub :
-       command.get_subcommands([](const CLI::App* a) { return !a->get_name().empty(); }))
-    out.push_back(sub->get_name());
+Names names_of_commands(const CLI::App& command) {
+  Names out;
+  for (const CLI::App* sub : commands_of(command)) out.push_back(sub->get_name());
   return out;
 }
 
-std::string one_of(const std::vector<std::string>& names, const std::string& else_words,
-                   std::size_t most = few) {
-  if (names.size() > most) return else_words;
+std::string listed(const Names& names, const char* where_many, std::size_t most) {
+  if (names.size() > most) return where_many;
   return config::either({names.begin(), names.end()});
+}
+
+std::string listed_commands(const Names& names) {
+  return listed(names, "one that its help names", few_commands);
 }
 
 std::string_view without_dashes(std::string_view name) {
@@ -66,9 +59,9 @@ std::string_view without_dashes(std::string_view name) {
   return name;
 }
 
-// The option that was likely meant: one that differs by a few letters, or begins as the word does.
+// Returns the option that was likely meant: one that differs by a few letters, or begins alike.
 std::string near_option(std::string_view word, const CLI::App& command) {
-  const std::vector<std::string> names = names_of_options(command);
+  const Names names = names_of_options(command);
   const std::string_view bare = without_dashes(word);
   std::vector<std::string_view> candidates;
   for (const std::string& name : names)
@@ -82,140 +75,124 @@ std::string near_option(std::string_view word, const CLI::App& command) {
   return "";
 }
 
-// Where else there is an option of that name: "an option of sinew new".
-void find_owners(const CLI::App& at, const std::string& name, std::vector<std::string>& out) {
+// Adds the commands that have an option of that name.
+void find_owners(const CLI::App& at, const std::string& name, Names& out) {
   if (std::ranges::count(names_of_options(at), name) > 0) out.push_back(words_to(at));
-  for (const CLI::App* sub :
-       at.get_subcommands([](const CLI::App* a) { return !a->get_name().empty(); }))
-    find_owners(*sub, name, out);
+  for (const CLI::App* sub : commands_of(at)) find_owners(*sub, name, out);
 }
 
-config::Problem unknown_option(std::string word, const CLI::App& command, const CLI::App& program) {
+void add_unknown_option(std::string word, const CLI::App& command, const CLI::App& program,
+                        Problems& out) {
   word = word.substr(0, word.find('='));
   const std::string near = near_option(word, command);
   std::string found = "no such option of " + words_to(command);
-  if (near.empty()) {
-    std::vector<std::string> owners;
-    find_owners(program, word, owners);
-    if (!owners.empty() && owners.size() <= 3)
-      found += fmt::format(", it is one of {}", fmt::join(owners, " and "));
-  }
-  std::vector<std::string> names = names_of_options(command);
+  Names owners;
+  if (near.empty()) find_owners(program, word, owners);
+  if (!owners.empty() && owners.size() <= 3)
+    found += fmt::format(", it is one of {}", fmt::join(owners, " and "));
+  Names names = names_of_options(command);
   std::erase_if(names, [](const std::string& n) { return !n.starts_with("--") || n == "--help"; });
-  return problem(word, found,
-                 names.empty() ? "no option" : one_of(names, "an option that its help names"),
-                 near);
+  add(out, word, found,
+      names.empty() ? "no option" : listed(names, "an option that its help names", few), near);
 }
 
-config::Problem unknown_word(const std::string& word, const CLI::App& command) {
-  const std::vector<std::string> names = names_of_commands(command);
-  if (!names.empty() && command.get_subcommands().empty())
-    return problem(word, "no such command of " + words_to(command),
-                   one_of(names, "one that its help names", few_commands),
-                   std::string(config::closest(word, {names.begin(), names.end()})));
-  const std::string near = near_option(word.substr(0, word.find('=')), command);
+void add_unknown_word(const std::string& word, const CLI::App& command, Problems& out) {
+  const Names names = names_of_commands(command);
+  if (!names.empty())
+    return add(out, word, "no such command of " + words_to(command), listed_commands(names),
+               std::string(config::closest(word, {names.begin(), names.end()})));
   const std::size_t at = word.find('=');
+  const std::string near = near_option(word.substr(0, at), command);
   const std::string value = at == word.npos ? "" : " " + word.substr(at + 1);
-  return problem(word, "a word too many for " + words_to(command),
-                 usage_of(tree_of(command), words_to(command)), near.empty() ? "" : near + value);
+  add(out, word, "a word too many for " + words_to(command), usage_of(command),
+      near.empty() ? "" : near + value);
 }
 
-// Words that no option and no place takes. Behind an unknown option stands, most often, its value.
-void tell_of_leftovers(const CLI::App& command, const CLI::App& program, Problems& out) {
-  const std::vector<std::string> words = command.remaining();
+// Words that are left over. What follows an unknown option is most often its value.
+void add_leftovers(const CLI::App& command, const CLI::App& program, Problems& out) {
+  const Names words = command.remaining();
   for (const std::string& word : words)
     if (word.size() > 1 && word.starts_with('-') && word != "--")
-      out.push_back(unknown_option(word, command, program));
-  if (out.empty() && !words.empty()) out.push_back(unknown_word(words.front(), command));
+      add_unknown_option(word, command, program, out);
+  if (out.empty() && !words.empty()) add_unknown_word(words.front(), command, out);
 }
 
-// Returns the words for a missing option or word, "a file: the robot's".
+// Returns what an option is for, "pdf or svg: the format".
 std::string meaning_of(const CLI::Option& option) {
-  const CommandTree::Shape shape = shape_of(option);
-  std::string out = shape.description;
-  if (!shape.choices.empty()) out = either_of(shape.choices) + ": " + out;
-  return out;
+  const Names choices = choices_of(option);
+  return (choices.empty() ? "" : either_of(choices) + ": ") + option.get_description();
 }
 
-void tell_of_missing(const CLI::App& command, Problems& out) {
+void add_missing(const CLI::App& command, Problems& out) {
   for (const CLI::Option* option : options_of(command))
     if (option->get_required() && option->count() == 0)
-      out.push_back(problem(option->get_name(), "nothing", meaning_of(*option)));
-  for (const CLI::App* group :
-       command.get_subcommands([](const CLI::App* a) { return a->get_name().empty(); })) {
-    std::vector<std::string> all, given;
+      add(out, option->get_name(), "nothing", meaning_of(*option));
+  for (const CLI::App* group : groups_of(command)) {
+    Names all, given;
     for (const CLI::Option* option : group->get_options()) {
       all.push_back(option->get_name());
       if (option->count() > 0) given.push_back(option->get_name());
     }
-    if (given.size() == 1 || group->get_require_option_min() == 0) continue;
-    out.push_back(
-        problem(words_to(command),
-                given.empty() ? "none of them" : fmt::format("{}", fmt::join(given, " with ")),
-                "just one of " + config::either({all.begin(), all.end()})));
+    if (given.size() != 1)
+      add(out, words_to(command),
+          given.empty() ? "none of them" : fmt::format("{}", fmt::join(given, " with ")),
+          "just one of " + config::either({all.begin(), all.end()}));
   }
-  const std::vector<std::string> names = names_of_commands(command);
-  if (!names.empty() && command.get_subcommands().empty())
-    out.push_back(problem(words_to(command), "no command",
-                          one_of(names, "one that its help names", few_commands)));
+  const Names names = names_of_commands(command);
+  if (!names.empty()) add(out, words_to(command), "no command", listed_commands(names));
 }
 
-void tell_of_pairs(const CLI::App& command, Problems& out) {
-  std::set<const CLI::Option*> told;
+// Options that exclude or need each other.
+void add_pairs(const CLI::App& command, Problems& out) {
+  std::set<const CLI::Option*> reported;
   for (const CLI::Option* option : options_of(command)) {
     if (option->count() == 0) continue;
     for (const CLI::Option* other : option->get_excludes())
-      if (other->count() > 0 && !told.contains(other)) {
-        told.insert(option);
-        out.push_back(
-            problem(option->get_name(), other->get_name() + " beside it", "one of the two"));
+      if (other->count() > 0 && !reported.contains(other)) {
+        reported.insert(option);
+        add(out, option->get_name(), other->get_name() + " beside it", "one of the two");
       }
     for (const CLI::Option* other : option->get_needs())
       if (other->count() == 0)
-        out.push_back(problem(option->get_name(), "no " + other->get_name() + " beside it",
-                              other->get_name() + " too: " + meaning_of(*other)));
+        add(out, option->get_name(), "no " + other->get_name() + " beside it",
+            other->get_name() + " too: " + meaning_of(*other));
   }
 }
 
-// An option whose words are too few or too many; a flag that has one.
-void tell_of_number(const CLI::App& command, std::string_view said, Problems& out) {
+// An option with too few or too many words; a flag that has one.
+void add_wrong_number(const CLI::App& command, std::string_view message, Problems& out) {
   for (const CLI::Option* option : options_of(command)) {
     const std::string name = option->get_name();
-    const bool begins = said.starts_with(name + ":") || said.starts_with(name + " ");
-    if (!begins && said.find(" " + name + " ") == said.npos) continue;
-    const CommandTree::Shape shape = shape_of(*option);
-    if (!shape.takes_value())
-      out.push_back(problem(name, "a value behind it", "the option alone: it is on or off"));
-    else if (option->count() == 0)
-      out.push_back(problem(name, "nothing behind it", meaning_of(*option)));
-    else
-      out.push_back(problem(
-          name, std::to_string(option->count()),
-          shape.least == shape.most || shape.most == CommandTree::many
-              ? fmt::format("{}{}", shape.most == CommandTree::many ? "at least " : "", shape.least)
-              : fmt::format("{} to {}", shape.least, shape.most)));
-    return;
+    const bool begins = message.starts_with(name + ":") || message.starts_with(name + " ");
+    if (!begins && message.find(" " + name + " ") == message.npos) continue;
+    const int least = option->get_items_expected_min(), most = option->get_items_expected_max();
+    if (!takes_value(*option))
+      return add(out, name, "a value behind it", "the option alone: it is on or off");
+    if (option->count() == 0) return add(out, name, "nothing behind it", meaning_of(*option));
+    const bool any = most >= CLI::detail::expected_max_vector_size;
+    return add(out, name, std::to_string(option->count()),
+               any             ? fmt::format("at least {}", least)
+               : least == most ? std::to_string(least)
+                               : fmt::format("{} to {}", least, most));
   }
 }
 
 }  // namespace
 
 std::string problems_of_line(const CLI::App& program, const CLI::ParseError& error) {
-  const CLI::App& command = asked(program);
-  const std::string more =
-      fmt::format("\n{} describes {}", help_command(words_to(command)), words_to(command));
-  // The words of our own checks and actions about a value stay as they are.
+  const CLI::App& command = command_of(program);
+  const std::string words = words_to(command);
+  const std::string more = fmt::format("\n{} describes {}", help_command(words), words);
+  // Messages of this program's checks stay as they are.
   if (dynamic_cast<const CLI::ValidationError*>(&error)) return error.what() + more;
   Problems out;
-  tell_of_leftovers(command, program, out);
+  add_leftovers(command, program, out);
   if (out.empty() && (dynamic_cast<const CLI::ArgumentMismatch*>(&error) ||
                       dynamic_cast<const CLI::ConversionError*>(&error)))
-    tell_of_number(command, error.what(), out);
-  if (out.empty()) tell_of_pairs(command, out);
-  if (out.empty()) tell_of_missing(command, out);
-  if (out.empty())
-    out.push_back(problem(words_to(command), "a line that is not understood",
-                          usage_of(tree_of(command), words_to(command))));
+    add_wrong_number(command, error.what(), out);
+  if (out.empty()) add_pairs(command, out);
+  if (out.empty()) add_missing(command, out);
+  if (out.empty()) add(out, words, "a line that is not understood", usage_of(command));
   return config::to_text(out) + more;
 }
 

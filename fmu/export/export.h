@@ -51,4 +51,9 @@ struct Fmu {
 // requests that contradict each other, and std::runtime_error if the installation lacks the module.
 Fmu make_fmu(const Asked& asked);
 
+// Return what was made and kept in `file`: the names of its variables as lines of text, or all of
+// them as JSON.
+std::string text_of(const Fmu& made, const std::string& file);
+std::string json_of(const Fmu& made, const std::string& file);
+
 }  // namespace sinew::fmu

@@ -168,7 +168,7 @@ py::dict identify_columns(const std::string& method) {
   return out;
 }
 
-// Returns the output of `sinew identify METHOD --columns --json`.
+// Returns the output of `sinew identify columns METHOD --json`.
 py::object identify_inputs(const std::string& method) {
   return loaded(to_json(identify::inputs_of(method)).text());
 }

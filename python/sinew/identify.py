@@ -197,7 +197,7 @@ def scale(
 
 
 def columns(method: str) -> Dict[str, Any]:
-    """Return the columns that a method of `sinew identify` reads, like `--columns --json`.
+    """Return the columns that a method of `sinew identify` reads, like `sinew identify columns --json`.
 
     method: "static", "dynamic", ... Each column has its quantity, accepted units, meaning, and whether it is
     required; each kind of table has the meaning of a row. Raises sinew.InputError for an unknown method.
@@ -206,7 +206,7 @@ def columns(method: str) -> Dict[str, Any]:
 
 
 def template(method: str, kind: str = "") -> str:
-    """Return a table to fill in, like `--template`: CSV that the method can read.
+    """Return a table to fill in, like `sinew identify columns --template`: CSV that the method can read.
 
     kind: kind of table if the method has several, "chart"; empty: the usual one.
     """

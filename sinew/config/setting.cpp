@@ -1,6 +1,9 @@
 #include "sinew/config/setting.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
@@ -59,6 +62,85 @@ std::vector<std::string> at_commas(const std::string& text) {
     out.push_back(first == piece.npos ? "" : piece.substr(first));
     from = to + 1;
   }
+  return out;
+}
+
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(at, start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
+// Returns the text of a difference of pressures, which has no reference.
+std::string without_reference(std::string text) {
+  for (const std::string_view reference : {" gauge", " abs"})
+    if (text.ends_with(reference)) text.resize(text.size() - reference.size());
+  return text;
+}
+
+// Returns "1 in:2 in:0.1 in" in the unit that was written, or else in a usual one.
+std::string range_example(std::string_view unit, std::string_view written) {
+  if (unit == "1") return "\"0:1:0.1\"";
+  std::string usual = written_unit(written);
+  if (parse_quantity("1 " + usual, unit).mistake) usual = usual_units(unit).front();
+  return in_quotes("1 " + usual + ":2 " + usual + ":0.1 " + without_reference(usual));
+}
+
+}  // namespace
+
+std::string written_unit(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" +"), text.size()));
+  double number = 0;
+  const char* last = text.data() + text.size();
+  std::string unit(std::from_chars(text.data(), last, number).ptr, last);
+  unit.erase(unit.find_last_not_of(' ') + 1);
+  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
+  return unit.empty() ? "1" : unit;
+}
+
+QuantityRange range_setting(std::string_view name, std::string_view text, std::string_view unit,
+                            double atmosphere, const Range& range) {
+  constexpr double most = 10000;
+  const auto refuse = [&](std::string_view found, std::string expected, std::string try_this) {
+    fail({std::string(name), 0, 0}, "", in_quotes(found), std::move(expected), std::move(try_this));
+  };
+  const std::vector<std::string_view> parts = split(text, ':');
+  if (parts.size() != 1 && parts.size() != 3)
+    refuse(text, "a quantity, or from:to:step", range_example(unit, parts[0]));
+  QuantityRange out{{quantity_setting(name, parts[0], unit, atmosphere, range)},
+                    written_unit(parts[0])};
+  if (parts.size() == 1) return out;
+
+  const std::string_view step_unit = difference_unit(unit);
+  std::string step_text(parts[2]);
+  if (step_unit == "Pa diff" && without_reference(step_text) != step_text)
+    refuse(step_text, "a step, which is a difference of two pressures",
+           in_quotes(without_reference(step_text)));
+  if (step_unit == "Pa diff" && !step_text.ends_with("diff")) step_text += " diff";
+  const double first = out.si[0];
+  const double last = quantity_setting(name, parts[1], unit, atmosphere, range);
+  const double step = quantity_setting(name, step_text, step_unit, atmosphere);
+
+  // The last value is included although steps are rounded.
+  const double steps = step != 0 ? std::floor((last - first) / step + 1e-9) : -1;
+  if (!(steps >= 0))
+    refuse(text, "a step that leads from the first to the last", range_example(unit, parts[0]));
+  if (steps >= most) refuse(text, "at most 10000 values", "a larger step");
+  for (int i = 1; i <= static_cast<int>(steps); ++i) out.si.push_back(first + i * step);
+  return out;
+}
+
+std::vector<double> list_setting(std::string_view name, std::string_view text,
+                                 std::string_view unit, const Range& range) {
+  std::vector<double> out;
+  for (const std::string_view part : split(text, ','))
+    out.push_back(quantity_setting(name, part, unit, units::atmosphere, range));
   return out;
 }
 

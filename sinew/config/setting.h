@@ -28,6 +28,9 @@ constexpr Range from_zero(double high, std::string_view why) { return {0, high, 
 inline constexpr double greatest_pressure = 2e7;  // absolute [Pa]
 inline constexpr Range air_pressure = above_zero(
     greatest_pressure, "absolute pressures are positive, and above it air is no ideal gas");
+constexpr Range gauge_air_pressure(double atmosphere) {
+  return {-atmosphere, greatest_pressure - atmosphere, air_pressure.why, true};
+}
 inline constexpr Range air_volume = from_zero(1000, "room for air in a laboratory");
 inline constexpr Range polytropic = {1, 5.0 / 3, "from isothermal to adiabatic"};
 inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 0.1 ms");
@@ -36,6 +39,24 @@ inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 
 // with the setting's name.
 double quantity_setting(std::string_view name, std::string_view text, std::string_view unit,
                         double atmosphere = units::atmosphere, const Range& range = {});
+
+// Quantities of "2.5in:3.9in:0.1in", first and last included, or of one quantity.
+struct QuantityRange {
+  std::vector<double> si;
+  std::string unit;  // as it was written, for a column of a table
+};
+
+// Returns the quantities of a range. The step of pressures is a difference: "20 psi gauge:110 psi
+// gauge:10 psi". Throws Error as above.
+QuantityRange range_setting(std::string_view name, std::string_view text, std::string_view unit,
+                            double atmosphere = units::atmosphere, const Range& range = {});
+
+// Returns the quantities of "-2 in, -13 in". Throws Error as above.
+std::vector<double> list_setting(std::string_view name, std::string_view text,
+                                 std::string_view unit, const Range& range = {});
+
+// Returns the unit that a valid quantity was written with: "in" of "3.4 in"; "1" for none.
+std::string written_unit(std::string_view text);
 
 // Returns the number; throws Error like quantity_setting() if it is out of range.
 double number_setting(std::string_view name, double value, const Range& range);

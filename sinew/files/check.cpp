@@ -15,6 +15,7 @@
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
+#include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/report/figures/labels.h"
@@ -184,6 +185,19 @@ std::string text_of(const Finding& finding) {
   std::string line = good ? "ok" : count(finding.problems.size(), "problem");
   if (!finding.warnings.empty()) line += ", " + count(finding.warnings.size(), "warning");
   return out + fmt::format("{}: {}\n", finding.file, line);
+}
+
+std::string json_of(const std::vector<Finding>& findings) {
+  Json out = Json::array();
+  for (const Finding& finding : findings) {
+    out.push_back(
+        {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
+    if (!finding.faults.empty()) out.back()["faults"] = finding.faults;
+    for (const Unsourced& one : finding.unsourced)
+      out.back()["unsourced"].push_back(
+          {{"key", one.key}, {"value", one.value}, {"file", one.file}, {"line", one.line}});
+  }
+  return out.text(2) + "\n";
 }
 
 }  // namespace sinew::files

@@ -29,4 +29,7 @@ Finding check(const std::string& path);
 // Returns lines of text: the sentences, a table of the values without a source, then the counts.
 std::string text_of(const Finding& finding);
 
+// Returns them as an array of JSON, an object for each file.
+std::string json_of(const std::vector<Finding>& findings);
+
 }  // namespace sinew::files

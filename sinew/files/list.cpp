@@ -13,6 +13,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
 #include "sinew/files/shipped.h"
+#include "sinew/json/json.h"
 
 namespace sinew::files {
 
@@ -250,6 +251,19 @@ std::string text_of(const Listing& listing, const std::string& kind) {
   }
   if (!out.empty()) return out;
   return fmt::format("no {}\n", kind.empty() ? "files of Sinew" : kind);
+}
+
+std::string json_of(const Listing& listing) {
+  Json all{{"format", "sinew.list/1"}};
+  if (!listing.shipped_from.empty()) all["shipped_from"] = listing.shipped_from;
+  all["cut"] = listing.cut;
+  all["files"] = Json::array();
+  for (const Listed& one : listing.files) {
+    all["files"].push_back(
+        {{"kind", one.kind}, {"path", one.path}, {"title", one.title}, {"shipped", one.shipped}});
+    if (!one.problem.empty()) all["files"].back()["problem"] = one.problem;
+  }
+  return all.text(2) + "\n";
 }
 
 }  // namespace sinew::files

@@ -46,6 +46,9 @@ std::int64_t steps();
 // an experiment cannot be read.
 report::Gallery gallery(const Sources&, std::atomic<std::int64_t>& done);
 
+// Returns the number of statements of each verdict: for each figure, and for each class.
+std::string text_of(const report::Gallery& gallery);
+
 // Return the figures of a chapter, or of a part of it.
 Exhibits chapter_2(const Sources&);
 Exhibits valve_laws(const Sources&);    // 3-4, 3-13

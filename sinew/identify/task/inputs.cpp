@@ -19,6 +19,7 @@
 #include "sinew/identify/sensor/readings.h"
 #include "sinew/identify/valve/valve.h"
 #include "sinew/json/json.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::identify {
@@ -322,6 +323,45 @@ std::string template_of(const MethodInputs& inputs, std::string_view kind_name) 
                        known ? need_of(inputs, name) : "name it as you like");
   }
   return out + fmt::format("{}\n{}", kind.header, kind.rows);
+}
+
+namespace {
+
+constexpr std::size_t shown_units = 5;
+
+// Returns the first units of a column; --json has all.
+std::string units_of(const Wanted& column) {
+  std::string words;
+  for (const auto& [word, value] : column.words)
+    words += fmt::format("{}{}", words.empty() ? "" : " or ", word);
+  if (!words.empty()) return words;
+  std::vector<std::string> units = accepted_units(column);
+  if (quantity_of(column) == "pressure") {
+    // Each of them exists as gauge and as absolute pressure.
+    std::erase_if(units, [](const std::string& unit) { return !unit.ends_with(" gauge"); });
+    for (std::string& unit : units) unit.resize(unit.size() - std::string_view(" gauge").size());
+    return fmt::format("{}; gauge or abs", fmt::join(units, ", "));
+  }
+  const bool more = units.size() > shown_units;
+  if (more) units.resize(shown_units);
+  return fmt::format("{}{}", fmt::join(units, ", "), more ? ", ..." : "");
+}
+
+}  // namespace
+
+std::string text_of(const MethodInputs& inputs) {
+  report::TextTable table({"column", "quantity", "needed", "units", "meaning"},
+                          std::vector(5, report::TextTable::Align::left));
+  for (const Wanted& w : inputs.columns())
+    table.add({std::string(w.name), quantity_of(w), need_of(inputs, w.name), units_of(w),
+               std::string(w.doc)});
+  std::string out = table.text() + "\n";
+  for (const TableKind& kind : inputs.kinds)
+    out +=
+        fmt::format("{}a row: {}\n  {}\n", kind.name.empty() ? "" : fmt::format("{}, ", kind.name),
+                    kind.row, kind.header);
+  for (const std::string_view sentence : inputs.advice) out += fmt::format("{}\n", sentence);
+  return out;
 }
 
 }  // namespace sinew::identify

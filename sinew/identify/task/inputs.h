@@ -49,12 +49,15 @@ std::string quantity_of(const Wanted& column);
 // chart", "optional".
 std::string need_of(const MethodInputs& inputs, std::string_view column);
 
-// Returns the inputs as `--columns --json` prints them.
+// Returns the inputs as `sinew identify columns --json` prints them.
 Json to_json(const MethodInputs& inputs);
 
 // Returns a CSV that the method can read, with comments that describe the fields to fill in.
 // `kind` is one of its kinds of tables; empty: the first one. Throws config::Error if it does not
 // exist.
 std::string template_of(const MethodInputs& inputs, std::string_view kind = "");
+
+// Returns a table of the columns with their units, then what a row is and advice.
+std::string text_of(const MethodInputs& inputs);
 
 }  // namespace sinew::identify

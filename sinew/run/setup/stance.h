@@ -46,6 +46,21 @@ struct StanceUnits {
   std::string length = "m", angle = "deg", torque = "N m", jacobian = "m/rad";
 };
 
+// Returns the units of the robot's file, by its first link and joint, and those of torques by the
+// force, "0 lbf, -20 lbf"; may be empty.
+StanceUnits units_of_file(const experiment::Experiment& experiment, const std::string& force);
+
+// Where a machine is to stand: by its foot or its angles, as text.
+struct StanceRequest {
+  std::string foot, angles;  // "-2 in, -13 in" about the first joint; or one angle per joint
+  std::string force;         // of the foot: the torques for it, [71]; may be empty
+};
+
+// Returns all ways in which a robot of one leg stands so. Throws config::Error where a text is no
+// quantity or the foot cannot be there, and std::invalid_argument for a robot without joints.
+std::vector<Stance> stances(const experiment::Experiment& experiment, const StanceRequest& request,
+                            const StanceUnits& units = {});
+
 // Returns lines of text: foot, joints, muscles, Jacobian, torques.
 std::string text_of(const robot::Robot& robot, const Stance& stance, const StanceUnits& units);
 

@@ -1,30 +1,30 @@
-// cli/identify_print.cpp - what the methods of `sinew identify` found, as words and tables.
-#include "cli/identify.h"
+#include "sinew/identify/task/found_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
-#include "cli/settings.h"
-#include "cli/terminal.h"
-#include "cli/units.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/prediction.h"
 #include "sinew/config/quantity.h"
+#include "sinew/identify/fit/evidence.h"
 #include "sinew/report/text/text_table.h"
 
-namespace sinew::cli {
+namespace sinew::identify {
 
 namespace {
 
 using report::TextTable;
 using Align = TextTable::Align;
+using Shown = TextOptions::Shown;
 
-config::UnitsToShow si_or_asked(const PrintOptions& how) {
-  return units_asked(how.units, units::UnitSet::si);
+template <class... Arguments>
+void put(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
 }
 
 std::string digits(double value, const char* format) {
@@ -33,10 +33,10 @@ std::string digits(double value, const char* format) {
 
 // --- a report: its laws, and the parameters of the chosen one ---
 
-void print_models(const identify::Report& report) {
+void put_models(std::string& out, const Report& report) {
   using enum TextTable::Align;
-  const bool ends = std::ranges::any_of(
-      report.fits, [](const identify::Fit& f) { return f.extrapolated.has_value(); });
+  const bool ends =
+      std::ranges::any_of(report.fits, [](const Fit& f) { return f.extrapolated.has_value(); });
   std::vector<std::string> head = {"model",         "parameters", "fit rmse",       "max",
                                    "held out rmse", "max",        "cross-validated"};
   if (ends) head.emplace_back("at the ends");
@@ -45,23 +45,23 @@ void print_models(const identify::Report& report) {
   align.front() = align.back() = left;
   TextTable table(head, align);
 
-  const auto rmse = [](const std::optional<identify::Score>& score) {
+  const auto rmse = [](const std::optional<Score>& score) {
     return score && score->points > 0 ? fmt::format("{:.2f} %", score->rmse_percent) : "-";
   };
-  const auto most = [](const std::optional<identify::Score>& score) {
+  const auto most = [](const std::optional<Score>& score) {
     return score && score->points > 0 ? fmt::format("{:.2f} %", score->max_percent) : "-";
   };
   for (std::size_t i = 0; i < report.fits.size(); ++i) {
-    const identify::Fit& f = report.fits[i];
+    const Fit& f = report.fits[i];
     if (!f.refused.empty()) {
       std::vector<std::string> row(head.size(), "-");
       row.front() = f.model;
-      row.back() = as_options(f.refused);
+      row.back() = f.refused;
       table.add(row);
       continue;
     }
     std::vector<std::string> row = {f.model,
-                                    std::to_string(identify::free_count(f.parameters)),
+                                    std::to_string(free_count(f.parameters)),
                                     rmse(f.fit),
                                     most(f.fit),
                                     rmse(f.held_out),
@@ -71,11 +71,11 @@ void print_models(const identify::Report& report) {
     row.push_back(i == report.chosen ? "<- chosen" : f.not_chosen);
     table.add(row);
   }
-  fmt::print("{}", table.text());
+  put(out, "{}", table.text());
 }
 
 // The value and half its interval to the digits that mean something, multiplied with `scale`.
-std::string interval(const identify::Estimate& e, double scale) {
+std::string interval(const Estimate& e, double scale) {
   if (!e.free && e.low == e.high) return e.known;
   if (e.at_bound) return "at the bound of its range";
   if (!std::isfinite(e.high)) return e.identifiable ? "no interval" : "not identifiable";
@@ -87,19 +87,19 @@ std::string interval(const identify::Estimate& e, double scale) {
 // Returns an error of a profile, in multiples of that of the chosen values.
 std::string error_at(double times) {
   if (!std::isfinite(times)) return "-";
-  return times < identify::Profile::most ? fmt::format("{:.3g}", times) : "> 10";
+  return times < Profile::most ? fmt::format("{:.3g}", times) : "> 10";
 }
 
-void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
+void put_parameters(std::string& out, const Fit& fit, const TextOptions& how) {
   if (fit.parameters.empty()) return;
   using enum TextTable::Align;
-  const bool profiled = std::ranges::any_of(
-      fit.parameters, [](const identify::Estimate& e) { return e.profile.has_value(); });
+  const bool profiled =
+      std::ranges::any_of(fit.parameters, [](const Estimate& e) { return e.profile.has_value(); });
   std::vector<std::string> head = {"parameter", "value", "unit", "95 %"};
   if (profiled) head.insert(head.end(), {"error at half", "at twice", ""});
   TextTable table(head, {left, right, left, left, right, right, left});
-  for (const identify::Estimate& e : fit.parameters) {
-    const Retold shown = retold(e.value, e.unit, asked, room);
+  for (const Estimate& e : fit.parameters) {
+    const Shown shown = how.shown(e.value, e.unit);
     std::vector<std::string> row = {e.name, fmt::format("{:.6g}", shown.number),
                                     shown.unit == "1" ? "" : shown.unit, interval(e, shown.scale)};
     if (e.profile)
@@ -110,20 +110,20 @@ void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked
       row.insert(row.end(), {"-", "-", ""});
     table.add(row);
   }
-  fmt::print("{}", table.text());
+  put(out, "{}", table.text());
   if (profiled)
-    fmt::print(
+    put(out,
         "error at half, at twice: times as large, with that value and all others fitted again; a "
         "value near zero is moved by its scale\n");
 }
 
 // --- what each method adds ---
 
-// Methods that know no muscle beside the trajectories.
-void print_methods(const identify::DynamicResult& found, const config::UnitsToShow& asked) {
+// Damping by each way of evaluation, compared with the fitted trajectories.
+void put_methods(std::string& out, const DynamicResult& found, const config::UnitsToShow& asked) {
   const units::ShownUnit length = asked.asked ? asked.units.of("m") : units::ShownUnit{"mm", 1e3};
   const units::ShownUnit force = asked.units.of("N"), damping = asked.units.of("N s/m");
-  // The columns keep decimals of their own in units that nobody chose.
+  // Without a choice of units each column has its own number of decimals.
   const auto in = [&](const units::ShownUnit& unit, double si, int decimals = 4) {
     return asked.asked ? fmt::format("{:.4g}", unit.of(si))
                        : fmt::format("{:.{}f}", unit.of(si), decimals);
@@ -132,13 +132,12 @@ void print_methods(const identify::DynamicResult& found, const config::UnitsToSh
       {"file", "method", "Q [" + length.name + "]", "friction at rest [" + force.name + "]",
        "c [" + damping.name + "]", "zeta [53]"},
       {Align::left, Align::left, Align::right, Align::right, Align::right, Align::right});
-  const auto row = [&](const identify::DecaySummary& s, const char* method,
-                       const identify::Damping& d) {
+  const auto row = [&](const DecaySummary& s, const char* method, const Damping& d) {
     table.add({s.file, method, in(length, d.coulomb_length, 5),
                in(force, d.coulomb_length * s.stiffness), in(damping, d.viscous),
                fmt::format("{:.4f}", d.ratio)});
   };
-  for (const identify::DecaySummary& s : found.records) {
+  for (const DecaySummary& s : found.records) {
     if (s.printed) row(s, "two points, [45] as printed", *s.printed);
     if (s.exact) row(s, "two points, exact", *s.exact);
     row(s, "all turns", s.all.damping);
@@ -146,66 +145,66 @@ void print_methods(const identify::DynamicResult& found, const config::UnitsToSh
                in(length, found.loss.coulomb_length, 5), in(force, s.friction),
                in(damping, found.loss.viscous), ""});
   }
-  fmt::print("\n{}", table.text());
-  for (const identify::DecaySummary& s : found.records)
-    if (!s.exact) fmt::print("no two points: {}\n", s.why_not);
+  put(out, "\n{}", table.text());
+  for (const DecaySummary& s : found.records)
+    if (!s.exact) put(out, "no two points: {}\n", s.why_not);
 }
 
-void print_combinations(const identify::JointResult& found) {
+void put_combinations(std::string& out, const JointResult& found) {
   TextTable table({"what the data tell apart, best first", "95 %"},
                   {TextTable::Align::left, TextTable::Align::right});
-  for (const identify::Combination& c : found.combinations)
+  for (const Combination& c : found.combinations)
     table.add({c.text, std::isfinite(c.relative_error)
                            ? fmt::format("+- {:.2g} %", 100 * c.relative_error)
                            : "not at all"});
-  fmt::print("\n{}", table.text());
+  put(out, "\n{}", table.text());
 }
 
 // Prints the share of the variance that each law explains, and its scores on the held-out rows.
-void print_explained(const identify::Report& report) {
+void put_explained(std::string& out, const Report& report) {
   TextTable table({"model", "R2", "held out", "nrmse", "r"},
                   {Align::left, Align::right, Align::right, Align::right, Align::right});
-  for (const identify::Fit& f : report.fits) {
+  for (const Fit& f : report.fits) {
     if (!f.refused.empty()) continue;
-    const identify::Score unseen = f.held_out.value_or(identify::Score{});
+    const Score unseen = f.held_out.value_or(Score{});
     table.add({f.model, fmt::format("{:.4f}", f.fit.explained), digits(unseen.explained, "{:.4f}"),
                digits(unseen.nrmse, "{:.4f}"), digits(unseen.correlation, "{:.4f}")});
   }
-  fmt::print("\n{}", table.text());
+  put(out, "\n{}", table.text());
 }
 
-void print_stiffness(const identify::PairResult& found, const config::UnitsToShow& asked) {
+void put_stiffness(std::string& out, const PairResult& found, const config::UnitsToShow& asked) {
   const char* unit = found.rotary ? "N m/rad" : "N/m";
   const units::ShownUnit shown = asked.units.of(unit);
-  const identify::PairStiffness& s = found.stiffness;
-  fmt::print("\nstiffness, springs and trapped air together: {:.5g} +- {:.2g} {}",
-             shown.of(s.value), shown.of(s.uncertainty), shown.name);
-  if (std::isfinite(s.air)) fmt::print(", of it {:.4g} {} the air's", shown.of(s.air), shown.name);
-  fmt::print("\n");
+  const PairStiffness& s = found.stiffness;
+  put(out, "\nstiffness, springs and trapped air together: {:.5g} +- {:.2g} {}", shown.of(s.value),
+      shown.of(s.uncertainty), shown.name);
+  if (std::isfinite(s.air)) put(out, ", of it {:.4g} {} the air's", shown.of(s.air), shown.name);
+  put(out, "\n");
 }
 
-// Change with the position, pressure and law of the air.
-void print_air(const identify::PairResult& found) {
+// Law and parameters of the trapped air.
+void put_air(std::string& out, const PairResult& found) {
   if (!found.air) return;
-  const identify::PairAir& air = *found.air;
-  const identify::Fit& best = air.report.best();
-  fmt::print("\ntrapped air, {}: {}; {:.2f} % of {}\n", best.model, best.law, best.fit.rmse_percent,
-             air.report.full_scale_is);
+  const PairAir& air = *found.air;
+  const Fit& best = air.report.best();
+  put(out, "\ntrapped air, {}: {}; {:.2f} % of {}\n", best.model, best.law, best.fit.rmse_percent,
+      air.report.full_scale_is);
   TextTable table({"parameter", "value", "unit", "95 %"},
                   {Align::left, Align::right, Align::left, Align::left});
-  for (const identify::Estimate& e : best.parameters)
+  for (const Estimate& e : best.parameters)
     table.add({e.name, fmt::format("{:.6g}", e.value), e.unit,
                !e.free                  ? e.known
                : e.at_bound             ? "at the bound of its range"
                : !std::isfinite(e.high) ? "not identifiable"
                                         : fmt::format("+- {:.2g}", 0.5 * (e.high - e.low))});
-  fmt::print("{}", table.text());
+  put(out, "{}", table.text());
 }
 
 std::string percent(double share) { return digits(100 * share, "{:.2f} %"); }
 
-// The unit of a scale: one that was asked for, else one of what was set, as the files have it.
-std::string shown_scale(const identify::Calibration& c, const std::string& display,
+// Returns the unit of a scale: the chosen one, else that of the known values.
+std::string shown_scale(const Calibration& c, const std::string& display,
                         const config::UnitsToShow& asked) {
   if (!asked.asked) return scale_unit_for(c, display);
   const std::string unit = scale_unit(c);
@@ -214,8 +213,8 @@ std::string shown_scale(const identify::Calibration& c, const std::string& displ
   return scale_unit_for(c, told ? asked.units.of(told->held).name : display);
 }
 
-// Table 4-1, and what else one calibration tells of each sensor.
-void print_table(const identify::Calibration& c, const std::string& shown) {
+// Table 4-1, with model, errors and noise of each sensor.
+void put_table(std::string& out, const Calibration& c, const std::string& shown) {
   using enum TextTable::Align;
   const std::string unit = scale_unit(c);
   TextTable table({"sensor", "scale [" + shown + "]", "95 %", "at rest [V]", "model", "held out",
@@ -225,8 +224,8 @@ void print_table(const identify::Calibration& c, const std::string& shown) {
     const double scale = config::convert(scale_of(c, sensitivity), unit, shown);
     table.add({name, digits(scale, "{:.5g}"), rest...});
   };
-  for (const identify::SensorResult& r : c.sensors) {
-    const identify::Fit& best = r.report.best();
+  for (const SensorResult& r : c.sensors) {
+    const Fit& best = r.report.best();
     add(r.name, r.sensitivity,
         digits(config::convert(scale_uncertainty(c, r), unit, shown), "+- {:.2g}"),
         digits(r.at_rest, "{:.4f}"), best.model,
@@ -235,17 +234,17 @@ void print_table(const identify::Calibration& c, const std::string& shown) {
         c.sensors.size() > 1 ? digits(100 * r.deviation, "{:+.1f} %") : "-");
   }
   if (c.sensors.size() > 1) add("average", c.average);
-  fmt::print("{}", table.text());
+  put(out, "{}", table.text());
 }
 
 // --- tables before a fit, and plans ---
 
-void print_files(const std::vector<identify::RecognisedFile>& files) {
+void put_files(std::string& out, const std::vector<RecognisedFile>& files, std::size_t width) {
   TextTable table({"file", "rows", "is", "columns"},
                   {TextTable::Align::left, TextTable::Align::right});
-  for (const identify::RecognisedFile& f : files) {
+  for (const RecognisedFile& f : files) {
     std::string columns;
-    for (const identify::RecognisedColumn& c : f.columns)
+    for (const RecognisedColumn& c : f.columns)
       columns +=
           fmt::format("{}{} {} … {}", columns.empty() ? "" : ", ", c.name, c.lowest, c.highest);
     table.add(
@@ -253,15 +252,15 @@ void print_files(const std::vector<identify::RecognisedFile>& files) {
          f.is_recording ? fmt::format("a recording, {:.3g} % settled", 100 * f.settled) : "a table",
          columns});
   }
-  fmt::print("{}\n", table.text_within(width_of_output()));
+  put(out, "{}\n", table.text_within(width));
 }
 
-void print_mounts(const std::vector<identify::RecognisedMount>& mounts) {
+void put_mounts(std::string& out, const std::vector<RecognisedMount>& mounts) {
   using enum TextTable::Align;
   TextTable table({"muscle [mm]", "mount [mm]", "points", "pressures", "from [kPa]", "to [kPa]",
                    "largest force [N]", "branches"},
                   {right, right, right, right, right, right, right, left});
-  for (const identify::RecognisedMount& m : mounts)
+  for (const RecognisedMount& m : mounts)
     table.add({m.rest_length > 0 ? fmt::format("{:.4g}", 1e3 * m.rest_length) : "?",
                fmt::format("{:.4g}", 1e3 * m.length),
                m.held_out > 0 ? fmt::format("{} + {} held out", m.points, m.held_out)
@@ -269,53 +268,52 @@ void print_mounts(const std::vector<identify::RecognisedMount>& mounts) {
                std::to_string(m.pressures), fmt::format("{:.4g}", m.lowest / 1e3),
                fmt::format("{:.4g}", m.highest / 1e3), fmt::format("{:.4g}", m.strongest),
                m.branches.empty() ? "unknown" : m.branches});
-  if (!table.empty()) fmt::print("{}\n", table.text());
+  if (!table.empty()) put(out, "{}\n", table.text());
 }
 
-void print_noise(const identify::ForceNoise& noise) {
+void put_noise(std::string& out, const ForceNoise& noise) {
   if (noise.readings == 0)
-    fmt::print("noise of force: unknown, as no reading is repeated\n\n");
+    put(out, "noise of force: unknown, as no reading is repeated\n\n");
   else
-    fmt::print("noise of force: {:.2g} N, {:.2g} % of the largest, from {} {}\n\n", noise.deviation,
-               100 * noise.share, noise.readings, noise.from);
+    put(out, "noise of force: {:.2g} N, {:.2g} % of the largest, from {} {}\n\n", noise.deviation,
+        100 * noise.share, noise.readings, noise.from);
 }
 
-void print_checks(const std::vector<identify::Check>& checks) {
-  for (const identify::Check& c : checks) {
-    fmt::print("{:<6}  {:<17}  {}\n", identify::word(c.light), c.name, as_options(c.evidence));
-    if (!c.advice.empty()) fmt::print("{:27}{}\n", "", as_options(c.advice));
+void put_checks(std::string& out, const std::vector<Check>& checks) {
+  for (const Check& c : checks) {
+    put(out, "{:<6}  {:<17}  {}\n", word(c.light), c.name, c.evidence);
+    if (!c.advice.empty()) put(out, "{:27}{}\n", "", c.advice);
   }
 }
 
-void print_determined(const identify::DeterminedLaw& law) {
+void put_determined(std::string& out, const DeterminedLaw& law) {
   if (!law.refused.empty()) {
-    fmt::print("\nwhat a fit could determine: not evaluated, {}\n", as_options(law.refused));
+    put(out, "\nwhat a fit could determine: not evaluated, {}\n", law.refused);
     return;
   }
   TextTable table({"a fit could determine", "known", "to know more, measure"});
-  for (const identify::Determined& d : law.parameters) table.add({d.name, d.words, d.advice});
-  fmt::print("\n{}by the richest law, {}: {}\n", table.text(), law.model, law.law);
+  for (const Determined& d : law.parameters) table.add({d.name, d.words, d.advice});
+  put(out, "\n{}by the richest law, {}: {}\n", table.text(), law.model, law.law);
 }
 
-// Before anything is measured nothing is known, and how little does not matter.
+// Above 100 % nothing is known, and the number has no meaning.
 std::string percent_or_more(double share) {
   return share > 1 ? "> 100 %" : fmt::format("{:.2g} %", 100 * share);
 }
 
-// Numbers in the units of --units; else in those of a ruler and a regulator.
+// Numbers in the units that were chosen; else in those of a ruler and a regulator.
 struct PlanUnits {
-  config::UnitsToShow asked;
-  double room = 0;  // that gauges read against [Pa]
+  const TextOptions& how;
 
-  Retold of(double si, const std::string& unit, const Retold& otherwise) const {
-    return asked.asked ? retold(si, unit, asked, room) : otherwise;
+  Shown of(double si, const std::string& unit, const Shown& otherwise) const {
+    return how.units.asked ? how.shown(si, unit) : otherwise;
   }
-  Retold length(double x) const { return of(x, "m", {1e3 * x, "mm", 1e3}); }
-  Retold pressure(double x) const { return of(x, "Pa gauge", {1e-3 * x, "kPa gauge", 1e-3}); }
-  Retold force(double x) const { return of(x, "N", {x, "N", 1}); }
+  Shown length(double x) const { return of(x, "m", {1e3 * x, "mm", 1e3}); }
+  Shown pressure(double x) const { return of(x, "Pa gauge", {1e-3 * x, "kPa gauge", 1e-3}); }
+  Shown force(double x) const { return of(x, "N", {x, "N", 1}); }
 };
 
-std::string text_of(const Retold& r) { return fmt::format("{:.4g} {}", r.number, r.unit); }
+std::string text_of(const Shown& r) { return fmt::format("{:.4g} {}", r.number, r.unit); }
 
 std::string numbers_of(const std::vector<double>& pressures, const PlanUnits& units) {
   std::vector<double> out;
@@ -323,101 +321,98 @@ std::string numbers_of(const std::vector<double>& pressures, const PlanUnits& un
   return fmt::format("{:.4g}", fmt::join(out, " "));
 }
 
-void print_mounts(const identify::PlanFound& found, const PlanUnits& units) {
+void put_mounts(std::string& out, const PlanFound& found, const PlanUnits& units) {
   using enum TextTable::Align;
   const std::string over = fmt::format("up and down over [{}]", units.pressure(0).unit);
   TextTable table({"mount", "length", over, "readings", "minutes", "error rms", "95 % at worst"},
                   {right, right, left, right, right, right, right});
-  const identify::MeasurementPlan& plan = found.plan;
+  const MeasurementPlan& plan = found.plan;
   table.add({found.measured > 0 ? "before" : "none", "", "", std::to_string(found.measured), "0",
              percent_or_more(plan.before.rms), percent_or_more(plan.before.half_width)});
   double time = 0;
   for (std::size_t i = 0; i < plan.mounts.size(); ++i) {
-    const identify::PlannedMount& m = plan.mounts[i];
+    const PlannedMount& m = plan.mounts[i];
     time += m.time;
     table.add({std::to_string(i + 1), text_of(units.length(m.length)),
                numbers_of(m.pressures, units), std::to_string(m.readings()),
                fmt::format("{:.0f}", time / 60), percent_or_more(m.after.rms),
                percent_or_more(m.after.half_width)});
   }
-  fmt::print("{}", table.text());
+  put(out, "{}", table.text());
 }
 
-void print_plan(const identify::PlanFound& found, const PlanUnits& units) {
-  const identify::MeasurementPlan& plan = found.plan;
-  const identify::PlanRegion& r = plan.region;
-  const bool worst = found.options.criterion == identify::PlanCriterion::worst;
-  fmt::print("plan for {}\n", found.subject);
-  fmt::print("errors of the force in % of the largest, {}, over {:.4g} to {} and {:.4g} to {}\n\n",
-             text_of(units.force(found.muscle.scales.full_scale)), units.length(r.shortest).number,
-             text_of(units.length(r.longest)), units.pressure(r.lowest).number,
-             text_of(units.pressure(r.highest)));
-  print_mounts(found, units);
+void put_plan(std::string& out, const PlanFound& found, const PlanUnits& units) {
+  const MeasurementPlan& plan = found.plan;
+  const PlanRegion& r = plan.region;
+  const bool worst = found.options.criterion == PlanCriterion::worst;
+  put(out, "plan for {}\n", found.subject);
+  put(out, "errors of the force in % of the largest, {}, over {:.4g} to {} and {:.4g} to {}\n\n",
+      text_of(units.force(found.muscle.scales.full_scale)), units.length(r.shortest).number,
+      text_of(units.length(r.longest)), units.pressure(r.lowest).number,
+      text_of(units.pressure(r.highest)));
+  put_mounts(out, found, units);
   if (plan.mounts.empty()) {
-    fmt::print("\nnothing more to measure: {} was wanted\n", percent_or_more(found.options.error));
+    put(out, "\nnothing more to measure: {} was wanted\n", percent_or_more(found.options.error));
     return;
   }
   const double after = plan.after().of(found.options.criterion);
   const double before = plan.before.of(found.options.criterion);
-  fmt::print("\n{} {} and {} readings in {:.0f} minutes: {}{} ({} wanted{}{})\n",
-             plan.mounts.size(), plan.mounts.size() == 1 ? "mount" : "mounts", plan.readings(),
-             plan.time() / 60,
-             found.measured > 0 ? fmt::format("{} -> ", percent_or_more(before)) : "",
-             percent_or_more(after), percent_or_more(found.options.error),
-             worst ? ", 95 % at the worst place" : ", rms", plan.reached ? "" : "; not reached");
+  put(out, "\n{} {} and {} readings in {:.0f} minutes: {}{} ({} wanted{}{})\n", plan.mounts.size(),
+      plan.mounts.size() == 1 ? "mount" : "mounts", plan.readings(), plan.time() / 60,
+      found.measured > 0 ? fmt::format("{} -> ", percent_or_more(before)) : "",
+      percent_or_more(after), percent_or_more(found.options.error),
+      worst ? ", 95 % at the worst place" : ", rms", plan.reached ? "" : "; not reached");
 }
 
 }  // namespace
 
-void print_report(const identify::Report& report, const PrintOptions& how) {
-  const config::UnitsToShow asked = si_or_asked(how);
-  const double room = how.atmosphere;
-  const Retold whole = retold(report.full_scale, report.unit, asked, room);
-  fmt::print("{}\n", report.subject);
+void put_report(std::string& out, const Report& report, const TextOptions& how) {
+  const Shown whole = how.shown(report.full_scale, report.unit);
+  put(out, "{}\n", report.subject);
   const std::string of =
       whole.unit == "1" ? "" : fmt::format(", {:.5g} {}", whole.number, whole.unit);
-  fmt::print("errors of the {} in % of {}{}\n", report.quantity, report.full_scale_is, of);
-  if (const std::vector<std::string> names = identify::not_pinned(report); !names.empty())
-    fmt::print("these data do not pin: {}\n", fmt::join(names, ", "));
-  fmt::print("\n");
-  print_models(report);
-  if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
-  if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
-  fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
-  print_parameters(report.best(), asked, room);
+  put(out, "errors of the {} in % of {}{}\n", report.quantity, report.full_scale_is, of);
+  if (const std::vector<std::string> names = not_pinned(report); !names.empty())
+    put(out, "these data do not pin: {}\n", fmt::join(names, ", "));
+  put(out, "\n");
+  put_models(out, report);
+  if (!report.held_out_is.empty()) put(out, "\nheld out: {}\n", report.held_out_is);
+  if (report.fits.size() > 1) put(out, "chosen: {}\n", report.rule);
+  put(out, "\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
+  put_parameters(out, report.best(), how);
   if (const auto& band = report.best().band) {
-    const Retold most = retold(band->half_95, report.unit, asked, room);
+    const Shown most = how.shown(band->half_95, report.unit);
     const std::string unit = most.unit == "1" ? "" : " " + most.unit;
     const std::string where = band->where.empty() ? "" : ", " + band->where;
-    fmt::print("68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
-               band->half_68 * most.scale, most.number, unit, where);
+    put(out, "68 and 95 % of what it did not see lie within +- {:.3g} and {:.3g}{}{}\n",
+        band->half_68 * most.scale, most.number, unit, where);
   }
-  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
+  for (const std::string& note : report.best().notes) put(out, "note: {}\n", note);
 }
 
-void print_unseen(const identify::Report& report) {
-  fmt::print("\nwhat this does not show:\n");
-  for (const std::string& text : identify::does_not_show(report)) fmt::print("  {}\n", text);
+void put_unseen(std::string& out, const Report& report) {
+  put(out, "\nwhat this does not show:\n");
+  for (const std::string& text : does_not_show(report)) put(out, "  {}\n", text);
 }
 
-void print_more(const identify::DynamicFound& found, const PrintOptions& how) {
-  print_methods(found.result, si_or_asked(how));
+void put_more(std::string& out, const DynamicFound& found, const TextOptions& how) {
+  put_methods(out, found.result, how.units);
 }
 
-void print_more(const identify::JointFound& found, const PrintOptions&) {
-  print_combinations(found.result);
+void put_more(std::string& out, const JointFound& found, const TextOptions&) {
+  put_combinations(out, found.result);
 }
 
-void print_more(const identify::PairFound& found, const PrintOptions& how) {
-  print_explained(found.result.report);
-  print_stiffness(found.result, si_or_asked(how));
-  print_air(found.result);
+void put_more(std::string& out, const PairFound& found, const TextOptions& how) {
+  put_explained(out, found.result.report);
+  put_stiffness(out, found.result, how.units);
+  put_air(out, found.result);
 }
 
-void print_more(const identify::RunFitFound& found, const PrintOptions& how) {
+void put_more(std::string& out, const RunFitFound& found, const TextOptions& how) {
   if (found.score.empty()) return;
-  const config::UnitsToShow asked = si_or_asked(how);
-  // The units of a protractor and a gauge, where none were chosen.
+  const config::UnitsToShow asked = how.units;
+  // Without a choice, the units of a protractor and a gauge.
   const auto shown = [&](const std::string& unit) {
     if (asked.asked) return asked.units.of(unit);
     if (unit == "Pa diff") return units::ShownUnit{"kPa", 1e-3};
@@ -428,63 +423,70 @@ void print_more(const identify::RunFitFound& found, const PrintOptions& how) {
   TextTable table({"score", "", "rms", "", "nrmse", "r", "R2"},
                   {Align::left, Align::left, Align::right, Align::left, Align::right, Align::right,
                    Align::right});
-  for (const identify::Report& part : found.score) {
+  for (const Report& part : found.score) {
     const units::ShownUnit unit = shown(part.unit);
-    const auto add = [&](const std::string& name, const identify::Score& s) {
+    const auto add = [&](const std::string& name, const Score& s) {
       table.add({part.quantity, name, fmt::format("{:.4g}", unit.of(s.rmse)), unit.name,
                  digits(s.nrmse, "{:.4f}"), digits(s.correlation, "{:.5f}"),
                  digits(s.explained, "{:.5f}")});
     };
     const auto& parts = part.errors[0].parts;
-    for (const identify::PartError& one : parts) add(one.name, one.score);
+    for (const PartError& one : parts) add(one.name, one.score);
     if (parts.size() > 1) add(fmt::format("all {}", parts.size()), *part.best().held_out);
   }
-  fmt::print("\nopen loop, by the valve commands alone: {}\n{}", found.score[0].held_out_is,
-             table.text());
+  put(out, "\nopen loop, by the valve commands alone: {}\n{}", found.score[0].held_out_is,
+      table.text());
 }
 
-void print_more(const identify::GeometryFound& found, const PrintOptions& how) {
+void put_more(std::string& out, const GeometryFound& found, const TextOptions& how) {
   if (found.report) return;
-  const config::UnitsToShow asked = si_or_asked(how);
+  const config::UnitsToShow asked = how.units;
   const std::string unit = asked.asked ? asked.units.of("m").name : "mm";
-  fmt::print("thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
-             config::format_quantity(found.braid.thread_length, "m", unit),
-             config::format_number(found.braid.turns),
-             config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
+  put(out, "thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
+      config::format_quantity(found.braid.thread_length, "m", unit),
+      config::format_number(found.braid.turns),
+      config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
 }
 
-void print_more(const identify::SensorFound& found, const PrintOptions& how) {
-  const identify::Calibration& c = found.calibration;
-  if (c.sensors.size() == 1) fmt::print("\n");
-  print_table(c, shown_scale(c, found.display, si_or_asked(how)));
+void put_more(std::string& out, const SensorFound& found, const TextOptions& how) {
+  const Calibration& c = found.calibration;
+  if (c.sensors.size() == 1) put(out, "\n");
+  put_table(out, c, shown_scale(c, found.display, how.units));
 }
 
-void print_more(const identify::Checkup& found, const PrintOptions&) {
-  print_files(found.recognised.files);
-  print_mounts(found.recognised.mounts);
-  print_noise(found.recognised.noise);
-  print_checks(found.checks);
-  print_determined(found.determined);
+void put_more(std::string& out, const Checkup& found, const TextOptions& how) {
+  put_files(out, found.recognised.files, how.width);
+  put_mounts(out, found.recognised.mounts);
+  put_noise(out, found.recognised.noise);
+  put_checks(out, found.checks);
+  put_determined(out, found.determined);
 }
 
-void print_more(const identify::ScaleFound& found, const PrintOptions&) {
+void put_more(std::string& out, const ScaleFound& found, const TextOptions&) {
   const actuator::Prediction& p = found.actuator.prediction;
-  fmt::print("a muscle of {:.4g} mm, like that of {:.4g} mm\n", 1e3 * p.rest_length,
-             1e3 * found.from);
-  fmt::print("largest force  {:.4g} N at {:.4g} mm and {:.4g} kPa gauge\n", found.largest,
-             1e3 * p.lengths.back(), 1e-3 * p.highest);
+  put(out, "a muscle of {:.4g} mm, like that of {:.4g} mm\n", 1e3 * p.rest_length,
+      1e3 * found.from);
+  put(out, "largest force  {:.4g} N at {:.4g} mm and {:.4g} kPa gauge\n", found.largest,
+      1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (found.corrected_by != 1)
-    fmt::print("its reading    the law times {:.4f}\n", found.corrected_by);
+    put(out, "its reading    the law times {:.4f}\n", found.corrected_by);
   else
-    fmt::print("one reading    --reading \"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
-               1e3 * p.lengths.back(), 1e-3 * p.highest);
+    put(out, "one reading    --reading \"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
+        1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (p.inside_95 > 0)
-    fmt::print("68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
-               actuator::widest_inside_68(p), actuator::widest_inside_95(p));
+    put(out, "68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
+        actuator::widest_inside_68(p), actuator::widest_inside_95(p));
 }
 
-void print_more(const identify::PlanFound& found, const PrintOptions& how) {
-  print_plan(found, {units_asked(how.units, units::UnitSet::metric), how.atmosphere});
+void put_more(std::string& out, const PlanFound& found, const TextOptions& how) {
+  put_plan(out, found, {how});
 }
 
-}  // namespace sinew::cli
+TextOptions::Shown TextOptions::shown(double number, const std::string& unit) const {
+  const auto held = units.asked ? units::told_unit(unit, atmosphere) : std::nullopt;
+  if (!held) return {number, unit, 1};
+  const units::ShownUnit to = units.units.of(held->held, units::ShownUnits::not_known, atmosphere);
+  return {to.of(held->unit.back(number)), to.name, to.scale / held->unit.scale};
+}
+
+}  // namespace sinew::identify

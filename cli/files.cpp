@@ -1,0 +1,287 @@
+// cli/files.cpp - commands about files and their keys: new, list, keys, show, check and migrate.
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/option_groups.h"
+#include "cli/terminal.h"
+#include "sinew/files/check.h"
+#include "sinew/files/key_text.h"
+#include "sinew/files/keys.h"
+#include "sinew/files/list.h"
+#include "sinew/files/migrate.h"
+#include "sinew/files/new_file.h"
+#include "sinew/files/values.h"
+#include "sinew/json/json.h"
+
+namespace sinew::cli {
+
+namespace {
+
+// --- new ---
+
+struct NewCommandOptions {
+  std::string kind, name;
+  files::NewOptions how;
+};
+
+// Returns the commands that use the new file, with quotes for a shell.
+std::vector<std::string> next_commands(const NewCommandOptions& options,
+                                       const std::string& written) {
+  const std::string file = written.find(' ') == written.npos ? written : "\"" + written + "\"";
+  const std::string &kind = options.kind, &name = options.name;
+  std::vector<std::string> out{"sinew check " + file};
+  if (kind == "robot")
+    out.push_back(fmt::format("sinew new experiment {}-moves --of {}", name, file));
+  if (kind == "actuator")
+    out.push_back(fmt::format("sinew identify static FORCES.csv --actuator {}", file));
+  if (kind == "experiment" || kind == "rig") out.push_back("sinew run " + file);
+  if (kind == "experiment")
+    out.push_back(fmt::format("sinew new plan {}-gains --of {}", name, file));
+  if (kind == "plan") out.push_back(fmt::format("sinew sweep {} -o {}.csv", file, name));
+  if (kind == "tuning") out.push_back(fmt::format("sinew tune {} -o {}.csv", file, name));
+  if (kind == "mapping")
+    out.push_back(
+        fmt::format("sinew import RECORDING.csv --mapping {} --experiment EXPERIMENT.toml", file));
+  return out;
+}
+
+ExitCode write(const NewCommandOptions& options) {
+  const files::NewFiles made = files::write_new(options.kind, options.name, options.how);
+  for (const std::string& file : made.files) fmt::print("{}\n", file);
+  for (const std::string& problem : made.problems) error(problem);
+  const Messages messages(false);
+  if (!made.problems.empty()) {
+    messages.note("written, but it needs these changes");
+    return failed;
+  }
+  messages.note("valid as written; its comments say what each table is for. Next:");
+  for (const std::string& command : next_commands(options, made.files[0]))
+    messages.note("  " + command);
+  return ok;
+}
+
+// --- list ---
+
+struct ListOptions {
+  std::string kind;
+  bool json = false;
+};
+
+ExitCode list(const ListOptions& options) {
+  const files::Listing listing = files::list(options.kind);
+  fmt::print("{}", options.json ? files::json_of(listing) : files::text_of(listing, options.kind));
+  const Messages messages(false);
+  if (listing.shipped_from.empty())
+    messages.warning(
+        "found none of the files that come with Sinew; SINEW_SHARE=FOLDER in the environment says "
+        "where they are");
+  if (listing.cut) messages.warning("this folder has too much below it; not all was looked at");
+  return ok;
+}
+
+// --- keys ---
+
+struct KeysOptions {
+  std::vector<std::string> words;
+  std::string kind, schema;
+  bool json = false, page = false;
+};
+
+// The schema of each kind has what all kinds have.
+std::vector<std::string> kinds_with_a_schema() {
+  std::vector<std::string> out = files::key_kinds();
+  std::erase(out, "any");
+  return out;
+}
+
+ExitCode keys(const KeysOptions& options) {
+  const bool all = options.words.empty() && options.kind.empty();
+  if (options.page) {
+    fmt::print("{}", files::page_of_keys());
+  } else if (!options.schema.empty()) {
+    fmt::print("{}", files::schema_of(options.schema));
+  } else if (options.json) {
+    const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
+    fmt::print("{}\n", (Json::parse(files::json_of(found))).text(2));
+  } else if (all) {
+    fmt::print("{}", files::overview_of_keys(width_of_output()));
+  } else {
+    const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
+    fmt::print("{}", files::text_of(found, width_of_output()));
+  }
+  return ok;
+}
+
+// --- show ---
+
+struct ShowOptions {
+  std::string file;
+  std::vector<std::string> keys;
+  std::vector<std::string> sets;
+  std::string units;
+  bool json = false;
+};
+
+ExitCode show(const ShowOptions& options) {
+  const files::Values values = files::values(options.file, options.sets, options.keys);
+  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si, &values.in_si);
+  if (options.json)
+    fmt::print("{}\n", Json::parse(files::json_of(values)).text(2));
+  else
+    fmt::print("{}", files::text_of(values, asked.asked ? &asked.units : nullptr));
+  return ok;
+}
+
+// --- check ---
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+ExitCode check_all(const CheckOptions& options) {
+  std::vector<files::Finding> findings;
+  for (const std::string& file : options.files) {
+    findings.push_back(files::check(file));
+    if (!options.json) fmt::print("{}", files::text_of(findings.back()));
+  }
+  if (options.json) fmt::print("{}", files::json_of(findings));
+  const auto is_good = [](const files::Finding& finding) { return finding.problems.empty(); };
+  return std::ranges::all_of(findings, is_good) ? ok : failed;
+}
+
+// --- migrate ---
+
+struct MigrateCommandOptions {
+  std::vector<std::string> files;
+  files::MigrateOptions how;
+  bool dry_run = false, json = false;
+};
+
+Json json_of(const files::Migration& m) {
+  Json out{{"file", m.file}, {"was", m.was}, {"is", m.is}, {"changes", m.changes}};
+  if (!m.written.empty()) out["written"] = m.written;
+  if (!m.kept.empty()) out["kept"] = m.kept;
+  if (!m.reason.empty()) out["reason"] = m.reason;
+  return out;
+}
+
+// One file's failure does not keep the others from being migrated.
+ExitCode migrate_all(const MigrateCommandOptions& options) {
+  bool good = true;
+  Json report = Json::array();
+  for (const std::string& file : options.files) {
+    try {
+      const files::Migration done = files::migrate(file, options.how);
+      report.push_back(json_of(done));
+      if (!options.json) fmt::print("{}", files::text_of(done));
+    } catch (const std::exception& e) {
+      good = false;
+      report.push_back({{"file", file}, {"problem", e.what()}});
+      error(e.what());
+    }
+  }
+  if (options.json) fmt::print("{}\n", report.text(2));
+  if (options.dry_run) Messages(false).note("nothing was written");
+  return good ? ok : failed;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "new", "a commented file to begin with, valid as written",
+                             "sinew new robot my-arm --metric");
+  NewCommandOptions& options = runs(sub, action, write);
+  std::vector<std::string> kinds;
+  for (const std::string_view kind : files::new_kinds()) kinds.emplace_back(kind);
+  sub.add_option("KIND", options.kind, "what it describes")->required()->check(one_of(kinds));
+  sub.add_option("NAME", options.name,
+                 "its name; a robot and a rig become a folder NAME, any other a file NAME.toml")
+      ->required();
+  sub.add_option("-o,--output", options.how.folder, "folder in which it is written; else this one");
+  sub.add_option(
+      "--of", options.how.of,
+      "experiment: the robot's file; plan and tuning: the experiment's; else one that comes with "
+      "Sinew");
+  sub.add_option("--actuator", options.how.actuator,
+                 "robot: the file of its muscles, as sinew identify static writes it");
+  sub.add_flag("--metric", options.how.metric, "mm, N and bar; else in, lbf and psi");
+}
+
+void add_list(CLI::App& app, Action& action) {
+  CLI::App& sub =
+      subcommand(app, "list", "robots, experiments and more: with Sinew and in this folder",
+                 "sinew list experiments");
+  ListOptions& options = runs(sub, action, list);
+  std::vector<std::string> kinds;
+  for (const std::string_view kind : files::listed_kinds()) kinds.emplace_back(kind);
+  sub.add_option("KIND", options.kind, "one kind alone; else all")->check(one_of(kinds));
+  sub.add_flag("--json", options.json, "as JSON");
+}
+
+void add_keys(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "keys", "every key of every file: unit, range, default, meaning",
+                             "sinew keys damping\n  sinew keys joint.hip.damping");
+  KeysOptions& options = runs(sub, action, keys);
+  sub.add_option("WORD", options.words,
+                 "a key, how it begins, or words of its description; without one, the tables");
+  CLI::Option* kind = sub.add_option("--kind", options.kind, "of one kind of file alone")
+                          ->check(one_of(files::key_kinds()));
+  CLI::Option* json = sub.add_flag("--json", options.json, "as JSON");
+  CLI::Option* schema = sub.add_option("--schema", options.schema,
+                                       "a JSON schema of that kind of file, for an editor")
+                            ->check(one_of(kinds_with_a_schema()));
+  CLI::Option* page =
+      sub.add_flag("--page", options.page, "all keys as Markdown, docs/reference/keys.md");
+  CLI::Option* words = sub.get_option("WORD");
+  for (CLI::Option* other : {kind, json, words}) {
+    schema->excludes(other);
+    page->excludes(other);
+  }
+  page->excludes(schema);
+}
+
+void add_show(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
+                             "sinew show robots/leg/robot.toml joint.knee muscle.hip");
+  ShowOptions& options = runs(sub, action, show);
+  sub.add_option("FILE", options.file, "experiment, rig, robot, actuator, valves or wiring file")
+      ->required();
+  sub.add_option("KEY", options.keys, "keys, or how they begin");
+  add_sets(sub, options.sets);
+  add_units(sub, options.units, "of the column beside what is written, else SI");
+  sub.add_flag("--json", options.json, "as JSON");
+}
+
+void add_check(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
+                             "sinew check robots/leg/*.toml robots/leg/predict.dat");
+  CheckOptions& options = runs(sub, action, check_all);
+  sub.add_option(
+         "FILE", options.files,
+         "experiment, rig, plan, tuning, robot, actuator, valves, wiring file, predict.dat, "
+         "gain*.dat, or a "
+         "run's folder or log")
+      ->required();
+  sub.add_flag("--json", options.json, "as JSON");
+}
+
+void add_migrate(CLI::App& app, Action& action) {
+  auto options = std::make_shared<MigrateCommandOptions>();
+  CLI::App& sub = subcommand(app, "migrate", "files of older formats in today's, comments kept",
+                             "sinew migrate my-leg/*.toml --dry-run");
+  sub.add_option("FILE", options->files,
+                 "experiment, rig, plan, tuning, robot, actuator, valves or wiring file")
+      ->required();
+  sub.add_option("-o,--output", options->how.folder,
+                 "folder of the new files; without it each takes the place of the old one, which "
+                 "is kept as FILE.bak");
+  sub.add_flag("--dry-run", options->dry_run, "says what would be changed and writes nothing");
+  sub.add_flag("--json", options->json, "as JSON");
+  sub.callback([=, &action] {
+    options->how.write = !options->dry_run;
+    action = [=] { return migrate_all(*options); };
+  });
+}
+
+}  // namespace sinew::cli

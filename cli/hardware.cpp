@@ -1,0 +1,333 @@
+// cli/hardware.cpp - commands for boards and other programs: doctor, bring-up, firmware and fmu.
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/terminal.h"
+#include "fmu/export/export.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/host/doctor.h"
+#include "sinew/host/realtime.h"
+#include "sinew/json/json.h"
+#include "sinew/run/bring_up/bring_up.h"
+#include "sinew/run/bring_up/firmware.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/simulation/place.h"
+
+namespace sinew::cli {
+
+namespace {
+
+// --- doctor ---
+
+using host::Verdict;
+
+struct DoctorOptions {
+  std::string place = "simulated";
+  bool json = false;
+};
+
+std::string_view word(Verdict v) {
+  return v == Verdict::good ? "good" : v == Verdict::advice ? "advice" : "missing";
+}
+
+void print(const std::vector<host::Finding>& findings) {
+  for (const host::Finding& f : findings) {
+    const std::string verdict = fmt::format("{:<8}", word(f.verdict));
+    fmt::print("{}{}: {}\n", f.verdict == Verdict::missing ? in_red(verdict) : verdict, f.subject,
+               f.found);
+    if (f.verdict == Verdict::good) continue;
+    fmt::print("        {}{}\n", f.why, f.place.empty() ? "" : fmt::format(" ({}:)", f.place));
+    if (!f.todo.empty()) fmt::print("        {}\n", f.todo);
+  }
+}
+
+void print_json(const std::vector<host::Finding>& findings, const DoctorOptions& options,
+                bool ready) {
+  Json list = Json::array();
+  for (const host::Finding& f : findings) {
+    Json item{
+        {"subject", f.subject}, {"verdict", word(f.verdict)}, {"found", f.found}, {"why", f.why}};
+    if (!f.place.empty()) item["place"] = f.place;
+    if (!f.todo.empty()) item["todo"] = f.todo;
+    list.push_back(std::move(item));
+  }
+  const Json all{{"format", "sinew.doctor/1"},
+                 {"place", options.place},
+                 {"ready", ready},
+                 {"findings", std::move(list)}};
+  fmt::print("{}\n", all.text(2));
+}
+
+// Measures as the real-time loop would run.
+host::Latency measure() {
+  const host::RealTime real_time;
+  return host::measure_latency(1);
+}
+
+ExitCode examine(const DoctorOptions& options) {
+  const std::vector<host::Finding> findings = host::examine({.latency = measure});
+  const bool ready = host::is_ready(findings, options.place);
+  if (options.json)
+    print_json(findings, options, ready);
+  else
+    print(findings);
+  if (!ready)
+    error(
+        fmt::format("{}: something that it needs is missing; what to do is above", options.place));
+  return ready ? ok : failed;
+}
+
+// --- bring-up ---
+
+struct BringUpOptions {
+  std::string robot, place, folder;
+  std::vector<std::string> sets;
+  bool yes = false, clear_fault = false;
+};
+
+// Returns false if a signal comes first. A signal ends poll(), but not a read.
+bool can_read(const Interrupt& interrupt) {
+  while (!interrupt.asked()) {
+    pollfd in{0, POLLIN, 0};
+    if (::poll(&in, 1, -1) > 0) break;
+  }
+  return !interrupt.asked();
+}
+
+std::optional<bool> asked(const std::string& question, bool yes, const Interrupt& interrupt) {
+  for (std::string line;;) {
+    fmt::print("    {} [y/n] ", question);
+    std::fflush(stdout);
+    if (yes) {
+      fmt::print("y\n");
+      return true;
+    }
+    if (!can_read(interrupt) || !std::getline(std::cin, line)) {
+      fmt::print("\n");
+      return {};
+    }
+    if (line == "y" || line == "yes") return true;
+    if (line == "n" || line == "no") return false;
+  }
+}
+
+std::string problem_of_port(const std::string& place) {
+  if (std::string problem = run::problem_of_place(place); !problem.empty()) return problem;
+  if (!run::is_elsewhere(place) || place.starts_with("comedi:"))
+    return "found " + config::in_quotes(place) +
+           "; expected a board, serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE: a bring-up "
+           "is a board's";
+  return "";
+}
+
+// An operator has to be at a machine.
+void refuse_yes_at_a_machine(const BringUpOptions& o) {
+  if (o.yes && o.place.starts_with("serial:"))
+    config::fail({"bring-up", 0, 0}, "--yes", "yes to everything at " + o.place,
+                 "an operator who answers: air may be open and persons near");
+}
+
+ExitCode bring_up(const BringUpOptions& o) {
+  refuse_yes_at_a_machine(o);
+  const std::filesystem::path robot(o.robot);
+  const std::filesystem::path folder =
+      o.folder.empty() ? std::filesystem::path("bring-up") / robot.parent_path().filename()
+                       : std::filesystem::path(o.folder);
+  const experiment::Experiment bench = run::bench_of(o.robot, folder, o.sets);
+  std::setvbuf(stdin, nullptr, _IONBF, 0);  // so that poll() sees input that was typed ahead
+  // Exists before the board is opened and until the machine rests.
+  const Interrupt interrupt(Interrupt::Of::machine);
+  run::Place place(o.place, bench);
+  if (o.clear_fault) place.board()->allow_clearing();
+  std::atomic<bool> space{false};
+  std::optional<SpaceBar> space_bar;  // while valves move; else keys are replies
+  run::BringUp steps(
+      bench, o.robot, *place.board(), place.lead(),
+      {.tell =
+           [](const std::string& line) {
+             fmt::print("{}\n", line);
+             std::fflush(stdout);
+           },
+       .ask = [&](const std::string& question) { return asked(question, o.yes, interrupt); },
+       .moves =
+           [&](bool now) {
+             space_bar.reset();
+             if (now) space_bar.emplace([&] { space = true; });
+           },
+       .stops = [&] { return interrupt.asked() || space; }},
+      folder);
+  return steps.go() ? ok : failed;
+}
+
+// --- firmware ---
+
+struct FirmwareOptions {
+  std::string robot, board, out, sources = ".";
+  bool force = false;
+};
+
+std::string names_of_boards() {
+  std::string out;
+  for (const run::FirmwareBoard& b : run::firmware_boards())
+    out += (out.empty() ? "" : ", ") + std::string(b.name);
+  return out;
+}
+
+void print_flash(const run::FirmwareBoard& board, const std::string& file) {
+  const std::string command = run::flash_command(board, file);
+  fmt::print("{}\n", command.empty() ? fmt::format("sinew run EXPERIMENT --port {}",
+                                                   run::shell_word("emulated:" + file))
+                                     : command);
+}
+
+ExitCode build(const FirmwareOptions& o) {
+  const run::FirmwareBoard& board = run::firmware_board(o.board);
+  run::require_fits(o.robot, board);
+  const bool low = run::low_gives_current(o.robot);
+  run::build_firmware(o.sources, board, o.out, low, o.force);
+  Messages(false).note(
+      fmt::format("built {}, whose outputs are {} where a coil has current; onto the board with",
+                  o.out, low ? "0, as wiring.polarity says," : "1"));
+  print_flash(board, o.out);
+  return ok;
+}
+
+ExitCode wiring(const FirmwareOptions& o) {
+  run::refuse_to_overwrite(o.out, o.force, {o.robot}, ".svg");
+  run::write_file(o.out, run::wiring_on(o.robot, run::firmware_board(o.board)));
+  return ok;
+}
+
+// --- fmu ---
+
+struct FmuOptions {
+  fmu::Asked asked;
+  std::string out;
+  bool force = false, json = false;
+};
+
+ExitCode export_fmu(const FmuOptions& options) {
+  const fmu::Fmu made = fmu::make_fmu(options.asked);
+  const std::string file = options.out.empty() ? made.identifier + ".fmu" : options.out;
+  run::refuse_to_overwrite(file, options.force, {options.asked.file}, ".fmu");
+  run::write_file(file, made.bytes);
+  fmt::print("{}", options.json ? fmu::json_of(made, file) : fmu::text_of(made, file));
+  return ok;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "doctor", "is this computer ready to drive a machine?",
+                             "sinew doctor --for comedi");
+  DoctorOptions& options = runs(sub, action, examine);
+  sub.add_option("--for", options.place,
+                 "exit 1 where what such a place needs is missing: simulated, serial, emulated, "
+                 "comedi")
+      ->check(one_of({"simulated", "serial", "emulated", "comedi"}))
+      ->capture_default_str();
+  sub.add_flag("--json", options.json, "print the findings as JSON");
+}
+
+void add_bring_up(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "bring-up", "a machine's first day at the bench, step by step",
+                             "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
+  BringUpOptions& options = runs(sub, action, bring_up);
+  sub.add_option("ROBOT", options.robot, "file of the robot")->required();
+  sub.add_option("--port", options.place,
+                 "its board: serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE")
+      ->required()
+      ->transform(passes(problem_of_port));
+  sub.add_option("-o,--output", options.folder, "folder of the results; else bring-up/<robot>");
+  add_sets(sub, options.sets);
+  sub.add_flag("--clear-fault", options.clear_fault,
+               "the board's watchdog or memory fault has been looked into");
+  sub.add_flag("--yes", options.yes, "every question is answered with yes: for a simulated bench");
+}
+
+void add_firmware(CLI::App& app, Action& action) {
+  auto o = std::make_shared<FirmwareOptions>();
+  CLI::App& group = subcommand(app, "firmware", "the program of a robot's board",
+                               "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
+  group.require_subcommand();
+  CLI::App& made = subcommand(group, "build", "does the robot fit on the board, and its program",
+                              "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
+  made.add_option("ROBOT", o->robot, "file of the robot")->required();
+  made.add_option("BOARD", o->board, names_of_boards())->required();
+  made.add_option("-o,--output", o->out, "FILE.elf, FILE.hex or FILE.bin")->required();
+  made.add_option("--sources", o->sources, "folder of Sinew's sources; else this one");
+  made.add_flag("--force", o->force, "replace the file");
+  made.callback([=, &action] { action = [=] { return build(*o); }; });
+  CLI::App& drawn = subcommand(group, "wiring", "which wire goes to which pin, as a picture",
+                               "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
+  drawn.add_option("ROBOT", o->robot, "file of the robot")->required();
+  drawn.add_option("BOARD", o->board, names_of_boards())->required();
+  drawn.add_option("-o,--output", o->out, "FILE.svg")->required();
+  drawn.add_flag("--force", o->force, "replace the file");
+  drawn.callback([=, &action] { action = [=] { return wiring(*o); }; });
+  CLI::App& flash = subcommand(group, "flash", "shows the command that brings a file onto a board",
+                               "sinew firmware flash stm32f405 leg.elf");
+  flash.add_option("BOARD", o->board, names_of_boards())->required();
+  flash.add_option("FILE", o->out, "what was built")->required();
+  flash.callback([=, &action] {
+    action = [=] {
+      const run::FirmwareBoard& board = run::firmware_board(o->board);
+      if (!std::filesystem::is_regular_file(o->out))
+        config::fail({o->out, 0, 0}, "", "no such file", "what sinew firmware build has made");
+      print_flash(board, o->out);
+      return ok;
+    };
+  });
+}
+
+void add_fmu(CLI::App& app, Action& action) {
+  CLI::App& fmu = subcommand(app, "fmu", "FMUs for co-simulation in other programs",
+                             "sinew fmu export robots/leg/robot.toml --muscle hip_flexor");
+  fmu.require_subcommand();
+  CLI::App& sub =
+      subcommand(fmu, "export",
+                 "an actuator, a muscle with valves, joints with muscles, or a machine with "
+                 "its controllers, as "
+                 "an FMU",
+                 "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
+                 "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
+  FmuOptions& options = runs(sub, action, export_fmu);
+  fmu::Asked& asked = options.asked;
+  sub.add_option(
+         "FILE", asked.file,
+         "actuator: a tube; rig: its muscle; robot: its joints; experiment: the machine with "
+         "its controllers")
+      ->required();
+  sub.add_option("-o,--out", options.out, "the FMU; NAME.fmu here");
+  sub.add_flag("--force", options.force, "replace a file that is there");
+  sub.add_option("--muscle", asked.muscle, "this muscle alone, with its valves");
+  sub.add_flag("--without-valves", asked.without_valves, "a muscle whose pressure is an input");
+  sub.add_option("--joint", asked.joints, "this joint with its muscles; may be repeated")
+      ->allow_extra_args(false);
+  sub.add_option("--actuator", asked.actuator, "which actuator, where the file has several");
+  sub.add_option("--input", asked.inputs,
+                 "a setting of the plan as an input: control.stiffness.JOINT …; may be repeated")
+      ->allow_extra_args(false);
+  sub.add_option("--output", asked.outputs,
+                 "a channel of the run; may be repeated; all, if none is named")
+      ->allow_extra_args(false);
+  sub.add_option("--parameter", asked.parameters,
+                 "a value of the experiment that an importer may set; may be repeated")
+      ->allow_extra_args(false);
+  sub.add_option("--fmi", asked.version, "version of the interface")
+      ->transform(between(2, 3))
+      ->capture_default_str();
+  sub.add_option("--name", asked.name, "of the model; from the file, the muscle or the joints");
+  add_sets(sub, asked.sets);
+  sub.add_flag("--json", options.json, "what was written, as JSON");
+}
+
+}  // namespace sinew::cli

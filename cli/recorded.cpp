@@ -1,0 +1,390 @@
+// cli/recorded.cpp - pages, comparisons, tables and films of recorded runs: report, compare, export
+// and film.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/option_groups.h"
+#include "cli/terminal.h"
+#include "sinew/analysis/record/derived.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
+#include "sinew/experiment/globs.h"
+#include "sinew/film/film.h"
+#include "sinew/film/video.h"
+#include "sinew/log/csv.h"
+#include "sinew/log/reader.h"
+#include "sinew/report/compare/comparison.h"
+#include "sinew/report/compare/comparison_text.h"
+#include "sinew/report/page/page.h"
+#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/tune/page/study_view.h"
+#include "thesis/out_dat/out_dat.h"
+#include "thesis/out_dat/ports.h"
+
+namespace sinew::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// --- alignment of runs with the first one ---
+
+constexpr int most_runs = 8;  // as many colors are distinct
+
+// The options as they are given.
+struct Alignment {
+  std::vector<std::string> align_by;
+  std::string align = "start", clock = "none", event;
+  double most_shift = std::numeric_limits<double>::infinity();  // [s]
+
+  report::AlignWish wish() const;
+  std::string given() const;  // the setting of one that was given, "align_by"; "" for none
+};
+
+report::AlignWish Alignment::wish() const {
+  report::AlignWish wish;
+  wish.event = event;
+  wish.channels = align_by;
+  wish.fit_clock = clock == "fit";
+  wish.most_shift = most_shift;
+  for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
+    if (to_text(by) == align) wish.by = by;
+  // An event or channels choose the way of alignment.
+  if (!event.empty()) wish.by = report::Align::event;
+  if (!align_by.empty() && wish.by == report::Align::start) wish.by = report::Align::correlation;
+  return wish;
+}
+
+std::string Alignment::given() const {
+  if (align != "start") return "align";
+  if (!event.empty()) return "event";
+  if (!align_by.empty()) return "align_by";
+  if (clock != "none") return "clock";
+  return most_shift < std::numeric_limits<double>::infinity() ? "within" : "";
+}
+
+void add_alignment(CLI::App& sub, Alignment& alignment) {
+  sub.add_option("--align", alignment.align,
+                 "how the times of runs are aligned with those of the first one: start, sequence, "
+                 "event, correlation")
+      ->check(one_of({"start", "sequence", "event", "correlation"}));
+  sub.add_option("--event", alignment.event,
+                 "of --align event: '/joint/elbow/angle > 10 deg'; else the surest first motion");
+  sub.add_option("--align-by", alignment.align_by, "channels that are correlated; else chosen")
+      ->expected(1, CLI::detail::expected_max_vector_size);
+  sub.add_option("--clock", alignment.clock,
+                 "fit: the rate of a run's clock is found and taken out; none")
+      ->check(one_of({"none", "fit"}));
+  sub.add_option("--within", alignment.most_shift, "largest shift that is looked for, in s");
+}
+
+// --- report ---
+
+struct ReportOptions : Flags {
+  std::vector<std::string> runs;
+  std::string machine, out, units;
+};
+
+ExitCode write(const fs::path& out, const std::string& page, const Messages& messages) {
+  run::write_file(out, page);
+  messages.note(
+      fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
+  return ok;
+}
+
+ExitCode report_study(const ReportOptions& options) {
+  fs::path out = options.out;
+  if (out.empty()) out = fs::path(options.runs[0]).replace_extension(".html");
+  const std::vector<fs::path> files(options.runs.begin(), options.runs.end());
+  run::refuse_to_overwrite(out, options.force, files);
+  return write(out, tune::study_page_of(files), Messages(options.quiet));
+}
+
+ExitCode report_run(const ReportOptions& options) {
+  const Messages messages(options.quiet);
+  const run::RecordedRun recorded = run::recorded_run(options.runs[0]);
+  const fs::path out =
+      options.out.empty() ? recorded.log.parent_path() / run::report_name : fs::path(options.out);
+  run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
+  return write(out, run::page_of(recorded, options.machine, messages.notices(), options.units),
+               messages);
+}
+
+// --- compare ---
+
+struct CompareOptions : Flags {
+  std::vector<std::string> runs, channels;
+  Alignment alignment;
+  std::string out, residuals, units;
+  bool all = false;
+};
+
+report::ComparisonText shown_as(const CompareOptions& options) {
+  const fs::path first = run::recorded_run(options.runs.front()).resolved;
+  return {.units = chosen_units(options.units, units::UnitSet::thesis, first).units,
+          .all = options.all,
+          .width = width_of_output(),
+          .see_all = "--all",
+          .fit_clock = "--clock fit",
+          .color = output_has_color()};
+}
+
+// Refuses to replace a file without --force, and a run that is read.
+void refuse_outputs(const CompareOptions& options) {
+  if (!options.out.empty()) report::require_page(options.out);
+  std::vector<fs::path> inputs;
+  for (const std::string& named : options.runs) {
+    const run::RecordedRun run = run::recorded_run(named);
+    inputs.insert(inputs.end(), {run.log, run.resolved});
+  }
+  for (const std::string& out : {options.out, options.residuals})
+    if (!out.empty()) run::refuse_to_overwrite(out, options.force, inputs);
+}
+
+ExitCode compare_runs(const CompareOptions& options) {
+  const Messages messages(options.quiet);
+  refuse_outputs(options);
+  const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
+                                                          options.channels, messages.notices());
+
+  // Files come before what is printed: a reader that ends early, such as head, ends the
+  // program.
+  if (!options.residuals.empty()) {
+    run::write_file(options.residuals, report::residuals_csv(comparison));
+    messages.note(options.residuals);
+  }
+  if (!options.out.empty()) {
+    const fs::path first = run::recorded_run(options.runs.front()).resolved;
+    const std::string page =
+        report::page(comparison, chosen_units(options.units, units::UnitSet::si, first).units);
+    write(options.out, page, messages);
+  }
+  if (options.json)
+    fmt::print("{}", to_json(comparison));
+  else
+    fmt::print("{}", text_of(comparison, shown_as(options)));
+  return ok;
+}
+
+// --- export ---
+
+struct ExportOptions : Flags {
+  std::string run, out, machine;
+  std::string format = "csv";
+  std::vector<std::string> channels;
+  bool csv = false, derived = false;
+};
+
+std::vector<std::string> chosen_topics(const ExportOptions& options, const signals::Table& table) {
+  if (options.channels.empty()) return {};
+  const std::vector<std::string_view> names = experiment::names_of(table);
+  const std::vector<bool> chosen =
+      experiment::select(options.channels, names, {"--channels", 0, 0});
+  std::vector<std::string> topics;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (chosen[i]) topics.emplace_back(names[i]);
+  return topics;
+}
+
+// Writes line by line, since the text of a long run is longer than memory.
+void put_csv(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
+  if (options.derived) {
+    const config::Node root = config::compose(run::machine_of(run, options.machine).string());
+    signals::Table derived = analysis::derive(table, analysis::read_machine(root));
+    for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
+  }
+  const std::vector<std::string> topics = chosen_topics(options, table);
+  if (!options.out.empty()) {
+    run::require_folder_of(options.out);
+    return log::write_csv(table, options.out, topics);
+  }
+  log::write_csv(table, std::cout, topics);
+  std::cout.flush();
+}
+
+void put(const run::RecordedRun& run, const ExportOptions& options, signals::Table table) {
+  if (options.format == "csv") return put_csv(run, options, std::move(table));
+  const std::string file = run::machine_of(run, options.machine).string();
+  const experiment::Experiment e = run::buildable_robot(config::compose(file), file);
+  const std::string text =
+      options.format == "ports" ? thesis::write_ports(table, e) : thesis::write_out_dat(table, e);
+  if (!options.out.empty()) return run::write_file(options.out, text);
+  fmt::print("{}", text);
+}
+
+ExitCode export_run(const ExportOptions& options) {
+  const Messages messages(options.quiet);
+  if (options.format != "csv" && (!options.channels.empty() || options.derived))
+    config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
+                 "csv, for --channels and --derived");
+  const run::RecordedRun run = run::recorded_run(options.run);
+  if (!options.out.empty())
+    run::refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
+
+  signals::Table table = log::read(run.log);
+  if (!table.complete)
+    messages.warning(
+        fmt::format("{} was cut off; what stands before is exported", run.log.string()));
+  put(run, options, std::move(table));
+  if (!options.out.empty()) messages.note(options.out);
+  return ok;
+}
+
+// --- film ---
+
+struct FilmCommandOptions : Flags {
+  std::vector<std::string> runs;
+  Alignment alignment;
+  std::string machine, out, from, to;
+  film::FilmOptions film;
+};
+
+film::FilmOptions film_of(const FilmCommandOptions& options) {
+  film::FilmOptions out = options.film;
+  if (!options.from.empty()) out.from = config::quantity_setting("from", options.from, "s");
+  if (!options.to.empty()) out.to = config::quantity_setting("to", options.to, "s");
+  return out;
+}
+
+film::Filming filming_of(const FilmCommandOptions& options, const film::FilmOptions& film,
+                         const std::atomic<bool>& stop, const run::Notices& notices) {
+  if (options.runs.size() == 1) return {options.runs.front(), options.machine, film, stop, notices};
+  return {options.runs, options.alignment.wish(), film, stop, notices};
+}
+
+ExitCode make(const FilmCommandOptions& options) {
+  const Messages messages(options.quiet);
+  const film::FilmOptions film = film_of(options);
+  // Errors of the options are reported before a browser starts.
+  const film::Kind kind = film::kind_of(options.out);
+  film::check(film, kind);
+  const bool several = options.runs.size() > 1;
+  if (const std::string given = options.alignment.given(); !several && !given.empty())
+    config::fail({given, 0, 0}, "", "one run",
+                 "two runs or more, which are aligned with each other");
+  if (several && !options.machine.empty())
+    config::fail({"machine", 0, 0}, "", config::in_quotes(options.machine),
+                 "no option: each of several runs has its own machine");
+  run::refuse_to_overwrite(options.out, options.force, {},
+                           fs::path(options.out).extension().string());
+  run::require_folder_of(options.out);
+  if (kind != film::Kind::gif) film::require_ffmpeg();
+
+  const Interrupt interrupt;
+  film::Filming filming = filming_of(options, film, interrupt.asked(), messages.notices());
+  std::atomic<std::int64_t> done{0};
+  {
+    const ProgressBar bar(done, filming.frames(), {.each = 1, .unit = "frames"}, options.quiet);
+    filming.make(options.out, done);
+  }
+  messages.note(fmt::format("{}, {} frames, {:.1f} s, {:.2f} MB", options.out, filming.frames(),
+                            static_cast<double>(filming.frames()) / film.frames_per_second,
+                            1e-6 * static_cast<double>(std::filesystem::file_size(options.out))));
+  return ok;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App& sub =
+      subcommand(app, "report", "a run or a study as one page, which opens in any browser",
+                 "sinew report runs/walk-test-1/1 -o walk.html");
+  sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")
+      ->required()
+      ->expected(1, 2);
+  sub.add_option("-o,--output", options->out,
+                 "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
+  add_machine(sub, options->machine);
+  add_units(sub, options->units, "in which the page of a run begins, else as set");
+  add_flags(sub, *options, "replace the file", "");
+  sub.callback([=, &action] {
+    const bool study = tune::is_study(options->runs.front());
+    if (!study && options->runs.size() > 1)
+      refuse("DIR", "two runs", "one run, or studies; sinew compare shows runs beside each other");
+    if (study && !options->machine.empty())
+      refuse("--machine", "a study beside it", "a run: a study has no machine of its own");
+    action = [=] { return study ? report_study(*options) : report_run(*options); };
+  });
+}
+
+void add_compare(CLI::App& app, Action& action) {
+  CLI::App& sub =
+      subcommand(app, "compare", "runs beside each other: numbers, parameters, channels",
+                 "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
+  CompareOptions& options = runs(sub, action, compare_runs);
+  sub.add_option("RUN", options.runs, "folders of runs, or log files; the first is compared with")
+      ->required()
+      ->expected(2, most_runs);
+  sub.add_option("-o,--output", options.out, "also write a page with overlaid plots");
+  sub.add_option("--residuals", options.residuals,
+                 "also write what each run differs by, a column per channel, as CSV");
+  add_alignment(sub, options.alignment);
+  sub.add_option("--channels", options.channels, "only these: '/joint/*/angle'")
+      ->expected(1, CLI::detail::expected_max_vector_size);
+  add_units(sub, options.units, "of the tables, else thesis, and of the page; --json is in SI");
+  sub.add_flag("--all", options.all, "every figure and channel, equal ones too");
+  sub.add_flag("--json", options.json, "all of it as JSON");
+  add_flags(sub, options, "replace the page", "");
+}
+
+void add_export(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(
+      app, "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
+      "sinew export runs/walk-test-1/1 --csv -o walk.csv");
+  ExportOptions& options = runs(sub, action, export_run);
+  sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
+  CLI::App& how = alternatives(sub, "format");
+  how.add_option("--format", options.format,
+                 "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
+                 "of the valves' "
+                 "ports")
+      ->check(one_of({"csv", "out.dat", "ports"}));
+  how.add_flag("--csv", options.csv, "the same as --format csv");
+  sub.add_option("-o,--output", options.out, "the file to write; else stdout");
+  sub.add_option("--channels", options.channels, "csv: topics only; * stands for anything");
+  sub.add_flag("--derived", options.derived, "csv: also what the analysis derives");
+  add_machine(sub, options.machine);
+  add_flags(sub, options, "replace the file", "");
+}
+
+void add_film(CLI::App& app, Action& action) {
+  CLI::App& sub =
+      subcommand(app, "film", "the replay of a run, or of several, as a GIF, an MP4 or a WebM",
+                 "sinew film runs/walk-test-1/1 -o walk.gif --from \"2 s\" --to "
+                 "\"5 s\"\n  sinew film runs/walk-test-1/1 -o walk.mp4 --speed 0.25\n  sinew film "
+                 "runs/elbow/1 measured -o both.mp4 --align correlation --clock fit");
+  FilmCommandOptions& options = runs(sub, action, make);
+  film::FilmOptions& film = options.film;
+  sub.add_option("RUN", options.runs,
+                 "folders of runs, or log files; the others are ghosts over the first")
+      ->required()
+      ->expected(1, most_runs);
+  sub.add_option("-o,--output", options.out, "the file to write: .gif, .mp4 or .webm")->required();
+  sub.add_option("--from", options.from, "\"2 s\" of the run; else its begin");
+  sub.add_option("--to", options.to, "else the run's end");
+  sub.add_option("--speed", film.speed, "seconds of the run per second")->capture_default_str();
+  sub.add_option("--width", film.width, "pixels")->capture_default_str();
+  sub.add_option("--height", film.height, "pixels")->capture_default_str();
+  sub.add_option("--fps", film.frames_per_second, "frames per second")->capture_default_str();
+  sub.add_flag("--dark", film.dark, "light on dark");
+  sub.add_flag("--still", film.still, "the camera stands and shows the whole way");
+  add_alignment(sub, options.alignment);
+  add_machine(sub, options.machine);
+  add_flags(sub, options, "replace the file", "");
+}
+
+}  // namespace sinew::cli

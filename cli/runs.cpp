@@ -1,0 +1,492 @@
+// cli/runs.cpp - commands that make a run or evaluate one: run, view, replay, import and analyze.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/option_groups.h"
+#include "cli/terminal.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/summary.h"
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
+#include "sinew/config/text_file.h"
+#include "sinew/live/browser.h"
+#include "sinew/live/live_run.h"
+#include "sinew/live/served.h"
+#include "sinew/log/reader.h"
+#include "sinew/recording/number.h"
+#include "sinew/report/page/content.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/imported_run.h"
+#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/replayed.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/run_log.h"
+#include "sinew/run/folder/runnable.h"
+#include "sinew/run/folder/verdict_text.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/units/shown.h"
+#include "thesis/out_dat/out_dat.h"
+
+namespace sinew::cli {
+
+namespace {
+
+// Prints the title, and what the source reports with the results: in the source's own units, or in
+// those of `shown`; without reports the main results.
+void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine,
+                    const units::ShownUnits* shown = nullptr) {
+  fmt::print("{}",
+             run::verdicts_text(summary, machine, shown, {width_of_output(), output_has_color()}));
+}
+
+// --- run ---
+
+struct RunOptions {
+  run::RunRequest run;
+  double pace = 0;  // simulated seconds per second of wall time; 0: no limit
+  bool json = false, quiet = false;
+};
+
+void note_page(const std::filesystem::path& folder, const Messages& messages) {
+  messages.note(fmt::format("to look at it, open {}", (folder / run::report_name).string()));
+}
+
+// Prints verdicts or summary.json to stdout, and the place of the run to stderr.
+void tell(const run::Kept& kept, const RunOptions& options, const Messages& messages) {
+  if (options.json) {
+    fmt::print("{}", kept.json);
+    messages.note(kept.folder.string());
+  } else {
+    const config::UnitsToShow units =
+        chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
+    print_verdicts(kept.summary, kept.machine, units.asked ? &units.units : nullptr);
+    messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", kept.duration, kept.wall,
+                              kept.folder.string()));
+  }
+  if (kept.page) note_page(kept.folder, messages);
+}
+
+// Runs the experiment, with its log where there is one.
+run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept, Interrupt& interrupt) {
+  std::atomic<std::int64_t> tick{0};
+  run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
+  kept.apply(run_options);
+  std::optional<SpaceBar> space_bar;
+  if (run::is_elsewhere(options.run.port)) space_bar.emplace([&] { interrupt.ask(); });
+  if (space_bar && space_bar->listens() && !options.quiet)
+    fmt::print(stderr, "the space bar stops the machine\n");
+  const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
+                        Steps{signals::tick_seconds, "s", 1}, options.quiet);
+  return run::run(kept.experiment(), run_options);
+}
+
+ExitCode run_experiment(const RunOptions& options) {
+  const Messages messages(options.quiet);
+  if (options.pace > 0 && run::keeps_its_own_time(options.run.port))
+    config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
+                 "no pace: the machine keeps its own time");
+  // From before a board is opened until the machine rests.
+  Interrupt interrupt(run::is_elsewhere(options.run.port) ? Interrupt::Of::machine
+                                                          : Interrupt::Of::work);
+  run::RunRequest request = options.run;
+  request.stop = &interrupt.asked();
+  run::KeptRun kept(request, messages.notices());
+  tell(kept.keep(run_logged(options, kept, interrupt)), options, messages);
+  return ok;
+}
+
+// Returns what is wrong with a pace, "" for nothing. No clock can wait for a slower one.
+std::string a_pace(const std::string& text) {
+  constexpr double slowest = 1e-3;
+  double value = -1;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  const bool number = error == std::errc{} && end == last && std::isfinite(value);
+  if (number && (value == 0 || value >= slowest)) return "";
+  return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
+}
+
+void add_run_options(CLI::App& sub, const std::string& port, RunOptions& options) {
+  run::RunRequest& request = options.run;
+  sub.add_option(port, request.port,
+                 "where it runs: simulated, serial:DEVICE[@RATE], emulated:FILE, lock-step:FILE or "
+                 "comedi:DEVICE")
+      ->transform(passes(run::problem_of_place));
+  sub.add_flag("--clear-fault", request.clear_fault,
+               "a board that dumped by itself, or whose watchdog has bitten, was looked into");
+  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  add_sets(sub, request.sets);
+  sub.add_flag("--allow-unreachable", request.allow_unreachable,
+               "aim at the nearest point where the foot path is out of reach");
+  sub.add_flag("!--no-report", request.report, "leave report.html out");
+  add_units(sub, request.units, "of what is printed and of the page; --json is in SI");
+  sub.add_flag("--json", options.json, "print summary.json");
+  sub.add_flag("--quiet", options.quiet, "only errors on stderr");
+}
+
+// --- view ---
+
+struct ViewOptions {
+  std::vector<std::string> what;  // recorded: a run, a study or two
+  std::string machine;
+  RunOptions live;          // .run.experiment empty: a recorded one
+  std::optional<int> port;  // 0: a free one
+  bool open = true, once = false, paused = false;
+};
+
+// Returns the requested port, or else that of the current folder: there a browser finds the page as
+// the reader arranged it the last time.
+live::Port port_of(const ViewOptions& o) {
+  if (o.port) return {.number = static_cast<std::uint16_t>(*o.port)};
+  return live::folder_port(std::filesystem::current_path());
+}
+
+ExitCode view_recorded(const ViewOptions& o) {
+  const Messages messages(o.live.quiet);
+  const live::Served served = live::served(o.what, o.machine, messages.notices());
+  live::Server server(port_of(o), {.get = served.get});
+  fmt::print("{}\n", server.url());
+  std::fflush(stdout);
+  messages.note(served.in_words(server.url()));
+  const live::Browser browser(o.open ? server.url() : "");
+  server.run();
+  return ok;
+}
+
+// A run while it goes. Ends with it, or stays with its page until Ctrl-C.
+ExitCode view_live(const ViewOptions& o) {
+  const Messages messages(o.live.quiet);
+  live::LiveRun run(o.live.run,
+                    {.port = port_of(o),
+                     .pace = o.live.pace,
+                     .paused = o.paused,
+                     .once = o.once,
+                     .kept =
+                         [&](const auto& kept) {
+                           tell(kept, o.live, messages);
+                           std::fflush(stdout);
+                         }},
+                    messages.notices());
+  if (o.live.json)
+    messages.note(run.url());
+  else
+    fmt::print("{}\n", run.url());
+  std::fflush(stdout);
+  const live::Browser browser(o.open ? run.url() : "");
+  std::optional<SpaceBar> space_bar;
+  if (run.machine()) space_bar.emplace([&] { run.stop(); });
+  if (space_bar && space_bar->listens()) messages.note("the space bar stops the machine");
+  run.go();
+  return ok;
+}
+
+// --- replay ---
+
+struct ReplayOptions : Flags {
+  run::ReplayRequest request;
+  std::string of = "controller", folder, units;
+  double band = 5;  // [%]
+};
+
+ExitCode replay_run(const ReplayOptions& given) {
+  ReplayOptions options = given;
+  const Messages messages(options.quiet);
+  options.request.of = options.of == "plant" ? run::ReplayOf::plant : run::ReplayOf::controller;
+  options.request.band = 0.01 * options.band;
+  if (!options.folder.empty()) options.request.folder = options.folder;
+  const run::Replayed replayed = run::replay_run(options.request, messages.notices());
+  if (options.json)
+    fmt::print("{}", to_json(replayed));
+  else
+    fmt::print("{}", text_of(replayed, chosen_units(options.units, units::UnitSet::thesis).units,
+                             width_of_output()));
+  if (replayed.folder) messages.note(replayed.folder->string());
+  // A plant that parts from a measurement is a result; a controller that does is a change.
+  const bool bad =
+      replayed.of == run::ReplayOf::controller ? !replayed.agrees() : !replayed.cause.empty();
+  return bad ? failed : ok;
+}
+
+// --- import ---
+
+struct ImportOptions : Flags {
+  run::ImportRequest request;
+  TableOptions table;
+  std::vector<std::string> scales, shifts;  // "name=value"
+  std::string join = "side";
+};
+
+void take_pairs(ImportOptions& options) {
+  recording::Mapping& mapping = options.request.mapping;
+  mapping.table.columns = config::at_commas(options.table.columns);
+  mapping.clock.rate = options.table.rate;
+  options.request.values = options.table.values;
+  const TableOptions& table = options.table;
+  for (const auto& [name, value] :
+       pairs_of("--map", table.maps, Equals::first, "CHANNEL=COLUMN, /joint/elbow/angle=Winkel"))
+    map_channel(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--unit", table.units, Equals::last, "COLUMN=UNIT, Winkel=deg"))
+    map_unit(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--scale", options.scales, Equals::last, "COLUMN=NUMBER, Winkel=-1")) {
+    const auto number = recording::number_in(value);
+    if (!number) config::fail({"--scale", 0, 0}, "", config::in_quotes(value), "a number");
+    map_scale(mapping, name, *number);
+  }
+  for (const auto& [name, value] :
+       pairs_of("--offset", table.offsets, Equals::last, "COLUMN=VALUE, \"Winkel=90 deg\""))
+    map_offset(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--where", table.where, Equals::first, "COLUMN=VALUE, test=3"))
+    map_where(mapping, name, value);
+  for (const auto& [name, value] :
+       pairs_of("--shift", options.shifts, Equals::last, "FILE=TIME, \"force.csv=0.12 s\""))
+    options.request.shifts[name] = value;
+}
+
+bool is_out_dat(const std::string& path) {
+  std::string begin(16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return thesis::is_out_dat(begin);
+}
+
+// Imports the thesis's own log, whose columns are fixed.
+run::Kept import_out_dat(const ImportOptions& options, const Messages& messages) {
+  const run::ImportRequest& request = options.request;
+  const std::string& path = request.files.front();
+  if (request.files.size() > 1)
+    config::fail({path, 0, 0}, "", "out.dat beside other files", "out.dat alone",
+                 "an import of each");
+  const experiment::Experiment e =
+      run::buildable_robot(config::compose(request.experiment, request.sets), request.experiment);
+  const signals::Table table =
+      thesis::parse_out_dat(config::read_text_file(path, "a log out.dat"), path, e);
+  experiment::ImportedFile file = run::imported_file(path, "out.dat");
+  for (const signals::Series& s : table.series) {
+    file.rows = std::max(file.rows, static_cast<int>(s.time_ns.size()));
+    file.values += static_cast<int>(s.time_ns.size());
+  }
+  return run::keep_imported(table, e, {std::move(file)}, "",
+                            {.folder = request.folder, .force = request.force}, messages.notices());
+}
+
+ExitCode tell_kept(const run::Kept& kept, const ImportOptions& options, const Messages& messages) {
+  for (const std::string& text : kept.summary.warnings) messages.warning(text);
+  if (options.json)
+    fmt::print("{}", kept.json);
+  else
+    print_verdicts(kept.summary, kept.machine);
+  messages.note(kept.folder.string());
+  if (kept.page) note_page(kept.folder, messages);
+  return ok;
+}
+
+// Returns the size of one recording; 0 for several.
+std::int64_t bytes_of(const std::vector<std::string>& files) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(files.front(), none);
+  return files.size() > 1 || none ? 0 : static_cast<std::int64_t>(size);
+}
+
+ExitCode import_recording(const ImportOptions& given) {
+  ImportOptions options = given;
+  const Messages messages(options.quiet);
+  take_pairs(options);
+  options.request.join_at_end = options.join == "end";
+  if (is_out_dat(options.request.files.front()))
+    return tell_kept(import_out_dat(options, messages), options, messages);
+  std::atomic<std::int64_t> read{0};
+  options.request.read = &read;
+  const ProgressBar bar(read, bytes_of(options.request.files),
+                        {.each = 1e-6, .unit = "MB", .decimals = 0}, options.quiet);
+  return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
+}
+
+void add_mapping_options(CLI::App& sub, ImportOptions& options) {
+  run::ImportRequest& request = options.request;
+  add_table_options(sub, options.table, request.mapping.table);
+  sub.add_option(
+         "--scale", options.scales,
+         "COLUMN=NUMBER: by which its numbers are multiplied, before --offset; -1 turns the "
+         "sign; may be repeated")
+      ->allow_extra_args(false);
+  sub.add_option("--mapping", request.mapping_file,
+                 "a file with these and the options of how a table is read, sinew.mapping/1");
+  sub.add_option("--save-mapping", request.save_mapping, "write such a file, for the next time");
+  sub.add_flag("--all", request.mapping.keep_others, "keep other columns, as /recorded/NAME");
+}
+
+void add_clock_options(CLI::App& sub, ImportOptions& options) {
+  recording::ClockMapping& clock = options.request.mapping.clock;
+  sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
+  sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
+  sub.add_option("--clock-scale", clock.scale, "true seconds per second of its clock: 0.997");
+  sub.add_option("--start", clock.start,
+                 "the recording's time that becomes 0, \"12.5 s\"; else its first sample");
+  sub.add_option("--join", options.join, "several files: side by side in time, or end to end")
+      ->check(one_of({"side", "end"}));
+  sub.add_option("--shift", options.shifts, "FILE=TIME: by which a file is later than it says")
+      ->allow_extra_args(false);
+}
+
+// --- analyze ---
+
+struct AnalyzeOptions {
+  std::string run, machine, out, units;
+  bool json = false, verdicts = false, force = false, quiet = false;
+};
+
+// The source reports whole runs, so a part of a run has no verdict.
+ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const signals::Table& table,
+              analysis::Machine machine, const config::UnitsToShow& units) {
+  if (!table.complete) machine.reported.clear();
+  const analysis::Analysis a(table, std::move(machine));
+  const analysis::Summary& summary = a.summary;
+  for (const std::string& text : summary.warnings) messages.warning(text);
+  const std::string json = to_json(summary);
+  if (!options.out.empty()) {
+    run::refuse_to_overwrite(options.out, options.force,
+                             {run::recorded_run(options.run).log, options.machine},
+                             run::summary_name);
+    run::write_file(options.out, json);
+  }
+  if (options.verdicts) {
+    fmt::print("{}\n", report::to_json(a.verdicts));
+  } else if (options.json) {
+    fmt::print("{}", json);
+  } else {
+    print_verdicts(summary, a.machine, units.asked ? &units.units : nullptr);
+  }
+  return ok;
+}
+
+ExitCode analyze_run(const AnalyzeOptions& options) {
+  const Messages messages(options.quiet);
+  const run::RecordedRun run = run::recorded_run(options.run);
+  run::require_finished(run.log);
+  const config::Node file = config::compose(run::machine_of(run, options.machine).string());
+  const signals::Table table = log::read(run.log);
+  if (!table.complete)
+    messages.warning(
+        run.log.string() +
+        " was cut off or is damaged; the numbers are of what stands before, without verdicts");
+
+  const config::UnitsToShow units = chosen_units(options.units, units::UnitSet::si, &file);
+  return tell(options, messages, table, analysis::read_machine(file), units);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "run", "an experiment; its log and numbers go into a new folder",
+                             "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
+  RunOptions& options = runs(sub, action, run_experiment);
+  sub.add_option("EXPERIMENT", options.run.experiment, "file of the experiment")->required();
+  add_run_options(sub, "--port", options);
+  sub.add_option("--pace", options.pace, "simulated seconds per second of wall time; 0: no limit")
+      ->transform(passes(a_pace));
+}
+
+void add_view(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App& sub =
+      subcommand(app, "view", "a run or a study in the browser, recorded or while it goes",
+                 "sinew view --live experiments/tune-in-air.toml");
+  CLI::Option* dir =
+      sub.add_option("DIR", options->what,
+                     "a run's folder, a folder of runs, a log file, one or two studies; else "
+                     "the newest of runs/");
+  add_machine(sub, options->machine);
+  CLI::Option* live =
+      sub.add_option("--live", options->live.run.experiment, "run this experiment and watch it");
+  live->excludes(dir);
+  sub.add_option("--port", options->port,
+                 "on 127.0.0.1; 0: a free one; else the one that this folder has each time")
+      ->transform(between(0, 65535));
+  sub.add_flag("!--no-open", options->open, "only print where it is");
+  options->live.pace = 1;
+  sub.add_option("--pace", options->live.pace,
+                 "simulated seconds per second of wall time; 0: no limit")
+      ->transform(passes(a_pace))
+      ->needs(live);
+  sub.add_flag("--paused", options->paused, "the run waits for the page's button")->needs(live);
+  sub.add_flag("--once", options->once, "end with the run")->needs(live);
+  add_run_options(sub, "--place", options->live);
+  for (const char* of_a_run : {"--place", "--clear-fault", "--output", "--force", "--set",
+                               "--allow-unreachable", "--no-report", "--units", "--json"})
+    sub.get_option(of_a_run)->needs(live);
+  sub.callback([=, &action] {
+    action = [=] {
+      return options->live.run.experiment.empty() ? view_recorded(*options) : view_live(*options);
+    };
+  });
+}
+
+void add_replay(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "replay", "a recording through today's controller, or plant",
+                             "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
+  ReplayOptions& options = runs(sub, action, replay_run);
+  sub.add_option("DIR", options.request.run, "a run's folder, or a log file")->required();
+  sub.add_option("--of", options.of,
+                 "controller: it is fed the readings; plant: it is fed the valves' commands")
+      ->check(one_of({"controller", "plant"}));
+  add_machine(sub, options.request.machine);
+  add_sets(sub, options.request.sets);
+  sub.add_option("--band", options.band, "of a plant: tolerance in % of a channel's range");
+  sub.add_option("-o,--output", options.folder, "keep the replay in this folder, as a run");
+  sub.add_flag("--force", options.request.force, "replace the run that is in the folder");
+  add_units(sub, options.units, "of the table; --json is in SI");
+  add_flags(sub, options, "", "as JSON");
+}
+
+void add_import(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(
+      app, "import", "a recording of a laboratory as the folder of a run",
+      "sinew import rig.csv --experiment one-joint.toml --map /joint/elbow/angle=Winkel");
+  ImportOptions& options = runs(sub, action, import_recording);
+  run::ImportRequest& request = options.request;
+  sub.add_option("FILE", request.files,
+                 "a table as CSV, a log as MCAP, a .mat of MATLAB, or the thesis's out.dat")
+      ->required();
+  sub.add_option("--experiment", request.experiment, "what was run: its robot or stand, its phases")
+      ->required();
+  add_mapping_options(sub, options);
+  add_clock_options(sub, options);
+  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  add_sets(sub, request.sets);
+  add_flags(sub, options, "", "print summary.json");
+}
+
+void add_analyze(CLI::App& app, Action& action) {
+  CLI::App& sub =
+      subcommand(app, "analyze", "a run's numbers from its log, beside what is reported",
+                 "sinew analyze runs/walk-test-1/1 --json");
+  AnalyzeOptions& options = runs(sub, action, analyze_run);
+  sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
+  add_machine(sub, options.machine);
+  sub.add_option("-o,--output", options.out, "also write the summary to this file");
+  sub.add_flag("--force", options.force, "replace that file");
+  CLI::Option* json = sub.add_flag("--json", options.json, "print the summary as JSON");
+  sub.add_flag("--verdicts", options.verdicts, "print what is reported, with verdicts, as JSON")
+      ->excludes(json);
+  add_units(sub, options.units, "of what is printed, else the source's own; --json is in SI");
+  sub.add_flag("--quiet", options.quiet, "only errors on stderr");
+}
+
+}  // namespace sinew::cli
