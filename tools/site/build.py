@@ -10,18 +10,16 @@ import re
 import shutil
 import subprocess
 import sys
-from typing import Any, Dict, List
+import xml.etree.ElementTree as ElementTree
+from typing import Any, List
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import yaml  # noqa: E402
 
-import comments  # noqa: E402
-from api import read_api  # noqa: E402
-from cpp_pages import write_cpp_pages  # noqa: E402
-from docs_pages import Pages, purposes_of, theory_of  # noqa: E402
-from names import Names, Prose, page_of  # noqa: E402
+from docs_pages import Pages, title_of  # noqa: E402
 from python_pages import write_python_pages  # noqa: E402
+from reference import FOLDER, Reference  # noqa: E402
 from sources import write_sources  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -41,17 +39,7 @@ def all_files(root: str) -> List[str]:
     return sorted(f for f in found if f and not OTHERS.search(f) and os.path.isfile(os.path.join(root, f)))
 
 
-def run_doxygen(headers: str, out: str) -> None:
-    """Doxygen over the converted headers; a warning is an error."""
-    with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
-        settings = file.read()
-    settings += f"\nOUTPUT_DIRECTORY = \"{out}\"\nINPUT = sinew thesis fmu\n"
-    made = subprocess.run(["doxygen", "-"], input=settings, cwd=headers, capture_output=True, text=True)
-    if made.returncode or made.stderr.strip():
-        raise SystemExit(f"{made.stderr}doxygen: found warnings; expected none. Lines are those of the headers.")
-
-
-def navigation(pages: Pages, folders: List[str]) -> List[Any]:
+def navigation(pages: Pages) -> List[Any]:
     """Tabs, and what stands below them. A page of docs/ that no rule names stands below "More"."""
     titles = dict(pages.titles)
 
@@ -67,12 +55,11 @@ def navigation(pages: Pages, folders: List[str]) -> List[Any]:
     theory = take(r"^docs/theory/")
     evidence = take(r"^docs/(evidence/.*|tuned|calibration|reliability)\.md$")
     reference = take(r"^docs/(reference/.*|dependencies)\.md$")
-    cpp = ["reference/cpp/index.md"] + [{re.sub("^sinew/", "", f): page_of(f) + ".md"} for f in folders]
     python = [{m: f"reference/python/{m.replace('.', '-')}.md"} for m in ("sinew", "sinew.gym", "sinew.identify")]
     more = take(r"")
     return [
         {"Start": start}, {"Lessons": lessons + ([{"Notebooks": notebooks}] if notebooks else [])}, {"How to": how},
-        {"Theory": theory}, {"Reference": reference}, {"Evidence": evidence}, {"C++": cpp}, {"Python": python},
+        {"Theory": theory}, {"Reference": reference}, {"Evidence": evidence}, {"C++": f"{FOLDER}/files.html"}, {"Python": python},
         {"More": more + [{"Sources": "source/index.html"}]},
     ]
 
@@ -90,9 +77,7 @@ def write_config(work: str, out: str, nav: List[Any]) -> str:
 
 def run_mkdocs(config: str) -> None:
     """MkDocs, strict: a link that leads nowhere is an error."""
-    environment: Dict[str, str] = {**os.environ, "PYTHONPATH": HERE}
-    made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", config],
-                          env=environment, capture_output=True, text=True)
+    made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", config], capture_output=True, text=True)
     # The rest is what it does, which nobody asked for.
     words = re.sub(r"\x1b\[[0-9;]*m", "", made.stdout + made.stderr)  # without colours
     said = "\n".join(re.findall(r".*(?:WARNING|ERROR|CRITICAL|Error).*", words))
@@ -100,31 +85,25 @@ def run_mkdocs(config: str) -> None:
         raise SystemExit(f"{said}\nmkdocs: found warnings; expected none")
 
 
-def search_title(entry: Dict[str, str]) -> str:
-    """A name with its class, where the list beside the page has it without."""
-    page, _, anchor = entry["location"].partition("#")
-    if page.startswith("reference/python/") and anchor.startswith("sinew."):
-        return re.sub(r"\.init$", "(…)", anchor)
-    if page.startswith("reference/cpp/") and "." in anchor and not anchor.endswith(".h"):
-        return anchor.rpartition(".")[0].replace(".", "::") + "::" + entry["title"]
-    return entry["title"]
+def join_search(out: str, found: str) -> None:
+    """Adds the names of Doxygen's pages to the search, and lets a search lead to sections first.
 
-
-def tidy_search(out: str) -> None:
-    """Let a search lead to sections first, and name members with their classes.
-
-    The theme shows a section's hit where its page has one too, and shows of a page what the section
-    of its title has. A page with all its text would stand before its sections, which lead to the
-    place itself: it is found by every word once.
+    The theme shows a section's hit where its page has one too. A page with all its text would be
+    before its sections, which lead to the place itself: it is found by each of its words once.
     """
     path = os.path.join(out, "search/search_index.json")
     with open(path, encoding="utf-8") as file:
         index = json.load(file)
     for entry in index["docs"]:
-        if "#" in entry["location"]:
-            entry["title"] = search_title(entry)
-        else:
+        if "#" not in entry["location"]:
             entry["text"] = " ".join(dict.fromkeys(re.findall(r"[\w']+", entry["text"].lower())))
+        elif entry["location"].startswith("reference/python/") and "#sinew." in entry["location"]:
+            entry["title"] = re.sub(r"\.init$", "(…)", entry["location"].partition("#")[2])
+    for doc in ElementTree.parse(found).getroot():
+        field = {f.get("name"): f.text or "" for f in doc}
+        if field["type"] not in ("source", "dir", "namespace"):
+            index["docs"].append({"location": f"{FOLDER}/{field['url']}", "text": field.get("text", ""),
+                                  "title": re.sub(r"^sinew::(\w+::(?=\w+::))?", "", field["name"])})
     with open(path, "w", encoding="utf-8") as file:
         json.dump(index, file, ensure_ascii=False, separators=(",", ":"))
 
@@ -144,28 +123,20 @@ def build(root: str, out: str, work: str) -> None:
     docs = os.path.join(work, "docs")
     os.makedirs(docs)
     files = all_files(root)
-    headers_in = [f for f in files if INSTALLED.search(f) and not TESTING.search(f)]
-    comments.convert_tree(root, os.path.join(work, "headers"), headers_in)
-    run_doxygen(os.path.join(work, "headers"), work)
-    headers = read_api(os.path.join(work, "xml"), root)
-    names = Names(headers)
-
-    shown = [f for f in files if f.endswith((".md", ".ipynb"))]
-    pages = Pages(root, docs, shown, headers, names)
+    headers = [f for f in files if INSTALLED.search(f) and not TESTING.search(f)]
+    theory = {f: title_of(os.path.join(root, f)) for f in files if re.match(r"docs/theory/.*\.md$", f)}
+    reference = Reference(root, work, headers, theory)
+    pages = Pages(root, docs, [f for f in files if f.endswith((".md", ".ipynb"))], reference)
     pages.write()
-    front = Prose(names, pages.titles, "sinew/air")  # all folders' pages stand beside each other
-    purposes = purposes_of(os.path.join(root, "docs/architecture.md"), os.path.join(HERE, "folders.txt"), front.line)
-    folders = write_cpp_pages(docs, headers, names, pages.titles, purposes, theory_of(root, pages.titles))
-    count, bare = write_python_pages(root, docs)
+    count, bare = write_python_pages(os.path.join(root, "python"), os.path.join(docs, "reference/python"))
     if bare:
         raise SystemExit("\n".join(bare) + "\nsite: found names of the Python package without a docstring")
     sources = write_sources(root, docs, files, pages.titles)
     copy_assets(docs)
-    run_mkdocs(write_config(work, out, navigation(pages, folders)))
-    tidy_search(out)
-    total = sum(1 for h in headers.values() for n in h.names for _ in n.all())
-    print(f"site: {len(pages.titles)} pages, {total} names of C++ in {len(folders)} folders, {count} of Python, "
-          f"{sources} sources")
+    run_mkdocs(write_config(work, out, navigation(pages)))
+    join_search(out, os.path.join(work, "searchdata.xml"))
+    print(f"site: {len(pages.titles)} pages, {sum(map(len, reference.names.values()))} names of C++ in "
+          f"{len(headers)} headers, {count} of Python, {sources} sources")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,96 @@
+"""Reference of the C++ library: Doxygen's pages of the headers, and the places of their names."""
+
+import os
+import re
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from typing import Dict, List
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+FOLDER = "reference/cpp"
+
+
+def purposes_of(root: str) -> Dict[str, str]:
+    """Returns what each folder is for: from the table of docs/architecture.md and from folders.txt."""
+    with open(os.path.join(root, "docs/architecture.md"), encoding="utf-8") as file:
+        rows = re.findall(r"^\| (\[`.*?) \| (.*?) \|$", file.read(), re.M)
+    found = {}
+    for links, words in rows:
+        folders = re.findall(r"\]\((?:\.\./)?(sinew/[\w/]+)\)", links)
+        words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", words)
+        parts = [words] if len(folders) == 1 else words.split("; ")  # a row of two folders has two halves
+        if len(parts) == len(folders):
+            found.update(zip(folders, parts))
+    with open(os.path.join(HERE, "folders.txt"), encoding="utf-8") as file:
+        found.update(re.findall(r"^([^#\s]\S*)\s+(.*)", file.read(), re.M))
+    return {folder: words[:1].upper() + words[1:] for folder, words in found.items()}
+
+
+class Reference:
+    """Places of headers, folders and names in the site."""
+
+    def __init__(self, root: str, work: str, headers: List[str], theory: Dict[str, str]) -> None:
+        self.root, self.work = root, work
+        self.folders = {os.path.dirname(h) for h in headers}
+        self.write_folders(theory)
+        os.makedirs(os.path.join(work, "docs", FOLDER))
+        with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
+            settings = f"{file.read()}\nINPUT = {work}/folders.dox {' '.join(headers)}\n"
+        subprocess.run(["doxygen", "-"], input=settings, cwd=root, text=True, check=True, env={**os.environ, "WORK": work})
+        self.read_tags()
+
+    def write_folders(self, theory: Dict[str, str]) -> None:
+        """Gives Doxygen the purpose of each folder, and the theory pages that lead there."""
+        purposes = purposes_of(self.root)
+        leads: Dict[str, List[str]] = {}
+        for page, title in theory.items():
+            for folder in self.folders_of(os.path.join(self.root, page)):
+                leads.setdefault(folder, []).append(f'<a href="../../{page[:-3]}.html">{title}</a>')
+        if missing := sorted(self.folders - set(purposes)):
+            raise SystemExit(f"{missing[0]}: found no words on what it is for; expected a row in docs/architecture.md's "
+                             "table of folders, or a line in tools/site/folders.txt")
+        with open(os.path.join(self.work, "folders.dox"), "w", encoding="utf-8") as file:
+            for folder in sorted(self.folders):
+                target = folder.removeprefix("sinew/").replace("/", "_")
+                words = f"Target `sinew::{target}`." if folder.startswith("sinew/") else ""
+                words += f" Theory: {', '.join(leads[folder])}." if folder in leads else ""
+                file.write(f"/** @dir {folder}\n@brief {purposes[folder]}\n\n{words} */\n")
+
+    def folders_of(self, page: str) -> List[str]:
+        """Returns the folders of headers that a page has links to."""
+        with open(page, encoding="utf-8") as file:
+            links = re.findall(r"\]\((?:\.\./)+((?:sinew|thesis|fmu)/[\w/.]+)", file.read())
+        return list(dict.fromkeys(f for f in (re.sub(r"/[^/]*\.\w+$", "", k).rstrip("/") for k in links) if f in self.folders))
+
+    def read_tags(self) -> None:
+        """Reads Doxygen's tag file: where each header, folder and name is."""
+        self.places: Dict[str, str] = {"sinew": f"{FOLDER}/files.html"}
+        self.names: Dict[str, List[str]] = {}
+        self.folder_of: Dict[str, str] = {}  # of a page
+        own: Dict[str, str] = {}  # folder of a class; files come before classes in the tags
+        for compound in ElementTree.parse(os.path.join(self.work, "tags.xml")).getroot():
+            kind, name = compound.get("kind"), compound.findtext("name", "")
+            page = f"{FOLDER}/{compound.findtext('filename', '')}"
+            if kind in ("file", "dir"):
+                path = os.path.relpath(compound.findtext("path", "") + (name if kind == "file" else ""), self.root)
+                self.places[path] = page
+                self.folder_of[page] = os.path.dirname(path)
+                own.update((inner.text or "", os.path.dirname(path)) for inner in compound.findall("class"))
+            elif kind in ("struct", "class", "union", "concept"):
+                self.names.setdefault(name, []).append(page)
+                self.folder_of[page] = own.get(name, "")
+            scope = name + "::" if kind in ("struct", "class", "union", "namespace") else ""
+            for member in compound.findall("member") if scope else []:
+                place = f"{FOLDER}/{member.findtext('anchorfile')}#{member.findtext('anchor')}"
+                self.names.setdefault(scope + member.findtext("name", ""), []).append(place)
+
+    def find(self, word: str, near: List[str]) -> str:
+        """Returns the place of a name that a page has as code: in the folders near it, or the only one."""
+        if not re.fullmatch(r"\w+(::\w+)*", word):
+            return ""
+        found = [places[0] for name, places in self.names.items() if f"::{name}".endswith(f"::{word}")]
+        for folder in near:
+            here = [place for place in found if self.folder_of.get(place.split("#")[0]) == folder]
+            if len(here) == 1 or here and "::" not in word:
+                return here[0]
+        return found[0] if len(found) == 1 and "::" in word else ""
