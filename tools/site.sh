@@ -23,10 +23,23 @@ package=${SINEW_BUILD:-build/release}/python
 [[ -e $package/sinew/__init__.py ]] ||
   { echo "site.sh: found no Python package in $package; build it first: ninja -C ${package%/python} sinew_python"; exit 1; }
 
-# The old site is removed once the new one is complete.
-PYTHONPATH=$package /usr/bin/python3 tools/site/build.py . "$work/site" "$work/work"
+# Files of the repository; without git, those that were not built.
+files() {
+  { git ls-files --cached --others --exclude-standard 2>/dev/null || find . -type f -printf '%P\n'; } |
+    grep -vE '(^|/)(\.[^/]+|node_modules|runs|__pycache__|build[^/]*)(/|$)' | sort
+}
+export SITE_DOCS=$work/docs
+mkdir -p "$SITE_DOCS/assets/katex/fonts"
+cp tools/site/assets/* "$SITE_DOCS/assets"
+cp /usr/share/javascript/katex/katex.min.{js,css} "$SITE_DOCS/assets/katex"
+cp -L /usr/share/javascript/katex/fonts/*.woff2 "$SITE_DOCS/assets/katex/fonts"
+files | PYTHONPATH=$package /usr/bin/python3 tools/site/build.py . "$work"
+mkdocs build --quiet --strict --config-file tools/site/mkdocs.yml --site-dir "$work/site"
+
 /usr/bin/python3 tools/site/check_links.py "$work/site"
-awk -f tools/site/undocumented.awk "$work/work/searchdata.xml" "$work/work/doxygen.txt"
+awk -f tools/site/undocumented.awk "$work/searchdata.xml" "$work/doxygen.txt"
+
+# The old site is removed once the new one is complete.
 mkdir -p "$(dirname "$out")"
 rm -rf "$out"
-cp -r "$work/site" "$out"
+mv "$work/site" "$out"

@@ -178,7 +178,9 @@ END {
     for (k = 1; k <= n && text[k] != "" && text[k] !~ /^@/; k++) purpose = purpose " " text[k]
     sub(/ @details.*/, "", purpose)
     for (k = 1; k <= n; k++) print (k == 1 ? "/** " : "") text[k]
-    print "@file */"  # in place of #pragma once
+    path = FILENAME
+    if (index(path, ENVIRON["PWD"] "/") == 1) path = substr(path, length(ENVIRON["PWD"]) + 2)
+    print "@n@n<tt>\\#include \"" path "\"</tt> @file */"  # in place of #pragma once
     i++
   }
   while (i <= NR) {
@@ -195,6 +197,20 @@ END {
       continue
     }
     if (line[i] == "") shared[depth] = ""
+    # A class of a private part, defined below, is none of the public ones.
+    if (code ~ /^ *(public|protected|private):/) access = code
+    if (access ~ /private/ && match(code, /^ +(class|struct) [A-Za-z_]+;/)) {
+      word = substr(code, RSTART, RLENGTH - 1); sub(/.* /, "", word)
+      hidden[word] = 1
+    }
+    word = line[i] ~ /^template/ ? line[i + 1] : line[i]
+    if (match(word, /^(class|struct) [^(:]*::[A-Za-z_]+ \{/)) {
+      word = substr(word, 1, RLENGTH - 2); sub(/.*::/, "", word)
+      if (word in hidden) {
+        for (; line[i] != "};"; i++) print ""
+        line[i] = code = ""
+      }
+    }
     first = statement == ""
     before = own ? "" : lent(code)
     inner = kind[depth]

@@ -39,7 +39,7 @@ class Pages:
         self.root, self.out, self.files, self.reference = root, out, files, reference
         self.titles = {f: title_of(os.path.join(root, f)) for f in files if f.endswith(".md")}
 
-    def target(self, path: str, heading: str) -> str:
+    def target(self, path: str, heading: str = "") -> str:
         """Returns what the site has in the place of a file or folder, from the site's root."""
         if path in self.titles or path.endswith(PICTURES):
             return path + heading

@@ -9,7 +9,7 @@ import inspect
 import os
 import re
 import textwrap
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, Iterator, List, Tuple
 
 MODULES = ("sinew", "sinew.identify", "sinew.gym")
 SETTING = re.compile(r"^(\w+)(?= \[[^\]]*\]: |: )(?=.*\.$)")
@@ -26,11 +26,8 @@ def definitions(package: str) -> Definitions:
         module = name.replace("/", ".").replace(".__init__", "")
         with open(path, encoding="utf-8") as file:
             for node in ast.parse(file.read()).body:
-                if isinstance(node, (ast.Assign, ast.AnnAssign)):
-                    target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-                    found[module, getattr(target, "id", "")] = node
-                elif isinstance(node, (ast.ClassDef, ast.FunctionDef)):
-                    found[module, node.name] = node
+                target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", node)
+                found[module, getattr(target, "id", getattr(target, "name", ""))] = node
     return found
 
 
@@ -80,68 +77,46 @@ def docstring(of: Any) -> str:
     return re.sub(r"\n{3,}", "\n\n", text).strip()
 
 
-class ModulePage:
-    """Page of one module. `bare` has the names without a docstring."""
+def entry(level: int, name: str, node: ast.stmt, of: Any) -> Iterator[str]:
+    """Yields the lines on one name. Raises SystemExit if it has no docstring, as only a constructor may."""
+    text = "" if isinstance(node, (ast.Assign, ast.AnnAssign)) else docstring(of)
+    if not text and isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not name.endswith("__init__"):
+        raise SystemExit(f"{name}: found no docstring; expected one, as each public name has")
+    title = name.replace(".__init__", "(…)")
+    anchor = name.replace("__init__", "init")  # two underscores would be bold
+    yield f"{'#' * level} `{title}` {{: #{anchor} data-toc-label=\"{title.split('.')[-1]}\" }}\n"
+    yield f'<div class="api">\n<pre class="signature"><code>{html.escape(shown(node), quote=False)}</code></pre>'
+    yield f"{prose(text)}\n</div>\n"
 
-    def __init__(self, module: str, found: Definitions) -> None:
-        self.module, self.found = module, found
-        self.out: List[str] = []
-        self.bare: List[str] = []
-        self.count = 0
 
-    def entry(self, level: int, name: str, node: ast.stmt, text: str) -> None:
-        self.count += 1
-        full = f"{self.module}.{name}"
-        if not text and not isinstance(node, (ast.Assign, ast.AnnAssign)):
-            self.bare.append(full)
-        title = full.replace(".__init__", "(…)")
-        anchor = full.replace("__init__", "init")  # two underscores would be bold
-        self.out += [f"{'#' * level} `{title}` {{: #{anchor} data-toc-label=\"{title.split('.')[-1]}\" }}", "",
-                     '<div class="api">', f'<pre class="signature"><code>{html.escape(shown(node), quote=False)}</code></pre>',
-                     prose(text) if text else "", "</div>", ""]
-
-    def members(self, name: str, node: ast.ClassDef, of: type) -> None:
-        for inner in node.body:
-            if not isinstance(inner, ast.FunctionDef) or ".setter" in decorators(inner):
-                continue
-            own = inner.name
-            text = docstring(inspect.getattr_static(of, own, None))
-            if own == "__init__" and len(inner.args.args) > 1:
-                inner.name = name
-                self.entry(3, f"{name}.__init__", inner, text or "Makes one.")
-            elif not own.startswith("_"):
-                self.entry(3, f"{name}.{own}", inner, text)
-
-    def definition(self, name: str, of: Any) -> ast.stmt:
-        places = [getattr(of, "__module__", None), self.module, "sinew._sinew"]
-        node = next((self.found[p, name] for p in places if (p, name) in self.found), None)
-        node = node or next((n for (_, own), n in self.found.items() if own == name), None)
+def module_page(name: str, found: Definitions) -> Iterator[str]:
+    module = importlib.import_module(name)
+    yield f'# {name}\n\n<div class="api">\n{prose(inspect.getdoc(module) or "")}\n</div>\n'
+    for own in (n for n in module.__all__ if not n.startswith("__")):
+        of = getattr(module, own)
+        places = [getattr(of, "__module__", ""), name, "sinew._sinew", *(m for m, n in found if n == own)]
+        node = next((found[p, own] for p in places if (p, own) in found), None)
         if node is None:
-            raise SystemExit(f"{self.module}.{name}: found no definition; expected one in python/sinew or its .pyi")
-        return node
-
-    def render(self) -> str:
-        module = importlib.import_module(self.module)
-        self.out = [f"# {self.module}", "", '<div class="api">', prose(inspect.getdoc(module) or ""), "</div>", ""]
-        for name in (n for n in module.__all__ if not n.startswith("__")):
-            of = getattr(module, name)
-            node = self.definition(name, of)
-            plain = isinstance(node, (ast.Assign, ast.AnnAssign))
-            self.entry(2, name, node, "" if plain else docstring(of))
-            if isinstance(node, ast.ClassDef):
-                self.members(name, node, of)
-        return "\n".join(self.out)
+            raise SystemExit(f"{name}.{own}: found no definition; expected one in python/sinew or its .pyi")
+        yield from entry(2, f"{name}.{own}", node, of)
+        for inner in node.body if isinstance(node, ast.ClassDef) else []:
+            if isinstance(inner, ast.FunctionDef) and ".setter" not in decorators(inner):
+                made = inner.name == "__init__" and len(inner.args.args) > 1
+                if made or not inner.name.startswith("_"):
+                    member = getattr(of, inner.name)
+                    path = f"{name}.{own}.{inner.name}"
+                    inner.name = own if made else inner.name
+                    yield from entry(3, path, inner, member)
 
 
-def write_python_pages(package: str, out: str) -> Tuple[int, List[str]]:
-    """Writes the pages. Returns the number of names, and those without a docstring."""
+def write_python_pages(package: str, out: str) -> int:
+    """Writes the pages. Returns the number of names."""
     found = definitions(package)
-    count, bare = 0, []
     os.makedirs(out, exist_ok=True)
+    count = 0
     for module in MODULES:
-        page = ModulePage(module, found)
+        lines = list(module_page(module, found))
+        count += sum(line.startswith("##") for line in lines)
         with open(os.path.join(out, f"{module.replace('.', '-')}.md"), "w", encoding="utf-8") as file:
-            file.write(page.render())
-        count += page.count
-        bare += page.bare
-    return count, bare
+            file.write("\n".join(lines))
+    return count

@@ -66,6 +66,7 @@ class Reference:
         """Reads Doxygen's tag file: where each header, folder and name is."""
         self.places: Dict[str, str] = {"sinew": f"{FOLDER}/files.html"}
         self.names: Dict[str, List[str]] = {}
+        self.members: Dict[str, List[str]] = {}  # of classes
         self.folder_of: Dict[str, str] = {}  # of a page
         own: Dict[str, str] = {}  # folder of a class; files come before classes in the tags
         for compound in ElementTree.parse(os.path.join(self.work, "tags.xml")).getroot():
@@ -79,18 +80,17 @@ class Reference:
             elif kind in ("struct", "class", "union", "concept"):
                 self.names.setdefault(name, []).append(page)
                 self.folder_of[page] = own.get(name, "")
-            scope = name + "::" if kind in ("struct", "class", "union", "namespace") else ""
-            for member in compound.findall("member") if scope else []:
+            scope = f"{name}::" if kind in ("struct", "class", "union") else ""
+            for member in compound.findall("member") if scope or kind == "file" else []:
                 place = f"{FOLDER}/{member.findtext('anchorfile')}#{member.findtext('anchor')}"
-                self.names.setdefault(scope + member.findtext("name", ""), []).append(place)
+                (self.members if scope else self.names).setdefault(scope + member.findtext("name", ""), []).append(place)
 
     def find(self, word: str, near: List[str]) -> str:
         """Returns the place of a name that a page has as code: in the folders near it, or the only one."""
         if not re.fullmatch(r"\w+(::\w+)*", word):
             return ""
-        found = [places[0] for name, places in self.names.items() if f"::{name}".endswith(f"::{word}")]
-        for folder in near:
-            here = [place for place in found if self.folder_of.get(place.split("#")[0]) == folder]
-            if len(here) == 1 or here and "::" not in word:
-                return here[0]
-        return found[0] if len(found) == 1 and "::" in word else ""
+        inner = "::" in word
+        found = [places[0] for names in ((self.names, self.members) if inner else (self.names,))
+                 for name, places in names.items() if f"::{name}".endswith(f"::{word}")]
+        here = [place for folder in near for place in found if self.folder_of.get(place.split("#")[0]) == folder]
+        return here[0] if here else found[0] if inner and len(found) == 1 else ""
