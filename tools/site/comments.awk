@@ -29,21 +29,24 @@ function split_line(text,    i, c, quote) {
   return 0
 }
 
-# Prose without what Doxygen would read as a command, a tag or the name of a class.
-function plain(text,    parts, n, i, out, word) {
-  n = split(text, parts, "`")
+# Prose without what Doxygen would read as a command, a tag or the name of a class. `span`: it begins
+# between two `, which may be in different lines.
+function plain(words,    parts, n, i, rest, found, out) {
+  n = split(words, parts, "`")
   for (i = 1; i <= n; i++) {
-    if (i % 2 || i == n) {
+    if (i > 1) span = !span
+    if (!span) {
       gsub(/[\\@<>#%]/, "\\\\&", parts[i])
       gsub(/\*/, "\\&lowast;", parts[i])
-      # A word at the beginning of a sentence is no class; one with a hump or in `` is.
-      word = parts[i]; parts[i] = ""
-      while (match(word, /[A-Za-z_:]+/)) {
-        found = substr(word, RSTART, RLENGTH)
-        parts[i] = parts[i] substr(word, 1, RSTART - 1) (found ~ /^[A-Z][a-z]+:?$/ ? "%" : "") found
-        word = substr(word, RSTART + RLENGTH)
+      gsub(/ ::/, " \\\\::", parts[i])
+      # A word at the beginning of a sentence is no class; one with a hump is.
+      rest = parts[i]; parts[i] = ""
+      while (match(rest, /[A-Za-z_:]+/)) {
+        found = substr(rest, RSTART, RLENGTH)
+        parts[i] = parts[i] substr(rest, 1, RSTART - 1) (found ~ /^[A-Z][a-z]+:?$/ ? "%" : "") found
+        rest = substr(rest, RSTART + RLENGTH)
       }
-      parts[i] = parts[i] word
+      parts[i] = parts[i] rest
     }
     out = out (i > 1 ? "`" : "") parts[i]
   }
@@ -67,6 +70,7 @@ function read_comment(from, to,    i, list, shown) {
   }
   for (i = 2; i < n; i++)  # an empty line between two of them is one of theirs
     if (text[i] == "" && as_is[i - 1] && as_is[i + 1]) as_is[i] = 1
+  span = 0
   for (i = 1; i <= n; i++) if (!as_is[i]) text[i] = plain(text[i])
   shown = 0
   for (i = 1; i <= n; i++) {
@@ -82,7 +86,8 @@ function read_comment(from, to,    i, list, shown) {
 }
 
 function joined(    i, out) {
-  for (i = 1; i <= n; i++) out = out (i > 1 ? "\\ilinebr " : "") text[i]
+  for (i = 1; i <= n; i++)
+    out = out (i == 1 ? "" : as_is[i] || as_is[i - 1] || text[i] == "" ? "\\ilinebr " : " ") text[i]
   return out
 }
 
@@ -94,7 +99,7 @@ function print_comment(before, opening,    i) {
 
 # Prints the variables of `double length = 0, rate = 0;` each with its own declaration and comment: the
 # part of "[m], [m/s]" that is its, or all of it.
-function print_each(code, words,    i, c, level, n, part, of, count, type, own) {
+function print_each(code, words, but_first,    i, c, level, n, part, of, count, type, own) {
   sub(/ *; *$/, "", code)
   for (i = 1; i <= length(code); i++) {
     c = substr(code, i, 1)
@@ -110,7 +115,8 @@ function print_each(code, words,    i, c, level, n, part, of, count, type, own) 
   for (i = 2; i <= count; i++) if (of[i] !~ /^\[/) count = 0
   for (i = 1; i <= n; i++) {
     sub(/^ +/, "", part[i])
-    printf "%s /** %s */ %s;", i == 1 ? "" : " ", count == n ? of[i] : words, i == 1 ? part[i] : type part[i]
+    if (i > 1 || !but_first) printf " /** %s */", count == n ? of[i] : words
+    printf " %s;", i == 1 ? part[i] : type part[i]
   }
   print ""
 }
@@ -155,8 +161,7 @@ function lent(code,    name) {
     return ""
   if (code ~ /^ *(class|struct|enum class) [A-Za-z0-9_]+;/) return ""
   if (shared[depth] != "") return "/** " shared[depth] " */ "
-  name = code ~ /^ *template/ ? code " " line[i + 1] : code
-  sub(/^ *template *<.*> */, "", name)
+  name = code ~ /^ *template *<.*> *$/ ? line[i + 1] : code
   name_line = name
   sub(/ *(final|: |\{|\().*/, "", name)
   sub(/.* /, "", name)
@@ -213,6 +218,7 @@ END {
     }
     first = statement == ""
     before = own ? "" : lent(code)
+    had = own
     inner = kind[depth]
     follow(code)
     behind = has && inner != "body" && note !~ /^ namespace/ && (code ~ /[;,}] *$/ || inner == "enum")
@@ -227,13 +233,15 @@ END {
       sub(/signals/, "sinew::&", word)
       code = substr(code, 1, RSTART - 1) word substr(code, RSTART + RLENGTH)
     }
-    if (!behind) print before code
+    several = first && code ~ /^ *[A-Za-z][^()]*[A-Za-z0-9_}], [a-z_][^()]*; *$/ && code !~ /^ *(using|friend|template)/
+    if (!behind && several && (had || before != "")) print_each(code, shared[depth], had)
+    else if (!behind) print before code
     else {
       shown = code
       read_comment(i, end - 1)
       words = joined()
       if (first && shown ~ /^ *enum/) print "/** " words " */ " shown
-      else if (first && shown ~ /^ *[A-Za-z][^()]*[A-Za-z0-9_}], [a-z_][^()]*;/ && shown !~ /^ *(using|friend|template)/) print_each(shown, words)
+      else if (several) print_each(shown, words, 0)
       else print_comment(shown, "/**<")
     }
     i = end
