@@ -22,6 +22,7 @@ def build(root: str, work: str, files: List[str]) -> None:
     reference = Reference(root, work, headers, theory)
     pages = Pages(root, docs, [f for f in files if f.endswith((".md", ".ipynb"))], reference)
     pages.write()
+    reference.write_theory()
     count = write_python_pages(os.path.join(root, "python"), os.path.join(docs, "reference/python"))
     sources = write_sources(root, docs, files, pages.target)
     names = sum(map(len, [*reference.names.values(), *reference.members.values()]))

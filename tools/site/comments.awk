@@ -172,6 +172,7 @@ function lent(code,    name) {
 }
 
 END {
+  depth = 0
   kind[0] = "declares"
   stem = FILENAME
   sub(/.*\//, "", stem); sub(/\.h$/, "", stem)

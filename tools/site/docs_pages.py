@@ -95,6 +95,7 @@ class Pages:
 
         def code(match: "re.Match[str]") -> str:
             place = self.reference.find(re.sub(r"\(.*", "", match[1]), near)
+            self.reference.theory.setdefault(place, {})[path] = self.titles[path]
             return f"[{match[0]}]({up}{place})" if place else match[0]
 
         def change(line: str) -> str:

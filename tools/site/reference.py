@@ -68,6 +68,7 @@ class Reference:
         self.names: Dict[str, List[str]] = {}
         self.members: Dict[str, List[str]] = {}  # of classes
         self.folder_of: Dict[str, str] = {}  # of a page
+        self.theory: Dict[str, Dict[str, str]] = {}  # pages with a name, and their titles, by its place
         own: Dict[str, str] = {}  # folder of a class; files come before classes in the tags
         for compound in ElementTree.parse(os.path.join(self.work, "tags.xml")).getroot():
             kind, name = compound.get("kind"), compound.findtext("name", "")
@@ -94,3 +95,15 @@ class Reference:
                  for name, places in names.items() if f"::{name}".endswith(f"::{word}")]
         here = [place for folder in near for place in found if self.folder_of.get(place.split("#")[0]) == folder]
         return here[0] if here else found[0] if inner and len(found) == 1 else ""
+
+    def write_theory(self) -> None:
+        """Lets each name lead to the theory pages that lead to it."""
+        for place, pages in self.theory.items():
+            page, _, anchor = place.partition("#")
+            links = ", ".join(f'<a href="../../{path[:-3]}.html">{title}</a>' for path, title in pages.items())
+            at = f'<a id="{anchor}" name="{anchor}"></a>' if anchor else '<div class="contents">'
+            if place:
+                with open(os.path.join(self.work, "docs", page), "r+", encoding="utf-8") as file:
+                    text = file.read().replace(at, f'{at}<div class="theory">Theory: {links}</div>', 1)
+                    file.seek(0)
+                    file.write(text)

@@ -23,10 +23,13 @@ def on_post_build(config: Any) -> None:
             entry["text"] = " ".join(dict.fromkeys(re.findall(r"[\w']+", entry["text"].lower())))
         elif entry["location"].startswith("reference/python/") and "#sinew." in entry["location"]:
             entry["title"] = re.sub(r"\.init$", "(…)", entry["location"].partition("#")[2])
-    for doc in ElementTree.parse(os.path.join(config["docs_dir"], "../searchdata.xml")).getroot():
-        field = {f.get("name"): f.text or "" for f in doc}
-        if field["type"] in KINDS:
-            index["docs"].append({"location": f"reference/cpp/{field['url']}", "text": field.get("text", ""),
-                                  "title": re.sub(r"^sinew::(\w+::(?=\w+::))?", "", field["name"])})
+    found = [{f.get("name"): f.text or "" for f in doc}
+             for doc in ElementTree.parse(os.path.join(config["docs_dir"], "../searchdata.xml")).getroot()]
+    # The theme needs a page before its sections, of which the first is that of the title.
+    for field in sorted(found, key=lambda f: "#" in f["url"]):
+        if field["type"] in KINDS and "@" not in field["name"]:
+            title = re.sub(r"^sinew::(\w+::(?=\w+::))?", "", field["name"])
+            for place in [field["url"]] if "#" in field["url"] else [field["url"], field["url"] + "#top"]:
+                index["docs"].append({"location": f"reference/cpp/{place}", "title": title, "text": field.get("text", "")})
     with open(path, "w", encoding="utf-8") as file:
         json.dump(index, file, ensure_ascii=False, separators=(",", ":"))
