@@ -34,6 +34,7 @@ cp tools/site/assets/* "$SITE_DOCS/assets"
 cp /usr/share/javascript/katex/katex.min.{js,css} "$SITE_DOCS/assets/katex"
 cp -L /usr/share/javascript/katex/fonts/*.woff2 "$SITE_DOCS/assets/katex/fonts"
 files | PYTHONPATH=$package /usr/bin/python3 tools/site/build.py . "$work"
+find "$SITE_DOCS/reference/cpp" -name '*-members.html' -delete  # no page leads there
 mkdocs build --quiet --strict --config-file tools/site/mkdocs.yml --site-dir "$work/site"
 
 /usr/bin/python3 tools/site/check_links.py "$work/site"

@@ -50,6 +50,8 @@ class Reference:
             raise SystemExit(f"{missing[0]}: found no words on what it is for; expected a row in docs/architecture.md's "
                              "table of folders, or a line in tools/site/folders.txt")
         with open(os.path.join(self.work, "folders.dox"), "w", encoding="utf-8") as file:
+            file.write("/** @mainpage The C++ library\n<a href=\"files.html\">Folders and headers</a>, and the "
+                       "<a href=\"annotated.html\">classes</a> that they declare. */\n")
             for folder in sorted(self.folders):
                 target = folder.removeprefix("sinew/").replace("/", "_")
                 words = f"Target `sinew::{target}`." if folder.startswith("sinew/") else ""
@@ -63,18 +65,22 @@ class Reference:
         return list(dict.fromkeys(f for f in (re.sub(r"/[^/]*\.\w+$", "", k).rstrip("/") for k in links) if f in self.folders))
 
     def read_tags(self) -> None:
-        """Reads Doxygen's tag file: where each header, folder and name is."""
-        self.places: Dict[str, str] = {"sinew": f"{FOLDER}/files.html"}
+        """Reads what Doxygen says of where each folder, header and name is."""
+        self.places: Dict[str, str] = {}
         self.names: Dict[str, List[str]] = {}
         self.members: Dict[str, List[str]] = {}  # of classes
         self.folder_of: Dict[str, str] = {}  # of a page
         self.theory: Dict[str, Dict[str, str]] = {}  # pages with a name, and their titles, by its place
         own: Dict[str, str] = {}  # folder of a class; files come before classes in the tags
+        for doc in ElementTree.parse(os.path.join(self.work, "searchdata.xml")).getroot():
+            if doc.findtext("field[@name='type']") == "dir":
+                folder = doc.findtext("field[@name='name']", "").replace("::", "/")
+                self.places[folder] = f"{FOLDER}/" + doc.findtext("field[@name='url']", "")
         for compound in ElementTree.parse(os.path.join(self.work, "tags.xml")).getroot():
             kind, name = compound.get("kind"), compound.findtext("name", "")
             page = f"{FOLDER}/{compound.findtext('filename', '')}"
-            if kind in ("file", "dir"):
-                path = os.path.relpath(compound.findtext("path", "") + (name if kind == "file" else ""), self.root)
+            if kind == "file":
+                path = os.path.relpath(compound.findtext("path", "") + name, self.root)
                 self.places[path] = page
                 self.folder_of[page] = os.path.dirname(path)
                 own.update((inner.text or "", os.path.dirname(path)) for inner in compound.findall("class"))

@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from typing import Any
 
-KINDS = ("file", "function", "class", "struct", "union", "concept", "enum", "variable", "typedef")
+KINDS = ("dir", "file", "function", "class", "struct", "union", "concept", "enum", "variable", "typedef")
 
 
 def on_post_build(config: Any) -> None:
@@ -29,6 +29,7 @@ def on_post_build(config: Any) -> None:
     for field in sorted(found, key=lambda f: "#" in f["url"]):
         if field["type"] in KINDS and "@" not in field["name"]:
             title = re.sub(r"^sinew::(\w+::(?=\w+::))?", "", field["name"])
+            title = field["name"].replace("::", "/") if field["type"] == "dir" else title
             for place in [field["url"]] if "#" in field["url"] else [field["url"], field["url"] + "#top"]:
                 index["docs"].append({"location": f"reference/cpp/{place}", "title": title, "text": field.get("text", "")})
     with open(path, "w", encoding="utf-8") as file:
