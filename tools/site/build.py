@@ -25,8 +25,7 @@ def build(root: str, work: str, files: List[str]) -> None:
     reference.write_theory()
     count = write_python_pages(os.path.join(root, "python"), os.path.join(docs, "reference/python"))
     sources = write_sources(root, docs, files, pages.target)
-    names = sum(map(len, [*reference.names.values(), *reference.members.values()]))
-    print(f"site: {len(pages.titles)} pages, {names} names of C++ in {len(headers)} headers, {count} of Python, {sources} sources")
+    print(f"site: {len(pages.titles)} pages, {len(reference.names)} names of C++ in {len(headers)} headers, {count} of Python, {sources} sources")
 
 
 if __name__ == "__main__":

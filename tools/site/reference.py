@@ -37,7 +37,7 @@ class Reference:
         with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
             settings = f"{file.read()}\nINPUT = {work}/folders.dox {' '.join(headers)}\n"
         subprocess.run(["doxygen", "-"], input=settings, cwd=root, text=True, check=True, env={**os.environ, "WORK": work})
-        self.read_tags()
+        self.read_places()
 
     def write_folders(self, theory: Dict[str, str]) -> None:
         """Gives Doxygen the purpose of each folder, and the theory pages that lead there."""
@@ -64,41 +64,29 @@ class Reference:
             links = re.findall(r"\]\((?:\.\./)+((?:sinew|thesis|fmu)/[\w/.]+)", file.read())
         return list(dict.fromkeys(f for f in (re.sub(r"/[^/]*\.\w+$", "", k).rstrip("/") for k in links) if f in self.folders))
 
-    def read_tags(self) -> None:
-        """Reads what Doxygen says of where each folder, header and name is."""
+    def read_places(self) -> None:
+        """Reads what Doxygen has found: the places of folders, headers and names."""
         self.places: Dict[str, str] = {}
-        self.names: Dict[str, List[str]] = {}
-        self.members: Dict[str, List[str]] = {}  # of classes
+        self.names: Dict[str, str] = {}
         self.folder_of: Dict[str, str] = {}  # of a page
         self.theory: Dict[str, Dict[str, str]] = {}  # pages with a name, and their titles, by its place
-        own: Dict[str, str] = {}  # folder of a class; files come before classes in the tags
         for doc in ElementTree.parse(os.path.join(self.work, "searchdata.xml")).getroot():
-            if doc.findtext("field[@name='type']") == "dir":
-                folder = doc.findtext("field[@name='name']", "").replace("::", "/")
-                self.places[folder] = f"{FOLDER}/" + doc.findtext("field[@name='url']", "")
-        for compound in ElementTree.parse(os.path.join(self.work, "tags.xml")).getroot():
-            kind, name = compound.get("kind"), compound.findtext("name", "")
-            page = f"{FOLDER}/{compound.findtext('filename', '')}"
-            if kind == "file":
-                path = os.path.relpath(compound.findtext("path", "") + name, self.root)
-                self.places[path] = page
+            kind, name, url = (doc.findtext(f"field[@name='{field}']", "") for field in ("type", "name", "url"))
+            if kind == "dir":
+                self.places[name.replace("::", "/")] = f"{FOLDER}/{url}"
+            elif kind not in ("file", "source", "namespace"):
+                self.names.setdefault(name, f"{FOLDER}/{url}")
+        for file in ElementTree.parse(os.path.join(self.work, "tags.xml")).iterfind("compound[@kind='file']"):
+            path = os.path.relpath(file.findtext("path", "") + file.findtext("name", ""), self.root)
+            self.places[path] = f"{FOLDER}/{file.findtext('filename')}"
+            for page in [self.places[path], *(self.names.get(inner.text or "", "") for inner in file.findall("class"))]:
                 self.folder_of[page] = os.path.dirname(path)
-                own.update((inner.text or "", os.path.dirname(path)) for inner in compound.findall("class"))
-            elif kind in ("struct", "class", "union", "concept"):
-                self.names.setdefault(name, []).append(page)
-                self.folder_of[page] = own.get(name, "")
-            scope = f"{name}::" if kind in ("struct", "class", "union") else ""
-            for member in compound.findall("member") if scope or kind == "file" else []:
-                place = f"{FOLDER}/{member.findtext('anchorfile')}#{member.findtext('anchor')}"
-                (self.members if scope else self.names).setdefault(scope + member.findtext("name", ""), []).append(place)
 
     def find(self, word: str, near: List[str]) -> str:
         """Returns the place of a name that a page has as code: in the folders near it, or the only one."""
-        if not re.fullmatch(r"\w+(::\w+)*", word):
-            return ""
-        inner = "::" in word
-        found = [places[0] for names in ((self.names, self.members) if inner else (self.names,))
-                 for name, places in names.items() if f"::{name}".endswith(f"::{word}")]
+        inner = "::" in word  # else no member of a class is meant
+        found = [place for name, place in self.names.items() if f"::{name}".endswith(f"::{word}")
+                 and (inner or name.rpartition("::")[0] not in self.names)] if re.fullmatch(r"\w+(::\w+)*", word) else []
         here = [place for folder in near for place in found if self.folder_of.get(place.split("#")[0]) == folder]
         return here[0] if here else found[0] if inner and len(found) == 1 else ""
 
