@@ -10,6 +10,7 @@
 
 namespace sinew::link {
 
+// Sequence numbers of a board that have been seen.
 class SequenceWindow {
  public:
   // Returns whether a frame is new.
