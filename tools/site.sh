@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
-# site.sh [OUT]   builds the docs site in build/site, or OUT: docs, examples, README and changelog,
-# the reference of the C++ library and of the Python package, and the sources, with one search.
+# site.sh [OUT]   builds the docs site in build/site, or OUT: docs, examples, README.md and changelog, the
+# references of the C++ library and of the Python package, and the sources, with a common search.
 #
 #   python3 -m http.server --bind 127.0.0.1 --directory build/site 8000
 #
-# then shows it at http://127.0.0.1:8000; pages alone also open as files, their search does not.
-# Nothing is asked of the network, neither by this nor by the site. A link that leads nowhere, a
-# warning of Doxygen or MkDocs, and a public name without words (tools/site/undocumented.py) are
-# errors.
+# serves it at http://127.0.0.1:8000. Pages also open as files, but without the search. Neither this script nor
+# the site uses the network. A broken link, a warning of Doxygen or MkDocs, and an undocumented public name
+# (tools/site/undocumented.py) are errors.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
