@@ -1,5 +1,5 @@
-// What an FMU's functions add to a step: the same steps by the library and through the binary's C
-// functions, by turns.
+// Overhead of an FMU's functions: the same steps by the library and through the C functions of the
+// binary, measured alternately.
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ namespace {
 using namespace sinew;
 namespace fs = std::filesystem;
 
-// A module's model by its C functions, as an importer has it.
+// Model of a module, used through its C functions as by an importer.
 class Slave {
  public:
   Slave(const char* module, const fmu::Description& description) {
@@ -78,8 +78,8 @@ double time_of(const Work& work) {  // [s]
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Medians of both by turns, which each answer how long their steps took [s]: microseconds a step,
-// and how many times the library's the FMU's is.
+// Measures both alternately; each returns the time of its steps [s]. Reports the medians as
+// microseconds per step, and the ratio of the FMU's to the library's.
 template <class Library, class Through>
 void by_turns(benchmark::State& state, int steps, const Library& library, const Through& through) {
   std::vector<double> ours, theirs, ratios;
@@ -97,7 +97,7 @@ void by_turns(benchmark::State& state, int steps, const Library& library, const 
   state.counters["times_longer"] = median(ratios);
 }
 
-// A muscle at 1 kHz: length and rate in, tension out.
+// Muscle at 1 kHz with length and rate as inputs and tension as output.
 void fmu_muscle(benchmark::State& state) {
   constexpr int steps = 2000;
   constexpr double h = 1e-3;
@@ -132,7 +132,7 @@ void fmu_muscle(benchmark::State& state) {
       });
 }
 
-// A walk in steps of 10 ms: six channels out.
+// Walk in steps of 10 ms with six output channels.
 void fmu_machine(benchmark::State& state) {
   constexpr int steps = 1200;
   constexpr double h = 0.01;

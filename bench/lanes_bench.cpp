@@ -1,4 +1,4 @@
-// Walks in lanes: what side by side gains, and how long ten thousand take.
+// Walks in lanes: speedup over walks one after the other, and the time of ten thousand.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace sinew;
 
-// Walks of test 1, each with other noise.
+// Returns walks of test 1, each with different noise.
 std::vector<experiment::Experiment> walks(std::size_t count) {
   const experiment::Experiment walk =
       experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml");
@@ -22,7 +22,7 @@ std::vector<experiment::Experiment> walks(std::size_t count) {
   return out;
 }
 
-// Returns how long they take in so many lanes on one thread  [s].
+// Returns the time of these walks in `lanes` lanes on one thread [s].
 double time_of(const std::vector<experiment::Experiment>& each, int lanes, bool recorded) {
   std::size_t next = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -34,13 +34,13 @@ double time_of(const std::vector<experiment::Experiment>& each, int lanes, bool 
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// One walk after the other and many side by side, by turns.
+// Walks one after the other and in lanes, measured alternately.
 void walks_in_lanes(benchmark::State& state, bool recorded) {
   const int lanes = static_cast<int>(state.range(0));
   if (lanes > 2 && lanes > run::widest_lanes())
     return state.SkipWithError("this processor has fewer lanes");
   const auto each = walks(static_cast<std::size_t>(8 * lanes));
-  double alone = 1e9, beside = 1e9;  // the least disturbed of each [s] per walk
+  double alone = 1e9, beside = 1e9;  // shortest time of each, per walk [s]
   for (auto _ : state) {
     alone = std::min(alone, time_of(each, 1, recorded) / static_cast<double>(each.size()));
     beside = std::min(beside, time_of(each, lanes, recorded) / static_cast<double>(each.size()));
@@ -52,7 +52,7 @@ void walks_in_lanes(benchmark::State& state, bool recorded) {
 BENCHMARK_CAPTURE(walks_in_lanes, recorded, true)->Arg(2)->Arg(4)->Arg(8)->Iterations(5);
 BENCHMARK_CAPTURE(walks_in_lanes, unwatched, false)->Arg(2)->Arg(4)->Arg(8)->Iterations(5);
 
-// Ten thousand walks on two threads, scaled from a thousand.
+// Time of ten thousand walks on two threads, scaled from a thousand.
 void ten_thousand_walks(benchmark::State& state, bool recorded) {
   const auto half = walks(500);
   double least = 1e9;  // [s]

@@ -1,5 +1,5 @@
-"""What Python adds to a step, by turns in one run: a walk advanced at one go, by its own steps, by a
-loop, as one environment and as sixteen. Prints microseconds of processor time for each step of 50 ms.
+"""Overhead of Python: a walk advanced in one call, in steps, by a loop, as one environment and as sixteen,
+measured alternately. Prints microseconds of processor time for each step of 50 ms.
 
     PYTHONPATH=build/release/python python3 bench/python_speed.py
 """
@@ -20,7 +20,7 @@ steps = round((walk.duration - task.begin) / STEP) - 2
 
 
 def at_one_go() -> int:
-    """Python does nothing between the steps: the library's own time."""
+    """Advance in one call: the time of the library."""
     leg = sinew.Simulation(walk)
     leg.advance(task.begin)
     began = time.process_time_ns()
@@ -29,7 +29,7 @@ def at_one_go() -> int:
 
 
 def in_steps() -> int:
-    """Advance and one reading."""
+    """Advance in steps, with one reading each."""
     leg = sinew.Simulation(walk)
     leg.advance(task.begin)
     began = time.process_time_ns()
@@ -40,7 +40,7 @@ def in_steps() -> int:
 
 
 def in_a_loop() -> int:
-    """Two settings and twelve readings."""
+    """Run a loop with two settings and twelve readings."""
     leg = sinew.Simulation(walk)
     leg.advance(task.begin)
     names = [sight.channel for sight in task.sights][:12]
@@ -59,7 +59,7 @@ all_still: Any = numpy.zeros((16, 4))
 
 
 def as_an_environment() -> int:
-    """Observations, reward, flags."""
+    """Step an environment: observations, reward, flags."""
     one.reset(seed=1)
     began = time.process_time_ns()
     for _ in range(steps):
@@ -68,7 +68,7 @@ def as_an_environment() -> int:
 
 
 def as_sixteen() -> int:
-    """Sixteen of these; the time of each."""
+    """Step sixteen environments; return the time of each."""
     many.reset(seed=1)
     began = time.process_time_ns()
     for _ in range(steps):

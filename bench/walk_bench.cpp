@@ -1,4 +1,4 @@
-// Where the time of a walk goes. Goals (bench/README.md) are ratios of one run of this program.
+// Times of the parts of a walk. Goals (bench/README.md) are ratios within one run of this program.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ const experiment::Experiment& walk() {
   return e;
 }
 
-// The whole closed loop with the channel table in memory and no log: what `sinew run` does with
+// The whole closed loop with the channel table in memory and without a log, as `sinew run` with
 // --set log.enabled=false.
 void closed_loop_walk(benchmark::State& state) {
   double simulated = 0;
@@ -46,7 +46,7 @@ struct Nothing {
   signals::Tick next(signals::Tick t) const noexcept { return t + 1'000'000; }
 };
 
-// Measures what a part of a machine costs: an experiment and the plain walk by turns, each per
+// Measures the cost of a part of a machine: an experiment and the plain walk alternately, each per
 // simulated second.
 void against_the_plain_walk(benchmark::State& state, const char* name) {
   using Clock = std::chrono::steady_clock;
@@ -57,7 +57,7 @@ void against_the_plain_walk(benchmark::State& state, const char* name) {
     const double simulated = run::run(e).duration;
     return std::chrono::duration<double>(Clock::now() - start).count() / simulated;
   };
-  double least = 1e9, least_plain = 1e9;  // the least disturbed of each
+  double least = 1e9, least_plain = 1e9;  // shortest time of each
   for (auto _ : state) {
     least_plain = std::min(least_plain, cost(walk()));
     least = std::min(least, cost(other));
@@ -73,7 +73,7 @@ BENCHMARK_CAPTURE(against_the_plain_walk, ankle, "walk-with-ankle.toml");
 BENCHMARK_CAPTURE(against_the_plain_walk, moving_cylinder, "cylinder-staircase.toml");
 BENCHMARK_CAPTURE(against_the_plain_walk, two_legs, "walk-two-legs.toml");
 
-// The same, nobody recording.
+// The same without recording.
 void unwatched_walk(benchmark::State& state) {
   const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;
@@ -90,7 +90,7 @@ void unwatched_walk(benchmark::State& state) {
 }
 BENCHMARK(unwatched_walk)->Unit(benchmark::kMillisecond);
 
-// A body that always answers the same: brain, spinal cord and loop alone.
+// Gait controller, joint controllers and loop, with a body that always returns the same readings.
 class Still final : public signals::Port {
  public:
   signals::Status start(const signals::Scan&) noexcept override { return signals::Status::ok; }
@@ -117,7 +117,7 @@ void controller_alone(benchmark::State& state) {
 }
 BENCHMARK(controller_alone)->Unit(benchmark::kMillisecond);
 
-// One 1 ms step of the standing leg: four stages, friction, contact.
+// One 1 ms step of the leg in stance: four stages, friction, contact.
 void one_node(benchmark::State& state) {
   plant::ChainWorld<2> world(run::planar_setup(walk()));
   double t = 0.5;
@@ -126,7 +126,7 @@ void one_node(benchmark::State& state) {
 }
 BENCHMARK(one_node);
 
-// One look between two nodes.
+// One evaluation between two nodes.
 void one_peek(benchmark::State& state) {
   plant::ChainWorld<2> world(run::planar_setup(walk()));
   for (auto _ : state) benchmark::DoNotOptimize(world.truth(0.5005));
@@ -152,7 +152,7 @@ struct FourMuscles {
   }
 };
 
-// Tensions and pressures of four muscles, one evaluation after the other (throughput) ...
+// Tensions and pressures of four muscles in independent evaluations (throughput) ...
 void four_muscles(benchmark::State& state) {
   FourMuscles m;
   for (auto _ : state) {
@@ -162,7 +162,7 @@ void four_muscles(benchmark::State& state) {
 }
 BENCHMARK(four_muscles);
 
-// ... and each waiting for the last one's answer, as the stages of a step do.
+// ... and in evaluations that depend on the previous result, as the stages of a step do.
 void four_muscles_in_sequence(benchmark::State& state) {
   FourMuscles m;
   for (auto _ : state) {
@@ -173,7 +173,7 @@ void four_muscles_in_sequence(benchmark::State& state) {
 }
 BENCHMARK(four_muscles_in_sequence);
 
-// Mass matrix, its factors and the accelerations of the two-link leg on its trolley.
+// Mass matrix, its factorization and the accelerations of the two-link leg on its trolley.
 void body_accelerations(benchmark::State& state) {
   const plant::ChainConstants<2> k = plant::chain_of<2>(walk().robot);
   plant::GeneralizedState<2> motion;

@@ -1,6 +1,6 @@
-# ccache, where it is installed and no other launcher is set: a clone in another folder of the same
-# computer then compiles nothing again. Paths of sources are made relative, in messages of failed tests
-# and in the cache; a precompiled header is known by its content. -DSINEW_CCACHE=OFF goes without.
+# Uses ccache if it is installed and no other launcher is set, so that a clone in another folder of the same
+# computer compiles nothing again. Paths of sources are relative, in messages of failed tests and in the
+# cache; precompiled headers are compared by content. -DSINEW_CCACHE=OFF disables it.
 option(SINEW_CCACHE "compile through ccache, where it is installed" ON)
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -1,34 +1,34 @@
-# sinew_folder(PATH DEPS...)   the library of sinew/PATH; thesis/… and fmu/… are beside sinew/. Its
-# tests are beside its sources (*_test.cpp) and belong to a program of tests/CMakeLists.txt. A folder
-# with headers only becomes an interface library.
+# sinew_folder(PATH DEPS...)   adds the library of sinew/PATH; thesis/… and fmu/… are next to sinew/. Its
+# tests (*_test.cpp in the same folder) belong to a program of tests/CMakeLists.txt. A folder with only
+# headers becomes an interface library.
 
 function(sinew_target path out)
   string(REPLACE "/" "_" name "${path}")
   set(${out} "sinew_${name}" PARENT_SCOPE)
 endfunction()
 
-# Everything is compiled with -O1; this is for folders that compute (the list is in CMakeLists.txt).
-# The result is the same to the last bit.
+# Compiles a target with -O3 instead of -O1, for folders that compute (listed in CMakeLists.txt). Results are
+# the same to the last bit.
 function(sinew_optimize_much target)
   if(NOT SINEW_SANITIZE)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
   endif()
 endfunction()
 
-# For tests, which are built more often than they run, and for headers of outside libraries under a
-# sanitizer, where half of the time is the optimizer's.
+# Compiles a target without optimization, for tests, which are built more often than they run, and for
+# headers of external libraries under a sanitizer, where the optimizer takes half of the time.
 function(sinew_optimize_nothing target)
   target_compile_options(${target} PRIVATE -O0)
 endfunction()
 
-# Compiles the sources of a target several at a time: their headers are read and instantiated once.
-# -DSINEW_TOGETHER=OFF compiles each alone, which is faster after an edit of one of them. Sources that
-# are compiled together must not use one name for two things at namespace scope.
+# Unity build: compiles several sources of a target at once, so that their headers are read and instantiated
+# once. -DSINEW_TOGETHER=OFF compiles each separately, which is faster after an edit of one of them. Sources
+# that are compiled together must not define a name twice at namespace scope.
 option(SINEW_TOGETHER "compile the sources of a target several at a time" ON)
 function(sinew_together target at_a_time)
   if(SINEW_TOGETHER)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${at_a_time})
-    # GCC takes a source that is compiled with others for a header, which may not have types of its own.
+    # In a unity build GCC treats each source as a header and warns of types with internal linkage.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
@@ -70,7 +70,7 @@ function(sinew_folder path)
   endif()
 endfunction()
 
-# An outside library is used in one folder only; PRIVATE hides its headers from all others.
+# Links an external library to the only folder that uses it; PRIVATE hides its headers from all others.
 function(sinew_uses path scope)
   sinew_target(${path} target)
   get_target_property(type ${target} TYPE)
@@ -80,7 +80,7 @@ function(sinew_uses path scope)
   sinew_test_uses(${path} ${ARGN})
 endfunction()
 
-# Libraries that only the tests of a folder need.
+# Links libraries that only the tests of a folder need.
 function(sinew_test_uses path)
   set_property(GLOBAL APPEND PROPERTY SINEW_TEST_LIBRARIES_OF_${path} ${ARGN})
 endfunction()

@@ -1,15 +1,15 @@
-# cmake --install gives find_package(sinew) and one target for everything, sinew::sinew; each folder
-# of sinew/ is a target too: sinew::air, sinew::control_joint, …
+# cmake --install provides find_package(sinew) with one target for everything, sinew::sinew, and one for each
+# folder of sinew/: sinew::air, sinew::control_joint, …
 #
-# Components are those of the packages that cpack makes (package.cmake): program, mpi, comedi, matlab,
-# development, python. A plain installation has them all.
+# Components correspond to the packages of cpack (package.cmake): program, mpi, comedi, matlab, development,
+# python. A plain installation has all of them.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 get_property(folders GLOBAL PROPERTY SINEW_FOLDERS)
 
-# The target `sinew` is the program, in the build as in the shell.
+# The target `sinew` is the program.
 add_library(sinew_all INTERFACE)
 add_library(sinew::sinew ALIAS sinew_all)
 target_link_libraries(sinew_all INTERFACE ${folders})
@@ -22,12 +22,12 @@ foreach(folder ${folders})
   string(APPEND SINEW_COMPONENTS " ${name}")
 endforeach()
 
-# Unstable until 1.0: a program built for 0.1 asks for 0.1.
+# The API is unstable until 1.0: a project that requires 0.1 does not accept 0.2.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sinewConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 
-# The archives and the CMake package, below the prefix in `libraries`. What follows are install()'s
-# own words.
+# Installs the static libraries and the CMake package into the folder `libraries` of the prefix. Further
+# arguments are passed to install().
 function(sinew_install_libraries export libraries)
   set(package ${libraries}/cmake/sinew)
   set(config ${PROJECT_BINARY_DIR}/${export}/sinewConfig.cmake)
@@ -56,7 +56,7 @@ endif()
 install(DIRECTORY sinew thesis fmu DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         ${headers_only})
 
-# The program, and the robots and experiments it comes with.
+# The program, and the robots and experiments that are shipped with it.
 if(TARGET sinew)
   install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   install(TARGETS sinew_thesis_program RUNTIME DESTINATION ${sinew_modules} COMPONENT program)
@@ -70,13 +70,13 @@ foreach(module pagmo mpi comedi matlab)
     install(TARGETS sinew_${module} LIBRARY DESTINATION ${sinew_modules} COMPONENT ${component})
   endif()
 endforeach()
-# What FMUs are made of.
+# Parts of exported FMUs.
 install(TARGETS sinew_fmu_muscle_module sinew_fmu_machine_module LIBRARY DESTINATION ${sinew_modules}
         COMPONENT program)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/${sinew_modules}/fmu_sources DESTINATION ${sinew_modules}
         COMPONENT program)
 install(DIRECTORY robots experiments studies DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program)
-# `sinew list examples` finds them there. What a run of one leaves beside it is not of them.
+# `sinew list examples` finds them there. Files that running an example leaves in its folder are excluded.
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program
         PATTERN "__pycache__" EXCLUDE PATTERN "build" EXCLUDE PATTERN "runs" EXCLUDE)
 install(DIRECTORY data/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew/data COMPONENT program)

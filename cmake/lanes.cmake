@@ -1,6 +1,6 @@
-# Files of sinew/world that are compiled for processors with wide registers, each alone. What such a
-# file shares with the linker has its width in its name (sinew/world/lane_nodes.h), so that nothing of
-# it can come to run on another processor: a test looks.
+# Files of sinew/world that are compiled separately for processors with wide registers. Every external symbol
+# of such a file has its width in its name (sinew/world/lane_nodes.h), so that the linker cannot use its code
+# on another processor. A test checks this.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(sinew_lanes_4 -mavx2)
   set(sinew_lanes_8 -mavx2 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mprefer-vector-width=512)

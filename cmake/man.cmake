@@ -1,4 +1,4 @@
-# sinew(1), from what the program says of itself.
+# Manual page sinew(1), generated from the help of the program.
 find_program(SINEW_GZIP gzip)
 if(NOT TARGET sinew OR NOT SINEW_GZIP OR SINEW_SANITIZE)
   return()

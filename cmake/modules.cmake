@@ -1,12 +1,12 @@
-# sinew_module(NAME SOURCE LIBRARY)   a part of the program with an outside library in it, which the
-# program opens only when it is needed: lib/sinew/NAME.so.
+# sinew_module(NAME SOURCE LIBRARY)   adds lib/sinew/NAME.so, a part of the program that links an external
+# library. The program loads it only when it is needed.
 #
-# sinew_mpi    the MPI library, for processes that mpirun started
-# sinew_pagmo  the methods of `sinew tune`
-# sinew_comedi the card of `sinew run --port comedi:…`
-# sinew_matlab the .mat files of `sinew import`
+# sinew_mpi    MPI, for processes started by mpirun
+# sinew_pagmo  methods of `sinew tune`
+# sinew_comedi data acquisition cards, `sinew run --port comedi:…`
+# sinew_matlab .mat files, `sinew import`
 #
-# Where a library is missing the program is built without, and says so when it is asked for.
+# If a library is missing, the program is built without the module and reports this when it is needed.
 
 function(sinew_module name source library)
   add_library(${name} MODULE ${PROJECT_SOURCE_DIR}/sinew/${source})
@@ -30,8 +30,8 @@ if(SINEW_PAGMO AND NOT SINEW_FUZZ)
   find_package(Pagmo QUIET)
   if(Pagmo_FOUND)
     sinew_module(sinew_pagmo tune/optimizer/module/module.cpp Pagmo::pagmo)
-    # Vectors that pagmo's library allocates are freed in the module. Under the address sanitizer Eigen
-    # would free them in another way than the library, which is compiled without it.
+    # Vectors that pagmo allocates are freed in the module. Under the address sanitizer Eigen would free them
+    # differently from pagmo, which is compiled without the sanitizer.
     if(SINEW_SANITIZE MATCHES "address")
       target_compile_definitions(sinew_pagmo PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
     endif()

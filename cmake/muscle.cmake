@@ -1,7 +1,7 @@
-# The folders of which a braided muscle with its air and valves is made, and sinew::muscle, which is
-# all of them. They need a compiler and nothing else: no library from outside.
+# Folders for a braided muscle with its air and valves, and sinew::muscle, which links all of them. They need
+# only a compiler, no external library.
 #
-#   cmake -DSINEW_ONLY=muscle -S . -B build/muscle     builds and installs these alone
+#   cmake -DSINEW_ONLY=muscle -S . -B build/muscle     configures only these
 
 #            folder          may include (tools/layers.sh checks the includes themselves)
 sinew_folder(units           )

@@ -1,15 +1,15 @@
-# Debian packages: `cpack --preset release`, or `cpack -G DEB` in the folder of a build, makes
+# Debian packages. `cpack --preset release`, or `cpack -G DEB` in a build folder, makes
 #
-#   sinew          the program, the module of its searches, robots, experiments, documentation
-#   sinew-mpi      a module: sweeps over the processes of mpirun
-#   sinew-comedi   a module: a machine at a card
-#   sinew-matlab   a module: recordings in MATLAB files
-#   libsinew-dev   headers, archives, find_package(sinew)
+#   sinew          the program, its module for tuning, robots, experiments, documentation
+#   sinew-mpi      module for sweeps over the processes of mpirun
+#   sinew-comedi   module for machines at a data acquisition card
+#   sinew-matlab   module for recordings in MATLAB files
+#   libsinew-dev   headers, static libraries, find_package(sinew)
 #   python3-sinew  `import sinew`
 #
-# each where the build has it. What they depend on dpkg-shlibdeps finds out. Everything goes below
-# /usr whatever prefix the build was configured for: archives and Python files, whose places depend
-# on that, are installed twice, and packages take those of component *_deb.
+# if the build has them. dpkg-shlibdeps determines their dependencies. Packages always install into /usr,
+# whatever the prefix of the build is. Static libraries and Python files, whose folders depend on the prefix,
+# therefore have a second installation rule, with components *_deb, for the packages.
 
 find_program(SINEW_DPKG dpkg)
 if(NOT SINEW_DPKG OR NOT TARGET sinew)
@@ -42,8 +42,8 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# Licence and changes, as every package of Debian has them: of Sinew, and of its packages, whose
-# versions have a number of their own behind Sinew's.
+# Licence and changelogs, as in every Debian package: the changelog of Sinew, and that of its packaging,
+# whose revision follows Sinew's version.
 set(changes "")
 foreach(pair "changelog CHANGELOG.md" "changelog.Debian cmake/debian/changelog")
   separate_arguments(pair)
@@ -102,7 +102,7 @@ sinew_package(libsinew-dev development_deb libdevel
   "Headers, static libraries and the CMake package of sinew: a muscle with its
 air, whole robots, controllers, simulations, identification, tuning. C++20.")
 set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SUGGESTS "sinew, cmake, g++")
-# It has no shared library, for which CPack would look at each of its 700 files with two processes.
+# It has no shared library; CPack would start two processes for each of its 700 files to search for one.
 set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SHLIBDEPS OFF)
 
 if(TARGET sinew_python)

@@ -1,6 +1,6 @@
-# The pages of web/, each bundled into one text by esbuild and compiled into sinew_report_page. Where its npm
-# packages are missing the program is built without it, and says so when it is asked for a report.
-# The glob is looked at in every build: after tools/npm-ci.sh the next one has the page.
+# Pages of web/, each bundled into one text by esbuild and compiled into sinew_report_page. If the npm packages
+# are missing, the program is built without pages and reports this when a report is requested. The glob is
+# evaluated in every build, so that the next build after tools/npm-ci.sh has the pages.
 
 set(web ${PROJECT_SOURCE_DIR}/web)
 file(GLOB web_packages CONFIGURE_DEPENDS ${web}/node_modules/.package-lock.json)
@@ -16,8 +16,8 @@ if(SINEW_NODE AND web_packages)
     DEPENDS ${web_sources} ${web_packages} ${web}/build.mjs
     COMMENT "Bundling the page of web/"
     VERBATIM)
-  # The page is one literal, longer than the 65536 characters that the standard promises; GCC and
-  # Clang take it, and Clang would warn.
+  # Each page is one string literal, longer than the 65536 characters that the standard guarantees. GCC and
+  # Clang accept it, but Clang warns.
   set_source_files_properties(${page_template} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
 else()
   set(sinew_has_page OFF)

@@ -1,13 +1,13 @@
-# sinew_precompile(KIND HEADERS ... [LIBRARY] [MUCH|NOTHING] [USES ...])   headers that the compiler reads
-# once for all targets of a kind, instead of once for each of their sources. Every source still includes
-# what it needs and compiles without; -DSINEW_PCH=OFF does so.
+# sinew_precompile(KIND HEADERS ... [LIBRARY] [MUCH|NOTHING] [USES ...])   precompiles headers for all targets
+# of a kind. Every source still includes the headers that it needs and compiles without precompiled ones, as
+# with -DSINEW_PCH=OFF.
 #
-# A compiler takes a precompiled header only where flags and definitions are those it was made with, so
-# a kind is: library or program, how much it is optimized, with or without fmt.
+# A precompiled header can only be used with the same flags and definitions. A kind is therefore
+# library or program, degree of optimization, with or without fmt.
 
 option(SINEW_PCH "precompile the headers that most sources include" ON)
 
-# Makes the target sinew_pch_<kind>, whose headers sinew_precompiled() uses.
+# Adds the target sinew_pch_<kind>, whose headers sinew_precompiled() uses.
 function(sinew_precompile kind)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY;MUCH;NOTHING" "" "USES;HEADERS")
   if(NOT SINEW_PCH)
@@ -31,11 +31,11 @@ function(sinew_precompile kind)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${arg_USES})
   target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
-  # Without it ccache does not see what such a header is made of.
+  # Without this option ccache does not detect changes of the headers.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# The target's sources begin with the headers of the kind, if it exists.
+# Uses the precompiled headers of the kind, if they exist, in a target.
 function(sinew_precompiled target kind)
   if(TARGET sinew_pch_${kind})
     target_precompile_headers(${target} REUSE_FROM sinew_pch_${kind})

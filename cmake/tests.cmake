@@ -1,21 +1,21 @@
 # sinew_test_program(NAME [FOLDERS ...] [SOURCES ...] [USES ...] [LABEL label]
-#                    [CLOCK pattern...] [BESIDE pattern...] [COVERAGE pattern...])
+#                    [CLOCK pattern...] [PARALLEL pattern...] [COVERAGE pattern...])
 #
-# The test program sinew_<NAME>_test: the tests of these folders of sinew/ with all folders below them,
-# and these sources. Its tests are listed when they run, not when they are built, under "<NAME>: ", and
-# have one label, by which ./check chooses:
+# Adds the test program sinew_<NAME>_test with the tests of these folders of sinew/, of all folders below
+# them, and of these sources. Its tests are discovered when ctest runs, not at build time. Their names begin
+# with "<NAME>: ", and each has one label, by which ./check selects:
 #
 #   tests      ./check          in parallel
-#   clock      ./check faces    CLOCK: they keep time by the clock, or wait for another process, one at a
-#                               time; BESIDE: they take long, and others may run at the same time
-#   coverage   ./check faces    COVERAGE: how often an interval holds the truth, in many trials
-#   guard      ./check faces    a few tries each; ./check long NAME tries in quantity
+#   clock      ./check faces    CLOCK: in real time, or waiting for another process; run one at a time;
+#                               PARALLEL: slow tests that may run in parallel with others
+#   coverage   ./check faces    COVERAGE: how often an interval contains the true value, in many trials
+#   guard      ./check faces    a few tries each; ./check long NAME runs many
 #   long       ./check long
 #
 # The target sinew_tests builds all programs that have tests of the first label.
 
 function(sinew_test_program name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL" "FOLDERS;SOURCES;USES;CLOCK;BESIDE;COVERAGE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL" "FOLDERS;SOURCES;USES;CLOCK;PARALLEL;COVERAGE")
   set(target sinew_${name}_test)
   set(libraries "")
   get_property(tested GLOBAL PROPERTY SINEW_TESTED)
@@ -39,18 +39,18 @@ function(sinew_test_program name)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${arg_USES} ${libraries} sinew_test_places sinew_test_heap GTest::gmock GTest::gtest_main)
-  sinew_test_labels(${target} "${name}: " "${arg_LABEL}" "${arg_CLOCK}" "${arg_BESIDE}" "${arg_COVERAGE}")
+  sinew_test_labels(${target} "${name}: " "${arg_LABEL}" "${arg_CLOCK}" "${arg_PARALLEL}" "${arg_COVERAGE}")
 endfunction()
 
-function(sinew_test_labels target prefix label clock beside coverage)
+function(sinew_test_labels target prefix label clock parallel coverage)
   if(NOT label)
     set(label tests)
     add_dependencies(sinew_tests ${target})
   endif()
   list(JOIN clock ":" clock_filter)
-  list(JOIN beside ":" beside_filter)
+  list(JOIN parallel ":" parallel_filter)
   list(JOIN coverage ":" coverage_filter)
-  set(rest ${clock} ${beside} ${coverage} Worlds/*)  # its laws: tests/CMakeLists.txt
+  set(rest ${clock} ${parallel} ${coverage} Worlds/*)  # its laws: tests/CMakeLists.txt
   list(JOIN rest ":" rest)
   set(discover DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_PREFIX ${prefix})
   set(serial FALSE)
@@ -63,8 +63,8 @@ function(sinew_test_labels target prefix label clock beside coverage)
     gtest_discover_tests(${target} ${discover} TEST_FILTER ${clock_filter}
                          PROPERTIES LABELS clock TIMEOUT 300 RUN_SERIAL TRUE)
   endif()
-  if(beside)
-    gtest_discover_tests(${target} ${discover} TEST_FILTER ${beside_filter} PROPERTIES LABELS clock TIMEOUT 300)
+  if(parallel)
+    gtest_discover_tests(${target} ${discover} TEST_FILTER ${parallel_filter} PROPERTIES LABELS clock TIMEOUT 300)
   endif()
   if(coverage)
     gtest_discover_tests(${target} ${discover} TEST_FILTER ${coverage_filter} PROPERTIES LABELS coverage TIMEOUT 600)

@@ -1,4 +1,4 @@
-# gnuplot -c studies/designs.gp docs/evidence/studies/designs.csv docs/pictures/designs.png   how fast each design of designs.sh walks.
+# gnuplot -c studies/designs.gp docs/evidence/studies/designs.csv docs/pictures/designs.png   plots the speed of each design of designs.sh.
 set terminal pngcairo size 900,460 font "DejaVu Sans,11"
 set output ARG2
 set datafile separator ","

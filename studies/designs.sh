@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# designs.sh [FOLDER [SEED]]   what a change of the leg's design buys: the front of faster-walk-front.toml again for each
-# design, then faster-walk-one-seed.toml from that front's fastest walk with 90 % passiveness. An hour for each seed on one
-# core. docs/evidence/studies/designs.csv has what it printed for seeds 1 and 2 (the dead times for 1 alone), docs/pictures/designs.png shows it (designs.gp).
+# designs.sh [FOLDER [SEED]]   compares changes of the leg's design: for each design it computes the front of
+# faster-walk-front.toml, then runs faster-walk-one-seed.toml from that front's fastest walk with 90 % passiveness. It takes
+# an hour per seed on one core. docs/evidence/studies/designs.csv has its output for seeds 1 and 2 (the dead times only for
+# 1), and designs.gp plots it as docs/pictures/designs.png.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
@@ -9,7 +10,7 @@ sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/designs} seed=${2:-1}
 experiments=$PWD/experiments
 mkdir -p "$folder"
 
-# bundle MUSCLE   three actuators in place of two: half as much more volume outside, and a transducer that reads half as far again.
+# bundle MUSCLE SCALE   three actuators instead of two: 1.5 times the external volume, and a transducer with 1.5 times the range.
 bundle() {
   echo "muscle.$1.count=3
     muscle.$1.external_volume=0.249 in3
@@ -34,7 +35,7 @@ sets_of() {
   esac
 }
 
-# The fastest candidate that keeps every limit, and has 90 % of passiveness where that is a goal: its number and speed.
+# Prints number and speed of the fastest candidate that satisfies all constraints, and has 90 % passiveness if that is an objective.
 fastest() {
   awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i ~ /^trolley.mean_speed \[/) v = i; if ($i ~ /^passiveness \[/) p = i }; next }
            $3 == "true" && (!p || $p + 0 >= 90) && $v + 0 > best { best = $v + 0; which = $1 } END { print which, best }' "$1"

@@ -1,4 +1,4 @@
-# gnuplot -c studies/front.gp CANDIDATES.csv FRONT.png   what speed costs: the candidates of studies/faster-walk-front.toml.
+# gnuplot -c studies/front.gp CANDIDATES.csv FRONT.png   plots the candidates of studies/faster-walk-front.toml.
 set terminal pngcairo size 900,560 font "DejaVu Sans,11"
 set output ARG2
 set datafile separator ","
@@ -14,6 +14,6 @@ set grid lc rgb "#dddddd"
 feasible(x) = strcol(3) eq "true" ? x : NaN
 set arrow from 9,50 to 9,98 nohead dt 2 lc rgb "#666666"
 set arrow from 0,90 to 13,90 nohead dt 2 lc rgb "#666666"
-set label "asked for: 9 in/s and 90 %" at 9.15,96.5 textcolor rgb "#444444"
-plot ARG1 every ::1 using (feasible($23)):(feasible($24)):(feasible($25)) with points pt 7 ps 0.4 palette title "candidates that keep every limit", \
+set label "constraints: 9 in/s and 90 %" at 9.15,96.5 textcolor rgb "#444444"
+plot ARG1 every ::1 using (feasible($23)):(feasible($24)):(feasible($25)) with points pt 7 ps 0.4 palette title "feasible candidates", \
      "<echo 4.7,66.1" using 1:2 with points pt 2 ps 2 lw 2 lc rgb "black" title "test 1, tuned by hand"

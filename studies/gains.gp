@@ -1,5 +1,5 @@
-# gnuplot -c studies/gains.gp docs/evidence/studies/one-after-the-other.csv docs/pictures/gains.png   the best so far by candidates, of four gains
-# together and of joint after joint, three seeds each.
+# gnuplot -c studies/gains.gp docs/evidence/studies/one-after-the-other.csv docs/pictures/gains.png   plots the best so far over candidates, for
+# four gains at once and for joint after joint, three seeds each.
 set terminal pngcairo size 900,460 font "DejaVu Sans,11"
 set output ARG2
 set datafile separator ","

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# one-after-the-other.sh [FOLDER]   what it costs to tune joint after joint: the four gains of studies/gains-again.toml at once,
-# or the hip's two, then the knee's two with the hip's best, then the hip's again, each from where it stands. Some minutes.
-# FOLDER/history.csv has the best so far by candidates: docs/evidence/studies/one-after-the-other.csv, docs/pictures/gains.png (gains.gp).
+# one-after-the-other.sh [FOLDER]   compares tuning all joints at once with tuning joint after joint: the four gains of
+# studies/gains-again.toml at once, or the hip's two, then the knee's two with the hip's best, then the hip's again, each
+# from the current best. It takes some minutes. FOLDER/history.csv has the best so far over candidates:
+# docs/evidence/studies/one-after-the-other.csv, plotted by gains.gp as docs/pictures/gains.png.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
@@ -9,16 +10,16 @@ sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/one-after-the-other}
 mkdir -p "$folder"
 experiment=$PWD/experiments/leg-in-air.toml
 
-# plan JOINTS GENERATIONS SEED   the plan with the ranges of these joints alone (a pattern).
+# plan JOINTS GENERATIONS SEED   prints the plan with only the ranges of these joints (a pattern).
 plan() {
   sed -E -e "s|^experiment .*|experiment = \"$experiment\"|" -e "s/^generations .*/generations = $2\ntuner_seed = $3/" \
       -e "/^  \"joint\.($1)\./!{/^  \"joint\./d}" studies/gains-again.toml
 }
 goal() { sed -n '/"best"/,$ s/.*"foot.tracking_rms \[in\]": \([0-9.]*\).*/\1/p' "$1" | head -1; }
-# The best one's values, as options.
+# Prints the values of the best candidate as options.
 sets() { sed -n '/"best"/,$ s/^ *"\(joint\.[a-z_.]*\)": "\(.*\)",*$/--set\n\1=\2/p' "$1"; }
 
-# history WAY SEED BEFORE CSV   adds the least error so far [in], after as many candidates as stood there before.
+# history WAY SEED BEFORE CSV   appends the least error so far [in]; BEFORE is the number of earlier candidates.
 history() {
   awk -F, -v way="$1" -v seed="$2" -v before="$3" -v best="${least:-1e9}" '
     NR == 1 { for (i = 1; i <= NF; ++i) if ($i ~ /^foot.tracking_rms/) v = i; next }

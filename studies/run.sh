@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh [SINEW]   makes the tables of docs/evidence/studies again; some minutes. Tunings have commands of their own, in docs/tuned.md.
+# run.sh [SINEW]   makes the tables of docs/evidence/studies again, in some minutes. The commands of tunings are in docs/tuned.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sinew=${1:-build/release/bin/sinew}

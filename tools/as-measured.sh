@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # as-measured.sh SHIFT RATE 'CHANNEL=NAME*FACTOR~SIGMA'... <run.csv >measured.csv
 #
-# Makes of `sinew export RUN --csv` what a laboratory would have recorded: only some channels, under
-# names and in units of its own, by a clock that shows SHIFT s where the run begins and goes RATE %
-# fast, with Gaussian noise of SIGMA. The same input gives the same bytes. With GERMAN=1 columns are
-# separated by semicolons and numbers have a decimal comma.
+# Converts the output of `sinew export RUN --csv` into the recording of a laboratory: only some channels,
+# with other names and units, a clock that shows SHIFT s at the start of the run and is RATE % fast, and
+# Gaussian noise of SIGMA. The same input gives the same bytes. With GERMAN=1 columns are separated by
+# semicolons and numbers have a decimal comma.
 #
 #   sinew export runs/one-joint/1 --csv |
 #     tools/as-measured.sh 2.5 0.3 '/joint/lever/angle=Winkel [deg]*57.29578~0.2' >measured.csv
@@ -17,7 +17,7 @@ awk -v shift_s="$shift_s" -v rate="$rate" -v german="${GERMAN:-0}" '
     seed = (seed * 16807) % 2147483647
     return seed / 2147483647
   }
-  function normal(   i, sum) {  # nearly: the sum of twelve uniform numbers less 6
+  function normal(   i, sum) {  # approximately normal: the sum of twelve uniform numbers minus 6
     for (i = 0; i < 12; ++i) sum += uniform()
     return sum - 6
   }
@@ -28,7 +28,7 @@ awk -v shift_s="$shift_s" -v rate="$rate" -v german="${GERMAN:-0}" '
   }
   function give_up(text) { print "as-measured.sh: " text > "/dev/stderr"; failed = 1; exit 1 }
   BEGIN { FS = ","; seed = 20001; separator = german ? ";" : "," }
-  NR == FNR {  # what is wanted
+  NR == FNR {  # the requested channels
     at = index($0, "="); star = match($0, /\*[^*]*$/); tilde = match($0, /~[^~]*$/)
     if (!at || !star || !tilde) give_up("found \"" $0 "\"; expected CHANNEL=NAME*FACTOR~SIGMA")
     channel[++wanted] = substr($0, 1, at - 1)

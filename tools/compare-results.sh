@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# compare-results.sh keep FILE                      the results of every shipped experiment, as a table
-# compare-results.sh compare BEFORE NOW [OPTION]    which of them agree between two builds
+# compare-results.sh keep FILE                      writes the results of every shipped experiment as a table
+# compare-results.sh compare BEFORE NOW [OPTION]    compares the tables of two builds
 #
 #   SINEW=build/release/bin/sinew tools/compare-results.sh keep before.tsv
 #   … change the code, build …
@@ -8,19 +8,19 @@
 #   tools/compare-results.sh compare before.tsv now.tsv --tolerance 1e-6
 #
 #   --tolerance R   relative difference up to which two numbers agree; 0 by default: to the last digit
-#   --floor A       numbers up to this size are all the same, in SI; 1e-12 by default
-#   --all           prints the numbers that agree as well
+#   --floor A       numbers up to this size count as equal, in SI; 1e-12 by default
+#   --all           also prints the numbers that agree
 #
-# A line of the table: experiment, key, value, with tabs between. Keys are those of summary.json
-# (`host` apart, which is of the machine that ran it); `verdict KEY: REPORTED` with class and verdict;
-# `log` with a hash of what `sinew export --csv` prints of it, every digit of every channel; `exit`
-# with the run's exit code. Nothing of it is committed: it is made by an earlier build.
+# A line of the table has experiment, key and value, separated by tabs. Keys are those of summary.json
+# (without `host`, which depends on the computer); `verdict KEY: REPORTED` with class and verdict; `log` with
+# a hash of the output of `sinew export --csv`, every digit of every channel; `exit` with the run's exit code.
+# Tables are not committed; make one with the earlier build.
 #
-# compare exits 0 when all numbers, texts and verdicts agree, 1 when something differs. Logs that
-# differ are counted, and do not decide.
+# compare exits 0 if all numbers, texts and verdicts agree, 1 if something differs. Logs that differ are
+# counted but do not change the exit code.
 #
-# SINEW: the program, build/release/bin/sinew. JOBS: how many run at once, 1. ONLY: files in place of all
-# of experiments/.
+# SINEW: the program, by default build/release/bin/sinew. JOBS: number of parallel runs, by default 1. ONLY:
+# experiment files, by default all of experiments/.
 set -euo pipefail
 export LC_ALL=C.UTF-8
 
@@ -28,7 +28,7 @@ usage() { awk 'NR > 1 && /^#/ { print substr($0, 3); next } NR > 1 { exit }' "$0
 
 here=$(cd "$(dirname "$0")" && pwd)
 
-# One experiment's lines into PART.
+# Writes the lines of one experiment into WORK/parts.
 result_of() {  # result_of FILE WORK
   local file=$1 work=$2 name=${1%.toml} run code=0
   run=$work/runs/$name
@@ -44,14 +44,14 @@ result_of() {  # result_of FILE WORK
     [[ ! -f $run/log.mcap ]] ||
       printf 'log\t%s\n' "$("$SINEW" export "$run" --csv 2>/dev/null | sha256sum | cut -c 1-32)"
   } | awk -v name="$name" '{ print name "\t" $0 }' >"$work/parts/$name"
-  rm -rf "$run"  # large, and done with
+  rm -rf "$run"  # large and no longer needed
 }
 
 keep() {
   [[ $# == 1 ]] || { usage >&2; exit 2; }
   local out count
   out=$(realpath "$1")
-  work=$(mktemp -d)  # not local: the trap outlives this function
+  work=$(mktemp -d)  # not local, since the trap runs after this function
   trap 'rm -rf "$work"' EXIT
   SINEW=$(realpath "${SINEW:-$here/../build/release/bin/sinew}")
   cd "$here/.."
@@ -85,9 +85,9 @@ compare() {
 program='
 function is_number(text) { return text ~ /^-?[0-9.]+([eE][-+]?[0-9]+)?$/ }
 function size(x) { return x < 0 ? -x : x }
-function say(what, line) { listed[what] = listed[what] line "\n"; ++count[what] }
+function note(what, line) { listed[what] = listed[what] line "\n"; ++count[what] }
 
-# Relative difference of two numbers, 0 where both are as good as nothing.
+# Returns the relative difference of two numbers; 0 if both are at most the floor.
 function difference(a, b,   larger) {
   larger = size(a) > size(b) ? size(a) : size(b)
   return larger <= floor ? 0 : size(a - b) / larger
@@ -96,16 +96,16 @@ function difference(a, b,   larger) {
 function compare(key, a, b,   at, off) {
   at = key
   sub(SUBSEP, " ", at)
-  if (key ~ SUBSEP "log$") { say(a == b ? "same logs" : "other logs", at); return }
+  if (key ~ SUBSEP "log$") { note(a == b ? "same logs" : "other logs", at); return }
   if (key ~ SUBSEP "verdict ") {
     if (a == b) ++count["same verdicts"]
-    else say("verdicts", at ": " a " -> " b)
+    else note("verdicts", at ": " a " -> " b)
   } else if (is_number(a) && is_number(b)) {
     off = difference(a, b)
-    if (off <= tolerance) say("agree", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
-    else say("numbers", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
+    if (off <= tolerance) note("agree", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
+    else note("numbers", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
     if (off > most) { most = off; where = at }
-  } else if (a != b) say("texts", at ": " a " -> " b)
+  } else if (a != b) note("texts", at ": " a " -> " b)
 }
 
 function show(what, title) {
@@ -114,32 +114,32 @@ function show(what, title) {
 
 FNR == NR { before[$1, $2] = $3; order[++lines] = $1 SUBSEP $2; next }
 { now[$1, $2] = $3 }
-!(($1, $2) in before) { say("new", $1 " " $2) }
+!(($1, $2) in before) { note("new", $1 " " $2) }
 
 END {
   for (i = 1; i <= lines; ++i) {
     key = order[i]
     if (key in now) compare(key, before[key], now[key])
-    else { at = key; sub(SUBSEP, " ", at); say("gone", at) }
+    else { at = key; sub(SUBSEP, " ", at); note("missing", at) }
   }
 
   if (all) show("agree", "numbers that agree")
   show("other logs", "logs with other bits")
   show("numbers", "numbers that differ by more than " tolerance)
   show("texts", "texts that differ")
-  show("gone", "results that are gone")
+  show("missing", "results that are missing")
   show("new", "results that are new")
   show("verdicts", "verdicts that changed")
   where = most > 0 ? " (" where ")" : ""
   printf "%d numbers agree within %s, %d differ; largest difference %.1e%s; %d of %d logs have the same bits; ", \
     count["agree"], tolerance, count["numbers"], most, where, \
     count["same logs"], count["same logs"] + count["other logs"]
-  printf "%d verdicts are as they were, %d changed\n", count["same verdicts"], count["verdicts"]
-  exit (count["numbers"] + count["texts"] + count["gone"] + count["new"] + count["verdicts"] > 0)
+  printf "%d verdicts are the same, %d changed\n", count["same verdicts"], count["verdicts"]
+  exit (count["numbers"] + count["texts"] + count["missing"] + count["new"] + count["verdicts"] > 0)
 }
 '
 
-# Each kind of difference once, and what is none.
+# Checks each kind of difference once, and cases without a difference.
 self_test() {
   local before now found failed=0
   before=$(mktemp) now=$(mktemp)
@@ -154,7 +154,7 @@ self_test() {
 
   { line e1 speed_m 1.5; line e1 log abc; line e1 title walk; line e1 'verdict speed_m: 1 m' 'fitted, agrees'; } >"$before"
   cp "$before" "$now"
-  expect 0 '1 numbers agree within 0, 0 differ; largest difference 0.0e+00; 1 of 1 logs have the same bits; 1 verdicts are as they were, 0 changed'
+  expect 0 '1 numbers agree within 0, 0 differ; largest difference 0.0e+00; 1 of 1 logs have the same bits; 1 verdicts are the same, 0 changed'
   sed -i 's/1[.]5$/1.5000003/' "$now"
   expect 1 'e1 speed_m  1.5 -> 1.5000003  (2.0e-07)'
   expect 0 'e1 speed_m  1.5 -> 1.5000003  (2.0e-07)' --tolerance 1e-6 --all
@@ -162,7 +162,7 @@ self_test() {
   { cat "$before"; line e2 speed_m 2; } >"$now"
   expect 1 'results that are new (1):'
   sed 1d "$before" >"$now"
-  expect 1 'results that are gone (1):'
+  expect 1 'results that are missing (1):'
   sed 's/agrees/differs/' "$before" >"$now"
   expect 1 'e1 verdict speed_m: 1 m: fitted, agrees -> fitted, differs'
   sed 's/abc/def/' "$before" >"$now"

@@ -1,7 +1,7 @@
 # compare.awk   awk [-v relative=R] -f numbers.awk -f compare.awk EXPECTED FOUND
 #
-# Compares two texts line by line. Words must agree, the width of blanks need not; numbers may differ
-# as same_but_rounding() allows. Prints what differs; exit 1 if anything does.
+# Compares two texts line by line. Words must be equal, except for the width of blanks; numbers may differ as
+# same_but_rounding() allows. Prints lines that differ; exit 1 if any does.
 
 function blanks(text) {
   gsub(/[ \t\r]+/, " ", text)
@@ -17,7 +17,7 @@ function differ(at, a, b) {
 
 BEGIN {
   if (ARGC != 3) { print "usage: awk [-v relative=R] -f numbers.awk -f compare.awk EXPECTED FOUND"; exit 2 }
-  most = 5  # differences that are shown
+  most = 5  # number of differences shown
   while ((getline line < ARGV[1]) > 0) expected[++lines_expected] = line
   while ((getline line < ARGV[2]) > 0) found[++lines_found] = line
   if (lines_expected + 0 == 0) { print ARGV[1] ": empty or missing"; exit 1 }

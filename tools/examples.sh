@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# examples.sh [--accept] [--program] [--cpp] [--python] [NAME]...   runs the lessons in examples/, all of them
-# without a name, and compares what they print with what they are expected to; --accept writes that anew instead.
+# examples.sh [--accept] [--program] [--cpp] [--python] [NAME]...   runs lessons of examples/, by default all, and
+# compares their output with the expected one; --accept overwrites the expected output instead.
 #
-#   --program   run.sh, which asks the program            expected.txt
-#   --cpp       main.cpp, built against an installation   expected-program.txt, of a lesson without run.sh expected.txt
-#   --python    main.py, with an installation's package   the same, or expected-python.txt where there is one
+#   --program   run.sh, which calls the program           expected.txt
+#   --cpp       main.cpp, built against an installation   expected-program.txt; expected.txt if there is no run.sh
+#   --python    main.py, with an installation's package   the same, or expected-python.txt if it exists
 #
-# examples/readme has the lines that README.md shows; it is run as a lesson is.
+# examples/readme has the lines that README.md shows; it is run like a lesson.
 #
-# Without one of the three: all that a lesson has. SINEW_BUILD names the build folder, build/release without it.
-# SINEW_PREFIX names an installation that is there already; without it the build is installed into a folder that is
-# thrown away. SINEW_CMAKE_FLAGS are for the lessons in C++. Those that are named are each built as a project of its
-# own, as yours would be; all of them as one.
+# Without any of the three options, all that a lesson has are run. SINEW_BUILD is the build folder, by default
+# build/release. SINEW_PREFIX is an existing installation; without it the build is installed into a temporary
+# folder. SINEW_CMAKE_FLAGS are passed to the lessons in C++. Named lessons are each built as a separate
+# project, as yours would be; without names, all are built as one.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -24,7 +24,7 @@ for word in "$@"; do
     *) names+=("$word") ;;
   esac
 done
-asked=${ways[*]}
+requested=${ways[*]}
 ((${#ways[@]})) || ways=(program cpp python)
 together=''
 if ((${#names[@]} == 0)); then
@@ -52,7 +52,7 @@ find_prefix() {
   prefix=$(cd "$prefix" && pwd)
 }
 
-# Optimised little: what computes is in the library.
+# Uses -O1, since the computations are in the library.
 compile() {  # compile SOURCE BUILD
   local flags
   read -ra flags <<<"${SINEW_CMAKE_FLAGS:-}"
@@ -76,10 +76,10 @@ compile_lessons() {
 find_package() {
   package=$(find "$prefix/lib" -path '*/sinew/__init__.py' -print -quit 2>/dev/null || true)
   package=${package%/sinew/__init__.py}
-  [[ $package ]] || echo "$prefix has no Python package: main.py is left out"
+  [[ $package ]] || echo "$prefix has no Python package: main.py is not run"
 }
 
-run() {  # run WAY NAME: prints what the lesson prints
+run() {  # run WAY NAME: runs a lesson
   case $1 in
     program) "examples/$2/run.sh" ;;
     cpp)
@@ -91,7 +91,7 @@ run() {  # run WAY NAME: prints what the lesson prints
   esac
 }
 
-run_side_by_side() {  # run_side_by_side WAY: what each prints goes to $work/WAY-NAME
+run_in_parallel() {  # run_in_parallel WAY: writes the output of each lesson to $work/WAY-NAME
   local name
   for name in "${names[@]}"; do
     has "$1" "$name" || continue
@@ -105,7 +105,7 @@ judge() {  # judge WAY NAME
   local found=$work/$1-$2 expected
   expected=$(expected_file "$1" "$2")
   [[ ! -e $found.failed ]] || { cat "$found" "$found.words"; echo "$2: examples/$2/${source[$1]} failed" >&2; return 1; }
-  # What C++ has written, Python has to print too.
+  # The output accepted for C++ is also expected of Python.
   if [[ $accept && ! ${accepted[$expected]:-} ]]; then
     cp "$found" "$expected"
     accepted[$expected]=yes
@@ -113,7 +113,7 @@ judge() {  # judge WAY NAME
     return
   fi
   awk -f tools/numbers.awk -f tools/compare.awk "$expected" "$found" || {
-    echo "$2: ${source[$1]} prints something else than $expected; if that is right:" \
+    echo "$2: the output of ${source[$1]} differs from $expected; if it is right:" \
       "tools/examples.sh --accept --$1 $2" >&2
     return 1
   }
@@ -121,7 +121,7 @@ judge() {  # judge WAY NAME
 }
 
 for name in "${names[@]}"; do
-  [[ -d examples/$name ]] || { echo "examples/$name: not there" >&2; exit 1; }
+  [[ -d examples/$name ]] || { echo "examples/$name: does not exist" >&2; exit 1; }
 done
 count=0
 for way in "${ways[@]}"; do
@@ -129,14 +129,14 @@ for way in "${ways[@]}"; do
   [[ $way != cpp ]] || compile_lessons
   if [[ $way == python ]]; then
     find_package
-    [[ $package ]] || { [[ ! $asked ]] && continue || exit 1; }
+    [[ $package ]] || { [[ ! $requested ]] && continue || exit 1; }
   fi
-  run_side_by_side "$way"
+  run_in_parallel "$way"
   for name in "${names[@]}"; do
     has "$way" "$name" || continue
     judge "$way" "$name"
     count=$((count + 1))
   done
 done
-((count)) || { echo "examples.sh: ${names[*]}: nothing there to run as ${ways[*]}" >&2; exit 1; }
+((count)) || { echo "examples.sh: ${names[*]}: nothing to run as ${ways[*]}" >&2; exit 1; }
 echo "examples: $count as expected"

@@ -1,5 +1,5 @@
-// node fetch-npm.mjs FOLDER   puts npm into the folder, in package/, as its registry has it; nothing
-// where it is there already. Exit 1 with a reason where it cannot be had.
+// node fetch-npm.mjs FOLDER   downloads npm from its registry into FOLDER/package, unless it is already there.
+// Exit 1 with a reason if this fails.
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -12,10 +12,10 @@ const folder = process.argv[2];
 
 async function fetchNpm() {
   if (existsSync(`${folder}/package/.complete-${version}`)) return;
-  const answer = await fetch(`${registry}/npm/-/npm-${version}.tgz`, { signal: AbortSignal.timeout(20000) });
-  if (!answer.ok) throw new Error(`${answer.url}: ${answer.status}`);
-  const archive = Buffer.from(await answer.arrayBuffer());
-  if (createHash('sha512').update(archive).digest('base64') !== integrity) throw new Error(`${answer.url}: not the archive of npm ${version}`);
+  const reply = await fetch(`${registry}/npm/-/npm-${version}.tgz`, { signal: AbortSignal.timeout(20000) });
+  if (!reply.ok) throw new Error(`${reply.url}: ${reply.status}`);
+  const archive = Buffer.from(await reply.arrayBuffer());
+  if (createHash('sha512').update(archive).digest('base64') !== integrity) throw new Error(`${reply.url}: the checksum is not that of npm ${version}`);
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   writeFileSync(`${folder}/npm.tgz`, archive);

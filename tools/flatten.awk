@@ -1,7 +1,7 @@
 # flatten.awk   awk -f flatten.awk [-v digits=4] summary.json
 #
-# Indented JSON, as Sinew writes it, one value per line: "joints.hip.passiveness 0.9363". Made for
-# grep, diff and expected.txt; lists come as "phases[0]". Numbers are rounded to so many digits.
+# Converts indented JSON, as Sinew writes it, into one value per line: "joints.hip.passiveness 0.9363", for
+# grep, diff and expected.txt. Elements of lists have an index, "phases[0]". Numbers are rounded to `digits`.
 
 function name(  text, i) {
   text = ""

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# format.sh [--fix]   C++ files are laid out as .clang-format says; --fix lays them out.
+# format.sh [--fix]   checks that C++ files are formatted according to .clang-format; --fix formats them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,7 +9,7 @@ case ${1:-} in
   *) echo "usage: $0 [--fix]" >&2; exit 2 ;;
 esac
 
-# Versions lay out differently: it must be this one.
+# Versions of clang-format give different results, so this one is required.
 version=14
 tool=
 for candidate in clang-format-$version clang-format; do
@@ -24,8 +24,8 @@ trap 'rm -f "$found"' EXIT
 find "${folders[@]}" -name node_modules -prune -o -type f \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 -r -P "$(nproc)" -n 20 "$tool" "${how[@]}" 2>"$found" && exit
 
-# One line per file is enough: --fix does the rest.
-grep -E '^[^ ]+: (error|warning): ' "$found" | awk -F: '!seen[$1]++ { print $1 ":" $2 ": laid out differently" }' |
+# One line per file is enough, since --fix formats the whole file.
+grep -E '^[^ ]+: (error|warning): ' "$found" | awk -F: '!seen[$1]++ { print $1 ":" $2 ": not formatted" }' |
   sort || cat "$found"
-echo "format.sh: tools/format.sh --fix lays them out"
+echo "format.sh: tools/format.sh --fix formats them"
 exit 1

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# fuzz.sh NAME OUT SECONDS   one harness of tests/fuzz, as preset `fuzz` builds it, for so long.
+# fuzz.sh NAME OUT SECONDS   runs one harness of tests/fuzz, built by preset `fuzz`, for this time.
 #
-# Starts from tests/fuzz/corpus/NAME and from what earlier calls found worth keeping in OUT/NAME/kept.
-# An input that breaks a law, crashes, hangs for 10 s or takes 2 GB is left in OUT/NAME with the command that
-# repeats it; exit 1. The number of inputs that were tried goes into OUT/NAME/tries.
+# Starts from tests/fuzz/corpus/NAME and from the inputs that earlier calls stored in OUT/NAME/kept. An input
+# that violates a law, crashes, hangs for 10 s or takes 2 GB is stored in OUT/NAME, and the command that repeats
+# it is printed; exit 1. The number of inputs is written into OUT/NAME/tries.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -25,6 +25,6 @@ fi
 tail -n 60 "$out/log"
 for found in "$out"/{crash,leak,timeout,oom}-*; do
   [[ -e $found ]] || continue
-  echo "fuzz: $name: $program $found repeats it; mended, it belongs into tests/fuzz/corpus/$name"
+  echo "fuzz: $name: $program $found repeats it; after the fix, add it to tests/fuzz/corpus/$name"
 done
 exit 1

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# install-dependencies.sh [demo|check|faces|long|bench|npm]   installs with apt what is missing, no more.
+# install-dependencies.sh [demo|check|faces|long|bench|npm]   installs missing packages with apt, and no others.
 #
-#   demo    to build and run Sinew
-#   check   and for ./check
-#   faces   and for ./check faces
-#   long    and for ./check long
-#   bench   to build Sinew and what measures it beside others (bench)
-#   npm     where tools/npm-ci.sh cannot fetch npm
+#   demo    builds and runs Sinew
+#   check   also ./check
+#   faces   also ./check faces
+#   long    also ./check long
+#   bench   builds Sinew and its benchmarks (bench)
+#   npm     for tools/npm-ci.sh, if it cannot download npm
 #
-# Can be run again. Needs Debian 12 or a system with the same packages; docs/dependencies.md tells
-# more about each. Where you have the tools from elsewhere, SINEW_DEPENDENCIES=present skips this.
+# It can be run again. It needs Debian 12 or a system with the same packages, which docs/dependencies.md
+# describes. If the tools come from elsewhere, SINEW_DEPENDENCIES=present skips the installation.
 set -euo pipefail
 
-# Sets add up. A tool is looked for by its command, since it may come from elsewhere (Debian's npm
-# conflicts with other installations of Node); a library by its package ("-").
+# Sets are cumulative. A tool is searched for by its command, since it may come from elsewhere (Debian's npm
+# conflicts with other installations of Node); a library ("-") by its package.
 #   set    command             package                          reason
 list='
     demo   g++                 g++                              compiles C++20
@@ -25,47 +25,47 @@ list='
     demo   -                   libfmt-dev                       formats numbers and messages
     demo   -                   zlib1g-dev                       checksums of logs, smaller pages
     demo   -                   libceres-dev                     least squares of identification
-    demo   -                   libsqlite3-dev                   keeps studies
-    demo   -                   libboost-dev                     serves pages to the browser here
+    demo   -                   libsqlite3-dev                   stores studies
+    demo   -                   libboost-dev                     serves pages to the browser
     demo   -                   libminizip-dev                   packs FMUs
-    demo   node                nodejs                           bundles the page that shows a run
-    npm    npm                 npm                              installs what that needs
+    demo   node                nodejs                           bundles pages of runs
+    npm    npm                 npm                              installs the packages of the pages
     check  -                   libgtest-dev                     tests
     check  -                   libgmock-dev                     tests
     check  -                   libsundials-dev                  a second integrator in tests
     check  -                   libpagmo-dev                     searches for better walks
     check  gnuplot             gnuplot-nox                      draws figures
-    check  clang-format-14     clang-format-14                  one layout of code; versions differ
+    check  clang-format-14     clang-format-14                  formats code; versions differ
     faces  -                   libopenmpi-dev                   sweeps over the processes of mpirun
-    faces  -                   libcomedi-dev                    a machine at a card
-    faces  -                   libmatio-dev                     recordings in files of MATLAB
+    faces  -                   libcomedi-dev                    data acquisition cards
+    faces  -                   libmatio-dev                     recordings in MATLAB files
     faces  -                   pybind11-dev                     the Python package
-    faces  -                   python3-dev                      what that is compiled with
-    faces  -                   python3-numpy                    its arrays
-    faces  -                   python3-pandas                   tables of them, in tests
-    faces  -                   mypy                             types of its interface
+    faces  -                   python3-dev                      compiles it
+    faces  -                   python3-numpy                    arrays in Python
+    faces  -                   python3-pandas                   tables in tests
+    faces  -                   mypy                             checks its types
     faces  -                   python3-nbclient                 runs notebooks
-    faces  -                   python3-ipykernel                their interpreter
-    faces  dpkg-shlibdeps      dpkg-dev                         finds what the .deb depend on
-    faces  file                file                             tells programs from other files there
+    faces  -                   python3-ipykernel                interpreter for notebooks
+    faces  dpkg-shlibdeps      dpkg-dev                         finds dependencies of the .deb
+    faces  file                file                             recognises programs for it
     faces  -                   mkdocs-material                  builds the docs site, with MkDocs
     faces  -                   mkdocs-literate-nav              lists its pages by folder
-    faces  doxygen             doxygen                          makes its reference of the headers
-    faces  -                   doxygen-awesome-css              colours of that, light and dark
-    faces  -                   libjs-katex                      sets its formulas
+    faces  doxygen             doxygen                          makes the reference of headers
+    faces  -                   doxygen-awesome-css              its colours, light and dark
+    faces  -                   libjs-katex                      typesets its formulas
     faces  ffmpeg              ffmpeg                           makes videos of runs, in tests
     faces  mpirun              openmpi-bin                      starts them in tests
-    faces  chromium-headless-shell  chromium-headless-shell     opens that page in tests
-    faces  -                   fonts-dejavu-core                what its reference pictures are set in
+    faces  chromium-headless-shell  chromium-headless-shell     opens pages in tests
+    faces  -                   fonts-dejavu-core                font of the reference pictures
     long   arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
-    long   -                   libstdc++-arm-none-eabi-newlib   its headers
-    long   qemu-system-arm     qemu-system-arm                  runs it
-    long   clang++-14          clang-14                         the other compiler
+    long   -                   libstdc++-arm-none-eabi-newlib   library for it
+    long   qemu-system-arm     qemu-system-arm                  runs firmware images
+    long   clang++-14          clang-14                         second compiler
     long   -                   libclang-rt-14-dev               fuzzers and sanitizers for it
-    long   llvm-symbolizer-14  llvm-14                          names lines in what they find
+    long   llvm-symbolizer-14  llvm-14                          names lines in their reports
     bench  -                   libbenchmark-dev                 times parts of a walk
-    bench  -                   libmujoco-dev                    a peer: bodies and contacts
-    bench  -                   libsundials-dev                  a peer: CVODE
+    bench  -                   libmujoco-dev                    comparison: bodies and contacts
+    bench  -                   libsundials-dev                  comparison: CVODE
 '
 
 case ${1:-demo} in

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# layers.sh [--self-test]   who may include whom, and a few rules a compiler does not know.
+# layers.sh [--self-test]   checks which folders include which, and a few rules that a compiler does not check.
 #
-# Prints "file:line: what is wrong" for each finding; exit 1 if there is one.
+# Prints "file:line: message" for each finding; exit 1 if there is any.
 
-# A folder of sinew/ may include itself, what its row names, and everything that those may. A name
-# stands for the rows below it too: `mechanism` for mechanism/planar. Every folder with sources needs a row.
-# thesis/ may include all of them, cli/, python/ and fmu/ those and thesis/; cli/ and python/ fmu/ too.
+# A folder of sinew/ may include itself, the folders of its row, and everything that those may include. A name
+# includes its subfolders: `mechanism` includes mechanism/planar. Every folder with sources needs a row.
+# thesis/ may include all of them; cli/, python/ and fmu/ also thesis/; cli/ and python/ also fmu/.
 layers='
     units
     json
@@ -78,14 +78,14 @@ layers='
     files           run/folder tune/optimizer recording
 '
 
-# What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).
-# Tests of any folder may include config, to read a file of robots/ or experiments/.
+# Folders that only tests (*_test.cpp, *_test.h, test_*.h, testing.h) may include in addition. Tests of any
+# folder may include config, to read files of robots/ or experiments/.
 test_layers='
     *               config
     mechanism/planar  world
 '
 
-# Each outside library sits behind one folder. Only tests may read JSON by the library itself.
+# Each external library is used in one folder only. Tests may also use the JSON library directly.
 libraries='
     toml[+][+]/     sinew/config
     zlib[.]h        sinew/log
@@ -107,7 +107,7 @@ libraries='
     Eigen/          sinew/identify/fit
 '
 
-# A file is one noun: at most this many lines, tables (*.fields.h) and tests apart.
+# Largest number of lines of a file, except for tables (*.fields.h) and tests.
 longest_file=800
 
 set -euo pipefail
@@ -124,9 +124,9 @@ check_tree() {  # check_tree ROOT: findings on stdout, status 1 if there are any
 
 # shellcheck disable=SC2016  # $ belongs to awk
 program='
-function say(file, line, what) { print file ":" line ": " what; findings = 1 }
+function report(file, line, what) { print file ":" line ": " what; findings = 1 }
 
-# The longest row that is the path or above it; "" if there is none.
+# Returns the longest row that is the path or a parent of it; "" without one.
 function row_of(path) {
   while (path != "") {
     if (path in row) return path
@@ -136,7 +136,7 @@ function row_of(path) {
 }
 function below(path, name) { return path == name || index(path, name "/") == 1 }
 
-# reach[a, b]: a may include b, through any number of rows.
+# Fills reach[a, b]: a may include b, directly or through other rows.
 function read_tables(   lines, words, n, i, j, k, m, a, b, c, again) {
   n = split(layers, lines, "\n")
   for (i = 1; i <= n; ++i) {
@@ -165,7 +165,7 @@ function read_tables(   lines, words, n, i, j, k, m, a, b, c, again) {
   for (i = 1; i <= n; ++i) if (split(lines[i], words, " ") == 2) library[words[1]] = words[2]
 }
 
-# Code without comments and without what stands between quotes.
+# Returns code without comments and without the contents of quotes.
 function code_of(text,   at) {
   if (in_comment) {
     at = index(text, "*/")
@@ -185,10 +185,10 @@ function code_of(text,   at) {
 function check_include(file, line, target,   folder, mine, theirs, name) {
   for (name in library)
     if (target ~ ("^" name) && !below(file, library[name]) && !(is_test && name == "nlohmann/"))
-      say(file, line, "<" target "> belongs behind " library[name])
-  if (file ~ /^sinew\// && target ~ /^(thesis|cli|python|fmu)\//) say(file, line, "sinew may not include " target)
-  if (file ~ /^fmu\// && target ~ /^(cli|python)\//) say(file, line, "fmu may not include " target)
-  if (file ~ /^thesis\// && target ~ /^(cli|python|fmu)\//) say(file, line, "thesis may not include " target)
+      report(file, line, "<" target "> may only be included in " library[name])
+  if (file ~ /^sinew\// && target ~ /^(thesis|cli|python|fmu)\//) report(file, line, "sinew may not include " target)
+  if (file ~ /^fmu\// && target ~ /^(cli|python)\//) report(file, line, "fmu may not include " target)
+  if (file ~ /^thesis\// && target ~ /^(cli|python|fmu)\//) report(file, line, "thesis may not include " target)
   if (target !~ /^sinew\//) return
   if (file !~ /^sinew\//) return
 
@@ -201,10 +201,10 @@ function check_include(file, line, target,   folder, mine, theirs, name) {
   if (theirs == "") { unknown(file, line, target); return }
   if ((mine, theirs) in reach) return
   if (is_test && (("*", theirs) in test_reach || (mine, theirs) in test_reach)) return
-  say(file, line, mine " may not include " theirs)
+  report(file, line, mine " may not include " theirs)
 }
 function unknown(file, line, folder) {
-  say(file, line, "sinew/" folder " has no row in tools/layers.sh")
+  report(file, line, "sinew/" folder " has no row in tools/layers.sh")
 }
 
 function check_file(file,   text, line, code, name, folder) {
@@ -217,7 +217,7 @@ function check_file(file,   text, line, code, name, folder) {
   if (file ~ /^sinew\//) {
     folder = file
     sub(/^sinew\//, "", folder); sub(/\/[^\/]*$/, "", folder)
-    if (row_of(folder) == "" && !(folder in told)) { unknown(file, 1, folder); told[folder] = 1 }
+    if (row_of(folder) == "" && !(folder in reported)) { unknown(file, 1, folder); reported[folder] = 1 }
   }
 
   while ((getline text < file) > 0) {
@@ -228,24 +228,24 @@ function check_file(file,   text, line, code, name, folder) {
       check_include(file, line, text)
       continue
     }
-    # "--set" is what show and resolved.toml call the place where a value came from; options of cmake are
-    # how a part is built that is missing.
+    # Permitted are "--set", which show and resolved.toml print as the source of a value, and options of cmake,
+    # which build a missing part.
     if (file ~ /^sinew\// && !is_test && text !~ /^[ \t]*\/\// && text !~ /"--set"|cmake --/ &&
         text ~ /"([^"\\]|\\.)*--[a-z]/)
-      say(file, line, "an option in a message: the library names settings, `key=value`")
+      report(file, line, "an option in a message: the library names settings, `key=value`")
     code = code_of(text)
     if (code ~ /(^|[^A-Za-z0-9_])virtual($|[^A-Za-z0-9_])/ && file != "sinew/signals/port.h" && !is_test)
-      say(file, line, "virtual: the port is the one virtual class")
+      report(file, line, "virtual: only sinew/signals/port.h may have virtual functions")
     if (code ~ /^[ \t]*#[ \t]*define[ \t]+[A-Za-z0-9_]+\(/ && !is_test)
-      say(file, line, "a macro with arguments: write a function")
+      report(file, line, "a macro with arguments: write a function instead")
     if (file ~ /^(sinew|thesis|fmu)\// && !is_test &&
         (code ~ /std::(cout|cerr|clog)/ || code ~ /(^|[^A-Za-z0-9_])v?(printf|puts|putchar)[ \t]*\(/ ||
          code ~ /(^|[^A-Za-z0-9_])fprintf[ \t]*\([ \t]*std(out|err)/ || code ~ /fmt::print(ln)?[ \t]*\(/))
-      say(file, line, "the library does not print: return it, or throw it")
+      report(file, line, "the library does not print: return it, or throw it")
   }
   close(file)
   if (line > longest_file && !is_test && name !~ /\.fields\.h$/)
-    say(file, line, line " lines, more than " longest_file ": split it")
+    report(file, line, line " lines, more than " longest_file ": split it")
 }
 
 BEGIN { read_tables() }
@@ -253,10 +253,10 @@ BEGIN { read_tables() }
 END { exit findings ? 1 : 0 }
 '
 
-# Each rule is broken once, and kept once where it looks broken.
+# Tests each rule with code that violates it, and with similar code that does not.
 self_test() {
   local count=0 failed=0
-  tree=$(mktemp -d)  # not local: the trap outlives this function
+  tree=$(mktemp -d)  # not local, since the trap runs after this function
   trap 'rm -rf "$tree"' EXIT
 
   file() { mkdir -p "$tree/$(dirname "$1")"; printf '%b\n' "$2" >"$tree/$1"; }
@@ -268,9 +268,9 @@ self_test() {
     local found
     found=$(check_tree "$tree" 2>&1) || true
     if [[ -z $3 ]]; then
-      [[ -z $found ]] || report "in $1 it should have accepted: $2, said: $found"
+      [[ -z $found ]] || report "$1: expected no finding in: $2, found: $found"
     else
-      [[ $found == *"$1:"*"$3"* ]] || report "in $1 it should have said \"$3\" of: $2, said: $found"
+      [[ $found == *"$1:"*"$3"* ]] || report "$1: expected \"$3\" in: $2, found: $found"
     fi
   }
 
@@ -284,7 +284,7 @@ self_test() {
   expect sinew/control/supervise/a.h '#include "sinew/control/link/a.h"'       'may not include control/link'
   expect sinew/mechanism/planar/a.cpp '#include "sinew/log/writer.h"'          'mechanism/planar may not include log'
   expect sinew/port/recorded/a.h  '#include "sinew/log/reader.h"'              ''
-  expect sinew/run/setup/a.h      '#include "sinew/mechanism/planar/a.h"'      ''  # mechanism stands for it
+  expect sinew/run/setup/a.h      '#include "sinew/mechanism/planar/a.h"'      ''  # mechanism includes it
   expect sinew/experiment/a.h     '#include "sinew/world/kernel/world.h"'             'experiment may not include world'
   expect sinew/experiment/a.h     '#include "sinew/control/setup/a.h"'         'experiment may not include control/setup'
   expect sinew/control/setup/a.h  '#include "sinew/control/supervise/a.h"'     ''
@@ -296,7 +296,7 @@ self_test() {
   expect sinew/identify/sensor/a.cpp '#include "sinew/world/stand.h"'           'identify/sensor may not include world'
   expect sinew/novelty/a.h        'int a;'                                     'no row'
   expect sinew/gas/a.h            '#include "sinew/novelty/a.h"'               'no row'
-  expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'behind sinew/config'
+  expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'may only be included in sinew/config'
   expect sinew/config/a.cpp       '#include <toml++/toml.h>'                   ''
   expect sinew/report/a.cpp       '#include "thesis/figures/a.h"'              'sinew may not include'
   expect sinew/report/a.cpp       '#include "cli/terminal.h"'                  'sinew may not include'
@@ -305,12 +305,12 @@ self_test() {
   expect sinew/report/a.cpp       '#include "fmu/export/export.h"'             'sinew may not include'
   expect fmu/export/a.cpp         '#include "sinew/report/a.h"'                ''
   expect thesis/figures/a.cpp     'void f() { std::cout << 1; }'               'does not print'
-  expect cli/a.cpp                '#include <zlib.h>'                          'behind sinew/log'
+  expect cli/a.cpp                '#include <zlib.h>'                          'may only be included in sinew/log'
   expect cli/a.cpp                '#include <CLI/CLI.hpp>'                     ''
-  expect sinew/log/a.cpp          '#include <pybind11/stl.h>'                  'behind python/binding'
+  expect sinew/log/a.cpp          '#include <pybind11/stl.h>'                  'may only be included in python/binding'
   expect python/binding/a.cpp     '#include <pybind11/stl.h>'                  ''
   expect sinew/report/a.cpp       '#include "python/binding/bind.h"'           'sinew may not include'
-  expect sinew/log/a.cpp          '#include <CLI/CLI.hpp>'                     'behind cli'
+  expect sinew/log/a.cpp          '#include <CLI/CLI.hpp>'                     'may only be included in cli'
   expect sinew/gas/a.h            'struct A { virtual void f(); };'            'virtual'
   expect sinew/gas/a.h            'int a;  // virtual work'                    ''
   expect sinew/gas/a.h            '/* virtual\n   virtual work */ int a;'      ''
@@ -337,7 +337,7 @@ self_test() {
 }
 
 case ${1:-} in
-  '') check_tree "$(dirname "$0")/.." || exit 1; echo "layers: in order" ;;
+  '') check_tree "$(dirname "$0")/.." || exit 1; echo "layers: no violations" ;;
   --self-test) self_test ;;
   *) echo "usage: $0 [--self-test]" >&2; exit 2 ;;
 esac

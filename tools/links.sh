@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# links.sh   every relative link in a *.md file leads to a file or folder of the repository.
+# links.sh   checks that every relative link in a *.md file leads to a file or folder of the repository.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -25,8 +25,8 @@ find . \( -name build -o -name node_modules -o -name .git -o -name runs \) -prun
     count=0 missing=0
     while IFS=$'\t' read -r where path; do
       count=$((count + 1))
-      [[ -e $path ]] || { echo "${where#./}: leads nowhere: ${path#./}"; missing=$((missing + 1)); }
+      [[ -e $path ]] || { echo "${where#./}: link to a missing file: ${path#./}"; missing=$((missing + 1)); }
     done
     ((missing == 0)) || exit 1
-    echo "links: $count lead somewhere"
+    echo "links: $count are valid"
   }

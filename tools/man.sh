@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
-# man.sh PROGRAM VERSION   prints the manual page sinew(1): what the program says of itself, all
-# subcommands one after another, so that the page cannot say anything else.
+# man.sh PROGRAM VERSION   prints the manual page sinew(1), generated from the help of all subcommands.
 set -euo pipefail
 program=$1 version=$2
 
 help_of() { (exec -a sinew "$program" "$@" --help); }
 
-# Letters that roff would take for its own; what is aligned stays so.
+# Escapes characters that roff would interpret; alignment is kept.
 as_text() { sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; }
 
-section() {  # section WORDS...: a command
+section() {  # section WORDS...: prints the section of a command
   local help
   help=$(help_of "$@")
   printf '.SS "sinew %s"\n' "$*"
@@ -47,7 +46,7 @@ cat <<'END'
 .SH FILES
 .TP
 .I ../share/sinew
-robots and experiments, beside the program's folder
+robots and experiments, relative to the program's folder
 .TP
 .I ../share/doc/sinew
 documentation

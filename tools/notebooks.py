@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""notebooks.py [--accept] [NAME]...   runs the notebooks of examples/notebooks and compares what they
-print with what they have stored; --accept stores it anew.
+"""notebooks.py [--accept] [NAME]...   runs the notebooks of examples/notebooks and compares their output with
+the stored one; --accept overwrites the stored output.
 
-Text is compared; of what a cell shows besides, only that it is there: pages are large, and tested
-elsewhere. SINEW_BUILD names the build folder whose package they import; build/release without it.
+Only text is compared. HTML output is large and tested elsewhere. The notebooks import the package of the build
+folder SINEW_BUILD, by default build/release.
 """
 
 import difflib
@@ -20,19 +20,19 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "examples" / "notebooks"
 
 
-def said(cell: Any) -> List[str]:
-    """Return the lines that a cell printed, and the text of what it shows."""
+def output_lines(cell: Any) -> List[str]:
+    """Return the lines that a cell prints, and the text form of its results."""
     text = ""
     for output in cell.get("outputs", []):
         if output.output_type == "stream":
-            text += output.text  # cut anywhere, as the kernel sends it
+            text += output.text  # the kernel may split it anywhere
         else:
             text += output.get("data", {}).get("text/plain", "") + "\n"
     return text.splitlines()
 
 
 def without_pages(notebook: Any) -> Any:
-    """Leave of what cells show the text alone, so that a notebook stays small in the tree."""
+    """Remove all output but text, so that committed notebooks are small."""
     for cell in notebook.cells:
         cell.pop("execution_count", None)
         if cell.cell_type != "code":
@@ -56,7 +56,7 @@ def without_pages(notebook: Any) -> Any:
 
 
 def check(path: pathlib.Path, accept: bool) -> bool:
-    """Run a notebook; return whether it prints what it has stored."""
+    """Run a notebook; return whether its output equals the stored one."""
     stored = nbformat.read(path, as_version=4)
     ran = nbformat.read(path, as_version=4)
     with tempfile.TemporaryDirectory() as folder:
@@ -68,18 +68,18 @@ def check(path: pathlib.Path, accept: bool) -> bool:
         print(f"{path.name}: accepted")
         return True
     for number, (old, new) in enumerate(zip(stored.cells, ran.cells)):
-        if said(old) == said(new):
+        if output_lines(old) == output_lines(new):
             continue
-        print(f"{path.name}: cell {number} prints something else:")
-        print("\n".join(difflib.unified_diff(said(old), said(new), "stored", "now", lineterm="")))
-        print(f"if that is right: tools/notebooks.py --accept {path.stem}")
+        print(f"{path.name}: the output of cell {number} differs:")
+        print("\n".join(difflib.unified_diff(output_lines(old), output_lines(new), "stored", "now", lineterm="")))
+        print(f"if it is right: tools/notebooks.py --accept {path.stem}")
         return False
     print(f"{path.name}: as stored")
     return True
 
 
 def main() -> int:
-    """Run those that are named, or all."""
+    """Run the named notebooks, or all."""
     words = sys.argv[1:]
     accept = "--accept" in words
     names = [word for word in words if word != "--accept"]
@@ -93,7 +93,7 @@ def main() -> int:
     paths = [FOLDER / f"{name}.ipynb" for name in names] or sorted(FOLDER.glob("*.ipynb"))
     for path in paths:
         if not path.exists():
-            print(f"notebooks.py: found no {path}", file=sys.stderr)
+            print(f"notebooks.py: {path}: does not exist", file=sys.stderr)
             return 2
     return 0 if all([check(path, accept) for path in paths]) else 1
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# npm-ci.sh FOLDER   installs what the folder's lock file says, from whatever registry npm is set up
-# for; nothing where that is done already.
+# npm-ci.sh FOLDER   installs the packages of the folder's lock file from the configured registry, unless they
+# are already installed.
 #
-# Where there is no npm, it is fetched from its own registry: Debian's is 670 packages, which take
-# longer to install than the compiler does. Debian's is installed where that fails, as behind a proxy,
-# of which only npm knows.
+# A missing npm is downloaded from its registry: Debian's npm consists of 670 packages, which take longer to
+# install than the compiler. Debian's is installed if the download fails, for example behind a proxy that is
+# configured only for npm.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# own-symbols.sh ARCHIVE WIDTH   checks that every symbol which lanes_WIDTH.cpp shares with other
-# objects names its width (cmake/lanes.cmake has the reason), and that nothing of it runs at start-up.
+# own-symbols.sh ARCHIVE WIDTH   checks that every external symbol of lanes_WIDTH.cpp has the width in its name
+# (cmake/lanes.cmake has the reason), and that none of its code runs at start-up.
 #
-# Prints what is wrong; exit 1 if anything is.
+# Prints what is wrong; exit 1 if a check fails.
 
 set -euo pipefail
 export LC_ALL=C.UTF-8

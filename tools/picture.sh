@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# picture.sh [FILE]   draws the walk of experiments/walk-test-1.toml from the side, by default as
+# picture.sh [FILE]   draws a side view of the walk of experiments/walk-test-1.toml, by default as
 # docs/pictures/walk.svg. pictures.sh calls it and makes the other pictures.
 #
-# Runs the experiment, exports its log as CSV and has gnuplot draw it (Debian: gnuplot-nox).
-# SINEW_BUILD names the build folder whose program runs; build/release without it.
+# It runs the experiment, exports its log as CSV and draws it with gnuplot (Debian: gnuplot-nox). The program is
+# that of the build folder SINEW_BUILD, by default build/release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
@@ -21,7 +21,7 @@ trap 'rm -rf "$work"' EXIT
 "$program" export "$work/run" --csv --channels '/plan/*' '/true/joint/*/angle' \
   '/true/trolley/position' '/true/foot/*' --quiet >"$work/walk.csv"
 
-inches() {  # inches KEY: a value of the run, from its SI form
+inches() {  # inches KEY: prints a value of the run, converted from SI
   "$program" show "$work/run/resolved.toml" "$1" --json | awk -f tools/flatten.awk -v digits=9 |
     awk '$1 == "[0].written" || $1 == "[0].si" { si = $2 } END { print si / 0.0254 }'
 }
@@ -43,8 +43,8 @@ awk -F, -v femur="$femur" '
       ($column["/true/foot/force.y"] > 0)
   }' "$work/walk.csv" >"$work/walk.dat"
 
-# The second and third step: the leg every `every` samples, as hip - knee - ankle. Dark while the
-# foot stands, light while it swings; the trolley and the foot's disc in the same places.
+# The leg at every `every` samples of the second and third step, as hip - knee - ankle: dark in stance, light in
+# swing; with the trolley and the foot's disc.
 every=20
 awk -v every=$every -v standing="$work/standing" -v swinging="$work/swinging" \
     -v hips="$work/hips" -v feet="$work/feet" -v path="$work/path" '

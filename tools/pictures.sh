@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# pictures.sh   makes the pictures of README and docs/ from runs, in docs/pictures: walk.gif, walk.svg,
-# report.png, compare.png, stand.png, fit.png, study.png.
+# pictures.sh   makes the pictures of README.md and docs/ from runs: walk.gif, walk.svg, report.png, compare.png,
+# stand.png, fit.png and study.png in docs/pictures.
 #
-# Needs gnuplot, chromium-headless-shell (or chromium) and node, as ./check faces does. SINEW_BUILD names
-# the build folder whose program runs; build/release without it. With one chromium the same runs give the
-# same bytes.
+# Needs gnuplot, chromium-headless-shell (or chromium) and node, as ./check faces does. The program is that of
+# the build folder SINEW_BUILD, by default build/release. With the same version of chromium the same runs give
+# the same bytes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8

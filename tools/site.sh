@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# site.sh [OUT]   builds the docs site in build/site, or OUT: docs, examples, README and changelog,
-# the reference of the C++ library and of the Python package, and the sources, with one search.
+# site.sh [OUT]   builds the docs site in build/site, or OUT: docs, examples, README.md and changelog, the
+# references of the C++ library and of the Python package, and the sources, with a common search.
 #
 #   python3 -m http.server --bind 127.0.0.1 --directory build/site 8000
 #

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# snippets.sh   checks that the lines of programs which pages show are the lines of programs that are run: those of
-# C++ and Python in examples/*/README.md stand in main.cpp and main.py of that folder, those of C++, Python and sh
-# in README.md in main.cpp, main.py and run.sh of examples/readme. A snippet is one piece of its file, word for word;
-# indentation does not matter.
+# snippets.sh   checks that program lines in pages are lines of programs that are run: C++ and Python in
+# examples/*/README.md must be in main.cpp and main.py of that folder; C++, Python and sh in README.md must be in
+# main.cpp, main.py and run.sh of examples/readme. A snippet must be one contiguous part of its file, word for
+# word, except for indentation.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,8 +12,8 @@ check='
     return folder "/" (language == "sh" ? "run.sh" : "main." (language == "cpp" ? "cpp" : "py"))
   }
 
-  # Returns whether the snippet stands in the source from its line `at` on.
-  function stands(at,   k) {
+  # Returns whether the source has the snippet from line `at` on.
+  function has_snippet(at,   k) {
     for (k = 1; k <= lines; ++k) if (source[at + k - 1] != snippet[k]) return 0
     return 1
   }
@@ -22,8 +22,8 @@ check='
     count = 0
     while ((getline text < file) > 0) source[++count] = bare(text)
     close(file)
-    for (at = 1; at + lines - 1 <= count; ++at) if (stands(at)) { ++good; return }
-    printf "%s:%d: found lines that do not stand in %s; expected a piece of it, word for word\n", FILENAME, begin, file
+    for (at = 1; at + lines - 1 <= count; ++at) if (has_snippet(at)) { ++good; return }
+    printf "%s:%d: found lines that are not in %s; expected a contiguous part of it, word for word\n", FILENAME, begin, file
     bad = 1
   }
 
@@ -33,6 +33,6 @@ check='
     language = substr($0, 4); begin = FNR; lines = 0; next
   }
   language != "" { snippet[++lines] = bare($0) }
-  END { if (bad) exit 1; print "snippets: " good " in README.md and examples/*/README.md, each stands in its program" }
+  END { if (bad) exit 1; print "snippets: " good " in README.md and examples/*/README.md, each is in its program" }
 '
 awk "$check" README.md examples/*/README.md

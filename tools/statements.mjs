@@ -1,10 +1,10 @@
 #!/usr/bin/env node
-// statements.mjs figures INDEX.json            the statements of a page of figures, a line each
-// statements.mjs run NAME < VERDICTS.json      those of an experiment, from `sinew analyze --verdicts`
-// statements.mjs count LIST                    how many there are of each class and verdict, as a table
+// statements.mjs figures INDEX.json            prints the statements of a page of figures, one per line
+// statements.mjs run NAME < VERDICTS.json      prints those of an experiment, from `sinew analyze --verdicts`
+// statements.mjs count LIST                    prints their number by class and verdict, as a table
 //
-// A line: where · statement · class · verdict, between bars. ./check holds the lines against
-// tests/claims/statements.txt: whatever changes has to be changed there too, by somebody who looked.
+// A line has location, statement, class and verdict, separated by bars. ./check compares the lines with
+// tests/claims/statements.txt: a change must be reviewed and then made there too.
 import { readFileSync } from 'node:fs';
 
 const line = (...cells) => cells.map((c) => String(c ?? '').replaceAll('|', '/').replaceAll('\n', ' ')).join(' | ');

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# statements.sh [--write] [PART]...   what is stated of figures and experiments, with class and verdict
+# statements.sh [--write] [PART]...   checks the statements of figures and experiments, with class and verdict
 #
-#   statements.sh                 all of it against tests/claims/statements.txt; exit 1 if a line changed
+#   statements.sh                 compares all with tests/claims/statements.txt; exit 1 if a line changed
 #   statements.sh experiments     only those of experiments/ and experiments/rig/; or: figures
-#   statements.sh --write         makes the list anew: look at what changed before you keep it
-#   statements.sh --count         the list's numbers by class and verdict, as docs/evidence/evidence.md has them
+#   statements.sh --write         writes the list again; review the changes before you commit it
+#   statements.sh --count         prints the list's counts by class and verdict, as in docs/evidence/evidence.md
 #
-# SINEW: the program, build/release/bin/sinew. RUNS: a folder with a run per experiment, named as the
-# files are; FIGURES: a page of figures. What is not given is made.
+# SINEW: the program, by default build/release/bin/sinew. RUNS: a folder with a run per experiment, with the names
+# of the files; FIGURES: a page of figures. Both are made if they are not given.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
@@ -30,13 +30,13 @@ of_experiments() {
 
 of_figures() {
   local made=${FIGURES:-$scratch/figures}
-  # The program of its own that draws them may be older than sinew.
+  # Figures are drawn by another program, which may be older than sinew.
   [[ -d $made || ! -d build/release ]] || cmake --build build/release --target sinew_thesis_program >/dev/null
   [[ -d $made ]] || "$sinew" figures --thesis -o "$made" --format csv --quiet >/dev/null
   node tools/statements.mjs figures "$made/index.json"
 }
 
-# The page with the list's table in the place of the one that it has.
+# Prints the page with its table replaced by that of the current list.
 page_now() {
   awk -v table="$(node tools/statements.mjs count "$list")" '
     /^<!-- end of statements -->/ { within = 0 }
@@ -58,22 +58,22 @@ done
 
 for part in "${parts[@]}"; do
   "of_$part" | sort >"$scratch/$part.list"
-  # The list's own lines of that part, and the other ones.
+  # Pattern of the list's lines of this part.
   [[ $part == figures ]] && mine='^figure ' || mine='^experiments/'
   touch "$list"
   if [[ $write ]]; then
     { grep -v "$mine" "$list" || true; cat "$scratch/$part.list"; } | sort >"$scratch/list"
     cp "$scratch/list" "$list"
   elif ! diff -u --label "$list" <(grep "$mine" "$list") --label "now" "$scratch/$part.list"; then
-    echo "statements: $part are not as $list has them; if they are right: tools/statements.sh --write $part"
+    echo "statements: $part differ from $list; if they are right: tools/statements.sh --write $part"
     exit 1
   fi
-  echo "statements: $(wc -l <"$scratch/$part.list") of $part, as $list has them"
+  echo "statements: $(wc -l <"$scratch/$part.list") of $part, as listed in $list"
 done
 
 if [[ $write ]]; then
   page_now >"$scratch/page" && cp "$scratch/page" "$page"
 elif ! diff -u "$page" <(page_now); then
-  echo "statements: the table of $page is not that of $list; tools/statements.sh --write makes both"
+  echo "statements: the table of $page differs from $list; tools/statements.sh --write updates both"
   exit 1
 fi

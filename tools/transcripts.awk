@@ -1,11 +1,11 @@
-# transcripts.awk - the two halves of tools/transcripts.sh that read a transcript.
+# transcripts.awk - the two parts of tools/transcripts.sh that read a transcript.
 #
 #   awk -v work=DIR -v root=REPOSITORY -f numbers.awk -f transcripts.awk split FILE
-#     writes DIR/<n>.command for each command of FILE, and DIR/<n>.fresh where a heading stands before
-#     it; prints how many commands there are
+#     writes DIR/<n>.command for each command of FILE, and DIR/<n>.fresh if a heading precedes it; prints
+#     the number of commands
 #   awk … judge FILE
-#     compares what the commands wrote (DIR/<n>.out, .err and .code) with what FILE expects, prints what
-#     differs, and writes FILE with what was found into DIR/accepted; exit 1 if anything differs
+#     compares the output of the commands (DIR/<n>.out, .err and .code) with that expected in FILE, prints
+#     the differences, and writes FILE with the actual output into DIR/accepted; exit 1 if any differs
 
 function indented(line) { return substr(line, 1, 2) == "  " }
 function is_command(line) { return substr(line, 1, 4) == "  $ " }
@@ -20,13 +20,13 @@ function read_transcript(file,   line) {
   if (!count) { print file ": empty or missing"; exit 2 }
 }
 
-# The command of block n ends before this line.
+# Returns the line after the command of block n.
 function after_command(n,   at) {
   for (at = block[n] + 1; at <= count && is_continued(lines[at]); ++at);
   return at
 }
 
-# What block n is expected to print ends before this line: at prose, or at the next command. A blank
+# Returns the line after the expected output of block n, which ends at prose or at the next command. A blank
 # line belongs to the output only if more output follows.
 function after_output(n,   at, last) {
   last = after_command(n)
@@ -47,8 +47,8 @@ function split_transcript(   n, at, text) {
   print blocks + 0
 }
 
-# Returns whether a line of output is as expected: "[..]" is any text, all else is as it stands but
-# for the rounding of numbers.
+# Returns whether a line of output is as expected: "[..]" matches any text; all else must be equal except for
+# the rounding of numbers.
 function fits(expected, found,   at, part, where) {
   at = index(expected, "[..]")
   if (!at) return same_but_rounding(expected, found, 0)
@@ -66,8 +66,8 @@ function fits(expected, found,   at, part, where) {
   return length(found) >= length(expected) && substr(found, length(found) - length(expected) + 1) == expected
 }
 
-# Returns whether the lines i… of what is expected fit the lines j… of what was found; a line "..." is
-# any number of lines.
+# Returns whether the expected lines from i on match the actual lines from j on; a line "..." matches any number
+# of lines.
 function fit_from(i, j,   k) {
   while (i <= wanted) {
     if (want[i] == "...") {
@@ -96,11 +96,11 @@ function add_found(line) {
   got[++have] = line
 }
 
-# Reads what a command wrote, and its exit code, into got[1..have] as a transcript has it.
+# Reads the output of a command and its exit code into got[1..have], in the form of a transcript.
 function read_found(name,   line, code) {
   have = 0
   while ((getline line < (name ".out")) > 0) add_found(line)
-  while (have && got[have] == "") --have  # blank lines at the end look like those before prose
+  while (have && got[have] == "") --have  # blank lines at the end equal those before prose
   while ((getline line < (name ".err")) > 0) add_found("! " line)
   getline code < (name ".code")
   if (code != 0) add_found("[exit " code "]")

@@ -1,25 +1,24 @@
 #!/usr/bin/env bash
-# transcripts.sh [--accept] FILE...   runs the commands of transcripts (tests/cli/*.txt) and compares
-# what they print with what stands below them; --accept writes what was found into the file instead.
+# transcripts.sh [--accept] FILE...   runs the commands of transcripts (tests/cli/*.txt) and compares their output
+# with the lines below them; --accept writes the actual output into the file instead.
 #
-#   # Heading                   a fresh folder follows, with the shipped robots/ and experiments/
-#   Text that is not indented says what the commands show.
+#   # Heading                   begins a new folder with the shipped robots/ and experiments/
+#   Text that is not indented describes the commands.
 #
 #     $ sinew check robots/arm.toml         a command of bash (pipefail is set)
 #     > --strict                            its next line
-#     robots/arm.toml: in order             what it writes on stdout
-#     ! warning: …                          what it writes on stderr, each line marked
+#     robots/arm.toml: in order             its output on stdout
+#     ! warning: …                          its output on stderr, each line marked
 #     [exit 1]                              its exit code, unless it is 0
 #
-# In what is expected a line "..." is any number of lines and "[..]" any text; a number with a decimal
-# point may differ by one in its last digit. The folder of the commands is written as $HERE, the
-# repository as $ROOT. Besides bash's own commands there are
+# In expected output a line "..." matches any number of lines and "[..]" any text; a number with a decimal point
+# may differ by one in its last digit. The folder of the commands is written as $HERE, the repository as $ROOT.
+# Besides bash's own commands there are
 #
-#   edit FILE FROM TO   replaces FROM, which must stand in FILE exactly once, by TO
+#   edit FILE FROM TO   replaces FROM, which must occur in FILE exactly once, by TO
 #   field KEY           prints the lines of a JSON text on stdin that have this key
 #
-# SINEW names the program, build/release/bin/sinew without it; wherever it is, the files that come with
-# Sinew are those of the repository.
+# SINEW is the program, by default build/release/bin/sinew. It always uses the shipped files of the repository.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 SINEW=$(realpath "${SINEW:-$ROOT/build/release/bin/sinew}")
@@ -29,7 +28,7 @@ accept=''
 [[ ${1:-} != --accept ]] || { accept=yes; shift; }
 (($#)) || { echo "usage: tools/transcripts.sh [--accept] FILE..." >&2; exit 2; }
 
-# In memory, where that can be: each heading copies and removes some hundred files.
+# Uses a folder in memory if possible, since each heading copies and removes some hundred files.
 work=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
@@ -48,7 +47,7 @@ edit() {
 field() { grep -F "\"$1\":"; }
 export -f edit field
 
-# The caller's settings are none of the transcripts'.
+# The user's settings must not affect the transcripts.
 unset SINEW_UNITS
 export SINEW_SHARE=$ROOT XDG_CONFIG_HOME=$work/here/config LC_ALL=C.UTF-8 PATH=$work/bin:$PATH
 
@@ -74,7 +73,7 @@ run_transcript() {  # run_transcript FILE
       echo "$1: accepted"
     else
       cat "$work/differs"
-      echo "$1: differs; if what is found is right: tools/transcripts.sh --accept $1"
+      echo "$1: differs; if the output found is right: tools/transcripts.sh --accept $1"
       return 1
     fi
   commands=$((commands + blocks))

@@ -1,7 +1,7 @@
-// animation.mjs REPORT FILE.gif [WIDTH HEIGHT]   one step of a walk, as an animation that loops: docs/pictures/walk.gif.
+// animation.mjs REPORT FILE.gif [WIDTH HEIGHT]   writes one step of a walk as a looping animation: docs/pictures/walk.gif.
 //
-// The step is the one whose end stands most like its beginning. The trolley is held in the middle, and
-// the ground's ticks divide the way of the step, so that nothing jumps where the loop closes.
+// It takes the step whose last pose is closest to its first one. The trolley stays in the middle, and a
+// whole number of ground ticks fits into the step's distance, so that nothing jumps where the loop closes.
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import gifenc from 'gifenc';
@@ -13,7 +13,7 @@ if (!file) throw new Error('usage: animation.mjs REPORT FILE.gif [WIDTH HEIGHT]'
 const delay = 40;  // between frames [ms]
 const size = [Number(width), Number(height)];
 
-// In the page: where the loop begins and ends [s], and how far the body goes in it [m].
+// Runs in the page. Returns the start and period of the loop [s] and the distance the body moves in it [m].
 function find_loop() {
   const { run, page: { scene } } = window.sinew;
   const starts = [];
@@ -28,12 +28,12 @@ function find_loop() {
       if (!best || apart < best.apart) best = { from: t, period, apart };
     }
   }
-  if (!best) throw new Error('a walk of three steps at least is needed');
-  best.way = scene.pose(0, best.from + best.period).x - scene.pose(0, best.from).x;
+  if (!best) throw new Error('the run has fewer than three steps; expected a walk of at least three');
+  best.distance = scene.pose(0, best.from + best.period).x - scene.pose(0, best.from).x;
   return best;
 }
 
-// In the page: the drawing on white at a time, as base64 of RGBA.
+// Runs in the page. Returns the drawing at a time, on white, as base64 of RGBA.
 function frame_at({ t, size: [w, h] }) {
   const { scene } = window.sinew.page;
   scene.draw(t);
@@ -51,10 +51,10 @@ const browser = await open_browser();
 const page = await open_page(browser, resolve(report), { colorScheme: 'light', deviceScaleFactor: 1 });
 await page.locator('#scene').evaluate((canvas, [w, h]) => canvas.setAttribute('style', `width: ${w}px; height: ${h}px`), size);
 const loop = await page.evaluate(find_loop);
-await page.evaluate((way) => {
+await page.evaluate((distance) => {
   const { scene } = window.sinew.page;
-  scene.tick_step = way / Math.max(1, Math.round(way / (0.25 * scene.reach)));
-}, loop.way);
+  scene.tick_step = distance / Math.max(1, Math.round(distance / (0.25 * scene.reach)));
+}, loop.distance);
 const count = Math.round((1000 * loop.period) / delay), frames = [];
 for (let i = 0; i < count; ++i) {
   const t = loop.from + (loop.period * i) / count;
@@ -62,7 +62,7 @@ for (let i = 0; i < count; ++i) {
 }
 await browser.close();
 
-// One palette for all; a pixel that stays is let through.
+// All frames share one palette; a pixel that does not change is transparent.
 const sample = Buffer.concat(frames.filter((f, i) => i % 8 === 0));
 const palette = quantize(new Uint8Array(sample), 255);
 const through = palette.length;

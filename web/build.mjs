@@ -1,5 +1,5 @@
-// build.mjs FILE.cpp        bundles src/ into pages, as the source file that the program is built with
-// build.mjs [FILE.html]     the page of a run alone, page.html without a name
+// build.mjs FILE.cpp        bundles src/ into pages and writes them as a C++ source file of the program
+// build.mjs [FILE.html]     writes only the page of a run, into page.html if no name is given
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -22,7 +22,8 @@ function bundle(entry) {
   return result.outputFiles[0].text.trim();
 }
 
-// The dark colors stand in the source once: chosen by the button, here also by the system.
+// Repeats the dark colors in a media query: style.css has them once, for the button; the page also
+// uses them where the system is dark.
 function dark_by_system(css) {
   const rule = css.match(/:root\[data-theme=["']?dark["']?\]\{([^}]*)\}/);
   if (!rule) throw new Error('style.css: no dark colors');
@@ -31,7 +32,8 @@ function dark_by_system(css) {
 
 const text_of = (name) => readFileSync(join(src, name), 'utf8');
 
-// `connect`: the page may be served, and be told where it may connect to.
+// `connect`: placeholder in the content security policy of pages that can be served; the program
+// replaces it by the address that the page may connect to.
 function page_of(main, style, script, connect = '') {
   let page = text_of('frame.html').replace('/*connect*/', connect);
   page = page.replace('<!-- main -->\n', () => text_of(main));
@@ -39,14 +41,14 @@ function page_of(main, style, script, connect = '') {
   page = page.replace('/*style*/', () => dark_by_system(bundle(style)));
   page = page.replace('/*script*/', () => bundle(script));
 
-  // What the program fills in must have one place each.
+  // Each placeholder that the program replaces must occur once.
   for (const mark of ['@title@', '@units@', '@run@', '@samples@'])
-    if (page.split(mark).length !== 2) throw new Error(`${mark}: not once in frame.html and ${main}`);
+    if (page.split(mark).length !== 2) throw new Error(`${mark} must occur exactly once in frame.html and ${main}`);
   return page;
 }
 
 function as_cpp(name, text) {
-  if (text.includes(')page"')) throw new Error('the page ends its own literal');
+  if (text.includes(')page"')) throw new Error('the page contains )page", which ends the raw string literal');
   return `
 std::string_view sinew::report::${name}() {
   static constexpr char text[] = R"page(${text})page";

@@ -1,4 +1,4 @@
-// Muscles and their valves alone, the body's motion given (drill.h).
+// Muscles and their valves without a body; the motion is given (drill.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using Way = Counts (*)(const Drill&, Pressures*);
 
 constexpr int finer = 8;                            // the limit: steps of an eighth of a tick
 constexpr int strides[] = {50, 20, 10, 5, 2, 1};    // [ticks]
-constexpr int machine_stride = 10, pow_stride = 1;  // as a machine goes, and as others do
+constexpr int machine_stride = 10, pow_stride = 1;  // step of our machines, and of other programs
 
 double largest_difference(const Pressures& a, const Pressures& b) {  // relative
   double most = 0;
@@ -30,7 +30,7 @@ Pressures pressures_of(Way way, const Drill& d) {
   return p;
 }
 
-// One way through the drill and its limit.
+// One implementation of the drill and its limit for small steps.
 struct Side {
   std::string name;
   Way way;
@@ -43,7 +43,7 @@ struct Side {
   Accuracy accuracy(const Drill& d) const {
     return {name, "pressure, largest relative difference from steps of 12.5 us", error(d), "1"};
   }
-  // The longest steps that are as exact.
+  // Returns the longest steps with an error of at most `exact`.
   int stride(double exact) const {
     for (const int s : strides)
       if (error(drill(1, s)) <= exact) return s;
@@ -59,7 +59,7 @@ std::vector<Accuracy> accuracies(const Side& own, const Drill& mine, const Side&
            largest_difference(own.limit, peer.limit), "1"}};
 }
 
-// Both go by steps of a tick.
+// Compares both with steps of one tick.
 Row step_for_step(Row row, const Side& own, const Side& peer, int rounds) {
   const Drill d = drill(1);
   row.per = "step of 100 us of one muscle";
@@ -69,7 +69,7 @@ Row step_for_step(Row row, const Side& own, const Side& peer, int rounds) {
                                                Clock::processor));
 }
 
-// Each by its own steps.
+// Compares both, each with its own steps.
 Row second_for_second(Row row, const Side& own, int mine, const Side& peer, int other, int rounds) {
   const Drill a = drill(1, mine), b = drill(1, other);
   row.per = "simulated second of one muscle";

@@ -1,4 +1,4 @@
-// The leg's body alone, without muscles, on the table.
+// The leg's body without muscles, on the table.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr int milliseconds = 1000;  // of one fall
 
-// Springs at the joints, wound up, drop the leg on the table and shove the trolley along until all
-// swings have died away: 0.1 s in the air, then sliding and sticking.
+// Setup with preloaded springs at the joints. The leg falls on the table and pushes the trolley
+// until all motion has decayed: 0.1 s in the air, then sliding and sticking.
 plant::Setup springy(double step) {
   plant::Setup s = run::planar_setup(walk());
   s.muscles.clear();
@@ -36,7 +36,7 @@ plant::Setup springy(double step) {
   return s;
 }
 
-// Ours from the same start again and again.
+// Our leg, repeatedly from the same start.
 class OurLeg {
  public:
   explicit OurLeg(double step) : world_(springy(step)), start_(world_.state()) {}
@@ -46,7 +46,8 @@ class OurLeg {
     for (int ms = 1; ms <= milliseconds; ++ms) world_.advance(1e-3 * ms);
     return milliseconds;
   }
-  // Where the trolley is at the end of each millisecond [m]; the share of them on the table.
+  // Appends the trolley's position at the end of each millisecond [m]; returns the share of
+  // milliseconds with contact.
   double trace(std::vector<double>& x) {
     world_.restore(start_);
     int on_table = 0;
@@ -63,7 +64,7 @@ class OurLeg {
   const plant::ChainWorld<2>::State start_;
 };
 
-// Ours side by side, in as many lanes as the processor has.
+// Our leg in as many lanes as the processor has.
 class OurLegs {
  public:
   OurLegs() : setup_(springy(1e-3)), batch_(plant::Batch::widest(), setup_) {}
@@ -116,7 +117,8 @@ class TheirLeg {
   LegMotion start_;
 };
 
-// Largest difference of the trolley's place in two falls [mm], and the share on the table.
+// Adds the largest difference of the trolley's position in two falls [mm], its final position, and
+// the share of steps with contact.
 template <class Leg>
 void judge(const std::string& of, Leg&& coarse, Leg&& fine, std::vector<Accuracy>& out) {
   std::vector<double> a, b;
@@ -129,7 +131,7 @@ void judge(const std::string& of, Leg&& coarse, Leg&& fine, std::vector<Accuracy
   out.push_back({of, "share of the steps on the table", touching, "1"});
 }
 
-// Some 10 ms of each.
+// Runs each for some 10 ms per turn.
 template <class Ours, class Theirs>
 Row compared(const Row& row, Ours& ours, Theirs& theirs, int rounds) {
   const auto several = [](auto& leg, int times) {
@@ -152,7 +154,7 @@ Row against_mujoco(const std::string& name, const std::string& what, Integrator 
   return compared(row, ours, theirs, rounds);
 }
 
-// The lanes have the bits that ours has alone: how exact that is, the row above says.
+// The lanes have the same bits as the single leg; their accuracy is that of the row above.
 Row lanes_against_mujoco(std::optional<double> goal, int rounds) {
   Row row{
       .name = "body/mujoco-lanes",

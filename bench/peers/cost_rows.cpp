@@ -1,5 +1,5 @@
-// How much a machine's size, its steps, its neighbours and its recorder cost: each against the
-// plain walk, by turns.
+// Cost of a machine's size, its steps, its neighbours in lanes and its recorder: each is compared
+// with the plain walk, measured alternately.
 #include <fmt/format.h>
 
 #include <exception>
@@ -17,7 +17,7 @@ namespace {
 
 using experiment::Experiment;
 
-// Runs it, and answers the simulated time [s].
+// Runs the experiment and returns the simulated time [s].
 double simulate(const Experiment& e, bool recorded) {
   return run::run(e, {.recorded = recorded}).duration;
 }
@@ -36,7 +36,7 @@ Row against_the_walk(Row row, const Experiment& e, int rounds) {
                                                rounds, Clock::processor));
 }
 
-// Machines of other sizes.
+// Adds rows of machines of other sizes.
 Row size(const std::string& file, int rounds) {
   const Experiment e = experiment::load(experiment_file(file));
   const std::string name = file.substr(0, file.find('.'));

@@ -1,4 +1,4 @@
-// In the place of cvode_stand.cpp where SUNDIALS is not installed.
+// Replaces cvode_stand.cpp if SUNDIALS is not installed.
 #include <stdexcept>
 
 #include "bench/peers/stand_peers.h"

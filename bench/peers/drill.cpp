@@ -14,7 +14,7 @@ namespace sinew::bench {
 
 namespace {
 
-// Pulses of one muscle: in each period of 100 ticks one valve is open for its first 0 to 59.
+// Pulses of one muscle: in each period of 100 ticks one valve is open for the first 0 to 59 ticks.
 void pulse(int machine, int muscle, std::vector<Switching>& out) {
   for (int period = 0; period * 100 < drill_ticks; ++period) {
     const std::uint64_t of[] = {static_cast<std::uint64_t>(machine * drill_muscles + muscle),
@@ -71,7 +71,7 @@ class Muscles {
   using Air = air::AirNetwork<drill_muscles>;
 
   void look(const Drill& d, std::size_t half, const Air::State& state, Air::Answer& out) {
-    // In whole lanes: a wide load would have to wait for narrow stores.
+    // Writes whole lanes, since a wide load would wait for narrow stores.
     ends_.length.four(0) = d.rest + d.stroke[half] + air::Four{};
     ends_.rate.four(0) = d.speed[half] + air::Four{};
     network_.evaluate(0, ends_, state, valves_, memory_, out);
@@ -91,8 +91,8 @@ std::size_t place(int machine, int muscle, int tick) {
                                   tick / drill_sampling);
 }
 
-// One machine's drill: `command` at each of its switchings, `sample` where one is due, `step` with
-// the place in the half steps' tables and half a step's length there.
+// Runs the drill of one machine: calls `command` at each of its switchings, `sample` when one is
+// due, and `step` with the index in the tables of half steps and half the step's length in them.
 template <class Command, class Sample, class Step>
 void go_through(const Drill& d, int machine, const Command& command, const Sample& sample,
                 const Step& step) {
@@ -167,7 +167,7 @@ Counts by_pow(const Drill& d, Pressures* pressures) {
           counts.steps += drill_muscles;
         });
   }
-  if (!(pulled > 0)) counts.steps = 0;  // so that the tensions are worked out
+  if (!(pulled > 0)) counts.steps = 0;  // uses the tensions, so that they are not optimized away
   return counts;
 }
 

@@ -1,5 +1,6 @@
-// bench/peers/drill.h - the work of the actuators' comparison: muscles that are stretched and
-// released by a given motion while their valves are pulsed, each with other pulses in every period.
+// bench/peers/drill.h - workload for comparing actuators: muscles that are stretched and released
+// by a given motion while their valves are pulsed, with different pulses in every period and
+// muscle.
 //
 //   L = rest + 2 mm sin(2 pi 1.5 Hz t)      pulses of 0 to 6 ms every 10 ms, in or out, with whole
 //                                           ticks for edges and no delay
@@ -25,46 +26,47 @@ struct Switching {
 };
 
 struct Drill {
-  air::Muscle muscle;  // each of them; ideal valves
+  air::Muscle muscle;  // the same for all; ideal valves
   gas::Air air;
   gas::Supply supply;
-  double rest = 0;             // [m]
-  double start = 0;            // absolute pressure [Pa]
-  int parts = 1;               // steps of a tick
-  int stride = 1;              // ticks of a step, where no valve moves sooner; with one part a tick
-  std::vector<double> stroke;  // L - rest by half steps, from 0 on [m]
-  std::vector<double> speed;   // its rate [m/s]
+  double rest = 0;   // [m]
+  double start = 0;  // absolute pressure [Pa]
+  int parts = 1;     // steps per tick
+  int stride = 1;    // ticks per step, unless a valve switches earlier; requires parts == 1
+  std::vector<double> stroke;         // L - rest by half steps, from 0 on [m]
+  std::vector<double> speed;          // its rate [m/s]
   std::vector<Switching> switchings;  // ascending in tick
 };
 
-// The leg's own muscles.
+// Returns a drill of the leg's muscles.
 Drill drill(int parts, int stride = 1);
 
-// Pressures by machine, muscle and sample, the last counting fastest  [Pa]. Every stride divides
-// the way from one sample to the next.
+// Pressures [Pa] by machine, muscle and sample, the sample varying fastest. Every stride divides
+// the interval between two samples.
 using Pressures = std::vector<double>;
 inline constexpr int drill_sampling = 50;  // [ticks]
 inline constexpr int drill_samples = drill_ticks / drill_sampling;
 
-// Ways through the drill, each over all muscles; `pressures` may be null.
+// Counts of an implementation of the drill over all muscles.
 struct Counts {
   double steps = 0;      // of single muscles
   double seconds = 0;    // simulated, of all muscles together
   double divisions = 0;  // of packs, or of doubles, in the steps' laws
   double roots = 0;
 };
-Counts by_pow(const Drill& drill, Pressures* pressures);      // scalar, pow_muscle.h
-Counts by_network(const Drill& drill, Pressures* pressures);  // air/network.h, one after the other
+Counts by_pow(const Drill& drill, Pressures* pressures);  // scalar, pow_muscle.h
+Counts by_network(const Drill& drill,
+                  Pressures* pressures);  // air/network.h, one machine after the other
 
-// A width of air/plain_air.h, in a library that is compiled for it.
+// One width of air/plain_air.h, in a library that is compiled for it.
 struct Wide {
   int width = 0;
   Counts (*run)(const Drill& drill, Pressures* pressures) = nullptr;
-  // So many divisions and square roots of packs, with nothing to wait for.
+  // Computes so many independent divisions and square roots of packs.
   double (*divide)(std::int64_t divisions, std::int64_t roots) = nullptr;
 };
 
-// Widths that this processor has, the narrowest first.
+// Returns the widths that this processor supports, the narrowest first.
 std::vector<Wide> widths();
 
 }  // namespace sinew::bench

@@ -1,4 +1,4 @@
-// Compiled once for each width, with SINEW_LANES as the width.
+// Drill in lanes. Compiled once for each width, SINEW_LANES.
 #include "bench/peers/drill_wide.h"
 
 #include <algorithm>
@@ -21,14 +21,14 @@ using Air = air::PlainAir<drill_muscles, W>;
 struct Places {
   Pack length[3], rate[3];
 
-  // All machines go from the half step `half` by a step of the table.
+  // Sets all machines to a step that begins at half step `half`.
   void all(const Drill& d, std::size_t half) {
     for (std::size_t n = 0; n < 3; ++n) {
       length[n] = d.rest + d.stroke[half + n];
       rate[n] = d.speed[half + n];
     }
   }
-  // One of them goes by a step that is `wide` times as long.
+  // Sets one machine to a step that is `wide` times as long.
   void one(const Drill& d, int lane, std::size_t half, std::size_t wide) {
     for (std::size_t n = 0; n < 3; ++n) {
       length[n].set(lane, d.rest + d.stroke[half + n * wide]);
@@ -80,14 +80,16 @@ class Machines {
     air_->finish(state_, h, looks, shares_, {});
   }
 
-  // Pressures of one machine where the step at hand began.
+  // Writes the pressures of one machine at the beginning of the current step.
   void tell(int lane, int tick, Pressures& out) const {
     for (int i = 0; i < drill_muscles; ++i)
       out[static_cast<std::size_t>(((first_ + lane) * drill_muscles + i) * drill_samples +
                                    tick / drill_sampling)] = look_[0].pressure[i][lane];
   }
 
-  // Roots of one stage: one flow does for all where some fill and others empty and none both.
+  // Returns the square roots of one stage. One flow suffices if some muscles fill, others empty,
+  // and none
+  // does both.
   double roots() const {
     double sum = 0;
     for (int i = 0; i < drill_muscles; ++i) {
@@ -117,7 +119,7 @@ class Machines {
   Air::Answer look_[4];
 };
 
-// All machines by the same steps of a tick or a part of it.
+// Runs all machines with the same steps, of one tick or a part of a tick.
 void by_ticks(const Drill& d, int, Machines& machines, Pressures* pressures, Counts& counts) {
   const double h = 1e-4 / d.parts;
   auto next = d.switchings.begin();
@@ -137,14 +139,15 @@ void by_ticks(const Drill& d, int, Machines& machines, Pressures* pressures, Cou
   }
 }
 
-// One machine's place in the drill.
+// Progress of one machine in the drill.
 struct Course {
-  std::vector<Switching> switchings;  // its own
+  std::vector<Switching> switchings;  // those of this machine
   std::size_t next = 0;
-  int tick = 0, to = 0;  // of the step at hand
+  int tick = 0, to = 0;  // beginning and end of the current step
 };
 
-// Each machine by its own nodes, in lockstep by node: one that is at its end waits.
+// Runs each machine with its own nodes, in lockstep by node; a machine that has reached its end
+// waits.
 void by_nodes(const Drill& d, int first, Machines& machines, Pressures* pressures, Counts& counts) {
   std::array<Course, W> courses;
   for (const Switching& s : d.switchings)
@@ -187,7 +190,7 @@ Counts run(const Drill& d, Pressures* pressures) {
   return counts;
 }
 
-// Sixteen packs side by side, so that none waits for its own last answer.
+// Uses sixteen independent packs, so that no operation waits for the previous result.
 double divide(std::int64_t divisions, std::int64_t roots) {
   constexpr int beside = 16;
   Pack x[beside];

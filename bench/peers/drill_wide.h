@@ -1,5 +1,5 @@
-// bench/peers/drill_wide.h - the widths of drill.h, one library each, so that nothing of what is
-// compiled for a wide processor gets into another.
+// bench/peers/drill_wide.h - the widths of drill.h, each in its own library, so that code for wide
+// registers is not linked into code for other processors.
 #pragma once
 
 #include "bench/peers/drill.h"

@@ -1,4 +1,4 @@
-// bench/peers/experiments.h - the experiments that the rows go by, and one loop for all bodies.
+// bench/peers/experiments.h - experiments of the rows, and one control loop for all bodies.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ std::string experiment_file(const std::string& name);
 // Test 1, four steps along the table.
 const experiment::Experiment& walk();
 
-// The experiment's brain and spinal cord drive a body to the end, nobody recording. Returns the
-// simulated time [s].
+// Runs a body with the experiment's gait controller and joint controllers to the end, without
+// recording. Returns the simulated time [s].
 double drive(signals::Port& body, const experiment::Experiment& experiment);
 
 }  // namespace sinew::bench

@@ -1,8 +1,10 @@
-// sinew_peers - ourselves and others by turns.
+// sinew_peers - comparison of Sinew with other programs, measured alternately.
 //
 //   sinew_peers [--passes N] [--rounds N] [--only PART]...
-//                                                 the table on stderr, the record on stdout
-//   sinew_peers --compare OLD NEW                 what is slower or faster by more than the spread
+//                                                 prints the table on stderr, the record on stdout
+//   sinew_peers --compare OLD NEW                 prints rows that are slower or faster by more
+//   than
+//                                                 the spread
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -32,7 +34,7 @@ constexpr const char* usage =
 
 struct Arguments {
   Effort effort{.program = SINEW_PROGRAM};
-  int passes = 3;  // through the table, minutes apart: a computer has its moods
+  int passes = 3;  // passes through the table, minutes apart, since the speed of a computer varies
   std::vector<std::string> only, compared;
   bool wrong = false;
 };
@@ -81,7 +83,7 @@ int compare_files(const std::vector<std::string>& files) {
   return 0;
 }
 
-// Returns the rows of all parts that are wanted.
+// Returns the rows of all requested parts.
 std::vector<Row> pass(const Arguments& arguments) {
   std::vector<Row> rows;
   for (const Named& part : parts) {

@@ -22,7 +22,7 @@ double per_unit(const Work& work, Clock clock) {
   return seconds / units;
 }
 
-// Between two values of a sorted list, in proportion.
+// Interpolates linearly in a sorted list.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(std::floor(place));

@@ -1,8 +1,8 @@
-// bench/peers/measure.h - how long two things take that are done by turns.
+// bench/peers/measure.h - times of two works that are done alternately.
 //
-// A computer that is shared speeds up and slows down all the time: a time says what it did just
-// then. So two sides work by turns, now the one first and now the other, and what counts is the
-// ratio of each pair: its median, and how far the pairs are spread.
+// The speed of a shared computer varies all the time, so that single times are not comparable. Two
+// sides therefore work alternately, in alternating order, and the result is the ratio of each pair:
+// its median and its spread.
 #pragma once
 
 #include <functional>
@@ -10,19 +10,18 @@
 
 namespace sinew::bench {
 
-// A clock of this thread on the processor, which stands while others have it; one of all threads of
-// this program together; or the wall's, for what goes on in several threads or programs.
+// Processor time of this thread, processor time of all threads of this program, or wall time, for
+// work in several threads or programs.
 enum class Clock { processor, all_threads, wall };
 
-// A work is done once by a call, which answers how many units that were: walks, steps, simulated
-// seconds.
+// Does the work once and returns the number of its units: walks, steps or simulated seconds.
 using Work = std::function<double()>;
 
 struct Turns {
   std::vector<double> ours, theirs;  // by round, for one unit [s]
 };
 
-// Both work once before anything counts.
+// Measures both alternately, after one run of each that is not counted.
 Turns by_turns(const Work& ours, const Work& theirs, int rounds, Clock clock);
 
 // Quantiles at 5, 25, 50, 75 and 95 %.
@@ -33,11 +32,11 @@ struct Spread {
 // `values` must not be empty.
 Spread spread(std::vector<double> values);
 
-// By round, how many times as long as we the others take; or we as they.
+// Return, by round, the ratio of their time to ours, and of our time to theirs.
 std::vector<double> theirs_by_ours(const Turns& turns);
 std::vector<double> ours_by_theirs(const Turns& turns);
 
-// Returns the seconds that one work takes by the clock.
+// Returns the time of one work by this clock [s].
 double seconds_of(const std::function<void()>& work, Clock clock);
 
 }  // namespace sinew::bench

@@ -6,7 +6,7 @@ namespace sinew::bench {
 
 namespace {
 
-// Soft constraints settle in this [s]: four steps, and about what the table's spring makes of the
+// Time constant of soft constraints [s]: four steps, and about that of the table's spring under the
 // leg's weight.
 constexpr double settling = 4e-3;
 
@@ -14,7 +14,7 @@ struct Solid {
   double mass = 0, center = 0, inertia = 0;  // [kg], along the link [m], about the centre [kg m2]
 };
 
-// A link with a point mass at its end.
+// Returns the inertia of a link with a point mass at its end.
 Solid loaded(const robot::Link& link, double at_end) {
   Solid s{.mass = link.mass + at_end};
   s.center = (link.mass * link.center_of_mass + at_end * link.length) / s.mass;

@@ -7,7 +7,8 @@
 
 namespace sinew::bench {
 
-// x forward, z up; hinges turn from x to z, the knee's from the femur. `step` [s].
+// Returns the MJCF text: x forward, z up; angles from x to z, that of the knee from the femur.
+// `step` [s].
 std::string mjcf(const plant::Setup& setup, double step, Integrator integrator);
 
 }  // namespace sinew::bench

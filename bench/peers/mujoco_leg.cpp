@@ -25,7 +25,7 @@ namespace {
 
 constexpr int trolley = 0, hip = 1, knee = 2;  // coordinates
 
-// By a file, which all versions read alike.
+// Loads the model from a file, which works with all versions.
 mjModel* load(const std::string& xml) {
   const auto file =
       std::filesystem::temp_directory_path() / ("sinew_peers_" + std::to_string(getpid()) + ".xml");
@@ -54,8 +54,8 @@ struct MujocoLeg::State {
   std::array<Tick, 256> lag{};
   std::vector<int> source;  // of each channel, its joint or muscle
 
-  Tick at = 0;                           // muscles and valves stand here
-  std::array<double, 3> begin{}, end{};  // coordinates over the body step that goes on
+  Tick at = 0;                           // time of muscles and valves
+  std::array<double, 3> begin{}, end{};  // coordinates over the current body step
   std::array<double, 3> end_rate{};
 
   State(const plant::Setup& s, const LegSteps& n, Integrator integrator)
@@ -99,14 +99,14 @@ struct MujocoLeg::State {
     }
   }
 
-  // Coordinates go straight through the body step; where they are at a share of it.
+  // Returns the coordinates at a share of the body step, by linear interpolation.
   double coordinate(std::size_t c, double share) const {
     return begin[c] + share * (end[c] - begin[c]);
   }
   double share_at(double tick) const {
     return (tick - static_cast<double>(at - at % steps.body)) / steps.body;
   }
-  // Length of muscle i at a share of the body step [m], and its rate [m/s].
+  // Returns length [m] and rate [m/s] of muscle i at a share of the body step.
   double length(int i, double share) const {
     const auto joint = static_cast<std::size_t>(routes.joint[static_cast<std::size_t>(i)]);
     const double travel = coordinate(joint + 1, share) - setup.robot.joints[joint].rest_angle;
@@ -122,7 +122,7 @@ struct MujocoLeg::State {
     return m.pull(l, rate(i), m.pressure(l));
   }
 
-  // The body to the end of its next step, under the muscles' tensions of now.
+  // Advances the body by one step with the current tensions of the muscles.
   void move_body() {
     begin = end;
     std::array<double, 3> torque{}, friction{};
@@ -155,7 +155,7 @@ struct MujocoLeg::State {
       const double from = static_cast<double>(at) + part * k;
       for (int i = 0; i < routes.count; ++i) {
         const auto v = static_cast<std::size_t>(2 * i);
-        if (!(open[v] > 0) && !(open[v + 1] > 0)) continue;  // sealed: its mass stays
+        if (!(open[v] > 0) && !(open[v + 1] > 0)) continue;  // sealed: its mass is constant
         const PowMuscle::Lengths l{length(i, share_at(from)),
                                    length(i, share_at(from + 0.5 * part)),
                                    length(i, share_at(from + part))};
@@ -164,7 +164,7 @@ struct MujocoLeg::State {
     }
   }
 
-  // All ticks before `to`, and a body step that begins there.
+  // Advances through all ticks before `to`, and begins a body step there.
   void advance(Tick to) {
     for (;;) {
       if (at % steps.body == 0 && at != stepped) {
@@ -176,7 +176,7 @@ struct MujocoLeg::State {
       ++at;
     }
   }
-  Tick stepped = -1;  // where the last body step began
+  Tick stepped = -1;  // beginning of the last body step
 };
 
 MujocoLeg::MujocoLeg(const plant::Setup& setup, const LegSteps& steps, Integrator integrator)

@@ -1,14 +1,14 @@
-// bench/peers/mujoco_leg.h - the leg as MuJoCo's users would simulate it: MuJoCo's bodies and
-// contacts at steps of a millisecond, muscles by pow_muscle.h at 100 us, driven through the port.
+// bench/peers/mujoco_leg.h - the leg in MuJoCo, as its users would simulate it: bodies and contacts
+// of MuJoCo in steps of 1 ms, muscles of pow_muscle.h in steps of 100 us, driven through the port.
 //
-// It is made from the same numbers as ours. What differs:
+// It has the same parameters as ours. Differences:
 //
-//   foot       a ball on a plane by MuJoCo's soft constraint, of 4 ms; ours a spring and a damper
-//   tensions   are held over a body step, lengths go straight through it
-//   friction   of joints, meshes and trolley is MuJoCo's friction loss, likewise soft; a gauge sees
-//              no share of the mesh's
-//   valves     move at the next tick of 100 us, not between two
-//   track      ends at MuJoCo's limit of a joint
+//   foot       a ball on a plane with MuJoCo's soft constraint of 4 ms; ours has a spring and a
+//   damper tensions   are constant over a body step; lengths are interpolated linearly friction of
+//   joints, meshes and trolley is MuJoCo's friction loss, which is also soft; tension
+//              sensors do not include that of the mesh
+//   valves     switch at the next tick of 100 us, not between two
+//   track      ends at a joint limit of MuJoCo
 #pragma once
 
 #include <memory>
@@ -27,15 +27,16 @@ enum class Integrator { euler, rk4 };
 
 struct LegSteps {
   int body = 10;   // ticks of 100 us
-  int muscle = 1;  // steps of a tick
+  int muscle = 1;  // steps per tick
 };
 
-// Motion of the body alone: joints [rad], their rates [rad/s], the trolley [m], [m/s].
+// Motion of the body: joint angles [rad], their rates [rad/s], the trolley's position [m] and speed
+// [m/s].
 struct LegMotion {
   double x = 0, x_rate = 0, hip = 0, hip_rate = 0, knee = 0, knee_rate = 0;
 };
 
-// Throws std::runtime_error where MuJoCo is not compiled in or refuses the leg.
+// Throws std::runtime_error if MuJoCo is not compiled in or refuses the model.
 class MujocoLeg final : public signals::Port {
  public:
   MujocoLeg(const plant::Setup& setup, const LegSteps& steps = {},
@@ -49,7 +50,7 @@ class MujocoLeg final : public signals::Port {
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // Without muscles: sets a motion, makes one step of MuJoCo's, answers where it is.
+  // Without muscles: sets a motion, makes one MuJoCo step, and returns the motion.
   void place(const LegMotion& motion) noexcept;
   void step_body() noexcept;
   LegMotion motion() const noexcept;

@@ -1,4 +1,4 @@
-// In the place of mujoco_leg.cpp where MuJoCo is not installed.
+// Replaces mujoco_leg.cpp if MuJoCo is not installed.
 #include <stdexcept>
 
 #include "bench/peers/mujoco_leg.h"

@@ -1,4 +1,4 @@
-// In the place of odeint_stand.cpp where boost is not installed.
+// Replaces odeint_stand.cpp if Boost is not installed.
 #include <stdexcept>
 
 #include "bench/peers/stand_peers.h"

@@ -7,7 +7,7 @@ namespace sinew::bench {
 
 namespace {
 
-// It has one tolerance for all numbers: each is made as large as the others.
+// odeint has one tolerance for all variables, so they are scaled to the same size.
 class Odeint {
  public:
   explicit Odeint(double tolerance)

@@ -1,5 +1,5 @@
-// A comparison is worth something only if both sides do the same: the peers' laws are ours, and
-// records are compared by more than their spread.
+// Tests that both sides of each comparison compute the same laws, and that records are compared by
+// more than their spread.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(MujocoLeg, FallsAsOursDoes) {
   EXPECT_NEAR(theirs.motion().x, t.x, 1e-9);
 }
 
-// Appendix A's small steps come to what the adaptive integrators say.
+// Appendix A with small steps agrees with the adaptive integrators.
 TEST(Stand, AdaptiveIntegratorsAgreeWithTheThesis) {
   Lengths exact(appendix_a_milliseconds);
   appendix_a(1000, exact.data());

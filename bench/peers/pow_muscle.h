@@ -1,12 +1,12 @@
-// bench/peers/pow_muscle.h - a muscle between two valves as one writes it down first: the laws in
-// scalar double with the C library's pow, RK4 at a fixed step. What we are held against.
+// bench/peers/pow_muscle.h - straightforward implementation of a muscle between two valves: the
+// laws in scalar double with the C library's pow, RK4 with a fixed step. Sinew is compared with it.
 //
 //   P = P_atm (m/(V rho_atm))^n                                            [40]
 //   m' = A C_m P_up/sqrt(T), C_m by the ratio of pressures                 [42]-[44]
 //   F = P_g b^2/(4 pi n^2) (3 L^2/b^2 - 1) Eff(P_g) + ends + bladder + c v [31]-[35]
 //
-// All that is constant is multiplied out beforehand, a shut valve costs nothing, and the tension is
-// worked out where it is asked for and not in every stage: it is to be a good one of its kind.
+// For a fair comparison, constants are precomputed, a closed valve costs nothing, and the tension
+// is computed only on request, not in every stage.
 #pragma once
 
 #include "sinew/air/muscle.h"
@@ -22,7 +22,8 @@ class PowMuscle {
 
   void fill(double pressure, double length) noexcept;  // absolute [Pa], [m]
 
-  // Lengths at a step's beginning, middle and end [m]; open shares of the valves' areas [-].
+  // Advances by a step. Lengths at its beginning, middle and end [m]; open shares of the valves'
+  // areas [-].
   struct Lengths {
     double begin, middle, end;
   };
@@ -30,8 +31,8 @@ class PowMuscle {
 
   double pressure(double length) const noexcept { return pressure(mass_, length); }  // [Pa]
 
-  // The bundle's tension, by its length, its rate and its pressure, and the bound of its dry
-  // friction  [N].
+  // Returns the bundle's tension at this length, rate and pressure, and the bound of its dry
+  // friction [N].
   struct Pull {
     double tension, friction_bound;
   };

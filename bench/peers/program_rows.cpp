@@ -1,4 +1,4 @@
-// The program `sinew` from a shell: its start, and a walk with log and report.
+// The program `sinew` as a process: its start, and a walk with log and report.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -16,7 +16,7 @@ namespace sinew::bench {
 
 namespace {
 
-// Runs it without its output. Throws std::runtime_error where it fails.
+// Runs the program and discards its output. Throws std::runtime_error if it fails.
 double run_program(const std::string& program, std::vector<std::string> arguments) {
   std::vector<char*> words;
   std::string name = program;
@@ -37,7 +37,7 @@ double run_program(const std::string& program, std::vector<std::string> argument
   return 1.0;
 }
 
-// A folder that goes with this object.
+// Temporary folder, removed by the destructor.
 class Folder {
  public:
   Folder()
@@ -52,7 +52,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// A time of ours alone.
+// Returns a row with a time of Sinew only.
 Row timed(Row row, const Work& work, int rounds) {
   std::vector<double> seconds;
   work();

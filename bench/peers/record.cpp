@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* format_name = "sinew.peers/1";
 
-// The first processor's name.
+// Returns the name of the first processor.
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);)
@@ -26,7 +26,7 @@ std::string processor() {
   return "unknown";
 }
 
-// Programs that want the processors, on average of the last minute.
+// Returns the load average of the last minute.
 double load() {
   double one = 0;
   std::ifstream("/proc/loadavg") >> one;
@@ -41,7 +41,7 @@ Json machine() {
           {"odeint", odeint_version()}};
 }
 
-// Four digits are more than such a measurement has.
+// Rounds to four digits, more than such a measurement has.
 double rounded(double x) { return std::stod(fmt::format("{:.4g}", x)); }
 
 Json row_of(const Row& r) {
@@ -78,7 +78,7 @@ const Json* find(const Json& record, const std::string& name) {
 
 std::string part_of(const std::string& name) { return name.substr(0, name.find('/')); }
 
-// Was anything of the row's part measured?
+// Returns whether the record has any row of the same part.
 bool has_part(const Json& record, const std::string& name) {
   for (const Json& row : record.at("rows"))
     if (part_of(row.at("name")) == part_of(name)) return true;
@@ -92,7 +92,7 @@ void refuse_others(const Json& record) {
                     record.value("format", Json()).dump(), format_name));
 }
 
-// Ratios alone stand from one day to another.
+// Returns whether a row is a ratio; only ratios can be compared between days.
 bool is_ratio(const Json& row) {
   return row.contains("figure") && row.at("figure").get<std::string>().starts_with("times");
 }

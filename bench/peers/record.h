@@ -1,7 +1,7 @@
-// bench/peers/record.h - the table as a file and as text, and two of them beside each other.
+// bench/peers/record.h - the table as a file and as text, and comparison of two tables.
 //
-// A record is JSON, "sinew.peers/1": the machine, the command, and each row with its spread. Only
-// ratios of one run mean something, so two records are compared by their ratios.
+// A record is JSON, "sinew.peers/1": the computer, the command, and each row with its spread. Only
+// ratios within one run are meaningful, so two records are compared by their ratios.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,10 +14,10 @@ namespace sinew::bench {
 
 nlohmann::ordered_json record(const std::vector<Row>& rows, const std::string& command);
 
-// A line per row for people.
+// Returns the table as text, one line per row.
 std::string table(const std::vector<Row>& rows);
 
-// A row that has changed between two records.
+// Row that differs between two records.
 struct Change {
   enum class Kind { slower, faster, gone };
   Kind kind = Kind::slower;
@@ -25,9 +25,10 @@ struct Change {
   double before = 0, after = 0;  // medians
 };
 
-// Returns the rows that are worse or better by more than both spreads, from 5 to 95 %, and those
-// that the newer record lacks of the parts that it has. Times of single programs say what a
-// computer did that day and are left out. Throws std::runtime_error where one of them is no record.
+// Returns the rows that are worse or better by more than both spreads, from 5 to 95 %, and rows
+// that are missing in the newer record although it has their part. Absolute times are omitted,
+// since they depend on the state of the computer. Throws std::runtime_error if one of the two is
+// not a record.
 std::vector<Change> compare(const nlohmann::ordered_json& older,
                             const nlohmann::ordered_json& newer);
 

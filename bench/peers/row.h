@@ -1,4 +1,4 @@
-// bench/peers/row.h - one comparison of the table, and what it is made from.
+// bench/peers/row.h - one comparison of the table, and its measurements.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace sinew::bench {
 
-// How exact a side was: its error against its own limit, or what it came to.
+// Accuracy of a side: its error relative to its own limit, or its result.
 struct Accuracy {
   std::string of, what;  // "sinew", "pressure against steps an eighth as long"
   double value = 0;
@@ -21,37 +21,37 @@ struct Row {
 
   std::string name;                  // "walk/mujoco"; the part before the slash is the file's
   std::string what;                  // what is compared, in a sentence
-  Better better = Better::more;      // is the figure better the greater it is?
+  Better better = Better::more;      // whether a larger or a smaller figure is better
   std::optional<double> goal;        // of its median
   std::string unit = "times";        // of the figure
   std::vector<double> figures;       // by round: ratios of each pair of turns, or times [unit]
-  std::string per;                   // what one unit of the work is: "walk"
+  std::string per;                   // unit of the work: "walk"
   std::vector<double> ours, theirs;  // by round, for one unit [s]
   std::vector<Accuracy> accuracy;
-  std::string missing;  // why there are no figures; empty: there are
+  std::string missing;  // reason why figures are missing; empty if they exist
 
   bool measured() const { return !figures.empty(); }
-  Spread figure() const { return spread(figures); }  // where it is measured
+  Spread figure() const { return spread(figures); }  // requires figures
   bool met() const {                                 // the goal
     if (!measured() || !goal) return false;
     return better == Better::more ? figure().median >= *goal : figure().median <= *goal;
   }
 };
 
-// How much is done.
+// Extent of the measurements.
 struct Effort {
   int rounds = 7;       // of a pass
-  std::string program;  // path of the program `sinew`; empty: rows that need it are missing
+  std::string program;  // path of the program `sinew`; if empty, rows that need it are missing
 };
 
-// A row of how many times as long as we the others take.
+// Returns a row with the ratio of their time to ours.
 Row times_faster(Row row, const Turns& turns);
-// A row of how many times as long as they we take.
+// Returns a row with the ratio of our time to theirs.
 Row times_slower(Row row, const Turns& turns);
-// A row without numbers, because something is not there.
+// Returns a row without figures, with the reason.
 Row not_measured(Row row, const std::string& why);
 
-// Adds another pass's rounds to the same rows.
+// Appends the rounds of another pass to the same rows.
 void add(std::vector<Row>& rows, const std::vector<Row>& pass);
 
 // Returns the rows of one part of the table.

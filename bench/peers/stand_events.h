@@ -1,8 +1,9 @@
-// bench/peers/stand_events.h - what the adaptive integrators of stand_peers.h share: the valve's
-// edges, and where the mesh turns, sticks and breaks loose.
+// bench/peers/stand_events.h - event handling of the adaptive integrators of stand_peers.h: the
+// valve's edges, and reversal, sticking and breakaway of the mesh.
 //
-// Stepper  restart(t, state), one_step(side, valve, until) -> how far it has got, at most a step
-//          past `until`; state_at(t) within the last step
+// Stepper  restart(t, state, side, valve); one_step(until) returns the time reached, at most one
+// step
+//          beyond `until`; state_at(t) within the last step
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using StandState = std::array<double, 4>;  // length, speed, pressure, mass: app
 
 inline constexpr double scale_of_state[4] = {1.0, 10.0, 100.0, 1e-6};
 
-// Side of the dry friction: 1 as the load goes down, -1 up, 0 at rest.
+// Direction of the dry friction: 1 while the load moves down, -1 while it moves up, 0 at rest.
 class StandRun {
  public:
   template <class Stepper>
@@ -34,7 +35,7 @@ class StandRun {
   }
 
  private:
-  // Between two edges of the valve.
+  // Integrates between two edges of the valve.
   template <class Stepper>
   void stretch(Stepper& stepper, int valve, double t, double until, int every, Lengths& lengths) {
     while (t < until) {
@@ -57,7 +58,8 @@ class StandRun {
     }
   }
 
-  // In motion the speed, at rest what is left of the bound: below 0 it is over.
+  // Returns, in motion, the speed; at rest, the friction bound minus the force. Below 0 the state
+  // ends.
   double margin(const StandState& x) const {
     if (side_ != 0) return side_ * x[1];
     const AppendixFriction f = appendix_a_friction(x.data());
@@ -65,7 +67,7 @@ class StandRun {
   }
   bool turns(const StandState& x) const { return margin(x) < 0; }
 
-  // Where the margin is gone, by halving.
+  // Returns the time at which the margin becomes negative, by bisection.
   template <class Stepper>
   double where(Stepper& stepper, double from, double to) const {
     double low = from, high = to;

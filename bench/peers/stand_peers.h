@@ -1,8 +1,8 @@
 // bench/peers/stand_peers.h - the two seconds of appendix A by integrators that adapt their steps.
 //
-// The right-hand side is the thesis's own (appendix_a.h), but for its dry friction: where the sign
-// of the speed changes they stop, look whether the mesh sticks, and go on from there, for an
-// adaptive step across such a corner has no order at all. Steps end at the valve's edges.
+// The right-hand side is that of the thesis (appendix_a.h), except for dry friction: when the sign
+// of the speed changes, the integrators stop, check whether the mesh sticks, and restart, since an
+// adaptive step across such a discontinuity loses its order. Steps end at the valve's edges.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@ namespace sinew::bench {
 
 using Lengths = std::vector<double>;  // at the end of each millisecond [in]
 
-// Return the versions that were compiled in, or "none".
+// Return the versions compiled in, or "none".
 std::string cvode_version();
 std::string odeint_version();
 
-// With the relative tolerance, looked at each `every` ms; the other lengths stay as they are.
+// Simulate with this relative tolerance and write every `every`-th length; others are not changed.
 // CVODE: BDF with Newton's method and a dense matrix.
 void by_cvode(double tolerance, int every, Lengths& lengths);
 // boost::numeric::odeint: Dormand and Prince's fifth order with dense output.

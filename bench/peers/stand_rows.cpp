@@ -1,5 +1,5 @@
-// The test stand, two seconds of appendix A: 25 Hz and 5 lb. Each program goes by its longest step,
-// or its loosest tolerance, with which no length is further from its own limit than is asked for.
+// The test stand, two seconds of appendix A: 25 Hz and 5 lb. Each program uses the longest step, or
+// the loosest tolerance, with which every length is within the required error of its own limit.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr int milliseconds = appendix_a_milliseconds, period = 40;  // [ms]
 
-// One way to the lengths, with a setting that is the finer the greater its number; 0 is the limit.
-// Looked at every so many milliseconds.
+// One implementation, with settings of increasing accuracy; setting 0 is the limit. `run` writes
+// the length every `every` milliseconds.
 struct Program {
   std::string name;
   int settings = 0;
@@ -35,7 +35,7 @@ double largest_difference(const Lengths& a, const Lengths& b) {
   return most;
 }
 
-// The coarsest setting that is exact enough, and how exact it is [in]; none: setting 0.
+// Coarsest setting that is accurate enough, and its error [in]; setting 0 if no setting is.
 struct Chosen {
   int setting = 0;
   double error = 0;
@@ -51,7 +51,7 @@ Chosen choose(const Program& p, double error) {
   return {};
 }
 
-// --- ours: nodes and the accuracy between them ---
+// --- Sinew: nodes and the accuracy between them ---
 
 struct Steps {
   double node = 0, accuracy = 0;  // [s], [-]
@@ -80,7 +80,7 @@ Program ours() {
           [](int s) { return fmt::format("nodes every {:g} ms", 1e3 * our_steps[s].node); }};
 }
 
-// --- the others ---
+// --- peers ---
 
 constexpr int thesis_steps[] = {4000, 1, 2, 5, 10, 20, 50, 100, 120, 150, 200, 500, 1000};
 
@@ -89,7 +89,7 @@ Program thesis() {
           [](int s) { return fmt::format("{} steps of RK4 in a millisecond", thesis_steps[s]); }};
 }
 
-// By thirds of a decade from 1e-2 on.
+// Returns the tolerance of a setting: from 1e-2 downwards in thirds of a decade.
 double tolerance(int setting) {
   return setting == 0 ? 1e-12 : 1e-2 * std::pow(10.0, -(setting - 1) / 3.0);
 }
@@ -117,7 +117,7 @@ Row against(const Program& own, const Program& peer, double error, std::optional
     for (int i = 0; i < times; ++i) p.run(setting, period, l);
     return static_cast<double>(times);
   };
-  // Some 10 ms of each.
+  // Runs each for some 10 ms per turn.
   const auto times = [&](const Program& p, int setting) {
     const double once = seconds_of([&] { several(p, setting, 3); }, Clock::processor) / 3;
     return std::clamp(static_cast<int>(0.01 / once), 1, 1000);

@@ -1,4 +1,4 @@
-// One thread and two, by the wall's clock.
+// Comparison of two threads with one, by wall time.
 #include <numeric>
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int walks = 64;  // of one sweep
 
-// Rows by their points: what was run is the same whoever ran it.
+// Returns the results by point, which do not depend on the number of threads.
 std::vector<std::string> sweep(const tune::Runner& runner, int threads) {
   std::vector<std::size_t> points(walks);
   std::iota(points.begin(), points.end(), std::size_t{0});

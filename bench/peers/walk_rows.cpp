@@ -1,4 +1,5 @@
-// The whole closed loop: brain, spinal cord, air and body, actions in every period.
+// The whole closed loop: gait controller, joint controllers, air and body, with actions in every
+// period.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -20,7 +21,7 @@ namespace {
 
 using experiment::Experiment;
 
-// One walk of ours, nobody recording. Where the trolley is at the end [m].
+// Runs one walk of Sinew without recording; returns the final position of the trolley [m].
 double our_walk(const Experiment& e) {
   plant::ChainWorld<2> world(run::planar_setup(e));
   const double end = drive(world, e);
@@ -33,7 +34,7 @@ double their_walk(const Experiment& e, const LegSteps& steps = {}) {
   return leg.motion().x;
 }
 
-// So many walks with other noise, as many at a time as there are lanes.
+// Runs walks with different noise in all lanes of the processor; returns their number.
 double walks_in_lanes(const std::vector<Experiment>& each) {
   std::size_t next = 0;
   run::run_in_lanes(
@@ -44,7 +45,7 @@ double walks_in_lanes(const std::vector<Experiment>& each) {
   return static_cast<double>(each.size());
 }
 
-// On a track without an end, which would make all ways alike.
+// Returns the walk on a long track, since the end of the track would make all distances equal.
 Experiment with_step(double step) {
   Experiment e = walk();
   e.body_step = step;
@@ -52,7 +53,8 @@ Experiment with_step(double step) {
   return e;
 }
 
-// Over the sensors' noise: a single end point is one throw of it  [in].
+// Returns the mean distance over several seeds of the sensors' noise [in], since a single walk is
+// random.
 double mean_way(const std::function<double(const Experiment&)>& way, double step, int walks) {
   double sum = 0;
   for (int seed = 1; seed <= walks; ++seed) {

@@ -1,6 +1,7 @@
-// One braided muscle and one valve: tables of the laws, for a program that asks them.
+// One braided muscle and one valve: tables of their laws.
 //
-//   one_muscle [SHARE]     the folder that has robots/: the sources, or <prefix>/share/sinew
+//   one_muscle [SHARE]     SHARE is the folder that has robots/: the sources, or
+//   <prefix>/share/sinew
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -20,7 +21,7 @@ void show_muscle(const std::string& file) {
   const actuator::Actuator& muscle = read.actuators.front();
   const actuator::Surroundings around{read.air.atmosphere, read.air.polytropic_exponent};
 
-  // Tension falls with length, and air that is shut in makes the muscle stiffer.
+  // Tension decreases as the muscle shortens, and trapped air makes it stiffer.
   const double pressure = config::quantity("60 psi gauge", "Pa gauge");
   std::printf("length [mm]  tension [N]  k at p [N/m]  k sealed [N/m]\n");
   for (int mm = 65; mm <= 95; mm += 5) {
@@ -36,7 +37,7 @@ void show_muscle(const std::string& file) {
   }
 }
 
-// A pressure says what it is measured against.
+// A pressure needs a reference, gauge or abs.
 void refuse_half_a_unit() {
   try {
     config::quantity("60 psi", "Pa gauge");

@@ -1,4 +1,4 @@
-"""One braided muscle and one valve: tables of the laws, for a program that asks them."""
+"""One braided muscle and one valve: tables of their laws."""
 
 import numpy
 
@@ -6,7 +6,7 @@ import sinew
 
 muscle = sinew.Actuator(sinew.shipped("robots/leg/actuator.toml"))
 
-# Tension falls with length, and air that is shut in makes the muscle stiffer.
+# Tension decreases as the muscle shortens, and trapped air makes it stiffer.
 pressure = sinew.quantity("60 psi gauge", "Pa gauge")
 length = numpy.arange(65, 96, 5) / 1e3
 tension = muscle.tension(length, pressure)
@@ -21,7 +21,7 @@ for kpa in range(100, 701, 200):
     at = muscle.point(0.085, 1e3 * kpa)
     print(f"{kpa:11d} {at['tension_N']:12.2f} {at['effectiveness']:14.4f}")
 
-# A pressure says what it is measured against.
+# A pressure needs a reference, gauge or abs.
 try:
     sinew.quantity("60 psi", "Pa gauge")
 except sinew.InputError as error:

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# One muscle on the command line: what it pulls with, how stiff it is, how fast a valve fills it.
+# One muscle on the command line: its tension, its stiffness, and how fast a valve fills it.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=${SINEW_BUILD:-build/release}/bin/sinew
 
-lesson() {  # shows a command line, then what it prints
+lesson() {  # prints a command line, then its output
   local word
   printf '$ sinew'
   for word in "$@"; do

@@ -1,6 +1,7 @@
-// Four steps of the thesis's leg: run them, keep them in a folder, read the numbers.
+// Four steps of the thesis's leg: runs them, stores the run in a folder, and reads its numbers.
 //
-//   first_walk [SHARE]     the folder that has experiments/: the sources, or <prefix>/share/sinew
+//   first_walk [SHARE]     SHARE is the folder that has experiments/: the sources, or
+//                          <prefix>/share/sinew
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -21,7 +22,7 @@ void print(const analysis::Summary& summary, const char* key) {
   std::printf("  %-36s %.4g\n", key, value ? *value : 0);
 }
 
-// The log alone gives all figures again.
+// All figures can be computed again from the log.
 bool same_from_the_log(const std::filesystem::path& folder, const analysis::Summary& first) {
   const run::RecordedRun kept = run::recorded_run(folder);
   const analysis::Machine machine = analysis::read_machine(config::compose(kept.resolved.string()));
@@ -44,7 +45,7 @@ void walk(const std::string& experiment, const std::filesystem::path& folder) {
   const bool same = same_from_the_log(kept.folder, kept.summary);
   std::printf("\nfrom the log: %s\n", same ? "the same numbers" : "other numbers");
 
-  // One value of any file, in place of what the file says.
+  // Overrides one value of a file.
   const auto easy = run::run_and_keep(
       {.experiment = experiment, .folder = folder / "easy", .sets = {"trolley.drag=0 lbf"}});
   std::printf("\nwithout drag\n");

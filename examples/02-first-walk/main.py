@@ -1,4 +1,4 @@
-"""Four steps of the thesis's leg: run them, keep them in a folder, read the numbers."""
+"""Four steps of the thesis's leg: runs them, stores the run in a folder, and reads its numbers."""
 
 import tempfile
 from typing import Any
@@ -31,11 +31,11 @@ with tempfile.TemporaryDirectory() as folder:
     for verdict in walk.verdicts:
         print(f"  {verdict['key']}: {verdict['reported']}, ours {verdict['ours']}: {verdict['is']}")
 
-    # The log alone gives all figures again.
+    # All figures can be computed again from the log.
     same = sinew.read_run(walk.folder).summary == walk.summary
     print(f"\nfrom the log: {'the same numbers' if same else 'other numbers'}")
 
-    # One value of any file, in place of what the file says.
+    # Overrides one value of a file.
     easy = sinew.run(experiment, {"trolley.drag": "0 lbf"}, folder=f"{folder}/easy")
     print("\nwithout drag")
     number(easy.summary, "trolley.distance_m")

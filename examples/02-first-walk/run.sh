@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Four steps of the thesis's leg: run, and read the numbers.
+# Four steps of the thesis's leg: runs them and prints their numbers.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=${SINEW_BUILD:-build/release}/bin/sinew
@@ -7,7 +7,7 @@ program=${SINEW_BUILD:-build/release}/bin/sinew
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-numbers() {  # those of a run that match a pattern
+numbers() {  # prints the numbers of a run that match a pattern
   awk -f tools/flatten.awk -v digits=3 "$work/$1/summary.json" | grep -E "$2"
   echo
 }
@@ -24,7 +24,7 @@ echo '$ sinew run experiments/walk-test-1.toml --set "trolley.drag=0 lbf"'
 "$program" run experiments/walk-test-1.toml --set "trolley.drag=0 lbf" -o "$work/easy" --quiet >/dev/null
 numbers easy '^trolley.distance_m|^trolley.mean_speed_m'
 
-# The log alone gives the same numbers again.
+# The same numbers can be computed again from the log.
 "$program" analyze "$work/walk" --json | awk -f tools/flatten.awk | grep -v '^host' >"$work/again"
 awk -f tools/flatten.awk "$work/walk/summary.json" | grep -v '^host' >"$work/first"
 cmp "$work/first" "$work/again" && echo 'sinew analyze: the same numbers from the log'

@@ -1,7 +1,8 @@
-// A robot of one's own, described in TOML alone: its values with their sources, which gain it
-// likes, and how a wrong key is refused.
+// Your own robot, described only in TOML: its values with their sources, its best gain, and how a
+// wrong key is refused.
 //
-//   own_robot [SHARE]     the folder that has experiments/: the sources, or <prefix>/share/sinew
+//   own_robot [SHARE]     SHARE is the folder that has experiments/: the sources, or
+//                         <prefix>/share/sinew
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -35,7 +36,7 @@ void try_gains(const std::string& file) {
   }
 }
 
-// A mistake is refused before anything runs, in parts that a program can use.
+// An error is reported before anything runs, with parts that a program can use.
 void refuse(const std::string& file) {
   try {
     run::buildable(file, {"joint.lever.angle_gian=0.3 %/count"});

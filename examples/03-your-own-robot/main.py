@@ -1,5 +1,5 @@
-"""A robot of one's own, described in TOML alone: its values with their sources, which gain it likes, and
-how a wrong key is refused."""
+"""Your own robot, described only in TOML: its values with their sources, its best gain, and how a wrong key
+is refused."""
 
 import math
 import os
@@ -19,7 +19,7 @@ for gain in ("0.03", "0.06", "0.12", "0.24", "0.48"):
     tracking = math.degrees(found["joints"]["lever"]["tracking_rms_rad"])
     print(f"{gain:>14} {tracking:15.2f} {found['passiveness']:12.3f} {1e3 * found['air_used_kg']:8.3f}")
 
-# A mistake is refused before anything runs, in parts that a program can use.
+# An error is reported before anything runs, with parts that a program can use.
 try:
     lever.vary({"joint.lever.angle_gian": "0.3 %/count"})
 except sinew.InputError as error:

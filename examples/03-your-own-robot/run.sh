@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A robot of one's own: a lever on a bench, described in TOML alone. Which gain does it like?
+# Your own robot: a lever on a bench, described only in TOML, and its best gain.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=${SINEW_BUILD:-build/release}/bin/sinew
@@ -11,7 +11,7 @@ echo '$ sinew show experiments/one-joint.toml joint.lever.angle_gain joint.lever
 "$program" show experiments/one-joint.toml joint.lever.angle_gain joint.lever.stiffness_gain
 echo
 
-number() {  # one of a run's numbers
+number() {  # prints one of a run's numbers
   awk -f tools/flatten.awk -v digits=3 "$1/summary.json" |
     awk -v key="$2" '$1 == key { print $2 }'
 }

@@ -1,5 +1,5 @@
-// A load hangs on one braided muscle. The integration loop is ours; Sinew's air::AirNetwork is
-// the air half of the equations: it takes length, rate and air mass, and gives tension and flows.
+// A load hangs on one braided muscle. The integration loop is our own; Sinew's air::AirNetwork has
+// the air part of the equations: it takes length, rate and air mass, and returns tension and flows.
 //
 //   x' = v      M v' = M g - F(x, v, m)      m' = inflow - outflow      x downward, length = x
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double load = 10.0_lb;
 constexpr double step = 0.5_ms;
 constexpr double hoses = 0.495_in3;
 
-// Two-way valves: both shut seals the muscle. They follow the current some milliseconds late.
+// Two-way valves; both closed seal the muscle. They follow the current with delays of milliseconds.
 gas::Valve valve(double area) {
   gas::Valve v;
   v.flow.area = area;
@@ -82,7 +82,7 @@ class HangingMass {
  private:
   static constexpr double weight = load * units::standard_gravity;
 
-  // The network works in lanes, one per muscle, and fills up with copies of the last.
+  // The network computes in lanes, one per muscle; unused lanes have copies of the last muscle.
   static Air::Lanes lanes(double value) {
     Air::Lanes l;
     l.of.fill(value);

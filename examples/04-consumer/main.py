@@ -1,5 +1,5 @@
-"""A load hangs on one braided muscle. The integration loop is ours; Sinew has the laws: what the muscle pulls
-with, which volume its air has, what the open valve lets through.
+"""A load hangs on one braided muscle. The integration loop is ours; Sinew has the laws: tension of the muscle,
+volume of its air, flow through the open valve.
 
     x' = v      M v' = M g - F(x, v, p)      m' = inflow      x downward, length = x
 
@@ -43,7 +43,7 @@ def pressure(s: State) -> float:
 
 
 def tension(s: State) -> float:
-    """Return what the muscle pulls with, its losses included [N]."""
+    """Return the tension of the muscle, including losses [N]."""
     return max(0.0, float(muscle.tension(s.length, pressure(s), s.velocity)))
 
 
@@ -74,7 +74,7 @@ state, time = State(start, 0.0, DENSITY * volume(start)), 0.0
 print("time [ms]  length [mm] gauge [kPa]  tension [N]  air [mg]")
 for until in (0.0, 0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0):
     while time < until:
-        # The inlet has current from 0 to 50 ms, and follows late. Steps end where it moves.
+        # The inlet has current from 0 to 50 ms and follows with delays. Steps end when it switches.
         opens, shuts = OPENS, 0.05 + SHUTS
         end = min([time + STEP, until] + [t for t in (opens, shuts) if t > time])
         state = rk4(state, end - time, opens <= time < shuts)

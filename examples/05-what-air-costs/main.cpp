@@ -1,7 +1,7 @@
-// The same four steps on three kinds of plumbing, how far half a litre of air goes, and what a leak
-// costs.
+// The same four steps with three kinds of valves, the distance walked on half a litre of air, and
+// the cost of a leak.
 //
-//   what_air_costs [SHARE]     the folder that has experiments/: the sources, or
+//   what_air_costs [SHARE]     SHARE is the folder that has experiments/: the sources, or
 //                              <prefix>/share/sinew
 #include <cstdio>
 #include <exception>
@@ -33,7 +33,7 @@ void empty_a_tank(const std::string& file) {
               *found.find("supply.full_distance_m"), *found.find("supply.full_time_s"));
 }
 
-// Many runs at once, on two cores: a table with a row for each.
+// Many runs in parallel on two cores give a table with a row for each.
 void try_leaks(const std::string& file) {
   const tune::Sweep leaks =
       tune::sweep_of({.experiment = file,

@@ -1,4 +1,4 @@
-"""The same four steps on three kinds of plumbing, how far half a litre of air goes, and what a leak costs."""
+"""The same four steps with three kinds of valves, the distance walked on half a litre of air, and a leak."""
 
 import sinew
 
@@ -16,7 +16,7 @@ print(
     f"in {supply['full_time_s']:.0f} s"
 )
 
-# Many runs at once, on two cores: a table with a row for each.
+# Many runs in parallel on two cores give a table with a row for each.
 rows = sinew.sweep(
     sinew.shipped("experiments/walk-test-1.toml"),
     {"muscle.knee_flexor.leak.area": "0,0.01,0.1 mm2"},

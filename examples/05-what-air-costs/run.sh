@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The same four steps on three kinds of plumbing, and how far half a litre of air goes.
+# The same four steps with three kinds of valves, and the distance walked on half a litre of air.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 program=${SINEW_BUILD:-build/release}/bin/sinew
@@ -7,7 +7,7 @@ program=${SINEW_BUILD:-build/release}/bin/sinew
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-numbers() {  # of a run, those that match a pattern
+numbers() {  # prints the numbers of a run that match a pattern
   awk -f tools/flatten.awk -v digits=3 "$work/$1/summary.json" | grep -E "$2"
   echo
 }

@@ -1,8 +1,8 @@
-// A muscle of one's own, from forces on a stand to a parameter file. The stand is Sinew's, whose
-// muscle is known: so one sees what comes back.
+// Your own muscle, from forces on a stand to a parameter file. The stand is simulated, and its
+// muscle is known, so that the result can be checked.
 //
-//   characterise [SHARE]     the folder that has robots/: the sources, or <prefix>/share/sinew; run
-//                            it in this lesson's folder
+//   characterise [SHARE]     SHARE is the folder that has robots/: the sources, or
+//                            <prefix>/share/sinew; run it in this lesson's folder
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace {
 using namespace sinew;
 namespace fs = std::filesystem;
 
-// Length, force and pressure as somebody wrote them down at a stand; each row is a point of its
-// own, so that the time does not matter.
+// Returns length, force and pressure as recorded by hand at a stand; each row is an independent
+// point, without a time.
 identify::Measured measured_at(int psi, const fs::path& folder) {
   const auto kept =
       run::run_and_keep({.experiment = "pressures.toml",

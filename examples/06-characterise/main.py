@@ -1,5 +1,5 @@
-"""A muscle of one's own, from forces on a stand to a parameter file. The stand is Sinew's, whose muscle is
-known: so one sees what comes back."""
+"""Your own muscle, from forces on a stand to a parameter file. The stand is simulated, and its muscle is
+known, so that the result can be checked."""
 
 import os
 import tempfile
@@ -14,7 +14,7 @@ here = os.path.dirname(os.path.abspath(__file__))
 
 
 def measured_at(psi: int, folder: str) -> Any:
-    """Return length [m], force [N] and pressure [Pa gauge] as somebody wrote them down at a stand."""
+    """Return length [m], force [N] and pressure [Pa gauge] as recorded by hand at a stand."""
     kept = sinew.run(
         os.path.join(here, "pressures.toml"),
         {"charge.pressure": f"{psi} psi gauge"},

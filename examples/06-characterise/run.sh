@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A muscle of one's own: from what a student can measure to a leg that walks with it. The stand here
-# is Sinew's own, whose muscle is known: so one sees what comes back.
+# Your own muscle: from measurements to a leg that walks with it. The stand is simulated, and its muscle is
+# known, so that the result can be checked.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 cp "$here/weights.csv" .
 
-lesson() {  # shows a command line, then what it prints
+lesson() {  # prints a command line, then its output
   local word
   printf '$ sinew'
   for word in "$@"; do
@@ -23,13 +23,13 @@ lesson() {  # shows a command line, then what it prints
   echo
 }
 
-# --- the mesh, counted ---
+# --- mesh ---
 lesson identify geometry --trapezoids 37,16 --side "0.057 in" --name bpa -o mesh.toml
 
-# --- the force cell, with weights ---
+# --- force cell ---
 lesson identify sensor weights.csv -o cell.toml
 
-# --- force at ten pressures, there and back ---
+# --- force at ten pressures ---
 for psi in 10 20 30 40 50 60 70 80 90 100; do
   "$program" run "$here/pressures.toml" --set "charge.pressure=$psi psi gauge" -o "$psi" --quiet \
     >/dev/null
@@ -42,13 +42,13 @@ echo "… $(wc -l <forces.csv) lines"
 echo
 lesson identify static forces.csv --actuator mesh.toml --hold-out pressure --name bpa -o static.toml
 
-# --- what it loses when it moves ---
+# --- losses ---
 "$program" run "$here/decay.toml" -o decay --quiet >/dev/null
 cp decay/measured.csv decay.csv
 lesson identify dynamic decay.csv --actuator static.toml --mass "6 lb" \
   --external-volume "0.114 in3" -o my-actuator.toml
 
-# --- what one may do with it ---
+# --- use of the result ---
 lesson check my-actuator.toml
 lesson actuator my-actuator.toml --length "80 mm" --pressure "50 psi gauge:110 psi gauge:20 psi"
 
@@ -70,13 +70,13 @@ echo '$ sinew run my-walk.toml'
 "$program" run my-walk.toml -o walk --quiet
 echo
 
-# --- the same from a table that somebody else measured ---
+# --- published table ---
 cp "$root/data/martens_boblan_2017/DMSP-10-250_force_map.csv" map.csv
 lesson identify static map.csv --map length=L_m,pressure=P_gauge_Pa,force=F_N \
   --unit L_m=m --unit "P_gauge_Pa=Pa gauge" --unit F_N=N --rest-length "250 mm" \
   --hold-out pressure --name dmsp-10-250 -o dmsp.toml
 
-# --- and what cannot be used ---
+# --- data that are refused ---
 echo '$ sinew identify static one-pressure.csv'
 cut -d, -f2- 60/measured.csv >one-pressure.csv
 "$program" identify static one-pressure.csv 2>&1 || echo "exit code $?"

@@ -1,6 +1,8 @@
-// A walk that the program holds: advanced by periods, looked at, changed, saved and restored.
+// A walk that the program controls: it advances the walk by periods, reads and changes it, saves it
+// and restores it.
 //
-//   hold_a_run [SHARE]     the folder that has experiments/: the sources, or <prefix>/share/sinew
+//   hold_a_run [SHARE]     SHARE is the folder that has experiments/: the sources, or
+//                          <prefix>/share/sinew
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -25,7 +27,7 @@ void hold(const std::string& file) {
   leg.advance_by(2.2);
   print(leg, "in the first stance");
 
-  // Two futures of one instant: as planned, and with a stiffer hip.
+  // Two continuations from the same time: as planned, and with a stiffer hip.
   const std::vector<std::byte> saved = leg.save();
   leg.advance_by(0.8);
   print(leg, "as planned");
@@ -35,12 +37,12 @@ void hold(const std::string& file) {
   leg.advance_by(0.8);
   print(leg, "with a stiffer hip");
 
-  // Back once more: the same bits as the first time.
+  // Restored once more, it gives the same bits as the first time.
   leg.restore(saved);
   leg.advance_by(0.8);
   print(leg, "as planned, once more");
 
-  // A controller of one's own: a word each 10 ms, from what was measured.
+  // Our own controller: a setpoint every 10 ms, from a measurement.
   for (int period = 0; period < 100 && !leg.ended(); ++period) {
     leg.change("control.stiffness.knee", leg.read("/joint/knee/angle") < 5.0 ? 1.5 : 3.0);
     leg.advance_by(0.01);

@@ -1,4 +1,4 @@
-"""A walk that the program holds: advanced by periods, looked at, changed, saved and restored."""
+"""A walk that the program controls: advanced by periods, read, changed, saved and restored."""
 
 import math
 
@@ -6,7 +6,7 @@ import sinew
 
 
 def show(leg: sinew.Simulation, what: str) -> None:
-    """Print where the leg is, and how much air it has used."""
+    """Print the position of the leg and the air it has used."""
     hip = math.degrees(leg.read("/true/joint/hip/angle"))
     print(
         f"{leg.time:6.2f} s  {what:<26} hip {hip:6.2f} deg  "
@@ -20,7 +20,7 @@ show(leg, "at its start")
 leg.advance(2.2)
 show(leg, "in the first stance")
 
-# Two futures of one instant: as planned, and with a stiffer hip.
+# Two continuations from the same time: as planned, and with a stiffer hip.
 saved = leg.save()
 leg.advance(0.8)
 show(leg, "as planned")
@@ -30,12 +30,12 @@ leg.change("control.stiffness.hip", 6.0)  # N m/rad
 leg.advance(0.8)
 show(leg, "with a stiffer hip")
 
-# Back once more: the same bits as the first time.
+# Restored once more, it gives the same bits as the first time.
 leg.restore(saved)
 leg.advance(0.8)
 show(leg, "as planned, once more")
 
-# A controller of one's own: a word each 10 ms, from what was measured.
+# Our own controller: a setpoint every 10 ms, from a measurement.
 for _ in range(100):
     if leg.ended:
         break

@@ -1,7 +1,7 @@
-// A mass on a lever against one muscle, in a loop of 10 kHz that is not Sinew's: the muscle, its
-// valves, its hose and its supply come from a file.
+// A mass on a lever with one muscle, in a loop at 10 kHz outside of Sinew. The muscle, its valves,
+// its hose and its supply are read from a file.
 //
-//   own_loop     in this lesson's folder, where muscle.toml is
+//   own_loop     run it in this lesson's folder, which has muscle.toml
 #include <cmath>
 #include <cstdio>
 #include <exception>

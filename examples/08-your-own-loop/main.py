@@ -1,5 +1,5 @@
-"""A mass on a lever against one muscle, in a loop of 10 kHz that is not Sinew's: the muscle, its valves, its
-hose and its supply come from a file."""
+"""A mass on a lever with one muscle, in a loop at 10 kHz outside of Sinew. The muscle, its valves, its hose
+and its supply are read from a file."""
 
 import math
 import os

@@ -1,8 +1,8 @@
-// A walk's samples and figures, another gait of the same leg, the best of some gains, a muscle's
-// law.
+// Samples and figures of a walk, another gait of the same leg, the best of several gains, and a
+// muscle's law.
 //
-//   look_and_sweep [SHARE]     the folder that has robots/ and experiments/: the sources, or
-//                              <prefix>/share/sinew
+//   look_and_sweep [SHARE]     SHARE is the folder that has robots/ and experiments/: the sources,
+//                              or <prefix>/share/sinew
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -32,7 +32,7 @@ void show(const experiment::Experiment& walk) {
               hip->unit.c_str(), hip->text.c_str(), hip->source.c_str());
 }
 
-// A run is samples and figures.
+// A run gives samples and figures.
 void look(const experiment::Experiment& walk, const analysis::Machine& machine) {
   const signals::Table table = run::run(walk).table;
   const signals::Column& angle = *table.column("/joint/hip/angle");
@@ -48,7 +48,7 @@ void look(const experiment::Experiment& walk, const analysis::Machine& machine) 
                 verdicts[i].reported.c_str(), std::string(to_text(verdicts[i].is)).c_str());
 }
 
-// A run that is held: two futures of one instant.
+// A run that is controlled by the program: two continuations from the same time.
 void hold(const experiment::Experiment& walk) {
   run::Simulation leg(walk), soft(walk);
   leg.advance_by(2.2);
@@ -61,7 +61,7 @@ void hold(const experiment::Experiment& walk) {
   }
 }
 
-// Many runs, on two cores.
+// Many runs on two cores.
 void sweep(const std::string& file) {
   const tune::Sweep gains = tune::sweep_of({.experiment = file,
                                             .vary = {"joint.hip.angle_gain=1e-4:2e-3:20 1/count"},
@@ -73,7 +73,7 @@ void sweep(const std::string& file) {
               100 * std::stod(best.cells[0]), tracking(best));
 }
 
-// The laws alone.
+// Laws without a simulation.
 void ask_the_law(const std::string& file) {
   const auto read = experiment::load_machine_file(file).experiment;
   const auto pull = [&](double length, double pressure) {

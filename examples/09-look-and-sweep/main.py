@@ -1,4 +1,4 @@
-"""A walk's samples and figures, another gait of the same leg, the best of some gains, a muscle's law."""
+"""Samples and figures of a walk, another gait of the same leg, the best of several gains, and a muscle's law."""
 
 import numpy
 
@@ -12,7 +12,7 @@ print(
     f"{stiffness['text']} in {stiffness['source']}"
 )
 
-# A run is arrays and figures.
+# A run gives arrays and figures.
 recording = sinew.run(walk)
 angle = numpy.degrees(recording["/joint/hip/angle"])
 topics = {channel.name.partition(".")[0] for channel in recording.channels}
@@ -21,7 +21,7 @@ print(f"the trolley goes {recording.summary['trolley']['distance_m']:.3f} m")
 for verdict in recording.verdicts[:3]:
     print(f"  {verdict['key']}: {verdict['ours']}, reported {verdict['reported']}: {verdict['is']}")
 
-# A run that is held: two futures of one instant.
+# A run that is controlled by the program: two continuations from the same time.
 leg = sinew.Simulation(walk)
 leg.advance(2.2)
 soft = leg.copy()
@@ -44,7 +44,7 @@ print(
     f"to {best['joints.hip.tracking_rms [deg]']:.2f} deg"
 )
 
-# The laws alone, over arrays.
+# Laws without a simulation, for arrays.
 muscle = sinew.Actuator(sinew.shipped("robots/leg/actuator.toml"))
 length = numpy.array([0.065, 0.075, 0.085])
 pull = muscle.tension(length[:, None], numpy.array([2e5, 4e5]))

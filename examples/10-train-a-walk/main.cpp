@@ -1,12 +1,12 @@
-// Trains a faster walk by the cross-entropy method: legs walk with gaits drawn at random around the
-// best so far; the fastest say where the next are drawn.
+// Trains a faster walk with the cross-entropy method: legs walk with gaits drawn at random around
+// the best so far, and the fastest ones determine the next distribution.
 //
-//   train_a_walk [SHARE [GENERATIONS]]     the folder that has experiments/: the sources, or
-//                                          <prefix>/share/sinew
+//   train_a_walk [SHARE [GENERATIONS]]     SHARE is the folder that has experiments/: the sources,
+//                                          or <prefix>/share/sinew
 //
-// An action is, 20 times a second, how far each joint is to be from the plan's angle, and how much
-// stiffer. A gait is a matrix: the action is linear in what is seen and in the phase of the step.
-// It is judged with the noise of 20 seeds that it has never met.
+// An action is, 20 times per second, the offset of each joint from the plan's angle and a factor of
+// its stiffness. A gait is a matrix: the action is linear in the observation and the phase of the
+// step. The result is evaluated with the noise of 20 seeds that were not used in training.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,7 +63,7 @@ std::uint64_t dice(std::uint64_t generation, std::uint64_t number) {
   return z ^ (z >> 31);
 }
 
-// Normal but for its tails: the sum of twelve uniform numbers, less six.
+// Returns an approximately normal number: the sum of twelve uniform numbers, minus six.
 double normal(std::uint64_t generation, std::uint64_t number) {
   double sum = 0;
   for (std::uint64_t i = 0; i < 12; ++i)
@@ -71,15 +71,15 @@ double normal(std::uint64_t generation, std::uint64_t number) {
   return sum - 6;
 }
 
-// The walk of the thesis on a track of 20 m: its own ends where its walk does.
+// The walk of the thesis on a track of 20 m, since its track is not longer than its walk.
 class Track {
  public:
-  // The course runs an example once, to learn what the plan does.
+  // Runs the plan once, which the constructor of the course requires.
   explicit Track(const std::string& file)
       : walk_(run::buildable(file, {"trolley.track_length=20 m", "sequence.repeat=4"})),
         course_(task(), *std::make_unique<run::Simulation>(walk_)) {}
 
-  // How far a gait goes with a seed [m].
+  // Returns the distance of a gait with a seed [m].
   double way(const Gait& gait, int seed) const {
     experiment::Experiment walk = walk_;
     walk.seed = seed;
@@ -96,7 +96,7 @@ class Track {
     return way;
   }
 
-  // With each of 20 seeds from 10,000 on.
+  // Returns the distances with 20 seeds from 10,000 on.
   std::array<double, 20> judged(const Gait& gait) const {
     std::array<double, 20> ways;
     for (int i = 0; i < 20; ++i) ways[static_cast<std::size_t>(i)] = way(gait, 10'000 + i);
@@ -104,7 +104,7 @@ class Track {
   }
 
  private:
-  // The number of the phase becomes three numbers that are 0 or 1.
+  // Encodes the index of the phase as three numbers 0 or 1.
   static std::array<double, actions> action(const Gait& gait,
                                             const std::array<double, sights>& seen) {
     std::array<double, features> f;
@@ -122,7 +122,7 @@ class Track {
   run::Course course_;
 };
 
-// Where gaits are drawn: around a mean, so far apart.
+// Normal distribution of gaits: mean and standard deviation.
 struct Cloud {
   Gait mean{}, spread;
 
@@ -133,7 +133,7 @@ struct Cloud {
     return out;
   }
 
-  // Goes towards the best ones.
+  // Moves the distribution towards the best gaits.
   void move(const std::vector<Gait>& best) {
     const auto n = static_cast<double>(best.size());
     for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -151,7 +151,7 @@ double average(const Numbers& numbers) {
   return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
 }
 
-// Returns the average way of a generation [m].
+// Returns the mean distance of a generation [m].
 double generation(const Track& track, std::uint64_t number, Cloud& cloud) {
   std::vector<Gait> gaits;
   std::vector<double> ways;

@@ -1,9 +1,9 @@
-"""Trains a faster walk with numpy alone, by the cross-entropy method: sixteen legs side by side walk with
-gaits drawn at random around the best so far; the fastest say where the next are drawn.
+"""Trains a faster walk with the cross-entropy method, using only numpy: sixteen legs in parallel walk with
+gaits drawn at random around the best so far, and the fastest ones determine the next distribution.
 
-An action is, 20 times a second, how far each joint is to be from the plan's angle, and how much stiffer. A gait is
-a matrix: the action is linear in what is seen and in the phase of the step. It is judged with the noise of 20 seeds
-that it has never met.
+An action is, 20 times per second, the offset of each joint from the plan's angle and a factor of its stiffness. A
+gait is a matrix: the action is linear in the observation and the phase of the step. The result is evaluated with
+the noise of 20 seeds that were not used in training.
 """
 
 import sys
@@ -32,23 +32,23 @@ def dice(generation: int, count: int) -> Any:
 
 
 def normals(generation: int, shape: Any) -> Any:
-    """Return numbers that are normal but for their tails: the sum of twelve uniform ones, less six."""
+    """Return approximately normal numbers: the sum of twelve uniform ones, minus six."""
     uniform = (dice(generation, 12 * int(numpy.prod(shape))) >> numpy.uint64(11)) * 2.0**-53
     return sum(uniform.reshape(-1, 12).T).reshape(shape) - 6
 
 
 def features(seen: Any) -> Any:
-    """Return what is seen, the number of the phase as three numbers that are 0 or 1."""
+    """Return the observation, with the index of the phase as three numbers 0 or 1."""
     phases = numpy.round(seen[:, phase_at, None]) == numpy.arange(3)
     return numpy.concatenate([phases, numpy.delete(seen, phase_at, axis=1)], axis=1)
 
 
 def walk(gaits: Any, seeds: Any) -> Any:
-    """Return how far each gait goes with its seed [m]."""
+    """Return the distance of each gait with its seed [m]."""
     seen, _ = envs.reset(seed=[int(s) for s in seeds])
     way, walks = numpy.zeros(ENVS), numpy.ones(ENVS, bool)
     while walks.any():
-        # One after the other, as in C++: numpy's own product adds in an order of the computer's.
+        # Summed in the same order as in C++: the order in numpy's product depends on the computer.
         action = sum(gaits[:, :, j] * f[:, None] for j, f in enumerate(features(seen).T))
         seen, reward, terminated, truncated, _ = envs.step(numpy.clip(action, -1, 1))
         way += reward * walks
@@ -57,7 +57,7 @@ def walk(gaits: Any, seeds: Any) -> Any:
 
 
 def judged(gait: Any, seeds: Any) -> Any:
-    """Return how far one gait goes with each seed [m]; the last ones may stand for a full row."""
+    """Return the distance of one gait with each seed [m]; the last batch is filled up."""
     rows = [numpy.resize(seeds[i : i + ENVS], ENVS) for i in range(0, len(seeds), ENVS)]
     return numpy.concatenate([walk(numpy.tile(gait, (ENVS, 1, 1)), row) for row in rows])[: len(seeds)]
 

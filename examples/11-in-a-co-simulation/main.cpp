@@ -1,5 +1,5 @@
-// A braided muscle as an FMU in a co-simulation master of somebody else's, at 1 kHz. Class Slave
-// knows nothing of Sinew: any FMU of FMI 2.0 with these variables would do.
+// A braided muscle as an FMU in an external co-simulation master at 1 kHz. Class Slave does not
+// depend on Sinew: it works with any FMU of FMI 2.0 with these variables.
 #include <dlfcn.h>
 
 #include <array>
@@ -27,7 +27,7 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What stands between the first `begin` from `from` on and the quote after it.
+// Returns the text between the first `begin` after `from` and the following quote.
 std::string quoted(const std::string& text, const std::string& begin, std::size_t from = 0) {
   const std::size_t at = text.find(begin, from);
   if (at == std::string::npos) throw std::runtime_error("modelDescription.xml has no " + begin);
@@ -35,8 +35,8 @@ std::string quoted(const std::string& text, const std::string& begin, std::size_
   return text.substr(first, text.find('"', first) - first);
 }
 
-// An FMU of FMI 2.0: unpacked, loaded, instantiated. Values by name, all of them real but the
-// valves' currents.
+// FMU of FMI 2.0: loads and instantiates it. Values are accessed by name; all are real except for
+// the valves' currents.
 class Slave {
  public:
   explicit Slave(const fs::path& folder) : description_(text_of(folder / "modelDescription.xml")) {
@@ -44,13 +44,13 @@ class Slave {
     library_ = dlopen((folder / "binaries/linux64" / (name + ".so")).c_str(), RTLD_NOW);
     if (!library_) throw std::runtime_error(dlerror());
     using Make = void* (*)(const char*, int, const char*, const char*, const void*, int, int);
-    const std::array<void*, 5> callbacks{};  // no log, no memory of ours
+    const std::array<void*, 5> callbacks{};  // no logger and no allocation functions
     const auto make = reinterpret_cast<Make>(dlsym(library_, "fmi2Instantiate"));
     handle_ = make(name.c_str(), 1, quoted(description_, "guid=\"").c_str(),
                    (folder / "resources").c_str(), callbacks.data(), 0, 0);
   }
 
-  // Calls a function of the FMU with its handle in front.
+  // Calls a function of the FMU with its handle as first argument.
   template <class... Arguments>
   void call(const char* function, Arguments... arguments) {
     const auto entry = reinterpret_cast<int (*)(void*, Arguments...)>(dlsym(library_, function));
@@ -99,7 +99,7 @@ struct Lever {
   double angle = 0, rate = 0;  // [rad], [rad/s]
 };
 
-// The lever a step later, in ten small ones under a constant pull.
+// Returns the lever a step later, computed in ten small steps with constant tension.
 Lever moved(Lever lever, double tension) {
   for (int k = 0; k < 10; ++k) {
     lever.rate += step / 10 * (arm * tension - weight - damping * lever.rate) / inertia;
@@ -109,7 +109,7 @@ Lever moved(Lever lever, double tension) {
   return lever;
 }
 
-// Our controller, our body and their muscle, from one millisecond to another.
+// Runs our controller, our body and the FMU's muscle from one millisecond to another.
 Lever run(Slave& muscle, Lever lever, int begin, int end, bool pulses) {
   for (int k = begin; k < end; ++k) {
     muscle.turn("inlet", pulses && lever.angle < 0.4363 && k % 25 < 6);
@@ -128,7 +128,7 @@ void row(int milliseconds, const Lever& lever, Slave& muscle) {
               1e6 * muscle.get("air_mass"));
 }
 
-// Makes the FMU and unpacks it, as a master does.
+// Makes the FMU and unpacks it as a master does.
 fs::path unpacked(const fs::path& folder, const std::string& modules) {
   const sinew::fmu::Fmu made =
       sinew::fmu::make_fmu({.file = "../08-your-own-loop/muscle.toml", .modules = modules});
@@ -162,7 +162,7 @@ void simulate(const fs::path& folder, const std::string& modules) {
   lever = run(muscle, lever, 400, 800, true);
   row(800, lever, muscle);
 
-  // Back to 400 ms: both valves stay shut from there on.
+  // Back to 400 ms; from there on both valves stay closed.
   muscle.back_to(state);
   lever = run(muscle, kept, 400, 800, false);
   std::printf("again from 400 ms, with the valves shut:\n");
@@ -171,7 +171,7 @@ void simulate(const fs::path& folder, const std::string& modules) {
 
 }  // namespace
 
-// The folder share/sinew of an installation, or nothing where that is below /usr/local or /usr.
+// Argument: the folder share/sinew of an installation; not needed below /usr/local or /usr.
 int main(int argc, char** argv) {
   const std::string modules = argc > 1 ? std::string(argv[1]) + "/../../lib/sinew" : "";
   std::string folder = (fs::temp_directory_path() / "lesson-11-XXXXXX").string();

@@ -1,5 +1,5 @@
-"""A braided muscle as an FMU in a co-simulation master of somebody else's, at 1 kHz. Below `Slave`
-nothing is known of Sinew: any FMU of FMI 2.0 with these variables would do."""
+"""A braided muscle as an FMU in an external co-simulation master at 1 kHz. Class Slave does not depend on
+Sinew: it works with any FMU of FMI 2.0 with these variables."""
 
 import ctypes
 import math
@@ -18,8 +18,8 @@ REST = 0.0864  # length at angle 0 [m]
 
 
 class Slave:
-    """An FMU of FMI 2.0: unpacked, loaded, instantiated. Values by name, all of them real but the
-    valves' currents."""
+    """FMU of FMI 2.0: unpacks, loads and instantiates it. Values are accessed by name; all are real except for
+    the valves' currents."""
 
     def __init__(self, path: str) -> None:
         folder = tempfile.mkdtemp()
@@ -34,7 +34,7 @@ class Slave:
             self.references[variable.get("name", "")] = int(variable.get("valueReference", ""))
         make = self.lib.fmi2Instantiate
         make.restype = ctypes.c_void_p
-        callbacks = (ctypes.c_void_p * 5)()  # no log, no memory of ours
+        callbacks = (ctypes.c_void_p * 5)()  # no logger and no allocation functions
         self.handle = ctypes.c_void_p(
             make(name.encode(), 1, root.get("guid", "").encode(), f"{folder}/resources".encode(),
                  callbacks, 0, 0)
@@ -80,7 +80,7 @@ Lever = Tuple[float, float]  # angle [rad], rate [rad/s]
 
 
 def moved(lever: Lever, tension: float) -> Lever:
-    """Return the lever a step later, in ten small ones under a constant pull."""
+    """Return the lever a step later, computed in ten small steps with constant tension."""
     angle, rate = lever
     for _ in range(10):
         rate += STEP / 10 * (ARM * tension - WEIGHT - DAMPING * rate) / INERTIA
@@ -91,7 +91,7 @@ def moved(lever: Lever, tension: float) -> Lever:
 
 
 def run(muscle: Slave, lever: Lever, begin: int, end: int, pulses: bool) -> Lever:
-    """Our controller, our body and their muscle, from one millisecond to another."""
+    """Run our controller, our body and the FMU's muscle from one millisecond to another."""
     for k in range(begin, end):
         muscle.switch("inlet", pulses and lever[0] < 0.4363 and k % 25 < 6)
         later = moved(lever, muscle.get("tension"))
@@ -127,7 +127,7 @@ for k in range(400, 801, 400):
     if k == 400:
         kept = (lever, muscle.state())
 
-# Back to 400 ms: both valves stay shut from there on.
+# Back to 400 ms; from there on both valves stay closed.
 lever, state = kept
 muscle.back_to(state)
 lever = run(muscle, lever, 400, 800, pulses=False)

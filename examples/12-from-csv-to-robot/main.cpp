@@ -1,7 +1,7 @@
-// From a CSV of forces that somebody measured to a robot that moves with such muscles: its law, its
-// best gain, and how heavy a forearm it moves.
+// From a CSV of measured forces to a robot with such muscles: their law, its best gain, and the
+// heaviest forearm that it moves.
 //
-//   from_csv_to_robot [SHARE]     the folder that has robots/: the sources, or
+//   from_csv_to_robot [SHARE]     SHARE is the folder that has robots/: the sources, or
 //                                 <prefix>/share/sinew; run it in this lesson's folder
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 const std::string csv = "../../data/martens_boblan_2017/DMSP-10-250_force_map.csv";
 
-// The columns of the file are not named as ours are; a force map says nothing of the rest length.
+// The columns of the file have other names, and a force map does not contain the rest length.
 std::string actuator_file() {
   const identify::Source map{
       .path = csv,
@@ -40,7 +40,7 @@ std::string actuator_file() {
   return found.files.front();
 }
 
-// Returns the gain that tracks best, as the table has it.
+// Returns the gain with the smallest tracking error, as text of the table.
 std::string best_gain(const std::string& experiment) {
   const std::string tracking = "joints.elbow.tracking_rms_rad [deg]";
   const tune::Sweep gains =
@@ -56,7 +56,7 @@ std::string best_gain(const std::string& experiment) {
       .cells[0];
 }
 
-// How heavy a forearm it moves within five degrees: the largest value for which that holds.
+// Finds the heaviest forearm that it moves with a tracking error below five degrees.
 double heaviest(const std::string& experiment, const std::string& gain) {
   tune::Study question{.experiment = experiment};
   question.set = {"joint.elbow.angle_gain=" + gain + " %/count"};
@@ -77,7 +77,7 @@ void build(const std::string& share, const fs::path& folder) {
   std::printf("\nwith %s %%/count it moves a forearm of up to %.2f kg within 5 deg\n", gain.c_str(),
               heaviest(experiment, gain));
 
-  // Kept, so that its page can be opened.
+  // Stored, so that its page can be opened.
   const auto kept = run::run_and_keep({.experiment = experiment,
                                        .folder = folder / "run",
                                        .sets = {"joint.elbow.angle_gain=" + gain + " %/count"}});

@@ -1,5 +1,5 @@
-"""From a CSV of forces that somebody measured to a robot that moves with such muscles: its law, its best gain,
-and how heavy a forearm it moves."""
+"""From a CSV of measured forces to a robot with such muscles: their law, its best gain, and the heaviest
+forearm that it moves."""
 
 import math
 import os
@@ -14,7 +14,7 @@ import sinew.identify
 here = os.path.dirname(os.path.abspath(__file__))
 csv = "../../data/martens_boblan_2017/DMSP-10-250_force_map.csv"
 
-# The file's columns are pressure [Pa gauge], length [m] and force [N]; a force map says nothing of the rest length.
+# The file's columns are pressure [Pa gauge], length [m] and force [N]; a force map does not contain the rest length.
 pressure, length, force = numpy.loadtxt(os.path.join(here, csv), delimiter=",", skiprows=1).T
 found = sinew.identify.static(length, pressure, force, rest_length=0.25, source=csv)
 law = next(model for model in found.report["models"] if model["model"] == found.model)
@@ -33,7 +33,7 @@ with tempfile.TemporaryDirectory() as folder:
     found.write(f"{folder}/muscle.toml")
     experiment = sinew.Experiment(f"{folder}/experiment.toml")
 
-    # The gain that tracks best.
+    # The gain with the smallest tracking error.
     rows = sinew.sweep(
         experiment,
         ["joint.elbow.angle_gain=0.04:0.16:7 %/count"],
@@ -49,7 +49,7 @@ with tempfile.TemporaryDirectory() as folder:
     best = min(rows, key=lambda row: float(row["joints.elbow.tracking_rms [deg]"]))
     gain = best["joint.elbow.angle_gain [%/count]"]
 
-    # How heavy a forearm it moves within five degrees: the largest value for which that holds.
+    # The heaviest forearm that it moves with a tracking error below five degrees.
     tuned = experiment.vary({"joint.elbow.angle_gain": f"{gain} %/count"})
     masses = sinew.sweep(
         tuned,
@@ -61,7 +61,7 @@ with tempfile.TemporaryDirectory() as folder:
     mass = masses[0]["largest link.forearm.mass [kg]"]
     print(f"\nwith {gain:g} %/count it moves a forearm of up to {mass:.2f} kg within 5 deg")
 
-    # Kept, so that its page can be opened.
+    # Stored, so that its page can be opened.
     run = sinew.run(tuned, folder=f"{folder}/run")
     moved = math.degrees(run.summary["joints"]["elbow"]["excursion_rad"])
     print(

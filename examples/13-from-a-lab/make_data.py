@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Makes the two files of this lesson, as a laboratory in Germany would have recorded them.
+"""Writes the two files of this lesson, as a laboratory in Germany would have recorded them.
 
     make_data.py SINEW
 
-No laboratory has: the muscle on the rig is that of truth.toml, and the machine that was recorded is a
-simulation with a heavier lever, more damping and more friction than the robot of the lesson has. The
-force cell, the encoder and the pressure sensors are noisy, and the recorder's clock runs 0.3 % fast.
-So one knows what the lesson should find.
+The data are simulated: the muscle on the rig is that of truth.toml, and the recorded machine has a heavier
+lever, more damping and more friction than the robot of the lesson. The force cell, the encoder and the
+pressure sensors are noisy, and the recorder's clock is 0.3 % fast. The correct result of the lesson is
+therefore known.
 """
 import csv
 import json
@@ -21,15 +21,15 @@ SINEW = str(pathlib.Path(sys.argv[1]).resolve())
 HERE = pathlib.Path(__file__).resolve().parent
 NOISE = random.Random(13)
 
-# The machine that was recorded, beside the robot of the lesson.
+# Differences of the recorded machine from the robot of the lesson.
 OTHERWISE = {
     "link.lever.mass": "0.30 kg",
     "link.lever.inertia": "580 kg mm2",
     "joint.lever.damping": "0.12 N m s/rad",
     "joint.lever.dry_friction": "0.09 N m",
 }
-CLOCK = 1.003  # the recorder counts 1.003 s in a second
-STARTED = 1.37  # it was switched on so long before the machine [s]
+CLOCK = 1.003  # the recorder counts 1.003 s per second
+STARTED = 1.37  # the recorder was started this long before the machine [s]
 
 
 def sinew(*words: str, cwd: Union[str, pathlib.Path]) -> str:
@@ -41,12 +41,12 @@ def german(value: float, digits: int) -> str:
 
 
 def write(name: str, lines: List[str]) -> None:
-    # Excel's own way: a byte order mark, CR LF, semicolons.
+    # As Excel writes it: a byte order mark, CR LF, semicolons.
     (HERE / name).write_bytes(("\ufeff" + "\r\n".join(lines) + "\r\n").encode())
 
 
 def force_map() -> None:
-    """Seven pressures, each with twelve lengths there and back."""
+    """Measure at seven pressures, each with twelve lengths up and down."""
     lengths = [150 + 5 * i for i in range(12)]
     rows = []
     for pressure in (0.5, 1, 2, 3, 4, 5, 6):
@@ -54,7 +54,7 @@ def force_map() -> None:
             out = sinew("actuator", "truth.toml", "--length", f"{length} mm", "--pressure",
                         f"{pressure} bar gauge", "--json", cwd=HERE)
             force = json.loads(out)["points"][0]["tension_N"]
-            # A muscle that is slack does not push the cell.
+            # A slack muscle does not push on the force cell.
             rows.append((length + NOISE.gauss(0, 0.05), pressure + NOISE.gauss(0, 0.004),
                          max(force, 0) + NOISE.gauss(0, 0.3)))
     lines = ["Prüfstand 2;;", "Länge (mm);Druck (bar);Kraft (N)"]
@@ -63,9 +63,9 @@ def force_map() -> None:
 
 
 def recording() -> None:
-    """The machine at 100 Hz, ten times up and down: angle, and pressures as gauges read them."""
+    """Record the machine at 100 Hz, ten times up and down: angle and gauge pressures."""
     with tempfile.TemporaryDirectory() as work:
-        # The robot is built around the muscle that the lesson finds, and then gets the true one.
+        # The robot is made with the muscle that the lesson identifies, and then gets the true one.
         muscle = pathlib.Path(work) / "muskel.toml"
         sinew("identify", "static", str(HERE / "kennlinie.csv"), "--map", "length=Länge,pressure=Druck,force=Kraft",
               "--unit", "Druck=bar gauge", "--rest-length", "200 mm", "--name", "muskel", "-o", str(muscle), cwd=work)

@@ -1,5 +1,5 @@
-// The C++ lines of README.md: a muscle is filled for 20 ms, then both valves are shut, while its
-// length is changed from outside.
+// The C++ lines of README.md: a muscle is filled for 20 ms, then both valves are closed, while its
+// length is prescribed.
 #include <cstdio>
 #include "sinew/muscle.h"
 int main() {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The command lines of README.md, in a folder of their own, and one number of what each block prints.
+# The command lines of README.md, run in a separate folder, and one number of the output of each block.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)

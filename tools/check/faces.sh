@@ -1,9 +1,9 @@
-# faces.sh - functions of ./check, which reads this file: each prints what it found in its last line.
+# faces.sh - steps of ./check faces. Each prints its result in its last line.
 # shellcheck shell=bash disable=SC2154  # build, logs, jobs are set by ./check
 
 step_tools() { tools/install-dependencies.sh faces; }
 
-# All that is installed: the program, its modules, the Python package, FMU modules, manual.
+# Builds everything that is installed: the program, its modules, the Python package, FMU modules, manual.
 build_all() { build_preset all; }
 
 step_modules() { build_all && echo "modules: $(find "$build/lib/sinew" -name '*.so' | wc -l), the Python package, manual and completion"; }
@@ -13,12 +13,12 @@ step_clocks() {
     run_ctest release -- -L '^clock$'
 }
 
-# How often intervals hold the truth.
+# Checks how often intervals contain the true value.
 step_coverage() {
   build_program && cmake --build "$build" --target sinew_identify_test && run_ctest release -- -L '^coverage$'
 }
 
-# Each guard with the few tries that are its own; ./check long NAME tries in quantity.
+# Runs each guard with its default number of tries; ./check long NAME runs many.
 step_guards() {
   build_all && cmake --build "$build" --target sinew_guards_test &&
     run_ctest release -- -L '^guard$' -E 'BoardsEmulated'
@@ -64,7 +64,7 @@ step_web() {
       --set "joint.lever.damping=0.7 lbf in s/rad" >/dev/null &&
     "$sinew" compare "$runs"/lever{,-measured} --align correlation --clock fit -o "$runs/compare/measured.html" --quiet >/dev/null || return 1
   "$sinew" compare "$runs/long" "$runs/long-other" -o "$runs/compare/long.html" --quiet >/dev/null || return 1
-  rm "$runs"/long*/log.mcap  # large, and done with
+  rm "$runs"/long*/log.mcap  # large and no longer needed
   mkdir "$runs/study" && for name in walk/64 other/16; do
     "$sinew" sweep experiments/walk-test-1.toml --points "${name#*/}" --range "joint.hip.angle_gain=0.02:0.08 %/count log" \
       --range "link.femur.length=10:15 in" --vary "low_level.duty_rounding=none,truncate sum" --results "$runs/study/${name%/*}.db" \
@@ -86,7 +86,7 @@ step_install() {
   cmake --install "$build" --prefix "$prefix" >/dev/null || return 1
   "$prefix/bin/sinew" --version || return 1
 
-  # Programs that ask for a part need none of what only other parts use.
+  # Programs that use one component do not need the libraries of others.
   local other
   other=$(printf -- '-DCMAKE_DISABLE_FIND_PACKAGE_%s=ON ' Ceres Eigen3 nlohmann_json)
   SINEW_PREFIX=$prefix SINEW_CMAKE_FLAGS=$other tools/examples.sh --cpp 04-consumer || return 1
@@ -110,7 +110,7 @@ step_python() {
   build_all || return 1
   python/tests/run.sh "$build" || return 1
   SINEW_BUILD=$build tools/notebooks.py || return 1
-  # What a cell shows, which the notebooks in the tree do not hold.
+  # The HTML of a cell, which the committed notebooks do not contain.
   PYTHONPATH=$build/python /usr/bin/python3 -c 'import sinew, sys
 sys.stdout.write(sinew.run(sinew.shipped("experiments/walk-test-1.toml"))._repr_html_())' >"$logs/cell.html" &&
     node python/tests/notebook_offline.mjs "$logs/cell.html" || return 1
@@ -118,12 +118,12 @@ sys.stdout.write(sinew.run(sinew.shipped("experiments/walk-test-1.toml"))._repr_
   rm -rf "$prefix"
   cmake --install "$build" --prefix "$prefix" >/dev/null || return 1
   SINEW_PREFIX=$prefix tools/examples.sh --python || return 1
-  echo "python: types, tests, notebooks; an installed one: the lessons"  # its journey: step package
+  echo "python: types, tests, notebooks; an installed one: the lessons"  # its installation: step package
 }
 
 step_fmu() {
   build_all && fmu/tests/run.sh "$build" 2>&1 | tee "$logs/fmu-tests" || return 1
-  echo "fmu: $(sed -n 's/^Ran \([0-9]*\) tests.*/\1/p' "$logs/fmu-tests") tests by an importer of their own"
+  echo "fmu: $(sed -n 's/^Ran \([0-9]*\) tests.*/\1/p' "$logs/fmu-tests") tests with a test importer"
 }
 
 step_site() {

@@ -1,10 +1,10 @@
-# long.sh - functions of ./check, which reads this file: each prints what it found in its last line.
+# long.sh - steps of ./check long. Each prints its result in its last line.
 # shellcheck shell=bash disable=SC2154  # build, logs, jobs are set by ./check
 
 step_tools_long() { tools/install-dependencies.sh long; }
 
-# With a layout of memory that the sanitizer knows. Where the address space is laid out at random
-# over more bits than that, its programs end before their first test.
+# Runs without address space randomization. The thread sanitizer ends before the first test if the kernel
+# randomizes more bits than it supports.
 step_threads() {
   cmake --preset tsan && cmake --build --preset tsan || return 1
   local same_layout=(setarch "$(uname -m)" -R)
@@ -18,8 +18,8 @@ step_threads() {
   run_ctest tsan "${same_layout[@]}" -- -R "^threads:"
 }
 
-# All tests of one program under the address and undefined-behaviour sanitizers; "transcripts" are those
-# of tests/cli/*.txt with the program built so.
+# Runs all tests of one program under the address and undefined-behaviour sanitizers; "transcripts" runs
+# those of tests/cli/*.txt with the program built in this way.
 step_asan() {  # step_asan PROGRAM
   cmake --preset asan || return 1
   if [[ $1 == transcripts ]]; then
@@ -31,10 +31,10 @@ step_asan() {  # step_asan PROGRAM
 
 step_firmware() {
   cmake --preset firmware && cmake --build --preset firmware || return 1
-  # It skips without tools; here they are.
+  # The script skips its comparison without the tools; here they are installed.
   firmware/same-bits.sh build/firmware | tee "$logs/same-bits" && grep -q agree "$logs/same-bits" || return 1
   firmware/worst-tick.sh build/firmware | tee "$logs/worst-tick" && grep -q '^worst-tick: worst_tick' "$logs/worst-tick" || return 1
-  # The emulator keeps time by the clock: one test at a time.
+  # The emulator runs in real time: one test at a time.
   build_program && cmake --build "$build" --target sinew_firmware_test && jobs=1 run_ctest release -- -L '^long$' -R '^firmware: '
 }
 
@@ -50,9 +50,9 @@ step_fuzz() {
   echo "fuzz: ${#names[@]} harnesses, $(cat "$logs"/fuzz/*/tries | awk '{ n += $1 } END { print n }') inputs, nothing found"
 }
 
-# Every header can be the first that a file includes.
+# Checks that every header compiles as the first include of a file.
 step_headers() {
-  # The functions of FMI come after what says which models there are.
+  # The FMI function headers must be included after the header that declares the models.
   find sinew thesis fmu -name '*.h' ! -name 'fmi*_functions.h' -print0 | xargs -0 -I'{}' -P "$jobs" \
     g++ -std=c++20 -fsyntax-only -Wall -Wextra -Werror -Wno-missing-field-initializers -I. \
       -include '{}' -x c++ /dev/null || return 1
@@ -63,8 +63,8 @@ step_clang() {
   cmake --preset clang && cmake --build --preset clang && run_ctest clang -- -L '^tests$'
 }
 
-# Each file says which candidate of its plan it is. What is left out are words: where the plan and the
-# base stand, and that each value is tuned.
+# Repeats the tunings. Each file of experiments/tuned names its candidate. The comparison ignores comments,
+# the path of the base, and the sources of values.
 step_tunings() {
   build_program || return 1
   local file name number again=$logs/tunings count=0
@@ -73,14 +73,14 @@ step_tunings() {
   for file in experiments/tuned/*.toml; do
     name=$(basename "$file" .toml)
     number=$(sed -n '1s/^# Candidate \([0-9]*\) .*/\1/p' "$file")
-    [[ $number ]] || { echo "$file: does not say which candidate it is"; return 1; }
+    [[ $number ]] || { echo "$file: the first line does not name the candidate; expected \"# Candidate N ...\""; return 1; }
     rm -f "$again/$name".*
     "$build/bin/sinew" tune "studies/$name.toml" --results "$again/$name.db" --candidate "$number" \
       --best "$again/$name.toml" -o "$again/$name.csv" || return 1
     diff <(sed "$words" "$file") <(sed "$words" "$again/$name.toml") || return 1
     count=$((count + 1))
   done
-  echo "tunings: $count made again, the same"
+  echo "tunings: $count repeated with equal results"
 }
 
 step_resets() {
@@ -88,12 +88,12 @@ step_resets() {
   grep -o 'memory: .*' "$logs/resets.log" | tail -n 1
 }
 
-# A guard of the table, or the sanitizers of a program: asan-PROGRAM.
+# Runs a guard of the table with many tries, or a program under sanitizers: asan-PROGRAM.
 step_guard() {  # step_guard NAME
   [[ $1 != asan-* ]] || { step_asan "${1#asan-}"; return; }
   local log=$logs/guard-$1 tries suite
   tries=${SINEW_GUARD_COUNT:-$(column "$1" 4)}
-  # Its tests are those of its file.
+  # The tests of a guard are those of its file.
   suite=$(sed -nE 's/^TEST(_F|_P)?\(([A-Za-z]+),.*/\2/p' "tests/guards/${1//-/_}_test.cpp" | sort -u | paste -s -d '|')
   build_all && cmake --build "$build" --target sinew_guards_test || return 1
   SINEW_GUARD_COUNT=$tries ctest --preset release --no-tests=error --verbose --parallel "$jobs" --timeout 7200 \

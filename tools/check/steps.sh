@@ -1,9 +1,9 @@
-# steps.sh - functions of ./check, which reads this file: each prints what it found in its last line.
+# steps.sh - steps of ./check. Each prints its result in its last line.
 # shellcheck shell=bash disable=SC2154  # build, logs, jobs are set by ./check
 
 step_dependencies() { tools/install-dependencies.sh check; }
 
-step_format() { tools/format.sh && echo "clang-format: in order"; }
+step_format() { tools/format.sh && echo "clang-format: all files are formatted"; }
 
 step_layers() { tools/layers.sh && tools/layers.sh --self-test; }
 
@@ -31,7 +31,7 @@ step_docs() {
   tools/links.sh && tools/snippets.sh
 }
 
-# Configures and builds PRESET, one step at a time: ./check faces runs some beside others.
+# Configures and builds PRESET; a lock serializes builds, since ./check faces runs some steps in parallel.
 build_preset() {  # build_preset PRESET
   flock 9 && tools/npm-ci.sh web && cmake --preset release && cmake --build --preset "$1"
 } 9>"$logs/building"
@@ -46,14 +46,15 @@ step_tests() {
   build_program && cmake --build --preset tests && run_ctest release -- -L '^tests$' && slow_tests_have_reasons
 }
 
-# A test of more than a second has a reason in tests/slow.txt. Three, so that a busy computer does not decide.
+# Checks that slow tests have a reason in tests/slow.txt. The limit of a test is one second; three are allowed
+# here, since the computer may be busy.
 slow_tests_have_reasons() {
   awk '
     NR == FNR { if (!/^#/ && sub(/   .*/, "")) known[$0]; next }
     / Test: / { name = $0; sub(/^.* Test: /, "", name) }
     /^Test time = / && $4 > 3 {
       for (k in known) if (index(name, k) == 1) next
-      print name ": took " $4 " s; make it quicker, or say in tests/slow.txt why it cannot be"
+      print name ": took " $4 " s; make it faster, or state in tests/slow.txt why it cannot be"
       wrong = 1
     }
     END { exit wrong }' tests/slow.txt "$build/Testing/Temporary/LastTest.log"
@@ -69,9 +70,9 @@ step_experiments() {
     "$build/bin/sinew" run "$file" -o "$runs/${file%.toml}" --quiet || return 1
     count=$((count + 1))
   done
-  # What each is reported to do, with class and verdict, is as the list has it.
+  # Compares the reported results, with class and verdict, with the list.
   SINEW=$build/bin/sinew RUNS=$runs tools/statements.sh experiments || return 1
-  rm -rf "$runs"  # large, and done with
+  rm -rf "$runs"  # large and no longer needed
   echo "experiments: $count run, their statements are as listed"
 }
 
@@ -87,14 +88,14 @@ step_mcap() {
   "$sinew" run experiments/one-joint.toml -o "$run" >/dev/null || return 1
   node "$reader" whole "$run/log.mcap" || return 1
 
-  # A finished log of which the end is lost: chunks are read up to the torn one.
+  # In a truncated log, chunks are read up to the incomplete one.
   size=$(stat -c %s "$run/log.mcap")
   for share in 50 99; do
     head -c $((size * share / 100)) "$run/log.mcap" >"$run/cut.mcap"
     node "$reader" cut "$run/cut.mcap" || return 1
   done
 
-  # A run that is killed: no chunks yet, every message is its own.
+  # The log of a killed run has no chunks yet, only single messages.
   "$sinew" run experiments/one-joint.toml -o "$run-killed" --pace 4 --quiet >/dev/null &
   sleep 1.5
   kill -9 $! && { wait $! || true; }
@@ -110,14 +111,14 @@ step_figures() {
   for file in "$out"/*.gp; do
     [[ -s ${file%.gp}.svg && -s ${file%.gp}.png ]] || { echo "$file: not drawn"; return 1; }
   done
-  # What is stated of them, with class and verdict, is as the list has it.
+  # Compares their claims, with class and verdict, with the list.
   FIGURES=$out tools/statements.sh figures || return 1
   count=$(grep -c '"figure":' "$out/index.json")
   echo "figures: $count drawn, their statements are as listed"
 }
 
-# --- what they share ------------------------------------------------------------------------------
-run_ctest() {  # run_ctest PRESET [COMMAND...] -- OPTIONS...: ctest, by way of the command
+# --- common functions -----------------------------------------------------------------------------
+run_ctest() {  # run_ctest PRESET [COMMAND...] -- OPTIONS...: runs ctest, as an argument of COMMAND if given
   local preset=$1 log=$logs/ctest-$1 through=()
   shift
   while [[ $1 != -- ]]; do
@@ -132,8 +133,8 @@ run_ctest() {  # run_ctest PRESET [COMMAND...] -- OPTIONS...: ctest, by way of t
   summary "$log" ''
 }
 
-# Prints the tests that failed with their output again, and their names once more at the end, since
-# ./check shows the end of what a step prints.
+# Prints the failed tests with their output again, and their names at the end, since ./check shows the end
+# of the output of a step.
 show_failed_tests() {  # show_failed_tests LOG
   awk '/^ +Start +[0-9]+: / { fails = 0 }
     /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { fails = /\*\*\*/ && !/\*\*\*Skipped/; if (fails) names = names $0 "\n" }
@@ -141,7 +142,7 @@ show_failed_tests() {  # show_failed_tests LOG
     END { printf "\nFailed:\n%s", names }' "$1"
 }
 
-summary() {  # summary LOG WORDS: the step's last line
+summary() {  # summary LOG WORDS: prints the step's last line
   local passed
   passed=$(grep 'tests passed' "$1") || return 1
   echo "${2:-$passed}"

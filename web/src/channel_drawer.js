@@ -1,12 +1,12 @@
-// The list of a run's channels: found by words, dragged onto a plot, or added from a menu.
+// List of a run's channels. A reader searches it and drags channels onto a plot or adds them from a menu.
 import { element } from './page.js';
 import { menu_button } from './menu.js';
 import { dragged } from './dragging.js';
 
-const most = 400;  // rows at once
+const most = 400;  // rows shown at once
 
 export class ChannelDrawer {
-  // `entries_for` gives the menu of a channel: where it can be added to.
+  // `entries_for` returns the menu of a channel: the plots that it can be added to.
   constructor(root, channels, units, { entries_for, on_formula }) {
     Object.assign(this, { root, channels, units, entries_for });
     this.field = element('input', { type: 'search', placeholder: 'Search channels', 'aria-label': 'Search channels' });
@@ -15,7 +15,7 @@ export class ChannelDrawer {
     formula.addEventListener('click', on_formula);
     this.rows = element('ul', { class: 'channel-rows' });
     root.append(element('div', { class: 'search' }, this.field, formula),
-      element('p', { class: 'quiet' }, 'Drag a channel onto a plot, or between the plots for a new one. A plot can be dragged onto another, too.'), this.rows);
+      element('p', { class: 'quiet' }, 'Drag a channel onto a plot, or onto the field above the plots for a new one. A plot can also be dragged onto another plot.'), this.rows);
   }
 
   toggle() {
@@ -33,7 +33,7 @@ export class ChannelDrawer {
       return words.every((w) => text.includes(w));
     });
     this.rows.replaceChildren(...found.slice(0, most).map((c) => this.row(c)));
-    if (!found.length) this.rows.append(element('li', { class: 'quiet' }, 'No channel has these words.'));
+    if (!found.length) this.rows.append(element('li', { class: 'quiet' }, 'No channel matches.'));
   }
 
   row(channel) {

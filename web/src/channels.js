@@ -1,9 +1,9 @@
-// The channels of a run, by their ids: what a plot can show, and a formula can name.
+// Channels of a run by id. Plots show them and formulas refer to them.
 
 export const id_of_line = (line) => (line.field ? `${line.topic}.${line.field}` : line.topic);
 
 export class ChannelList {
-  // `run.panels` name all of them.
+  // `run.panels` lists all channels.
   constructor(run, columns) {
     this.columns = columns;
     this.list = [];
@@ -23,7 +23,7 @@ export class ChannelList {
     return this.columns[this.by_id.get(id).column];
   }
 
-  // Counts those that have a number by now.
+  // Returns the channels that have at least one finite value so far.
   with_samples() {
     return this.list.filter((c) => (c.has ||= this.columns[c.column].values.some((v) => v === v)));
   }

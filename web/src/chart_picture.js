@@ -1,5 +1,5 @@
-// The picture of a chart: its points and lines in the view that is zoomed to, with those names that
-// are shown.
+// SVG picture of a chart: its points and lines within the current zoom, and a legend of the curves
+// that are shown.
 import { band_opacity, mark_path, point_path } from './chart_shapes.js';
 import { at, Picture } from './picture.js';
 
@@ -21,7 +21,7 @@ class ChartPicture extends Picture {
     return this.chart.color_of(curve, this.colors.lines, false) ?? this.chart.color(curve.color, this.colors.lines, false);
   }
 
-  // The mark of a legend has no color where it stands for curves of several.
+  // Legend entries for curves of several colors are grey.
   key(curve, x, y) {
     const several = curve.style === 'held out' || (curve.bold && this.chart.has_several_colors(curve.label));
     const color = several ? '#444' : this.color(curve);

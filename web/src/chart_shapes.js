@@ -1,6 +1,6 @@
-// Shapes of charts, as SVG paths, which a canvas takes as well: marks of what was left out, and bands.
+// Shapes of charts as SVG paths, which a canvas also accepts: marks of left-out points, and bands.
 
-// A hollow mark about (x, y), `r` in size; each number has its own.
+// Hollow marks around (x, y) of size `r`: cross, triangle, square, diamond.
 const marks = [
   (x, y, r) => `M${x - r} ${y - r}L${x + r} ${y + r}M${x - r} ${y + r}L${x + r} ${y - r}`,
   (x, y, r) => `M${x} ${y - 1.2 * r}L${x + 1.15 * r} ${y + 0.85 * r}L${x - 1.15 * r} ${y + 0.85 * r}Z`,
@@ -9,14 +9,14 @@ const marks = [
 ];
 export const mark_path = (mark, x, y, r) => marks[mark % marks.length](x, y, r);
 
-// The outline of a measured point, a disc but for a curve with a mark; larger of one held out.
+// Returns the outline of a measured point: a disc, or the curve's mark. Held-out points are larger.
 export function point_path(curve, x, y, r) {
   const size = curve.style === 'points' ? r : 1.25 * r;
   return curve.mark ? mark_path(curve.mark, x, y, 1.15 * size) : `M${x - size} ${y}a${size} ${size} 0 1 0 ${2 * size} 0a${size} ${size} 0 1 0 ${-2 * size} 0Z`;
 }
 
-// The area between the curve's lower and upper line, in pixels: a part for each stretch where both
-// are known, all in the same direction, so that parts that overlap are filled once.
+// Returns the area between the curve's lower and upper line, in pixels: one part for each stretch where
+// both are finite. All parts have the same direction, so that overlapping parts are filled once.
 export function band_path(curve, at_x, at_y) {
   let path = '', from = -1;
   const known = (i) => i < curve.x.length && Number.isFinite(curve.y[i]) && Number.isFinite(curve.y_high[i]);
@@ -35,10 +35,10 @@ export function band_path(curve, at_x, at_y) {
   return path;
 }
 
-// How dark a band is: that of 68 % lies within that of 95 %.
+// Opacity of a band. The 68 % band is drawn over the 95 % band and is darker.
 export const band_opacity = (label) => (label.startsWith('68') ? 0.3 : 0.17);
 
-// Returns what a curve looks like, for a legend 26 pixels wide.
+// Returns a sample of a curve for a legend, as SVG, 26 pixels wide.
 export function sample_of(curve) {
   const svg = (inner) => `<svg viewBox="0 0 26 10" width="26" height="10" aria-hidden="true">${inner}</svg>`;
   if (curve.style === 'band') return svg(`<rect width="26" height="10" fill="var(--line)" fill-opacity="${band_opacity(curve.label) + 0.1}"/>`);

@@ -1,5 +1,5 @@
-// One quantity against another: points and lines under axes of their own. uPlot draws the
-// axes; the curves, which need not go from left to right, are drawn here.
+// Charts of one quantity over another. uPlot draws the axes; the curves are drawn here, since their x
+// values need not increase.
 import uPlot from 'uplot';
 import { chart_picture } from './chart_picture.js';
 import { band_opacity, band_path, mark_path, point_path, sample_of } from './chart_shapes.js';
@@ -13,15 +13,15 @@ import { element } from './page.js';
 
 const usual_height = 270;
 const paper_width = 330;  // half of A4 and of Letter, between their margins [px]
-const near = 24;  // a point that the cursor finds [px]
+const near = 24;  // largest distance of the cursor to a point that it selects [px]
 
-// Numbers as the program has them, or those of a column.
+// Returns a list of numbers of the program, null as NaN, or the values of a column.
 const numbers_of = (source, columns) =>
   Array.isArray(source) ? Float64Array.from(source, (v) => v ?? NaN) : columns[source].values;
 
-// Says for which curves an axis makes room only up to a share of what it must show: else a wild point
-// or a law that fails would leave no height to what matters.
-const beside = { band: 0.2, 'other line': 0.1, 'left out': 0.35 };
+// Styles of secondary curves, and the share of the main curves' span by which each may widen an axis. An
+// outlier or a law that fits badly would otherwise compress the main curves.
+const secondary = { band: 0.2, 'other line': 0.1, 'left out': 0.35 };
 
 function ends_of(curves, keys) {
   let low = Infinity, high = -Infinity;
@@ -36,11 +36,11 @@ function ends_of(curves, keys) {
 
 function range_of(curves, which) {
   const keys = which === 'y' ? ['y', 'y_high'] : ['x'];
-  let [low, high] = ends_of(curves.filter((c) => !(c.style in beside)), keys);
+  let [low, high] = ends_of(curves.filter((c) => !(c.style in secondary)), keys);
   if (!(low <= high)) [low, high] = ends_of(curves, keys);
   if (!(low <= high)) return [0, 1];
   const whole = high - low, inner = [low, high];
-  for (const [style, share] of Object.entries(beside)) {
+  for (const [style, share] of Object.entries(secondary)) {
     const [least, most] = ends_of(curves.filter((c) => c.style === style), keys);
     if (!(least <= most)) continue;
     low = Math.min(low, Math.max(least, inner[0] - share * whole));
@@ -55,7 +55,7 @@ class Chart {
     Object.assign(this, { spec, columns, charts });
     this.shown = new Set(spec.curves.filter((c) => !c.hidden).map((c) => c.label));
     this.time = null;
-    this.most = Math.max(0, ...spec.curves.filter((c) => !(c.style in beside)).map((c) => c.color));
+    this.most = Math.max(0, ...spec.curves.filter((c) => !(c.style in secondary)).map((c) => c.color));
     this.title = element('h3', {});
     this.value = element('span', { class: 'value', 'aria-live': 'off' });
     this.lines = element('div', { class: 'lines' });
@@ -80,11 +80,11 @@ class Chart {
 
   tools() {
     const { enlarged, name } = this.charts;
-    const more = menu_button('⋯', 'More of this chart', () => save_entries(name, () => this.spec.title, () => chart_picture(this)));
+    const more = menu_button('⋯', 'Chart menu', () => save_entries(name, () => this.spec.title, () => chart_picture(this)));
     return element('div', { class: 'panel-tools' }, enlarged.button_of(this), more);
   }
 
-  // The curves that a legend tells apart, one of each name; none where there is nothing to tell apart.
+  // Returns one curve per name for the legend; an empty list if there are fewer than two names.
   named() {
     const order = { points: 0, 'held out': 1, line: 2, band: 3, 'left out': 4, 'other line': 5 };
     const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label)
@@ -96,7 +96,7 @@ class Chart {
     const named = this.named();
     if (!named.length) return;
     this.buttons = named.map((c) => {
-      const kind = c.style in beside || (c.style === 'points' && c.mark) ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
+      const kind = c.style in secondary || (c.style === 'points' && c.mark) ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
       const pressed = String(this.shown.has(c.label));
       const mark = element('span', { class: 'mark' });
       if (kind === 'drawn') mark.innerHTML = sample_of(c);
@@ -110,15 +110,15 @@ class Chart {
     if (others.length) this.others.append(element('span', { class: 'quiet' }, 'other laws'), ...others.map((b) => b.button));
   }
 
-  // Are the curves of a name in several colors?
+  // Returns whether the curves of a name have several colors.
   has_several_colors(label) {
     return new Set(this.spec.curves.filter((c) => c.label === label).map((c) => c.color)).size > 1;
   }
 
-  // Returns the color of a curve; null where it stands for several colors.
+  // Returns the color of a curve; null if the curve has no color of its own.
   color_of(curve, palette = this.charts.palette, dark = this.charts.dark) {
     if (curve.style === 'held out') return null;
-    if (curve.style in beside) return palette[curve.color % palette.length];
+    if (curve.style in secondary) return palette[curve.color % palette.length];
     return this.color(curve.color, palette, dark);
   }
 
@@ -129,14 +129,14 @@ class Chart {
     this.plot?.redraw(false);
   }
 
-  // Of the palette; of more curves than it has, in their order from one end of a scale to the other.
+  // Returns a color of the palette, or of a continuous scale if there are more curves than palette colors.
   color(place, palette = this.charts.palette, dark = this.charts.dark) {
     if (this.most < palette.length) return palette[place];
     const share = place / this.most;
     return pressure_color(dark ? 0.4 + 0.6 * share : 0.64 * share);
   }
 
-  // In the page's units.
+  // Converts all curves into the page's units.
   convert() {
     const { units } = this.charts, { x, y } = this.spec;
     const all = (values, unit) => Float64Array.from(values, (v) => units.convert(v, unit));
@@ -147,12 +147,13 @@ class Chart {
       ...(c.y_high && { y_high: all(numbers_of(c.y_high), y.unit) }),
     }));
     this.whole = { x: range_of(this.curves, 'x'), y: range_of(this.curves, 'y') };
-    this.keep_marks_in_sight();
+    this.clamp_left_out_marks();
     this.view = this.whole;
   }
 
-  // What was left out and lies beyond the axes stands at their ends; its value is told as it is.
-  keep_marks_in_sight() {
+  // Moves marks of left-out points that are beyond the axes to the ends of the axes. Their true values are
+  // kept for the readout.
+  clamp_left_out_marks() {
     for (const c of this.curves) {
       if (c.style !== 'left out') continue;
       for (const key of ['x', 'y']) {
@@ -171,13 +172,13 @@ class Chart {
 
   build(width = this.box.clientWidth || 480) {
     this.plot?.destroy();
-    const { look } = this.charts, { x, y } = this.spec;
+    const { theme } = this.charts, { x, y } = this.spec;
     this.convert();
-    const axis = { stroke: look.ink, grid: { stroke: look.grid, width: 1 }, ticks: { show: false },
-                   font: look.font, labelFont: look.font, labelSize: 18, gap: 4,
+    const axis = { stroke: theme.ink, grid: { stroke: theme.grid, width: 1 }, ticks: { show: false },
+                   font: theme.font, labelFont: theme.font, labelSize: 18, gap: 4,
                    values: (u, ticks) => ticks.map(tick_text) };
     this.title.textContent = this.spec.title;
-    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.curve.bold && this.has_several_colors(b.curve.label) ? look.strong : this.color_of(b.curve) ?? look.ink));
+    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.curve.bold && this.has_several_colors(b.curve.label) ? theme.strong : this.color_of(b.curve) ?? theme.ink));
     this.plot = new uPlot({
       width, height: this.height,
       legend: { show: false },
@@ -228,7 +229,7 @@ class Chart {
     ctx.restore();
   }
 
-  // Curves of one name are one area: where they overlap it is no darker.
+  // Fills the bands of one name as one area, so that overlaps are not darker.
   draw_bands(ctx, at) {
     for (const [label, path] of this.bands(at.x, at.y)) {
       ctx.save();
@@ -239,7 +240,7 @@ class Chart {
     }
   }
 
-  // Their paths, by name.
+  // Returns the paths of the bands by name.
   bands(at_x, at_y) {
     const out = new Map();
     for (const c of this.curves)
@@ -248,7 +249,7 @@ class Chart {
   }
 
   draw_curve(ctx, c, at, ratio) {
-    const { look } = this.charts;
+    const { theme } = this.charts;
     ctx.strokeStyle = ctx.fillStyle = this.color_of(c) ?? this.color(c.color);
     ctx.lineWidth = (c.bold ? 2.2 : 1.5) * ratio;
     ctx.lineJoin = 'round';
@@ -262,7 +263,7 @@ class Chart {
       if (c.style === 'points') ctx.fill(point);
       else {
         ctx.save();
-        ctx.fillStyle = look.paper;
+        ctx.fillStyle = theme.paper;
         ctx.fill(point);
         ctx.restore();
         ctx.stroke(point);
@@ -270,7 +271,7 @@ class Chart {
     }
   }
 
-  // Where a run is at the time of its replay; of several runs in its color.
+  // Draws a dot at the current time of the replay; with several runs, in each run's color.
   draw_now(ctx, at, ratio) {
     if (this.time === null) return;
     const { units } = this.charts, { x, y, curves } = this.spec;
@@ -280,7 +281,7 @@ class Chart {
       const py = at.y(units.convert(between(this.columns[c.y], this.time), y.unit));
       ctx.beginPath();
       ctx.arc(px, py, 5 * ratio, 0, 2 * Math.PI);
-      ctx.fillStyle = c.run === undefined ? this.charts.look.strong : this.color(c.color);
+      ctx.fillStyle = c.run === undefined ? this.charts.theme.strong : this.color(c.color);
       ctx.fill();
     }
   }
@@ -340,25 +341,25 @@ function stroke_marks(ctx, c, at, ratio) {
     if (Number.isFinite(c.y[i])) ctx.stroke(new Path2D(mark_path(c.mark ?? 0, at.x(c.x[i]), at.y(c.y[i]), (many ? 2.4 : 4) * ratio)));
 }
 
-// All charts of a page, in a grid.
+// All charts of a page in a grid.
 export class Charts {
-  // `name`: what a picture of a chart is called after.
+  // `name`: first part of the file names of saved pictures.
   constructor(root, specs, columns, units, name) {
     Object.assign(this, { root, units, name });
     this.enlarged = new Enlarged();
-    this.read_look();
+    this.read_theme();
     this.list = specs.map((spec) => new Chart(spec, columns, this));
     root.append(element('div', { class: 'charts' }, ...this.list.map((c) => c.root)));
     for (const c of this.list) c.build();
     new ResizeObserver(() => this.resize()).observe(root);
   }
 
-  read_look() {
+  read_theme() {
     const css = getComputedStyle(document.documentElement);
     const get = (name) => css.getPropertyValue(`--${name}`).trim();
     this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`line-${i}`));
     this.dark = css.colorScheme === 'dark';
-    this.look = { ink: get('quiet'), strong: get('ink'), grid: get('grid'), paper: get('paper'),
+    this.theme = { ink: get('quiet'), strong: get('ink'), grid: get('grid'), paper: get('paper'),
                   font: `11px ${get('sans')}` };
   }
 
@@ -366,13 +367,13 @@ export class Charts {
     for (const c of this.list) c.resize();
   }
 
-  // Other units or colors.
+  // Draws all charts again, after units or colors have changed.
   rebuild() {
-    this.read_look();
+    this.read_theme();
     for (const c of this.list) c.build(this.printing ? paper_width : undefined);
   }
 
-  // The next rebuild() is for paper, or for the screen again.
+  // Selects the width of the next rebuild(): paper (true) or screen (false).
   print(begins) {
     this.printing = begins;
   }

@@ -1,5 +1,5 @@
-// Pressure as a color: blue to yellow, which stays in order for every kind of color vision and in
-// print (after cividis).
+// Color scale for pressure, blue to yellow (after cividis). It is monotonic in lightness for every kind
+// of color vision and in print.
 const stops = [
   [0, 34, 78], [18, 53, 112], [59, 73, 108], [87, 93, 109], [112, 113, 115], [138, 134, 120],
   [165, 156, 116], [195, 179, 105], [225, 204, 85], [254, 232, 56],

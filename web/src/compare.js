@@ -1,9 +1,9 @@
-// The page of several runs: the same channel of all in one plot, differences, tables.
+// Page that compares several runs: each channel of all runs in one plot, differences, and tables.
 import { Charts } from './charts.js';
 import { Machines } from './compare_scene.js';
 import { ComparisonTables, differ, judged_differently } from './compare_tables.js';
 import { FootPaths } from './foot_path.js';
-import { Look } from './look.js';
+import { Appearance } from './appearance.js';
 import { by_id, element } from './page.js';
 import { Plan } from './plan.js';
 import { Player } from './player.js';
@@ -12,12 +12,12 @@ import { index_at, read_samples } from './samples.js';
 import { line_of, letter_of, RunLegend } from './runs.js';
 import { difference_unit, signed, Units } from './units.js';
 
-// What the program left out because it is the first run's column and the difference.
+// Returns a column that the program left out because it is the sum of the first run's and the difference.
 function sum(first, difference) {
   return { time: first.time, values: first.values.map((v, i) => v + difference.values[i]) };
 }
 
-// A panel's columns: of each run, and of what it differs by from the first; null where there is none.
+// Returns the columns of a panel: each run's values and differences to the first run; null if missing.
 function columns_of(panel, columns) {
   const of = (i) => (i === null ? null : columns[i]);
   const differences = panel.differences.map(of);
@@ -26,7 +26,7 @@ function columns_of(panel, columns) {
   return { values, differences };
 }
 
-// From the first run's start on, which an alignment may have put before 0.
+// Player that starts at the first run's start, which an alignment may have moved before 0.
 class SpanPlayer extends Player {
   constructor([from, to], clock, show) {
     super(to, clock, show);
@@ -47,9 +47,9 @@ class SpanPlayer extends Player {
   }
 }
 
-const paper_scene = 'width: 560px; height: 320px;';  // of the drawing, whatever the screen's is
+const paper_scene = 'width: 560px; height: 320px;';  // size of the drawing in print, independent of the screen
 
-// "+2.500 s ± 0.003 s", with two digits of what is not sure.
+// Returns "+2.500 s ± 0.003 s", with two digits of the uncertainty.
 function with_uncertainty(value, uncertainty, unit) {
   if (uncertainty === null) return `${signed(value)} ${unit}`;
   const digits = uncertainty > 0 ? Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(uncertainty)))) : 4;
@@ -57,20 +57,20 @@ function with_uncertainty(value, uncertainty, unit) {
   return `${text} ${unit} ± ${uncertainty.toFixed(digits)} ${unit}`;
 }
 
-// "0.29 % ± 0.11 % faster", or slower.
+// Returns "0.29 % ± 0.11 % faster", or "slower".
 const pace = (rate, uncertainty) =>
   `${with_uncertainty(100 * Math.abs(rate), uncertainty && 100 * uncertainty, '%').slice(1)} ${rate < 0 ? 'slower' : 'faster'}`;
 
-// How a run was aligned with the first one.
+// Returns how a run was aligned with the first one.
 function alignment_words(run, i, fitted) {
   const a = run.alignment;
   if (!a) return '';
-  if (a.same) return `${letter_of(i)} holds the same samples: nothing is moved`;
+  if (a.same) return `${letter_of(i)} has the same samples and is not shifted`;
   const by = [a.event && `event: ${a.event}`, a.channels.length && `correlation of ${a.channels.join(', ')}`].filter(Boolean).join('; ');
   return `${letter_of(i)}'s clock shows ${with_uncertainty(a.shift_s, a.shift_uncertainty_s, 's')} at A's 0` +
-    (fitted ? ` and goes ${pace(a.rate, a.rate_uncertainty)}` : '') +
+    (fitted ? ` and runs ${pace(a.rate, a.rate_uncertainty)}` : '') +
     (a.correlation === null ? '' : `, r ${a.correlation.toFixed(4)}`) + ` (${by})` +
-    (a.rate_seen ? `; it seems to go ${pace(a.rate_seen, a.rate_seen_uncertainty)}, which is not taken out` : '');
+    (a.rate_seen ? `; it seems to run ${pace(a.rate_seen, a.rate_seen_uncertainty)}, which is not corrected` : '');
 }
 
 class ComparePage {
@@ -84,7 +84,7 @@ class ComparePage {
     this.make_plots(samples);
     this.make_machines(samples);
     this.tables = new ComparisonTables(data, this.units, (channel, t) => this.visit(channel, t));
-    this.look = new Look(this.units, {
+    this.appearance = new Appearance(this.units, {
       on_units: () => this.rebuild(),
       on_colors: () => this.rebuild(),
       on_print: (begins) => this.print(begins),
@@ -97,9 +97,9 @@ class ComparePage {
     const { runs, align, figures, parameters, channels } = this.data;
     const titles = [...new Set(runs.map((r) => r.title || r.label))];
     by_id('title').textContent = titles.length > 2 ? `${titles[0]} and ${titles.length - 1} others` : titles.join(' · ');
-    const laid = { start: 'times from the start of each run', sequence: 'their sequences begin together, at the time of the first',
-                   event: 'aligned by an event', correlation: 'aligned by the greatest correlation' };
-    by_id('facts').textContent = `${runs.length} runs, each beside the first; ${laid[align]}` +
+    const aligned = { start: 'times from the start of each run', sequence: 'aligned at the start of the sequence, in the time of the first run',
+    event: 'aligned by an event', correlation: 'aligned by the greatest correlation' };
+    by_id('facts').textContent = `${runs.length} runs, each compared with the first; ${aligned[align]}` +
       runs.map((run, i) => alignment_words(run, i, this.data.clock === 'fit')).filter(Boolean).map((w) => `. ${w}`).join('');
     const differing = figures.filter((f) => differ(f.values)).length;
     const changed = figures.filter((f) => judged_differently(f)).length;
@@ -108,10 +108,10 @@ class ComparePage {
     const chip = (id, words, kind = '') => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
     by_id('chips').append(
       chip('figures', `${differing} of ${figures.length} numbers differ`),
-      ...(changed ? [chip('figures', `${changed} judged differently`, 'warn')] : []),
-      chip('parameters', parameters.length ? several(parameters.length, 'parameter') : 'the same parameters'),
-      chip('channels', same === channels.length ? 'the same samples in every channel'
-        : `${channels.length} channels, ${same} with the same samples`));
+      ...(changed ? [chip('figures', `${changed} with another verdict`, 'warn')] : []),
+      chip('parameters', parameters.length ? several(parameters.length, 'parameter') : 'same parameters'),
+      chip('channels', same === channels.length ? 'same samples in every channel'
+        : `${channels.length} channels, ${same} with equal samples`));
   }
 
   // --- plots ---
@@ -137,9 +137,9 @@ class ComparePage {
     this.plots.on_view = () => this.draw_view();
     this.plots.on_values = (t) => this.show(t);
     document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
-    // Runs that are aligned with each other are looked at by what is left.
-    this.apart = data.align === 'event' || data.align === 'correlation';
-    by_id('show-differences').setAttribute('aria-pressed', String(this.apart));
+    // Runs that were aligned with each other are usually compared by their remaining differences.
+    this.shows_differences = data.align === 'event' || data.align === 'correlation';
+    by_id('show-differences').setAttribute('aria-pressed', String(this.shows_differences));
     this.all = false;
     this.groups_shown = new Map();
     this.groups();
@@ -147,11 +147,11 @@ class ComparePage {
     new ResizeObserver(() => this.draw_view()).observe(by_id('plots'));
   }
 
-  // The machines over each other, and the player that moves them.
+  // Creates the drawing of the machines over each other, and its player.
   make_machines(columns) {
     const clocks = this.plots.panels.flatMap((p) => p.columns.map((c) => c.time));
     const clock = clocks.reduce((most, c) => (c.length > most.length ? c : most), new Float64Array());
-    this.player = new SpanPlayer(this.whole, clock, (t) => this.go(t));
+    this.player = new SpanPlayer(this.whole, clock, (t) => this.show_time(t));
     this.machines = new Machines(by_id('scene'), this.data.runs, columns, this.units, this.shown);
     document.querySelector('.stage').classList.toggle('without-machines', !this.machines.there);
     by_id('follow').hidden = !this.machines.can_follow();
@@ -175,12 +175,12 @@ class ComparePage {
     const of = (field) => this.of_channel.get(`${this.data.foot} ${field}`);
     if (!of('x') || !of('y')) return null;
     by_id('foot-note').textContent = this.data.foot.startsWith('/true')
-      ? 'About the first joint, in the time that the plots show.'
-      : 'Of measured angles, about the first joint, in the time that the plots show.';
+      ? 'Relative to the first joint, within the time shown in the plots.'
+      : 'From measured angles, relative to the first joint, within the time shown in the plots.';
     return new FootPaths(by_id('path'), of('x').values, of('y').values, this.units, this.shown);
   }
 
-  // In the foot's place: what the test stand has of one quantity against another.
+  // Creates the charts of a test stand, which replace the foot path.
   make_charts(columns) {
     const { charts, runs } = this.data;
     by_id('foot').replaceChildren();
@@ -214,11 +214,11 @@ class ComparePage {
     }));
   }
 
-  // Which plots are there.
+  // Shows or hides the plots.
   arrange() {
     for (const p of this.plots.panels)
       p.root.hidden = !this.groups_shown.get(p.spec.group) || !(p.spec.main || this.all) ||
-                      (Boolean(p.spec.difference) && !this.apart);
+                      (Boolean(p.spec.difference) && !this.shows_differences);
   }
 
   switch_all() {
@@ -228,8 +228,8 @@ class ComparePage {
   }
 
   switch_differences() {
-    this.apart = !this.apart;
-    by_id('show-differences').setAttribute('aria-pressed', String(this.apart));
+    this.shows_differences = !this.shows_differences;
+    by_id('show-differences').setAttribute('aria-pressed', String(this.shows_differences));
     this.arrange();
   }
 
@@ -246,7 +246,7 @@ class ComparePage {
     this.draw_view();
   }
 
-  // A channel's plot at a time.
+  // Shows a channel's plot at a time.
   visit(channel, t) {
     this.seek(t);
     const found = this.of_channel.get(channel);
@@ -265,8 +265,8 @@ class ComparePage {
     this.player.seek(t);
   }
 
-  // Shows what the player says.
-  go(time) {
+  // Shows the player's time everywhere.
+  show_time(time) {
     this.plots.set_time(time);
     this.plots.keep_in_view(time);
     this.machines?.draw(time);
@@ -298,7 +298,7 @@ class ComparePage {
     this.plots.rebuild();
     this.charts?.rebuild();
     this.tables.refresh();
-    this.machines.read_look();
+    this.machines.read_theme();
     this.machines.draw(this.player.time);
     this.draw_view();
   }
@@ -336,7 +336,8 @@ class ComparePage {
   }
 }
 
-// A plot of the channel's values and one of what they differ by; their columns are added.
+// Returns the specs of a plot of a channel's values and of one of its differences to the first run.
+// Appends their columns to `columns`.
 function specs_of(panel, { values, differences }, columns, runs) {
   const title = panel.label === panel.title ? panel.title : `${panel.title} · ${panel.label}`;
   const common = { group: panel.group, main: panel.main };
@@ -344,12 +345,12 @@ function specs_of(panel, { values, differences }, columns, runs) {
     ...line_of(run), run, ends: runs[run].last_s, label: letter_of(run), topic: `${panel.topic} ${panel.field}`,
     column: columns.push(column) - 1, ...more(run),
   }] : []));
-  // What has the same samples differs by nothing: that is said, not drawn.
+  // A run with equal samples has no line of differences; its readout shows "=".
   const none = { time: values[0].time, values: new Float32Array(values[0].time.length) };
   return {
     values: { ...common, title, unit: panel.unit,
               lines: lines(values, (run) => ({ difference: run ? differences[run] ?? none : null })) },
-    differences: { ...common, title: 'less the first run', unit: difference_unit(panel.unit), height: 96, difference: true,
+    differences: { ...common, title: 'minus the first run', unit: difference_unit(panel.unit), height: 96, difference: true,
                    lines: lines(differences, () => ({})) },
   };
 }
@@ -360,7 +361,7 @@ async function start() {
   const columns = await read_samples(data.samples, samples.textContent);
   samples.remove();
   const page = new ComparePage(data, columns);
-  // For scripts that take pictures, and for tests.
+  // Used by scripts that take pictures and by tests.
   window.sinew = { data, columns, page };
   document.documentElement.dataset.ready = 'yes';
 }

@@ -1,6 +1,6 @@
-// The machines of all runs in one drawing: the first one as it is, the others as ghosts over it, each
-// in its run's color. What a recording lacks is not drawn: of angles alone a ghost has links and
-// muscles, without pressures or valves.
+// Drawing of the machines of all runs: the first one in full, the others over it as translucent ghosts in
+// their runs' colors. Parts without data are omitted: a recording with only angles gives links and
+// muscles, but no pressures or valves.
 import { between } from './samples.js';
 import { letter_of, palette_of_runs } from './runs.js';
 import { Scene } from './scene.js';
@@ -8,17 +8,17 @@ import * as shapes from './shapes.js';
 import { StandScene } from './stand.js';
 import * as parts from './stand_parts.js';
 
-const solid = 0.45;  // of a ghost
+const opacity = 0.45;  // of a ghost
 
-// A ghost is drawn on this before it is laid over the picture, so that its parts do not shine
+// Canvas on which a ghost is drawn before it is blended over the picture, so that its parts do not show
 // through each other.
-class Veil {
+class GhostLayer {
   constructor() {
     this.canvas = document.createElement('canvas');
   }
 
-  // `paint(ctx)` draws in the coordinates of `onto`.
-  lay(onto, paint) {
+  // Draws with `paint(ctx)`, in the coordinates of `onto`, and blends the result over `onto`.
+  blend(onto, paint) {
     const { width, height } = onto.canvas;
     Object.assign(this.canvas, { width, height });
     const ctx = this.canvas.getContext('2d');
@@ -26,22 +26,22 @@ class Veil {
     paint(ctx);
     onto.save();
     onto.setTransform(1, 0, 0, 1, 0, 0);
-    onto.globalAlpha = solid;
+    onto.globalAlpha = opacity;
     onto.drawImage(this.canvas, 0, 0);
     onto.restore();
   }
 }
 
-// The look of a machine in one color; edges and cords are of it, too.
-const in_color = (look, color) => ({ ...look, ink: color, metal: color, 'metal-edge': color, cord: color,
+// Returns the theme with all parts of a machine in one color.
+const in_color = (theme, color) => ({ ...theme, ink: color, metal: color, 'metal-edge': color, tendon: color,
                                      actual: color, ground: color, 'ground-edge': color });
 
 class Ghost extends Scene {
-  draw() {}  // the first machine's drawing calls paint()
+  draw() {}  // the drawing of the first machine calls paint()
 
   draw_muscle(ctx, view, m, t) {
     const length = between(this.column(m.length), t), diameter = between(this.column(m.diameter), t);
-    if (Number.isFinite(length)) shapes.muscle(ctx, view, m, { length, diameter, color: this.color }, this.look);
+    if (Number.isFinite(length)) shapes.muscle(ctx, view, m, { length, diameter, color: this.color }, this.theme);
   }
 
   color_of() {
@@ -52,11 +52,11 @@ class Ghost extends Scene {
     return false;
   }
 
-  // `base`: where the first machine's body is, with which this one's is aligned; null: where it is itself.
+  // `base`: position of the first machine's body, to which this one is moved; null: it is not moved.
   paint(ctx, view, t, base, color) {
     this.color = color;
-    this.read_look();
-    this.look = in_color(this.look, color);
+    this.read_theme();
+    this.theme = in_color(this.theme, color);
     const own = this.pose(0, t);
     ctx.save();
     if (base) ctx.translate(base.x - own.x, base.y - own.y);
@@ -65,7 +65,7 @@ class Ghost extends Scene {
     ctx.restore();
   }
 
-  // Where its foot was; where it was to be says the first machine's drawing.
+  // Draws the foot's path without the desired one, which belongs to the first machine.
   draw_trails(ctx, view, t) {
     for (const foot of this.spec.feet ?? []) this.draw_path(ctx, view, t, { ...foot, desired: null });
   }
@@ -74,24 +74,24 @@ class Ghost extends Scene {
 class GhostStand extends StandScene {
   draw() {}
 
-  // It stands in the first stand's place.
+  // Draws this stand at the position of the first one.
   paint(ctx, v, t, color) {
     const state = { ...this.state(t), color, inlet: false, exhaust: false };
     if (!Number.isFinite(state.length)) return;
-    const look = in_color(this.look, color);
-    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, look);
-    else parts.actuators(ctx, v, this.spec, state, look);
-    parts.load_cell(ctx, v, state.length, '', look);
+    const theme = in_color(this.theme, color);
+    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, theme);
+    else parts.actuators(ctx, v, this.spec, state, theme);
+    parts.load_cell(ctx, v, state.length, '', theme);
   }
 }
 
-// A drawing with ghosts over it. `ghosts_at(t)`: those that there is something of then.
+// Drawing with ghosts over it. `ghosts_at(t)` returns those that have data at t.
 class Machine extends Scene {
   draw_machine(ctx, view, t) {
     if (!this.hidden) super.draw_machine(ctx, view, t);
     const base = this.follow ? this.pose(0, t) : null;
     for (const { scene, color } of this.ghosts_at?.(t) ?? [])
-      this.veil.lay(ctx, (on) => scene.paint(on, view, t, base, color));
+      this.ghost_layer.blend(ctx, (on) => scene.paint(on, view, t, base, color));
   }
 
   draw_force(ctx, view, t) {
@@ -106,14 +106,14 @@ class Stand extends StandScene {
     if (!canvas.clientWidth || !canvas.clientHeight) return;
     const ctx = canvas.getContext('2d'), v = this.place(canvas.clientWidth, canvas.clientHeight);
     for (const { scene, color } of this.ghosts_at?.(t) ?? [])
-      this.veil.lay(ctx, (on) => scene.paint(on, v, t, color));
+      this.ghost_layer.blend(ctx, (on) => scene.paint(on, v, t, color));
   }
 }
 
 const union = (a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])];
 
 export class Machines {
-  // `shown`: which runs are, as the page has it. Nothing is drawn where no run says how it stood.
+  // `shown`: whether each run is shown; the page changes it. Nothing is drawn if no run has poses.
   constructor(canvas, runs, columns, units, shown) {
     Object.assign(this, { runs, shown });
     const kind = runs.find((r) => r.scene || r.stand)?.scene ? 'scene' : 'stand';
@@ -124,12 +124,12 @@ export class Machines {
     const [of_first, of_others] = kind === 'scene' ? [Machine, Ghost] : [Stand, GhostStand];
     this.first = made(of_first, this.drawn[0]);
     this.ghosts = this.drawn.slice(1).map((run) => ({ run, scene: made(of_others, run) }));
-    this.first.veil = new Veil();
+    this.first.ghost_layer = new GhostLayer();
     this.first.ghosts_at = (t) => this.at(t);
     if (kind === 'scene') this.widen();
   }
 
-  // To hold the ghosts as well.
+  // Enlarges the drawn area to include the ghosts.
   widen() {
     const { box } = this.first;
     for (const { scene } of this.ghosts) {
@@ -156,10 +156,10 @@ export class Machines {
     return this.first.follow;
   }
 
-  read_look() {
+  read_theme() {
     if (!this.there) return;
-    this.first.read_look();
-    for (const { scene } of this.ghosts) scene.read_look();
+    this.first.read_theme();
+    for (const { scene } of this.ghosts) scene.read_theme();
   }
 
   draw(t) {
@@ -170,9 +170,9 @@ export class Machines {
 
   note() {
     const ghosts = this.ghosts.map(({ run }) => letter_of(run)).join(', ');
-    const beside = this.runs.length - this.drawn.length;
-    return [`${letter_of(this.drawn[0])} as it is`, ghosts && `${ghosts} over it as ${this.ghosts.length > 1 ? 'ghosts in their colors' : 'a ghost in its color'}`,
-            this.can_follow() && ghosts && 'bodies aligned while the trolley is followed',
-            beside && `${beside} without angles to draw`, this.first.note()].filter(Boolean).join('; ');
+    const missing = this.runs.length - this.drawn.length;
+    return [`${letter_of(this.drawn[0])} in full`, ghosts && `${ghosts} over it as ${this.ghosts.length > 1 ? 'ghosts in their colors' : 'a ghost in its color'}`,
+    this.can_follow() && ghosts && 'bodies aligned while the trolley is followed',
+    missing && `${missing} without angles to draw`, this.first.note()].filter(Boolean).join('; ');
   }
 }

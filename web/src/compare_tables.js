@@ -1,23 +1,24 @@
-// Numbers beside each other, values that differ, and how far the channels are apart.
+// Tables of a comparison: numbers of the runs, parameters that differ, and differences of channels.
 import { by_id, element } from './page.js';
 import { letter_of } from './runs.js';
 import { cell, heading, long_cell, searched, table } from './tables.js';
 import { difference_unit, number, signed, unit_of_key, words_of_key } from './units.js';
 
-// A run that lacks a number does not differ in it.
+// Returns whether the values differ; null, for a run without this number, is ignored.
 export function differ(values) {
   const there = values.filter((v) => v !== null);
   return there.some((v) => v !== there[0]);
 }
 
-// As the program orders them: |b - a| beside the larger of both.
+// Returns the largest relative change, |b - a| divided by the larger of both, as the program sorts by it.
 function size_of_change([first, ...others]) {
   if (first === null) return 0;
   return Math.max(0, ...others.map((v) =>
     v === null || v === first ? 0 : Math.abs(v - first) / Math.max(Math.abs(first), Math.abs(v))));
 }
 
-// By the bands of each run's own file; one without a verdict has none to change.
+// Returns whether the runs have different verdicts, each by its own experiment file; runs without a
+// verdict are ignored.
 export const judged_differently = ({ verdicts }) => new Set((verdicts ?? []).filter((v) => v)).size > 1;
 
 function percent(relative, value) {
@@ -28,8 +29,8 @@ function percent(relative, value) {
   return `${p > 0 ? '+' : ''}${text} %`.replace(/-/g, '−');
 }
 
-// A button that stays pressed.
-function pressed(words, on_change) {
+// Returns a toggle button.
+function toggle_button(words, on_change) {
   const button = element('button', { type: 'button', 'aria-pressed': 'false' }, words);
   button.addEventListener('click', () => {
     const on = button.getAttribute('aria-pressed') !== 'true';
@@ -39,20 +40,20 @@ function pressed(words, on_change) {
   return button;
 }
 
-// Search field, buttons, then the list.
+// Returns the list with a search field and buttons above it.
 function with_tools(list, rows, label, buttons) {
   const found = searched(list, rows, label);
   found.prepend(element('div', { class: 'tools no-print' }, found.querySelector('.search'), ...buttons));
   return found;
 }
 
-// In another order, or back.
+// Puts the rows of a table into this order.
 function order(list, rows) {
   list.querySelector('tbody').append(...rows.map((r) => r.row));
 }
 
 export class ComparisonTables {
-  // `visit(channel, time)` shows a channel's plot there.
+  // `visit(channel, time)` shows a channel's plot at a time.
   constructor(data, units, visit) {
     Object.assign(this, { data, units, visit });
     this.others = data.runs.map((r, i) => i).slice(1);
@@ -76,8 +77,8 @@ export class ComparisonTables {
     list.querySelectorAll('thead th').forEach((th, i) => i > 0 && i < heads.length - 2 && th.classList.add('number'));
     list.classList.add('only-differing');
     const buttons = [
-      pressed('Largest change first', (on) => order(list, on ? by_size(this.figure_rows) : this.figure_rows)),
-      pressed('Equal ones too', (on) => list.classList.toggle('only-differing', !on)),
+      toggle_button('Largest change first', (on) => order(list, on ? by_size(this.figure_rows) : this.figure_rows)),
+      toggle_button('Show equal ones', (on) => list.classList.toggle('only-differing', !on)),
     ];
     const differing = this.data.figures.filter((f) => differ(f.values)).length;
     by_id('figures').append(heading('Numbers', `${differing} of ${this.figure_rows.length} differ`),
@@ -86,7 +87,7 @@ export class ComparisonTables {
 
   figure_row(figure) {
     const cells = this.data.runs.flatMap((run, i) => i === 0 ? [cell('', 'number')]
-      : [cell('', 'number'), cell('', 'number apart'), cell('', 'number apart')]);
+      : [cell('', 'number'), cell('', 'number difference'), cell('', 'number difference')]);
     const unit = cell('', 'unit');
     const judged = figure.verdicts ?? [];
     const changed = judged_differently(figure);
@@ -106,10 +107,10 @@ export class ComparisonTables {
       : unit === '1' && Number.isInteger(v) ? String(v) : number(this.units.convert(v, unit));
     cells[0].textContent = value(figure.values[0]);
     for (const i of this.others) {
-      const [own, apart, relative] = cells.slice(3 * i - 2, 3 * i + 1), d = figure.differences[i];
+      const [own, difference, relative] = cells.slice(3 * i - 2, 3 * i + 1), d = figure.differences[i];
       own.textContent = value(figure.values[i]);
-      apart.textContent = d === null ? '' : signed(d * scale);
-      // Beside a gauge pressure a share of the absolute one would mislead.
+      difference.textContent = d === null ? '' : signed(d * scale);
+      // A change relative to the absolute pressure would mislead where gauge pressure is shown.
       relative.textContent = d === null || shown.offset ? '' : percent(figure.relative[i], figure.values[i]);
     }
     unit_cell.textContent = shown.label;
@@ -142,10 +143,10 @@ export class ComparisonTables {
     list.classList.add('only-differing');
     const same = this.data.channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
     by_id('channels').append(
-      heading('Channels', `${this.channel_rows.length} compared, ${same} with the same samples; the bar is rms beside the range of values`),
+      heading('Channels', `${this.channel_rows.length} compared, ${same} with equal samples; the bar is rms divided by the range of values`),
       with_tools(list, this.channel_rows, 'Search channels', [
-        pressed("In the log's order", (on) => order(list, on ? this.channel_rows : sorted)),
-        pressed('Equal ones too', (on) => list.classList.toggle('only-differing', !on)),
+        toggle_button("In the log's order", (on) => order(list, on ? this.channel_rows : sorted)),
+        toggle_button('Show equal ones', (on) => list.classList.toggle('only-differing', !on)),
       ]));
   }
 
@@ -187,15 +188,15 @@ export class ComparisonTables {
 
 const by_size = (rows) => [...rows].sort((a, b) => b.size - a.size);
 
-// How samples met, where that is not plain.
+// Returns how the samples were matched, where this is not obvious.
 function note_of(d) {
-  if (!d) return 'not there';
+  if (!d) return 'missing';
   if (d.same) return 'same samples';
-  if (d.samples === 0) return 'never meet';
+  if (d.samples === 0) return 'no common time';
   const out = [];
-  if (d.largest === 0) out.push('equal where both are');
-  if (d.meet === 'between') out.push('between samples');
-  if (d.meet === 'held' && d.largest !== 0) out.push(`apart ${number(100 * d.rms ** 2)} % of the time`);
+  if (d.largest === 0) out.push('equal at common times');
+  if (d.meet === 'between') out.push('interpolated');
+  if (d.meet === 'held' && d.largest !== 0) out.push(`different ${number(100 * d.rms ** 2)} % of the time`);
   if (d.gaps > 0) out.push(`${d.gaps} gaps`);
   return out.join(', ');
 }

@@ -1,10 +1,10 @@
-// Units of formulas: which dimensions a unit of the log has, and which unit a result has.
+// Units of formulas: the dimensions of a unit of the log, and the unit of a result.
 
 const bases = ['m', 'kg', 's', 'rad', 'count', 'K', 'A'];
 const dims = (powers) => bases.map((b) => powers[b] ?? 0);
 
-// Of a unit's word: its size in SI and the powers of its dimensions. An angle and a converter's count
-// are dimensions, as everywhere in Sinew.
+// Units by name: size in SI and powers of the dimensions. Angle and converter count are dimensions, as
+// everywhere in Sinew.
 const words = {
   m: [1, { m: 1 }], mm: [1e-3, { m: 1 }], cm: [1e-2, { m: 1 }], in: [0.0254, { m: 1 }], ft: [0.3048, { m: 1 }],
   kg: [1, { kg: 1 }], g: [1e-3, { kg: 1 }], lb: [0.45359237, { kg: 1 }],
@@ -30,7 +30,8 @@ export function unit_word(word) {
 export const times = (a, b, power = 1) => a.map((p, i) => p + power * b[i]);
 export const same = (a, b) => a.every((p, i) => Math.abs(p - b[i]) < 1e-9);
 
-// Dimensions of an SI unit as the log writes it, "N m/rad", "m/s^2", "Pa gauge"; null: not known.
+// Returns the dimensions of an SI unit in the log's spelling, "N m/rad", "m/s^2", "Pa gauge"; null if
+// the unit is unknown.
 export function dims_of(unit) {
   const text = unit.replace(/ (abs|diff|gauge)$/, '');
   let out = none, power = 1;
@@ -48,14 +49,14 @@ export function dims_of(unit) {
   return out;
 }
 
-// Results are called so where there is a name, the log's spelling first.
+// Names of units of results, in the log's spelling; the first match is used.
 const named = ['1', 'm', 'm/s', 'm/s^2', 'N', 'Pa', 'N/m', 'N/s', 'Pa/s', 'kg', 'kg/s', 'rad', 'rad/s', 'rad/s^2', 'N m',
   'N m/rad', 'N m s/rad', 'count', 'count/s', 's', '1/s', 'm^2', 'm^3', 'W', 'V', 'K', 'A'].map((name) => [name, dims_of(name)]);
 
 export function name_of(powers) {
   const found = named.find(([, of]) => same(of, powers));
   if (found) return found[0];
-  // Forces are told as forces.
+  // Units with kg m/s^2 are written with N.
   const newton = dims({ kg: 1, m: 1, s: -2 });
   const of_force = powers[1] === 1 && powers[2] <= -2;
   const rest = of_force ? times(powers, newton, -1) : powers;

@@ -1,18 +1,18 @@
-// Channels that are dragged: from the list, from a plot's heading or from a line's name, onto a plot.
+// Drag and drop of channels: from the list, a plot's heading or a line's name onto a plot.
 
 const kind = 'application/x-sinew-channels';
 
 export const dragged = {
   lines: null,
 
-  // `lines_of` gives what is dragged from there, in the words of a layout.
+  // Makes an element draggable. `lines_of` returns the lines to drag, as a layout stores them.
   from(root, lines_of) {
     root.addEventListener('dragstart', (event) => {
       event.stopPropagation();
       this.lines = lines_of();
       event.dataTransfer.setData(kind, JSON.stringify(this.lines));
       event.dataTransfer.effectAllowed = 'copy';
-      // The page changes only after the browser has taken its picture of what is dragged.
+      // Changes the page only after the browser has taken its drag image.
       setTimeout(() => document.documentElement.classList.toggle('dragging', Boolean(this.lines)));
     });
     root.addEventListener('dragend', () => this.end());
@@ -24,7 +24,7 @@ export const dragged = {
     document.querySelectorAll('.drop-here').forEach((r) => r.classList.remove('drop-here'));
   },
 
-  // `does` is given what is dropped there.
+  // Makes an element a drop target. Calls `does` with the dropped lines.
   onto(root, does) {
     const ours = (event) => this.lines && event.dataTransfer.types.includes(kind);
     root.addEventListener('dragover', (event) => {

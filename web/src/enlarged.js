@@ -1,4 +1,4 @@
-// A plot or a chart as large as the window, until Escape or its button: the same one, with its zoom.
+// Dialog that shows a plot or a chart as large as the window, with its zoom, until Escape or its button.
 import { element, set_icon } from './page.js';
 
 export class Enlarged {
@@ -12,7 +12,8 @@ export class Enlarged {
     addEventListener('beforeprint', () => this.panel && this.dialog.close());
   }
 
-  // For the heading of a plot, which has root, box, height, plot, build(), set_height() and resize().
+  // Returns a button for the heading of a plot, which has root, box, height, plot, build(), set_height()
+// and resize().
   button_of(panel) {
     const button = element('button', { type: 'button', class: 'icon small enlarge no-print' });
     button.addEventListener('click', () => this.toggle(panel));
@@ -22,7 +23,7 @@ export class Enlarged {
 
   show(button, large) {
     button.setAttribute('aria-label', large ? 'Back into the page' : 'Enlarge');
-    button.title = large ? 'Back into the page (Escape)' : 'As large as the window (Escape ends it)';
+    button.title = large ? 'Back into the page (Escape)' : 'Enlarge to the window (Escape to return)';
     set_icon(button, large ? 'shrink' : 'enlarge');
   }
 

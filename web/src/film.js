@@ -1,5 +1,5 @@
-// The film of a run, or of runs over each other: `sinew film` runs this in their page, asks for one frame after the other,
-// and gets each as base64. What a frame shows follows from its time alone.
+// Film of a run, or of several runs over each other. `sinew film` runs this script in the page and requests
+// one frame after the other, each as base64. The content of a frame depends only on its time.
 import { GIFEncoder, applyPalette, quantize } from 'gifenc';
 import { palette_of_runs } from './runs.js';
 
@@ -10,8 +10,8 @@ function base64(bytes) {
 }
 
 class Film {
-  // `size` in pixels; `still`: the camera stands, instead of going with the machine; `speed` is told
-  // where it is not 1.
+  // `size` in pixels; `still`: the camera does not follow the machine; `speed` is written into the picture
+  // if it is not 1.
   constructor({ size, dark, still, speed }) {
     const { page } = window.sinew;
     this.page = page;
@@ -19,43 +19,43 @@ class Film {
     this.scene = page.scene ?? page.machines.first;
     this.speed = speed;
     [this.width, this.height] = size;
-    page.look.set_theme(dark ? 'dark' : 'light');
+    page.appearance.set_theme(dark ? 'dark' : 'light');
     this.scene.follow = !still;
-    // The page's own rules fit the drawing to a window, and there is none.
+    // The style of the page fits the drawing to the window; a film has its own size.
     this.scene.canvas.setAttribute('style', 'position: fixed; left: 0; top: 0; max-width: none; max-height: none; ' +
       `min-height: 0; width: ${this.width}px; height: ${this.height}px`);
     this.sheet = new OffscreenCanvas(this.width, this.height);
     this.ctx = this.sheet.getContext('2d', { willReadFrequently: true });
     this.gif = GIFEncoder();
-    this.taken = 0;  // bytes of it that were handed out
+    this.taken = 0;  // bytes of the GIF that were already returned
   }
 
   draw(t) {
-    const { ctx, scene } = this, { look } = scene;
+    const { ctx, scene } = this, { theme } = scene;
     (this.machines ?? scene).draw(t);
-    ctx.fillStyle = look.paper;
+    ctx.fillStyle = theme.paper;
     ctx.fillRect(0, 0, this.width, this.height);
     ctx.drawImage(scene.canvas, 0, 0, this.width, this.height);
     ctx.textBaseline = 'top';
-    ctx.fillStyle = look.ink;
-    ctx.font = `600 15px ${look.sans}`;
+    ctx.fillStyle = theme.ink;
+    ctx.font = `600 15px ${theme.sans}`;
     const phase = this.page.phase_at?.(t);
     ctx.fillText([`${t.toFixed(2).replace('-', '−')} s`, phase].filter(Boolean).join('  ·  '), 8, 7);
     if (this.machines) this.draw_names();
     if (this.speed === 1) return;
-    ctx.fillStyle = look.quiet;
-    ctx.font = `13px ${look.sans}`;
+    ctx.fillStyle = theme.quiet;
+    ctx.font = `13px ${theme.sans}`;
     ctx.textAlign = 'right';
     ctx.fillText(`${this.speed} ×`, this.width - 8, 8);
     ctx.textAlign = 'left';
   }
 
-  // Who is who: the first one's name as it is drawn, the others' in their colors.
+  // Draws the names of the runs: the first one in the text color, the others in the colors of their ghosts.
   draw_names() {
-    const { ctx, scene: { look } } = this, palette = palette_of_runs();
-    ctx.font = `600 13px ${look.sans}`;
+    const { ctx, scene: { theme } } = this, palette = palette_of_runs();
+    ctx.font = `600 13px ${theme.sans}`;
     this.machines.runs.forEach((run, i) => {
-      ctx.fillStyle = i ? palette[i % palette.length] : look.ink;
+      ctx.fillStyle = i ? palette[i % palette.length] : theme.ink;
       ctx.fillText(run.label, 8, 29 + 18 * i);
     });
   }
@@ -71,18 +71,19 @@ class Film {
     return base64(new Uint8Array(await file.arrayBuffer()));
   }
 
-  // One palette for the whole film, of frames at some of its times: what stays, stays as it is.
+  // Computes one palette for the whole film from frames at these times, so that unchanged parts keep their
+// color.
   choose_palette(times) {
     const frames = times.map((t) => this.pixels(t));
     const all = new Uint8Array(frames.length * frames[0].length);
     frames.forEach((frame, i) => all.set(frame, i * frame.length));
     this.colors = quantize(all, 255);
-    this.through = this.colors.length;  // a pixel that is as it was before
+    this.through = this.colors.length;  // transparent: the pixel is the same as in the frame before
     this.palette = [...this.colors, [255, 255, 255]];
     return this.colors.length;
   }
 
-  // Returns what the frame adds to the file; `delay` in ms.
+  // Returns the bytes that the frame adds to the file; `delay` in ms.
   gif_frame(t, delay) {
     const now = applyPalette(this.pixels(t), this.colors), { before } = this;
     const shown = before ? now.map((color, i) => (color === before[i] ? this.through : color)) : now;
@@ -106,7 +107,7 @@ class Film {
   }
 }
 
-// The time that there is something of [s].
+// Returns the first and last time with data [s].
 window.sinew_span = () => {
   const { run, page } = window.sinew;
   return run ? [run.phases.stretches[0]?.from ?? 0, run.duration] : page.whole;

@@ -1,8 +1,8 @@
-// The page of an identification: what was measured beside what every model says of it, why one was
-// chosen, and its values.
+// Page of an identification: measurements compared with each model, the reason why one was chosen, and
+// its values.
 import { Charts } from './charts.js';
 import { errors, further, left_out, percent, unseen } from './fit_evidence.js';
-import { Look } from './look.js';
+import { Appearance } from './appearance.js';
 import { by_id, element } from './page.js';
 import { cell, heading, show_parameters, table } from './tables.js';
 import { number, Units } from './units.js';
@@ -10,7 +10,7 @@ import { number, Units } from './units.js';
 const words = (text) => text.replace(/-/g, '−');
 const rank = (x) => Math.floor(Math.log10(Math.abs(x)));
 
-// A value to the digits that half its interval leaves, two of them, and that half.
+// Returns a value, rounded to two digits of half its interval, and that half.
 function precise(value, half) {
   if (!(half > 0) || !Number.isFinite(half)) return [words(String(+value.toPrecision(6))), ''];
   const size = rank(Math.max(Math.abs(value), half)), digits = Math.min(6, Math.max(0, size - rank(half) + 1));
@@ -40,7 +40,7 @@ class Part {
     this.refresh();
   }
 
-  // Which model, how well, and why this one.
+  // Returns the chosen model with its errors.
   verdict() {
     const { report } = this, best = report.models.find((m) => m.model === report.chosen);
     const figure = (name, score) => score && element('div', { class: 'figure' },
@@ -50,19 +50,19 @@ class Part {
       element('div', { class: 'chosen' }, element('span', { class: 'quiet' }, 'chosen'), element('b', {}, report.chosen),
         element('code', {}, best.law), element('span', { class: 'quiet' }, best.source)),
       figure('error of the fit, rms', best.fit), figure('held out', best.held_out),
-      figure('cross-validated', best.cross_validated), figure('lengths at the ends, not seen', best.extrapolated),
-      report.not_pinned.length ? element('p', { class: 'hint not-pinned' }, `These data do not pin: ${report.not_pinned.join(', ')}.`) : '');
+      figure('cross-validated', best.cross_validated), figure('extrapolated to the outer lengths', best.extrapolated),
+      report.not_pinned.length ? element('p', { class: 'hint not-pinned' }, `Not pinned by these data: ${report.not_pinned.join(', ')}.`) : '');
   }
 
   models() {
     const { report } = this;
-    const kinds = [['fit', 'fit, rms'], ['held_out', 'held out, rms'], ['cross_validated', 'cross-validated'], ['extrapolated', 'at the ends']]
+    const kinds = [['fit', 'fit, rms'], ['held_out', 'held out, rms'], ['cross_validated', 'cross-validated'], ['extrapolated', 'extrapolated']]
       .filter(([key]) => report.models.some((m) => m[key]));
     const score = (s) => [cell(percent(s?.rmse_percent), 'number'), cell(percent(s?.max_percent), 'number quiet')];
     const rows = report.models.map((m) => {
       const head = element('th', { scope: 'row', title: m.law }, m.model);
       if (m.refused)
-        return element('tr', { class: 'refused' }, head, element('td', { colspan: 1 + 2 * kinds.length, class: 'quiet' }, `cannot be had from these data: ${m.refused}`),
+        return element('tr', { class: 'refused' }, head, element('td', { colspan: 1 + 2 * kinds.length, class: 'quiet' }, `cannot be fitted to these data: ${m.refused}`),
           element('td', {}));
       return element('tr', { class: m.model === report.chosen ? 'is-chosen' : null }, head, cell(String(m.parameters.length), 'number'),
         ...kinds.flatMap(([key]) => score(m[key])),
@@ -75,17 +75,17 @@ class Part {
       element('p', { class: 'hint' }, why));
   }
 
-  // Of the chosen model, with 95 % intervals.
+  // Updates the values of the chosen model, with 95 % intervals, in the current units.
   refresh() {
     const { report } = this, { units } = this.page;
     const { band } = report;
     this.scale.textContent = `errors of the ${report.quantity} in % of ${report.full_scale_is}, ${units.text(report.full_scale, report.unit)}` +
-      (band ? `; 68 and 95 % of what it did not see lie within ± ${units.text(band.half_68, report.unit)} and ± ${units.text(band.half_95, report.unit)}${band.where ? `, ${band.where}` : ''}` : '');
+      (band ? `; 68 and 95 % of held-out values are within ± ${units.text(band.half_68, report.unit)} and ± ${units.text(band.half_95, report.unit)}${band.where ? `, ${band.where}` : ''}` : '');
     const profiled = report.parameters.some((p) => p.profile);
     const rows = report.parameters.map((p) => {
       const u = units.of(p.unit), half = p.high === null || p.high === p.low ? NaN : 0.5 * (p.high - p.low) * u.scale;
       const value = units.convert(p.value, p.unit);
-      const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'these data do not tell it'
+      const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'not determined by these data'
         : p.known?.replace('+-', '±') || (!Number.isFinite(half) ? 'no interval' : '');
       const [shown, interval] = precise(value, half);
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
@@ -99,14 +99,14 @@ class Part {
     if (rows.length) this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
       table('Values', ['', 'value', '95 %', '', ...(profiled ? ['error at half', 'at twice', ''] : []), ''], rows),
       profiled ? element('p', { class: 'hint' },
-        'Error at half, at twice: times as large, with that value and all others fitted again; a value near zero is moved by its scale.') : '');
+        'Error at half, at twice: ratio of the error to that of the fit when the value is fixed at half or twice its size and all others are fitted again. A value near zero is moved by its scale.') : '');
   }
 
   remarks() {
     const { report } = this, best = report.models.find((m) => m.model === report.chosen);
     const item = (kind) => (text) => element('li', { class: kind }, element('p', {}, text));
     const all = [...report.warnings.map(item('')), ...[...(best.notes ?? []), ...report.notes].map(item('remark'))];
-    return all.length ? element('div', {}, element('h3', {}, 'To know'), element('ul', { class: 'warnings' }, ...all)) : '';
+    return all.length ? element('div', {}, element('h3', {}, 'Remarks'), element('ul', { class: 'warnings' }, ...all)) : '';
   }
 }
 
@@ -120,10 +120,10 @@ class FitPage {
     this.parts = run.parts.map((part) => new Part(part, this));
     by_id('parts').append(...this.parts.map((p) => p.root));
     this.parts.forEach((p) => p.show());
-    if (run.parameters.length) show_parameters(run, 'as the parameter file has them');
+    if (run.parameters.length) show_parameters(run, 'as in the parameter file');
     else by_id('parameters').remove();
     this.chips();
-    this.look = new Look(this.units, {
+    this.appearance = new Appearance(this.units, {
       on_units: () => this.parts.forEach((p) => (p.refresh(), p.charts?.rebuild())),
       on_colors: () => this.parts.forEach((p) => p.charts?.rebuild()),
       on_print: (begins) => this.parts.forEach((p) => p.charts?.print(begins)),

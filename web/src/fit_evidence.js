@@ -1,5 +1,5 @@
-// Shows what a fit tells beside its models: the error by part, what was left out and why, and what a
-// further measurement would buy.
+// Further sections of a fit: errors by part of the data, what was left out and why, and by how much
+// further measurements would reduce the error.
 import { sample_of } from './chart_shapes.js';
 import { element } from './page.js';
 import { cell, table } from './tables.js';
@@ -10,7 +10,7 @@ export const percent = (x) => (x === undefined ? '–' : x < 0.005 ? '< 0.01 %' 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 const section = (title, ...inner) => element('div', { class: 'evidence-part' }, element('h3', {}, title), ...inner);
 
-// One table of `report.errors`; the bars of all of them have one scale.
+// Returns one table of `report.errors`; the bars of all tables have the same scale.
 function errors_by({ by, unit, parts }, units, most) {
   const rows = parts.map((p) => {
     const bar = element('span', { class: 'bar' });
@@ -27,12 +27,12 @@ function errors_by({ by, unit, parts }, units, most) {
 export function errors(report, units) {
   if (!report.errors) return '';
   const most = Math.max(1e-9, ...report.errors.flatMap((e) => e.parts.map((p) => p.rmse_percent)));
-  return section(`Where ${report.chosen} is off`,
+  return section(`Errors of ${report.chosen} by part`,
     element('div', { class: 'evidence' }, ...report.errors.map((e) => errors_by(e, units, most))),
     element('p', { class: 'hint' }, `Of all points, fitted and held out, in % of ${report.full_scale_is}.`));
 }
 
-// Marks as in the chart, in the same order.
+// Returns what was left out, with the marks of the chart, in the same order.
 export function left_out(report, chart, units) {
   if (!report.left_out) return '';
   const curves = (chart?.curves ?? []).filter((c) => c.style === 'left out');
@@ -49,27 +49,27 @@ export function left_out(report, chart, units) {
     return element('tr', { class: 'explained' }, element('th', { scope: 'row' }, r.group), cell(units.text(r[x.label], x.unit), 'number'),
       cell(r.why));
   }));
-  return section('What was left out', table('Left out', ['reason', 'count', 'shown', 'how it was told'], rows),
-    why.length ? table('Explained', ['point', chart.x.label, 'what is known of it'], why) : '');
+  return section('What was left out', table('Left out', ['reason', 'count', 'shown', 'criterion'], rows),
+    why.length ? table('Explained', ['point', chart.x.label, 'explanation'], why) : '');
 }
 
 function mounts_of(further, units) {
   const error = (e, what) => (e[what] > 100 ? '> 100 %' : percent(e[what]));
   const errors_of = (e) => [cell(error(e, 'rms_percent'), 'number'), cell(error(e, 'half_width_95_percent'), 'number')];
   const kind = units.of('Pa gauge').label;
-  const before = element('tr', {}, element('th', { scope: 'row' }, 'as it is'), cell(''), cell(String(further.readings), 'number'),
+  const before = element('tr', {}, element('th', { scope: 'row' }, 'these data'), cell(''), cell(String(further.readings), 'number'),
     cell(''), ...errors_of(further.before));
-  const rows = further.mounts.map((m) => element('tr', { 'data-length': m.length_m }, element('th', { scope: 'row' }, `and at ${units.text(m.length_m, 'm')}`),
+  const rows = further.mounts.map((m) => element('tr', { 'data-length': m.length_m }, element('th', { scope: 'row' }, `and one at ${units.text(m.length_m, 'm')}`),
     cell(m.gauge_pressures_Pa.map((p) => String(+units.convert(p, 'Pa gauge').toPrecision(3))).join(' ')), cell(`+ ${m.readings}`, 'number'),
     cell(`${Math.round(m.time_s / 60)} min`, 'number'), ...errors_of(m.after)));
   return element('div', { class: 'further' }, further.of ? element('h4', {}, capital(further.of)) : '',
-    table('Further measurements', ['mount', `up and down over [${kind}]`, 'readings', 'time', 'error, rms', '95 %, at worst'], [before, ...rows]),
+    table('Further measurements', ['mount', `up and down over [${kind}]`, 'readings', 'time', 'error, rms', '95 %, worst'], [before, ...rows]),
     element('p', { class: 'hint' }, further.note));
 }
 
 export function further(report, units) {
   if (!report.further) return '';
-  return section('What a further measurement would buy', ...report.further.map((f) => mounts_of(f, units)));
+  return section('What further measurements would improve', ...report.further.map((f) => mounts_of(f, units)));
 }
 
 export function unseen(report) {

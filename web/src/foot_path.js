@@ -1,4 +1,4 @@
-// Where each run's foot went: height over forward position, to one scale.
+// Foot path of each run: height over forward position, both to the same scale.
 import { between, index_at } from './samples.js';
 import { palette_of_runs, set_line } from './runs.js';
 import { tick_text } from './units.js';
@@ -17,26 +17,26 @@ function bounds_of(columns) {
   return [low, high];
 }
 
-// A round step of which about `count` go into `span`.
+// Returns a round step that divides `span` into about `count` parts.
 function step_of(span, count) {
   const rough = span / count, power = 10 ** Math.floor(Math.log10(rough));
   return power * ([1, 2, 5, 10].find((m) => m * power >= rough) ?? 10);
 }
 
 export class FootPaths {
-  // Columns of a run, null where it has none.
+  // `xs`, `ys`: the columns of each run; null if missing.
   constructor(canvas, xs, ys, units, shown) {
     Object.assign(this, { canvas, xs, ys, units, shown });
     this.x_span = bounds_of(xs);
     this.y_span = bounds_of(ys);
-    this.still = document.createElement('canvas');  // all but what moves
+    this.still = document.createElement('canvas');  // everything that does not move
   }
 
   runs() {
     return this.xs.map((x, run) => run).filter((run) => this.shown[run] && this.xs[run] && this.ys[run]);
   }
 
-  // What happened within the view.
+  // Draws the paths within the time `view`.
   draw(view) {
     const ratio = window.devicePixelRatio || 1, width = this.canvas.clientWidth;
     if (!width) return;
@@ -60,7 +60,7 @@ export class FootPaths {
     this.palette = palette;
   }
 
-  // As high as the paths want to be.
+  // Returns the height at which the paths fill the width.
   height_for(width) {
     const [x0, x1] = this.x_span, [y0, y1] = this.y_span;
     const wanted = ((width - margin.left - margin.right) * (y1 - y0)) / (x1 - x0 || 1);
@@ -126,7 +126,7 @@ export class FootPaths {
     ctx.stroke();
   }
 
-  // A dot where each foot is.
+  // Draws a dot at each foot's position at t.
   show(t) {
     if (!this.palette) return;
     const ctx = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;

@@ -1,18 +1,18 @@
-// Formulas of channels, "/joint/hip/angle - /desired/joint/hip/angle": read into a tree, and which
-// unit they have. Nothing of the text is ever run.
+// Formulas of channels, as "/joint/hip/angle - /desired/joint/hip/angle". They are parsed into a tree, and
+// their unit is derived from it. The text is never run as code.
 import { dims_of, name_of, none, same, times, unit_word } from './dimension.js';
 
 const longest = 500;   // characters
-const deepest = 40;    // parentheses in each other
+const deepest = 40;    // nested parentheses
 
 export const functions = {
-  abs: { takes: 1, does: 'without its sign' },
-  deriv: { takes: 1, does: 'change per second' },
-  integral: { takes: 1, does: 'sum over time' },
+  abs: { takes: 1, does: 'absolute value' },
+  deriv: { takes: 1, does: 'time derivative' },
+  integral: { takes: 1, does: 'time integral' },
   mean: { takes: 2, does: 'mean over a window about each time, as mean(x, 0.1 s)' },
   sqrt: { takes: 1, does: 'square root' },
-  sin: { takes: 1, does: 'of an angle' },
-  cos: { takes: 1, does: 'of an angle' },
+  sin: { takes: 1, does: 'sine of an angle' },
+  cos: { takes: 1, does: 'cosine of an angle' },
   min: { takes: 2, does: 'the smaller one' },
   max: { takes: 2, does: 'the larger one' },
 };
@@ -44,7 +44,7 @@ class Parser {
   constructor(text, channels) {
     this.text = text;
     this.channels = channels;
-    // The longest first: one name may begin as another one does.
+    // The longest first, since one name may be the beginning of another.
     this.ids = [...channels.keys()].sort((a, b) => b.length - a.length);
     this.at = 0;
     this.depth = 0;
@@ -85,7 +85,7 @@ class Parser {
   }
 
   sum() {
-    if (++this.depth > deepest) this.fail(`at most ${deepest} parentheses in each other`);
+    if (++this.depth > deepest) this.fail(`at most ${deepest} nested parentheses`);
     const tree = this.chain('+-', () => this.chain('*/', () => this.signed()));
     --this.depth;
     return tree;
@@ -125,7 +125,7 @@ class Parser {
     return null;
   }
 
-  // And the unit behind it, "5 N m"; what follows a stroke is divided by as everything is.
+  // Parses a number and the units after it, "5 N m". A "/" after them is a division.
   number() {
     const found = this.text.slice(this.at).match(/^(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i)?.[0];
     if (!found) return null;
@@ -179,8 +179,9 @@ class Parser {
 
 // --- units ---
 //
-// A result's unit: `dims`, null where a channel's is not known; `name`, as the log spells it, while
-// it is one channel's; `zeros`, how many absolute pressures it counts: their difference has none.
+// The unit of a result has `dims`, null if the unit of a channel is unknown; `name` in the log's spelling,
+// if it is the unit of a channel; `zeros`, the number of absolute pressures summed up in it: 0 for the
+// difference of two.
 
 const is_pressure = (dims) => dims && same(dims, dims_of('Pa'));
 const spelled = (u) => (!u.dims ? 'an unknown unit' : same(u.dims, none) ? 'a plain number' : u.name ?? name_of(u.dims));
@@ -195,7 +196,7 @@ function unit_of_sum(node, a, b) {
   if (!same(a.dims, b.dims)) {
     const bare = [node.a, node.b].some((n) => n?.kind === 'number' && same(n.dims, none));
     throw new FormulaError(node.at, `${spelled(a)} ${node.op ?? 'and'} ${spelled(b)}`,
-      `the same unit on both sides${bare ? '; a number takes its unit behind it, as in 2 deg' : ''}`);
+      `the same unit on both sides${bare ? '; write the unit after the number, as in 2 deg' : ''}`);
   }
   const zeros = node.op === '-' ? a.zeros - b.zeros : node.op === '+' ? a.zeros + b.zeros : Math.max(a.zeros, b.zeros);
   return { dims: a.dims, zeros, name: a.name === b.name && !a.zeros && !b.zeros ? a.name : undefined };
@@ -204,7 +205,7 @@ function unit_of_sum(node, a, b) {
 function unit_of_product(node, a, b) {
   if (!a.dims || !b.dims) return { dims: null, zeros: 0 };
   const dims = times(a.dims, b.dims, node.op === '/' ? -1 : 1);
-  // A mean of two pressures counts one of them: (a + b)/2.
+  // A mean of two pressures, (a + b)/2, counts as one.
   const by = node.b.kind === 'number' && same(b.dims, none) ? node.b.value : node.a.kind === 'number' && node.op === '*' && same(a.dims, none) ? node.a.value : null;
   if (by === null) return { dims, zeros: 0 };
   const of = node.b.kind === 'number' ? a : b;
@@ -256,7 +257,7 @@ function unit_of(node, channels) {
   }
 }
 
-// Returns it in the spelling by which pages know it: "Pa" where it has a zero of its own, as a channel.
+// Returns the unit in the spelling of the pages: "Pa" for an absolute pressure, "Pa diff" for a difference.
 function word_of(unit) {
   if (!unit.dims) return '1';
   if (unit.name && !(is_pressure(unit.dims) && unit.zeros !== 1 && /^Pa( abs)?$/.test(unit.name))) return unit.name;
@@ -269,8 +270,8 @@ function* ids_in(node) {
   for (const part of [node.a, node.b, ...(node.args ?? [])]) if (part) yield* ids_in(part);
 }
 
-// `channels`: a map from each channel's id to its SI unit. Returns the tree, the unit of what it
-// gives, and the channels in it. Throws FormulaError.
+// Parses a formula. `channels` maps each channel's id to its SI unit. Returns the tree, the unit of its
+// result, and the ids of its channels. Throws FormulaError if the text or its units are wrong.
 export function parse_formula(text, channels) {
   const tree = new Parser(text, channels).whole();
   const ids = [...new Set(ids_in(tree))];

@@ -1,5 +1,5 @@
-// A formula gives a column at the times of its channel with the most samples. Of a channel with
-// other times the value counts that was last known then.
+// Values of a formula, at the times of its channel with the most samples. Channels with other times
+// contribute their last value before each time.
 
 const apply = {
   '+': (a, b) => a + b,
@@ -20,7 +20,7 @@ function resampled(column, time) {
   return out;
 }
 
-// Both neighbours count; at the ends and beside a gap the one that is there.
+// Returns central differences; at the ends and next to a gap, one-sided ones.
 function derivative(time, v) {
   const out = new Float64Array(v.length).fill(NaN);
   for (let i = 0; i < v.length; ++i) {
@@ -42,8 +42,8 @@ function integral(time, v) {
   return out;
 }
 
-// Of what lies within half a window on either side. At the ends the window is shorter on both sides,
-// so that a straight line keeps its slope.
+// Returns the mean over a window about each time. At the ends the window is shortened on both sides, so
+// that a straight line keeps its slope.
 function moving_mean(time, v, window) {
   const sums = new Float64Array(v.length + 1), counts = new Uint32Array(v.length + 1);
   for (let i = 0; i < v.length; ++i) {
@@ -54,7 +54,7 @@ function moving_mean(time, v, window) {
   const out = new Float64Array(v.length).fill(NaN), slack = 1e-9, end = v.length - 1;
   for (let i = 0, from = 0, to = 0; i < v.length; ++i) {
     const half = Math.min(window / 2, time[i] - time[0], time[end] - time[i]) + slack;
-    // Near the start the window grows as fast as it moves on, so its begin never moves back.
+    // Near the start the window grows as fast as it advances, so its beginning never moves back.
     while (time[from] < time[i] - half) ++from;
     to = Math.max(to, i);
     while (to < end && time[to + 1] <= time[i] + half) ++to;
@@ -97,7 +97,7 @@ function evaluate(node, time, column_of) {
   return each(apply[node.name], time, args);
 }
 
-// `formula`: what parse_formula() returned; `column_of` gives a channel's { time, values }.
+// `formula`: result of parse_formula(); `column_of` returns a channel's { time, values }.
 export function column_of_formula(formula, column_of) {
   const clocks = formula.ids.map((id) => column_of(id).time);
   const time = clocks.reduce((most, c) => (c.length > most.length ? c : most));

@@ -1,7 +1,7 @@
-// Columns that grow: pieces of a run are appended to those of the page (sinew/report/page/growing.h).
-// Those of one clock share their times, as in a page that is whole.
+// Columns that grow while a run continues: its pieces are appended to the columns of the page
+// (sinew/report/page/growing.h). Columns of one clock share their times, as on the page of a finished run.
 
-// A typed array with room behind its end.
+// Typed array with spare capacity.
 class Row {
   constructor(Kind) {
     this.room = new Kind(4096);
@@ -21,7 +21,7 @@ class Row {
 }
 
 export class GrowingColumns {
-  // `layout` says which clock each column has.
+  // `layout.columns` has the clock of each column.
   constructor(layout) {
     this.clock_of = layout.columns;
     this.clocks = layout.clocks.map(() => new Row(Float64Array));
@@ -29,7 +29,7 @@ export class GrowingColumns {
     this.columns = layout.columns.map(() => ({ time: new Float64Array(), values: new Float32Array() }));
   }
 
-  // `piece`: a column for each of ours.
+  // `piece` has one column for each column of the page.
   append(piece) {
     const times = this.clocks.map(() => null);
     piece.forEach((more, i) => {
@@ -41,7 +41,7 @@ export class GrowingColumns {
   }
 }
 
-// Phases that go on from one piece to the next are one.
+// Appends phases; a phase that continues from one piece to the next is extended.
 export function append_stretches(all, more) {
   for (const s of more) {
     const last = all.at(-1);

@@ -1,14 +1,16 @@
-// How a person has arranged the plots of a robot in an experiment: kept in this browser, under a name
-// of both, so that the next run of it looks the same. Only what differs from the page is kept.
+// Layout of the plots, as a reader has arranged them for a robot in an experiment. The browser stores it
+// under the names of both, so that the next run is shown in the same way. Only differences from the page's
+// own layout are stored.
 //
 //   { format, own: [{ id, title, lines }], added: { plot: [line] }, away: [plot], order: [plot],
 //     shown: { plot: { line: true } }, groups: { group: true } }
 //
-// A line is the id of a channel, or { formula, name }. What a run has not is passed over and kept.
+// A line is the id of a channel, or { formula, name }. Lines whose channels a run lacks are not drawn, but
+// stay in the layout.
 import { recall, remember } from './memory.js';
 
 const format = 'sinew.layout/1';
-const most = 200000;  // characters that are read
+const most = 200000;  // characters; a longer text is ignored
 
 const is_object = (v) => v !== null && typeof v === 'object' && !Array.isArray(v);
 const is_text = (v) => typeof v === 'string' && v.length <= 500;
@@ -22,7 +24,7 @@ const texts_of = (list) => (Array.isArray(list) ? list.filter(is_text) : []);
 const flags_of = (object) => Object.fromEntries(Object.entries(is_object(object) ? object : {}).filter(([, v]) => typeof v === 'boolean'));
 const each = (object, does) => Object.fromEntries(Object.entries(is_object(object) ? object : {}).map(([k, v]) => [k, does(v)]));
 
-// Whatever stands in the browser: what cannot be understood counts as nothing.
+// Reads a layout from the text that the browser has stored. Invalid parts are ignored.
 export function read_layout(text) {
   const out = nothing();
   if (!text || text.length > most) return out;
@@ -45,18 +47,18 @@ export function read_layout(text) {
 
 export const is_nothing = (layout) => JSON.stringify(layout) === JSON.stringify(nothing());
 
-export class KeptLayout {
+export class StoredLayout {
   constructor(run) {
     this.key = `plots of ${[run.robot, run.name].filter(Boolean).join(', ') || 'a run'}`;
     this.layout = read_layout(recall(this.key));
   }
 
-  keep() {
+  save() {
     remember(this.key, is_nothing(this.layout) ? '' : JSON.stringify(this.layout));
   }
 
   reset() {
     this.layout = nothing();
-    this.keep();
+    this.save();
   }
 }

@@ -1,5 +1,5 @@
-// A run that still goes: takes in what the program sends, lets the page follow it, and asks for
-// what a person wants. The page before its end has no results; then it is loaded anew.
+// Connection to a run in progress. It receives samples from the program, lets the page follow them, and
+// sends the user's requests. Results exist only at the end of the run; the page is then loaded again.
 import { LiveControls } from './live_controls.js';
 import { append_stretches, GrowingColumns } from './growing.js';
 import { read_samples } from './samples.js';
@@ -7,22 +7,22 @@ import { read_samples } from './samples.js';
 const plots_every = 100;   // [ms]
 const refit_every = 500;   // [ms]
 const again_after = 1000;  // without a connection [ms]
-const window_seconds = 15; // of a long run in the plots, which turn their page
+const window_seconds = 15; // time span of the plots, if the run is long
 
-// The program's WebSocket: beside this page, behind the token of its address.
+// Returns the address of the program's WebSocket: that of this page, with its token, and "live".
 const where = () => new URL('live', location.href).href.replace(/^http/, 'ws');
 
 export class Live {
   constructor(run) {
     this.run = run;
     this.growing = new GrowingColumns(run.samples);
-    this.time = 0;        // of the last sample
+    this.time = 0;        // of the latest sample [s]
     this.frames = 0;
     this.following = true;
-    this.queue = Promise.resolve();  // pieces are appended in their order
+    this.queue = Promise.resolve();  // pieces are appended in the order in which they arrive
   }
 
-  // Columns with the first samples in them.
+  // Connects and returns the columns as soon as they contain the first samples.
   connect() {
     return new Promise((resolve) => {
       this.first = () => resolve(this.growing.columns);
@@ -39,13 +39,13 @@ export class Live {
     this.socket.addEventListener('close', () => this.lost());
   }
 
-  ask(what) {
+  request(what) {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(what));
   }
 
   async take(message) {
     if (message.over) return this.over();
-    if (message.error) return this.controls?.complain(message.error);
+    if (message.error) return this.controls?.show_error(message.error);
     if (message.piece) await this.append(message.piece);
     this.state = message.state;
     if (message.changes) this.take_changes(message.changes);
@@ -64,7 +64,7 @@ export class Live {
     if (this.page) this.grow();
   }
 
-  // Marks what was set since, by a slider or the file's list.
+  // Adds marks for values set since the last message, by a slider or by the experiment's list of changes.
   take_changes(changes) {
     (this.run.changes ??= []).push(...changes);
     this.page?.marks.refresh();
@@ -89,7 +89,7 @@ export class Live {
     page.player.clock = page.clock();
     if (now - (this.plotted ?? -Infinity) >= plots_every) {
       this.plotted = now;
-      page.desk.grow();
+      page.plot_tools.grow();
       page.plots.refresh();
       page.draw_phases();
     }
@@ -101,7 +101,7 @@ export class Live {
     }
   }
 
-  // Shown is what was a moment ago, so that it moves evenly from frame to frame.
+  // Shows a time slightly before the latest sample, so that the drawing moves evenly from frame to frame.
   follow(on) {
     this.following = on;
     this.controls.show_following(on);

@@ -1,4 +1,4 @@
-// What a person can do to a run that goes: pause, speed, gains, desired angles and stiffnesses.
+// Controls of a run in progress: pause, speed, gains, desired angles and stiffnesses.
 import { element, set_icon } from './page.js';
 import { number } from './units.js';
 
@@ -6,7 +6,8 @@ const send_every = 100;  // while a slider is dragged [ms]
 
 const paces = [['0.1', '0.1×'], ['0.25', '0.25×'], ['0.5', '0.5×'], ['1', '1×'], ['2', '2×'], ['4', '4×'], ['0', 'full speed']];
 
-// One gain, desired angle or stiffness: a slider, a field, and the way back to the plan's own.
+// Control of one gain, desired angle or stiffness: a slider, a field, and a button that returns to the
+// value of the plan.
 class Control {
   constructor(spec, index, panel) {
     Object.assign(this, { spec, index, panel, most: spec.most, held: false, sent: 0 });
@@ -14,7 +15,7 @@ class Control {
     this.slider = element('input', { type: 'range', min: 0, max: 1000, step: 1, 'aria-label': name });
     this.field = element('input', { type: 'number', min: 0, step: 'any', 'aria-label': `${name}, exactly` });
     this.unit = element('span', { class: 'unit' });
-    this.back = element('button', { type: 'button', class: 'icon release', title: `The plan's own ${spec.what} again`,
+    this.back = element('button', { type: 'button', class: 'icon release', title: `Return to the plan's ${spec.what}`,
                                     'aria-label': `Release ${name}` }, '↺');
     this.root = element('div', { class: 'control', 'data-key': spec.key },
       element('span', { class: 'what' }, spec.what), this.slider, this.field, this.unit, this.back);
@@ -34,19 +35,19 @@ class Control {
     field.addEventListener('blur', () => (this.held = false));
     field.addEventListener('change', () => {
       const typed = Number(field.value) / this.in_unit()[1];
-      if (field.value === '' || !(typed >= 0)) return this.panel.complain(`found "${field.value}"; expected a number from 0 on`);
+      if (field.value === '' || !(typed >= 0)) return this.panel.show_error(`found "${field.value}"; expected a number of at least 0`);
       this.value = typed;
       this.show_slider();
       this.send();
     });
-    this.back.addEventListener('click', () => this.panel.live.ask({ do: 'release', key: this.spec.key }));
+    this.back.addEventListener('click', () => this.panel.live.request({ do: 'release', key: this.spec.key }));
   }
 
   send() {
     this.sent = performance.now();
-    this.until = this.sent + 300;  // the run's answer is on its way
+    this.until = this.sent + 300;  // until then older values from the run are ignored
     if (document.activeElement !== this.field) this.held = false;
-    this.panel.live.ask({ do: 'set', key: this.spec.key, value: this.value });
+    this.panel.live.request({ do: 'set', key: this.spec.key, value: this.value });
   }
 
   in_unit() {
@@ -92,17 +93,17 @@ export class LiveControls {
       out.addEventListener('click', does);
       return out;
     };
-    this.pause = button('run-pause', '', () => this.live.ask({ do: this.paused ? 'resume' : 'pause' }), 'Pause or resume the run itself');
+    this.pause = button('run-pause', '', () => this.live.request({ do: this.paused ? 'resume' : 'pause' }), 'Pause or resume the run itself');
     this.pace = element('select', { id: 'run-pace', 'aria-label': 'Speed of the run' },
       ...paces.map(([value, words]) => element('option', { value }, words)));
-    this.pace.addEventListener('change', () => this.live.ask({ do: 'pace', value: Number(this.pace.value) }));
-    this.tail = button('follow-run', 'Follow the run', () => this.live.follow(true), 'Show what happens now');
-    this.release = button('release-all', 'Release all', () => this.live.ask({ do: 'release all' }), 'The plan\'s own values again');
+    this.pace.addEventListener('change', () => this.live.request({ do: 'pace', value: Number(this.pace.value) }));
+    this.tail = button('follow-run', 'Follow the run', () => this.live.follow(true), 'Show the current time of the run');
+    this.release = button('release-all', 'Release all', () => this.live.request({ do: 'release all' }), 'Return to all values of the plan');
     this.lamp = element('span', { class: 'lamp' });
     this.word = element('strong', {});
     this.clock = element('span', { class: 'run-clock' });
     this.note = element('span', { class: 'run-note', role: 'status' });
-    this.stop = button('stop-machine', 'Stop the machine', () => this.stop_machine(), 'Shut its valves and let the air out, at once; the space bar does it too');
+    this.stop = button('stop-machine', 'Stop the machine', () => this.stop_machine(), 'Close the valves and vent the air immediately (space)');
     this.stop.hidden = true;
     this.speed = element('label', {}, element('span', { class: 'quiet' }, 'Speed of the run '), this.pace);
     return element('section', { class: 'live-strip no-print', id: 'live', 'aria-label': 'The run' },
@@ -111,10 +112,10 @@ export class LiveControls {
 
   stop_machine() {
     this.stop.disabled = true;
-    this.live.ask({ do: 'stop' });
+    this.live.request({ do: 'stop' });
   }
 
-  // A machine is stopped in place of being paused. Its space bar is not the replay's.
+  // A machine cannot be paused, only stopped. The space bar then stops it instead of playing the replay.
   make_stoppable() {
     if (!this.stop.hidden) return;
     this.stop.hidden = false;
@@ -151,8 +152,8 @@ export class LiveControls {
     this.controls.forEach((c, i) => c.show(state.values[i], state.overridden[i]));
     const by_hand = state.overridden.filter(Boolean).length;
     this.release.disabled = !by_hand;
-    if (state.left_out) this.complain('some samples came too fast to be shown; the log has them');
-    if (state.refused) this.complain(`${state.refused} changes were not followed: the run keeps no more`);
+    if (state.left_out) this.show_error('some samples arrived too fast to be shown; the log contains them');
+    if (state.refused) this.show_error(`${state.refused} changes were ignored: the run has reached its limit of recorded changes`);
   }
 
   show_pace(pace) {
@@ -166,7 +167,7 @@ export class LiveControls {
     this.tail.disabled = on;
   }
 
-  complain(words) {
+  show_error(words) {
     this.note.textContent = words;
     clearTimeout(this.forget);
     this.forget = setTimeout(() => (this.note.textContent = ''), 6000);
@@ -175,6 +176,6 @@ export class LiveControls {
   lost() {
     this.lamp.className = 'lamp';
     this.word.textContent = 'No connection';
-    this.note.textContent = 'the run goes on without this page, or the program has ended';
+    this.note.textContent = 'the run continues without this page, or the program has ended';
   }
 }

@@ -1,12 +1,12 @@
-// The page of a run: reads what the program put into it, then joins replay, plots and tables.
+// Page of a run. It reads the data that the program has put into it and builds replay, plots and tables.
 import { pressure_gradient } from './colors.js';
 import { Charts } from './charts.js';
 import { Live } from './live.js';
-import { Look } from './look.js';
+import { Appearance } from './appearance.js';
 import { Marks } from './marks.js';
 import { by_id, element } from './page.js';
 import { Player } from './player.js';
-import { PlotDesk } from './plot_desk.js';
+import { PlotTools } from './plot_tools.js';
 import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
@@ -16,7 +16,7 @@ import {
 } from './tables.js';
 import { short_number, Units } from './units.js';
 
-const paper_scene = 'width: 640px; height: 330px;';  // of the drawing, whatever the screen's is
+const paper_scene = 'width: 640px; height: 330px;';  // size of the drawing in print, independent of the screen
 
 class Page {
   constructor(run, columns) {
@@ -26,7 +26,7 @@ class Page {
     this.head();
     this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
     this.plots.on_view = () => this.draw_phases();
-    this.desk = new PlotDesk(run, this.plots, columns);
+    this.plot_tools = new PlotTools(run, this.plots, columns);
     this.marks = new Marks(by_id('changes'), run, this.plots, this.units, (t) => this.seek(t));
     this.charts = run.charts?.length ? new Charts(by_id('charts'), run.charts, columns, this.units, run.name || run.title) : null;
     this.replay();
@@ -36,7 +36,7 @@ class Page {
     this.seek(run.phases.stretches[0]?.from ?? 0);
   }
 
-  // Times of the most samples: what a step of the player goes by.
+  // Returns the times of the channel with the most samples; the player steps through them.
   clock() {
     const clocks = this.run.panels.flatMap((p) => p.lines.map((l) => this.columns[l.column].time));
     return clocks.reduce((most, c) => (c.length > most.length ? c : most), new Float64Array());
@@ -84,9 +84,9 @@ class Page {
 
   replay() {
     const { run } = this;
-    document.querySelector('.stage').hidden = !run.panels.length;  // a sweep has no time
+    document.querySelector('.stage').hidden = !run.panels.length;  // a sweep has no time axis
     if (run.stand) run.scene = as_scene(run.stand);
-    if (!run.scene) {  // the plots take its place, the player stays
+    if (!run.scene) {  // without a drawing the plots use its space; the player stays
       document.querySelector('.stage').classList.add('without-scene');
       return;
     }
@@ -94,7 +94,7 @@ class Page {
       : new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
     by_id('follow').hidden = !run.scene.track;
     this.muscles = run.scene.muscles.map((m) => this.muscle_card(m));
-    // A log of hardware says nothing of their air.
+    // A log of hardware may have neither pressures nor valves.
     this.muscles = this.muscles.filter((m) => m.spec.pressure !== null || m.lights.some((l) => l));
     by_id('muscles').append(...this.muscles.map((m) => m.root));
     this.legend();
@@ -129,7 +129,8 @@ class Page {
     by_id('legend').replaceChildren(...out);
   }
 
-  // Phases under the slider, warnings below them, faults above, what the plots show between two brackets.
+  // Draws the phases under the slider, warnings below and faults above them, and a frame around the time
+// that the plots show.
   draw_phases() {
     const canvas = by_id('phases'), ratio = window.devicePixelRatio || 1;
     const width = canvas.clientWidth, height = canvas.clientHeight;
@@ -204,8 +205,8 @@ class Page {
   // --- controls ---
 
   controls() {
-    this.look = new Look(this.units, {
-      on_units: () => this.reword(),
+    this.appearance = new Appearance(this.units, {
+      on_units: () => this.change_units(),
       on_colors: () => this.recolor(),
       on_print: (begins) => this.print(begins),
     });
@@ -253,8 +254,7 @@ class Page {
     this.scene.draw(this.player.time);
   }
 
-  // Other units.
-  reword() {
+  change_units() {
     this.marks.refresh();
     this.plots.rebuild();
     this.charts?.rebuild();
@@ -264,14 +264,14 @@ class Page {
   }
 
   recolor() {
-    this.scene?.read_look();
+    this.scene?.read_theme();
     this.plots.rebuild();
     this.charts?.rebuild();
     this.draw_phases();
     this.show(this.player.time);
   }
 
-  // On paper all plots are there.
+  // Draws all plots for printing.
   print(begins) {
     this.player.set_playing(false);
     this.plots.print(begins);
@@ -288,7 +288,7 @@ async function start() {
   samples.remove();
   const page = new Page(run, columns);
   live?.attach(page);
-  // For scripts that take pictures, and for tests.
+  // Used by scripts that take pictures and by tests.
   window.sinew = { run, columns, page, index_at, live };
   document.documentElement.dataset.ready = 'yes';
 }

@@ -1,12 +1,13 @@
-// These mark what was set while the run went, by the file's list or by a slider: a mark on the time axis of every
-// plot. A slider that is dragged sends many values; what follows within a moment is one move.
+// Marks of values that were set during the run, by the experiment's list of changes or by a slider: one
+// on the time axis of every plot. A slider that is dragged sends many values; those that follow each other
+// within a moment are one move.
 import { element } from './page.js';
 
 const moment = 1;      // between values of one move [s]
-const most_shown = 60; // handles in view of one plot
-const reach = 5;       // of the pointer [px]
+const most_shown = 60; // handles of one plot
+const reach = 5;       // half the width of a handle [px]
 
-// "control.gains.hip.angle" as the sliders call it.
+// Returns a key such as "control.gains.hip.angle" in the words of the sliders, "hip angle gain".
 export function setting_in_words(key) {
   const [, what, joint, of] = key.match(/^control\.(?:(gains)\.)?(.*)\.([^.]+)$/) ?? [];
   if (!joint) return key;
@@ -14,7 +15,7 @@ export function setting_in_words(key) {
   return words.replaceAll('_', ' ');
 }
 
-// Changes in order of time as moves: { key, leg, from, to (times), before, value; null: released }.
+// Returns changes as moves in order of time: { key, leg, from, to (times), before, value; null: released }.
 export function moves_of(changes) {
   const last = new Map(), out = [];
   for (const c of [...changes].sort((a, b) => a.time - b.time)) {
@@ -32,7 +33,7 @@ export function moves_of(changes) {
 }
 
 export class Marks {
-  // `run.changes` as the program writes them; on a live page they grow.
+  // `run.changes`: changes as the program writes them; on a live page more are appended.
   constructor(root, run, plots, units, seek) {
     Object.assign(this, { root, run, plots, units, seek });
     plots.marks = this;
@@ -40,7 +41,7 @@ export class Marks {
     this.refresh();
   }
 
-  // More changes have come, or they are told in other units.
+  // Updates the list after new changes or a change of units.
   refresh() {
     this.moves = moves_of(this.run.changes ?? []);
     this.root.hidden = !this.moves.length;
@@ -49,18 +50,18 @@ export class Marks {
       button.addEventListener('click', () => this.seek(move.from));
       return button;
     });
-    this.root.replaceChildren(element('span', { class: 'key' }, 'set while it ran'), ...shown,
+    this.root.replaceChildren(element('span', { class: 'key' }, 'set during the run'), ...shown,
       this.moves.length > most ? element('span', {}, `and ${this.moves.length - most} more`) : '');
     for (const panel of this.plots.panels) panel.marked = null;
   }
 
   text(value, unit) {
-    return value === null ? "the plan's own" : this.units.text(value, unit);
+    return value === null ? "the plan's value" : this.units.text(value, unit);
   }
 
   words(move) {
     const of = `${move.leg ? `${move.leg} ` : ''}${setting_in_words(move.key)}`;
-    return move.value === null ? `${of}: the plan's own again`
+    return move.value === null ? `${of}: back to the plan's value`
       : `${of}: ${move.before === null ? '' : `${this.text(move.before, move.unit)} → `}${this.text(move.value, move.unit)}`;
   }
 
@@ -71,11 +72,11 @@ export class Marks {
     return this.moves.filter((m) => m.from >= from && m.from <= to);
   }
 
-  // Under the curves of a plot: a dashed line at each.
+  // Draws a dashed line at each move, under the curves of a plot.
   draw(u) {
     const { ctx, bbox } = u, px = devicePixelRatio || 1;
     ctx.save();
-    ctx.strokeStyle = this.plots.look.mark;
+    ctx.strokeStyle = this.plots.theme.mark;
     ctx.lineWidth = px;
     ctx.setLineDash([3 * px, 3 * px]);
     for (const move of this.in_view()) {
@@ -88,9 +89,9 @@ export class Marks {
     ctx.restore();
   }
 
-  // Handles at the top of the lines, which tell what was set. They are made anew where the view is.
+  // Puts a handle with a description at the top of each line. Handles are created again when the view changes.
   place(panel) {
-    // The ends of the view count as well: a plot that is just being made knows them only later.
+    // The positions of the view's ends are compared as well: a new plot gets its scale only later.
     const [begin, end] = this.plots.view.map((t) => panel.plot.valToPos(t, 'x'));
     if (!(end > begin)) return;
     const of = `${this.plots.view} ${begin} ${end} ${this.moves.length} ${this.units.system}`;

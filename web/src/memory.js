@@ -1,4 +1,4 @@
-// This keeps what a reader chose in this browser, for all pages. A browser that keeps nothing is no trouble.
+// Stores a reader's choices in this browser, for all pages. Without storage the choices are just not kept.
 
 const prefix = 'sinew: ';
 
@@ -6,11 +6,11 @@ export function remember(what, value) {
   try {
     localStorage.setItem(prefix + what, value);
   } catch {
-    // private windows, and pages that a policy keeps from it
+    // Private windows and some policies forbid storage.
   }
 }
 
-// null: nothing was chosen.
+// Returns a stored choice; null if there was no choice.
 export function recall(what) {
   try {
     return localStorage.getItem(prefix + what);

@@ -1,4 +1,4 @@
-// A menu under a button: arrow keys go through it, Escape and a click elsewhere close it.
+// Menu of a button. Arrow keys move through it; Escape and a click elsewhere close it.
 import { element } from './page.js';
 
 let open = null;
@@ -23,7 +23,8 @@ function key(event) {
   if (to !== undefined || event.key === 'Escape') event.preventDefault();
 }
 
-// `entries`: [words, does] each, or words alone for a heading. A second click on the button closes it.
+// `entries`: [words, does] for an item, or a string for a heading. A second click on the button closes
+// the menu.
 export function open_menu(button, entries) {
   const again = open?.button === button;
   close_menu();
@@ -43,7 +44,7 @@ export function open_menu(button, entries) {
   button.setAttribute('aria-expanded', 'true');
   button.after(root);
   open = { root, button };
-  // It stays within the window.
+  // Keeps the menu within the window.
   if (root.getBoundingClientRect().left < 4) root.classList.add('to-right');
   root.querySelector('button')?.focus();
 }

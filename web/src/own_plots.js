@@ -1,24 +1,24 @@
-// The plots as a person arranges them: channels and formulas together, some put away, in another
-// order. Every change is a change of the layout, which is then applied to the page's plots.
+// Plots as a reader arranges them: combined channels and formulas, hidden plots, another order. Every
+// action changes the layout, which is then applied to the page's plots.
 import { column_of_formula } from './formula_values.js';
 import { parse_formula } from './formula.js';
-import { is_nothing, KeptLayout } from './layout.js';
+import { is_nothing, StoredLayout } from './layout.js';
 
 export const own_group = 'Own';
-const most_units = 2;  // a plot has an axis at either side
+const most_units = 2;  // a plot has an axis at each side
 
-// Of a plot that has no title: where its channels are from, or what its formulas are called.
+// Returns a title for a plot without one: the plots of its channels, or the names of its formulas.
 const title_of = (lines) =>
   [...new Set(lines.map((l) => l.title ?? l.label))].slice(0, 3).join(', ') || 'Own plot';
 
 const same_line = (a, b) => JSON.stringify(a) === JSON.stringify(b);
-const id_of_kept = (line) => (typeof line === 'string' ? line : `=${line.formula}`);
+const id_of_stored = (line) => (typeof line === 'string' ? line : `=${line.formula}`);
 
 export class OwnPlots {
-  // `channels`: a ChannelList; `on_change` is told after each change.
+  // `channels`: a ChannelList; `on_change` is called after each change.
   constructor(run, plots, channels, on_change) {
     Object.assign(this, { run, plots, channels, on_change });
-    this.kept = new KeptLayout(run);
+    this.stored = new StoredLayout(run);
     this.by_id = new Map();
     for (const panel of plots.panels) {
       panel.id = `${panel.spec.group}/${panel.spec.title}`;
@@ -26,12 +26,12 @@ export class OwnPlots {
       this.by_id.set(panel.id, panel);
     }
     this.usual_order = [...plots.panels];
-    plots.on_toggle = (panel, i) => this.keep_shown(panel, i);
+    plots.on_toggle = (panel, i) => this.store_shown(panel, i);
     this.apply();
   }
 
   get layout() {
-    return this.kept.layout;
+    return this.stored.layout;
   }
 
   is_changed() {
@@ -63,7 +63,8 @@ export class OwnPlots {
     this.on_change?.();
   }
 
-  // Own plots first, then the page's; where a person has moved one, all as they stood then.
+  // Returns the plots in order: own plots first, then the page's. After the reader has moved a plot, the
+// stored order is used, with newer plots first.
   in_order() {
     const own = this.layout.own.map((o) => this.by_id.get(o.id)).reverse();
     const all = [...own, ...this.usual_order], { order } = this.layout;
@@ -93,23 +94,24 @@ export class OwnPlots {
     this.plots.remove_panel(panel);
   }
 
-  // As a panel takes them; what this run has not, or what does not fit on its axes, is passed over.
-  lines_of(kept, panel, color) {
+  // Returns stored lines in the form that a panel takes. Lines whose channels this run lacks, and lines
+// that would need a third unit, are skipped.
+  lines_of(stored, panel, color) {
     const units = new Set((panel?.built_in ?? []).map((l) => l.unit ?? panel.spec.unit));
     const has = new Set((panel?.built_in ?? []).map((l) => l.id));
     const from = new Set(panel ? [panel.spec.title] : []);
-    for (const line of kept) if (typeof line === 'string') from.add(this.channels.by_id.get(line)?.title);
-    return kept.flatMap((line) => {
-      const id = id_of_kept(line);
+    for (const line of stored) if (typeof line === 'string') from.add(this.channels.by_id.get(line)?.title);
+    return stored.flatMap((line) => {
+      const id = id_of_stored(line);
       const made = has.has(id) ? null : typeof line === 'string' ? this.channel_line(line, from.size > 1) : this.formula_line(line);
       if (!made || (units.size >= most_units && !units.has(made.unit))) return [];
       units.add(made.unit);
       has.add(id);
-      return [{ ...made, id, color: color++, style: 'full', kept: line }];
+      return [{ ...made, id, color: color++, style: 'full', stored: line }];
     });
   }
 
-  // `long`: beside channels of other plots, where its label alone may be another one's, too.
+  // `long`: adds the plot's title to the label, for plots with channels of several plots.
   channel_line(id, long) {
     const channel = this.channels.by_id.get(id);
     if (!channel) return null;
@@ -122,39 +124,39 @@ export class OwnPlots {
       const data = column_of_formula(read, (id) => this.channels.column(id));
       return { label: name || formula, topic: formula, unit: read.unit, data, read };
     } catch {
-      return null;  // of another run, whose channels this one has not
+      return null;  // the formula has channels that this run lacks
     }
   }
 
-  // After samples have come.
+  // Updates the formulas after new samples.
   recompute() {
     for (const panel of this.plots.panels)
       for (const line of panel.spec.lines)
         if (line.read) Object.assign(line.data, column_of_formula(line.read, (id) => this.channels.column(id)));
   }
 
-  // --- what a person does ---
+  // --- actions of the reader ---
 
   changed() {
-    this.kept.keep();
+    this.stored.save();
     this.apply();
   }
 
-  lines_kept(panel) {
+  stored_lines(panel) {
     const own = this.layout.own.find((o) => o.id === panel.id);
     return own ? own.lines : (this.layout.added[panel.id] ??= []);
   }
 
-  // Why these lines cannot go into a plot; '' if they can.
+  // Returns why these lines cannot be added to a plot; '' if they can.
   refusal(panel, lines) {
     const units = new Set(panel.spec.lines.map((l) => l.unit ?? panel.spec.unit));
     for (const made of this.lines_of(lines, null, 0)) units.add(made.unit);
     if (units.size <= most_units) return '';
     const labels = [...units].map((u) => this.plots.units.of(u).label || '1').join(', ');
-    return `A plot has room for two units; these would be ${labels}. Try a new plot.`;
+    return `A plot can have two units; these would be ${labels}. Use a new plot.`;
   }
 
-  // Channels or formulas into a plot, or into a new one where `panel` is null. Returns that plot.
+  // Adds channels or formulas to a plot, or to a new one if `panel` is null. Returns that plot.
   add(panel, lines, title = '') {
     if (!panel) {
       const next = 1 + Math.max(0, ...this.layout.own.map((o) => Number(o.id.slice(4)) || 0));
@@ -163,11 +165,11 @@ export class OwnPlots {
       this.changed();
       return this.by_id.get(`own/${next}`);
     }
-    const kept = this.lines_kept(panel);
+    const stored = this.stored_lines(panel);
     for (const line of lines) {
-      const there = panel.spec.lines.find((l) => l.id === id_of_kept(line));
+      const there = panel.spec.lines.find((l) => l.id === id_of_stored(line));
       if (there) (this.layout.shown[panel.id] ??= {})[there.id] = true;
-      else if (!kept.some((k) => same_line(k, line))) kept.push(line);
+      else if (!stored.some((k) => same_line(k, line))) stored.push(line);
     }
     this.tidy();
     this.changed();
@@ -175,10 +177,10 @@ export class OwnPlots {
   }
 
   take_out(panel, line) {
-    const kept = this.lines_kept(panel);
-    kept.splice(kept.findIndex((k) => same_line(k, line.kept)), 1);
+    const stored = this.stored_lines(panel);
+    stored.splice(stored.findIndex((k) => same_line(k, line.stored)), 1);
     delete this.layout.shown[panel.id]?.[line.id];
-    if (panel.own && !kept.length) return this.put_away(panel);
+    if (panel.own && !stored.length) return this.put_away(panel);
     this.tidy();
     this.changed();
   }
@@ -208,7 +210,7 @@ export class OwnPlots {
     this.changed();
   }
 
-  // Past the next plot that is shown.
+  // Moves a plot past the next visible one.
   move(panel, by) {
     const all = [...this.plots.panels], from = all.indexOf(panel);
     let to = from + by;
@@ -220,25 +222,25 @@ export class OwnPlots {
     this.changed();
   }
 
-  keep_shown(panel, i) {
+  store_shown(panel, i) {
     const line = panel.spec.lines[i], usual = line.style !== 'hidden';
     const shown = (this.layout.shown[panel.id] ??= {});
     if (panel.shown[i] === usual) delete shown[line.id];
     else shown[line.id] = panel.shown[i];
     this.tidy();
-    this.kept.keep();
+    this.stored.save();
     this.on_change?.();
   }
 
-  keep_group(name, on, usual) {
+  store_group(name, on, usual) {
     if (on === usual) delete this.layout.groups[name];
     else this.layout.groups[name] = on;
-    this.kept.keep();
+    this.stored.save();
     this.on_change?.();
   }
 
   reset() {
-    this.kept.reset();
+    this.stored.reset();
     this.plots.groups_shown.clear();
     this.apply();
   }

@@ -1,4 +1,4 @@
-// Elements of the page.
+// Functions that create elements of the page, and its icons.
 
 export function element(tag, attributes, ...children) {
   const out = document.createElement(tag);

@@ -1,4 +1,5 @@
-// One plot with its heading: its lines' names, which show and hide them, and their values.
+// One plot with its heading, which has the names of the lines, buttons that show and hide them, and
+// their values.
 import uPlot from 'uplot';
 import { range_of, spoiling_start, upright_ticks } from './axis.js';
 import { element } from './page.js';
@@ -8,12 +9,12 @@ import { number, signed, tick_text } from './units.js';
 
 const axis_width = 58;
 const height = 132;
-const paper_width = 680;  // of A4 and of Letter, between their margins [px]
-const scales = ['y', 'y2'];  // at the left, and of a second unit at the right
+const paper_width = 680;  // A4 and Letter without margins [px]
+const scales = ['y', 'y2'];  // the left axis, and the right one for a second unit
 
 export class Panel {
-  // `spec`: title, unit, lines; a line has a place among `columns` or brings its own, `data`, and may
-  // have another unit than the plot, which then has a second axis.
+  // `spec`: title, unit, lines. A line has the index of its column in `columns`, or its own column `data`.
+  // Its unit may differ from that of the plot, which then has a second axis.
   constructor(spec, columns, plots) {
     this.spec = spec;
     this.plots = plots;
@@ -38,7 +39,7 @@ export class Panel {
     this.box.style.height = `${pixels}px`;
   }
 
-  // Other lines than before; those that stay are shown or hidden as they were.
+  // Replaces the lines; those that were there before stay shown or hidden.
   set_lines(lines) {
     const was = new Map((this.readouts ?? []).map((r, i) => [this.spec.lines[i].id, this.shown[i]]));
     this.spec = { ...this.spec, lines };
@@ -53,7 +54,7 @@ export class Panel {
     this.show_values(this.plots.shown_time());
   }
 
-  // After samples have come, or a formula's column has changed.
+  // Prepares the data again after new samples or a change of a formula's column.
   renew() {
     this.columns = this.spec.lines.map((line) => line.data ?? this.all[line.column]);
     this.slices = new Slices(this.columns);
@@ -61,7 +62,7 @@ export class Panel {
     this.stale = true;
   }
 
-  // A plot without a number of its own is not shown.
+  // Returns whether no line has a finite value; such a plot is not shown.
   is_empty() {
     return !this.columns.some((c) => c.values.some((v) => v === v));
   }
@@ -148,14 +149,14 @@ export class Panel {
         drawAxes: [(u) => this.plots.marks?.draw(u)],  // over the grid, under the curves
         setSelect: [(u) => this.zoom_to(u)],
         setCursor: [(u) => this.plots.hover(u)],
-        setScale: [() => this.head && this.place(this.plots.time)],  // which comes after a zoom
+        setScale: [() => this.head && this.place(this.plots.time)],  // called after a zoom
       },
     };
   }
 
-  // Time, and at each side a unit.
+  // Returns the time axis and one vertical axis per unit.
   axes() {
-    const { ink, grid, font } = this.plots.look;
+    const { ink, grid, font } = this.plots.theme;
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
     const splits = (u, i, low, high, step) => upright_ticks(low, high, step, u.bbox.height / (devicePixelRatio || 1));
     const upright = { ...axis, size: axis_width, space: 26, splits, values: (u, ticks) => ticks.map(tick_text) };
@@ -170,7 +171,7 @@ export class Panel {
     u.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
   }
 
-  // A click goes there; what ends a drag is none.
+  // Moves the time to a click; the end of a drag is not a click.
   listen() {
     const over = this.plot.over;
     let from = null;
@@ -189,14 +190,14 @@ export class Panel {
 
   // --- the axes ---
 
-  // Of the values that are drawn, on the axis with this number, in the unit shown.
+  // Returns the range of an axis for the drawn values, in the unit shown.
   range(axis, drawn = this.drawn ?? [[]]) {
     const unit = this.units[axis], { scale } = this.plots.units.of(unit), [x, ...lines] = drawn;
     const [from, to] = this.plots.view;
     let low = Infinity, high = -Infinity;
     lines.forEach((line, i) => {
       if (!this.shown[i] || this.unit_of(i) !== unit) return;
-      const start = this.start_of(i);  // what is before would spoil the axis
+      const start = this.start_of(i);  // earlier samples are outliers (axis.js)
       for (let k = 0; k < line.length; ++k) {
         const v = line[k];
         if (v === null || v === undefined || x[k] < from || x[k] > to || x[k] < start) continue;
@@ -207,7 +208,7 @@ export class Panel {
     return range_of(low, high, unit, scale);
   }
 
-  // The time from which a line's samples count for its axis.
+  // Returns the time from which a line's samples are used to scale its axis.
   start_of(i) {
     this.starts ??= [];
     if (this.starts[i] === undefined) {
@@ -217,7 +218,7 @@ export class Panel {
     return this.starts[i];
   }
 
-  // A line that leaves its axis at the start says so.
+  // Notes lines whose first samples are beyond the axis.
   note_start() {
     const [from] = this.plots.view;
     const off = this.columns.flatMap((c, i) => (this.shown[i] && this.start_of(i) > from
@@ -240,7 +241,7 @@ export class Panel {
     this.place(this.plots.time);
   }
 
-  // Of the time in view, times and values in the units shown.
+  // Returns times and values within the view, in the units shown.
   slice(pixels) {
     return this.slices.of(this.plots.view, pixels, this.columns.map((c, i) => this.plots.units.of(this.unit_of(i))));
   }
@@ -261,10 +262,10 @@ export class Panel {
     });
   }
 
-  // And by how much it differs from another run, where the line knows that.
+  // Returns a line's value at t, and its difference to another run if the line has one.
   value_text(i, t) {
     const { units } = this.plots, { lines } = this.spec, unit = this.unit_of(i);
-    if (t > lines[i].ends) return number(NaN);  // of a run that is over
+    if (t > lines[i].ends) return number(NaN);  // that run has ended
     const value = number(units.convert(held(this.columns[i], t), unit));
     const { difference } = lines[i];
     return difference && value !== number(NaN) ? `${value} (${signed(held(difference, t) * units.of(unit).scale)})` : value;

@@ -1,5 +1,4 @@
-// A plot or a chart as a picture of its own: paths drawn from its data, axes with units, a legend, on
-// white paper.
+// Plot or chart as an SVG picture: paths drawn from its data, axes with units, and a legend, on white.
 import { ticks } from './axis.js';
 import { tick_text } from './units.js';
 
@@ -10,7 +9,7 @@ const font = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 export const escaped = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 export const at = (v) => (Math.round(100 * v) / 100).toString();
 
-// Returns what `does` finds while the page has the colors for paper, whatever the screen's are.
+// Returns the result of `does`, called while the page has its light colors.
 export function on_paper(does) {
   const root = document.documentElement, before = root.dataset.theme;
   root.dataset.theme = 'light';
@@ -29,9 +28,9 @@ function paper_colors() {
 }
 
 export class Picture {
-  // `names`: what the legend tells, each with its `label`; `two`: an axis stands at the right, too. Who
-  // extends it sets `from`, `to` and `ranges`, of each upright axis, and draws with background(),
-  // marks(), curves() and key(), which says how a line of the legend looks.
+  // `names`: entries of the legend, each with its `label`; `two`: there is a second axis at the right.
+  // A derived class sets `from`, `to` and `ranges` (one per vertical axis), and draws in background(),
+  // marks(), curves() and key(), which draws the sample of a legend entry.
   constructor(title, names, two = false) {
     this.title = title;
     this.colors = on_paper(paper_colors);
@@ -55,7 +54,7 @@ export class Picture {
     this.add(`<text x="${at(x)}" y="${at(y)}" ${more}>${escaped(words)}</text>`);
   }
 
-  // A path as the data go from one to the next; NaN and null interrupt it, undefined is passed over.
+  // Returns a path through the data; NaN and null interrupt it, undefined is skipped.
   path(xs, ys, range) {
     let d = '', drawing = false;
     for (let k = 0; k < xs.length; ++k) {
@@ -76,7 +75,7 @@ export class Picture {
   background() {}
   marks() {}
 
-  // `across`: the words below, `upright`: those beside each upright axis.
+  // `across`: label of the horizontal axis, `upright`: labels of the vertical axes.
   axes(across, upright) {
     for (const t of ticks(this.from, this.to, 8)) {
       this.add(`<path class="g" d="M${at(this.x(t))} ${at(this.top)}V${at(this.bottom)}"/>`);
@@ -122,7 +121,7 @@ export class Picture {
   }
 }
 
-// Names of a legend, in rows that fit.
+// Distributes the entries of a legend over rows that fit.
 function in_rows(names) {
   const rows = [[]];
   let x = 0;

@@ -1,7 +1,7 @@
-// When each run stands by its plan: a bar per run over the plots' time.
+// Planned stance phases of each run: one bar per run over the time of the plots.
 import { letter_of, palette_of_runs } from './runs.js';
 
-const row = 13, bar = 7, left = 58, right = 14;  // as the plots' axes have it [px]
+const row = 13, bar = 7, left = 58, right = 14;  // margins as in the plots [px]
 
 export class Plan {
   constructor(canvas, runs, plots, shown) {

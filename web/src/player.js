@@ -1,12 +1,12 @@
-// Time: play, pause, seek, step, speed; by button, slider and keyboard.
+// Player of the replay: play, pause, seek, step and speed, by buttons, slider and keyboard.
 import { by_id, set_icon } from './page.js';
 import { index_at } from './samples.js';
 
 export class Player {
-  // `clock`: the times that a step goes by; `show` draws a time.
+  // `clock`: times through which it steps; `show(t)` draws a time.
   constructor(duration, clock, show) {
     Object.assign(this, { duration, clock, show, time: 0, playing: false, speed: 1 });
-    this.limit = duration;  // how far there is something to show; a run that goes moves it
+    this.limit = duration;  // latest time with data; it increases during a run in progress
     this.slider = by_id('seek');
     this.slider.max = duration;
     this.slider.addEventListener('input', () => this.seek(Number(this.slider.value)));
@@ -32,7 +32,7 @@ export class Player {
     this.show(this.time);
   }
 
-  // To the next sample, or the one before.
+  // Moves to the next sample (1) or the previous one (-1).
   step(by) {
     this.set_playing(false);
     if (!this.clock.length) return this.seek(this.time + 0.01 * by);
@@ -59,7 +59,7 @@ export class Player {
 
   frame(now) {
     if (!this.playing) return;
-    // A page that was hidden for a while goes on where it stood.
+    // A page that was hidden for a while continues where it stopped.
     const passed = this.before === null ? 0 : Math.min(0.1, (now - this.before) / 1000);
     this.before = now;
     this.seek(this.time + passed * this.speed);

@@ -1,4 +1,4 @@
-// The picture of a plot: its lines over the time in view, with phases, faults and marks behind them.
+// SVG picture of a plot: its lines within the view, with phases, faults and marks behind them.
 import { at, Picture } from './picture.js';
 
 class PlotPicture extends Picture {

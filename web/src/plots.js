@@ -1,14 +1,14 @@
-// The plots under each other: one time axis and one cursor for all.
+// Plots below each other, with a common time axis and cursor.
 import { Panel } from './panel.js';
 
 export class Plots {
-  // `run` as the program writes it; `on_seek` is told where a person wants to go.
+  // `run` as the program writes it; `on_seek(t)` is called when the reader clicks at a time.
   constructor(root, run, columns, units, on_seek) {
     Object.assign(this, { root, run, units, seek: on_seek });
     this.view = this.whole = [run.start ?? 0, run.duration || 1];
     this.time = 0;
     this.hovered = null;
-    this.read_look();
+    this.read_theme();
     this.columns = columns;
     this.groups_shown = new Map();
     this.panels = run.panels.map((spec) => new Panel(spec, columns, this));
@@ -16,7 +16,7 @@ export class Plots {
     this.watch();
   }
 
-  // One that a person made: it comes first.
+  // Adds a plot of the reader before all others.
   add_panel(spec) {
     const panel = new Panel(spec, this.columns, this);
     this.panels.unshift(panel);
@@ -34,22 +34,22 @@ export class Plots {
     panel.root.remove();
   }
 
-  // Puts the plots in this order.
+  // Puts the plots into this order.
   put_in_order(panels) {
     if (panels.every((p, i) => p === this.panels[i])) return;
     this.panels = panels;
     this.root.append(...panels.map((p) => p.root));
   }
 
-  read_look() {
+  read_theme() {
     const css = getComputedStyle(document.documentElement);
     const get = (name) => css.getPropertyValue(name).trim();
     this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`--line-${i}`));
-    this.look = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'), fault: get('--fault'), edge: get('--bad'), mark: get('--mark'),
+    this.theme = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'), fault: get('--fault'), edge: get('--bad'), mark: get('--mark'),
                   font: `11px ${get('--sans')}` };
   }
 
-  // Only what can be seen is drawn.
+  // Draws only plots that are in the window or near it.
   watch() {
     this.by_root = new Map(this.panels.map((p) => [p.root, p]));
     this.observer = new IntersectionObserver((entries) => {
@@ -66,23 +66,23 @@ export class Plots {
     this.root.addEventListener('mouseleave', () => this.unhover());
   }
 
-  // Stance is shaded, and what was broken on purpose, between two edges.
+  // Shades stance phases, and injected faults between two edges.
   draw_phases(u) {
     const { ctx, bbox } = u, px = devicePixelRatio || 1;
     ctx.save();
-    ctx.fillStyle = this.look.stance;
+    ctx.fillStyle = this.theme.stance;
     for (const s of this.run.phases.stretches) if (s.stance) this.fill(u, s, 0);
     for (const f of this.run.faults ?? []) {
-      ctx.fillStyle = this.look.fault;
+      ctx.fillStyle = this.theme.fault;
       this.fill(u, f, px);
-      ctx.fillStyle = this.look.edge;
+      ctx.fillStyle = this.theme.edge;
       for (const t of [f.from, f.to])
         if (t >= this.view[0] && t <= this.view[1]) ctx.fillRect(u.valToPos(t, 'x', true) - px / 2, bbox.top, px, bbox.height);
     }
     ctx.restore();
   }
 
-  // A stretch of time, at least so wide [px].
+  // Fills a stretch of time, at least `least` wide [px].
   fill(u, { from, to }, least) {
     const { ctx, bbox } = u;
     if (to < this.view[0] || from > this.view[1]) return;
@@ -104,7 +104,7 @@ export class Plots {
   }
 
   hover(u) {
-    if (!u.cursor.event && u.cursor.left >= 0) return;  // told by another plot
+    if (!u.cursor.event && u.cursor.left >= 0) return;  // synchronised by another plot
     if (u.cursor.left < 0) return;
     this.hovered = u.posToVal(u.cursor.left, 'x');
     this.show_values();
@@ -144,7 +144,7 @@ export class Plots {
     this.zoom(...this.whole);
   }
 
-  // A playing run stays in view: the view turns its page.
+  // Moves the view by a page when the time of the replay leaves it.
   keep_in_view(t) {
     const [from, to] = this.view;
     if (t >= from && t <= to) return;
@@ -159,9 +159,9 @@ export class Plots {
     for (const p of this.panels) p.refresh();
   }
 
-  // Other units or colors.
+  // Draws all plots again, after units or colors have changed.
   rebuild() {
-    this.read_look();
+    this.read_theme();
     for (const p of this.panels) {
       p.name_units();
       p.stale = true;
@@ -171,7 +171,7 @@ export class Plots {
     this.show_values();
   }
 
-  // The next rebuild() is for paper, or for the screen again.
+  // Prepares the next rebuild() for printing (true) or for the screen (false).
   print(begins) {
     this.printing = begins;
     for (const p of this.panels) if (begins) p.visible = !p.root.hidden;
@@ -182,7 +182,7 @@ export class Plots {
     this.arrange();
   }
 
-  // Which plots are there: of a group that is shown, not put away, and with something in them.
+  // Shows the plots whose group is shown and that are neither hidden by the reader nor empty.
   arrange() {
     for (const p of this.panels)
       p.root.hidden = !(this.groups_shown.get(p.spec.group) ?? true) || Boolean(p.away) || p.is_empty();

@@ -1,9 +1,9 @@
-// Least and greatest values of a column over 16, 32, 64, … samples, so that a plot of any length
-// shows every peak with two points per pixel.
+// Minima and maxima of a column over 16, 32, 64, … samples. With them a plot of any length shows every
+// peak with two points per pixel.
 
 const finest = 16;
 
-// One level: of bucket i the least and greatest value, and whether the least came first.
+// One level: minimum and maximum of each bucket, and whether the minimum came first.
 function level_of(low, high, first_low, count) {
   return { low, high, first_low, count };
 }
@@ -48,7 +48,7 @@ export function pyramid(values) {
   return levels;
 }
 
-// The level whose buckets are at most one per pixel in `samples` samples; -1: all samples.
+// Returns the finest level with at most one bucket per pixel for `samples` samples; -1: use the samples.
 export function level_for(samples, pixels, levels) {
   if (samples <= 3 * pixels) return -1;
   let level = 0;

@@ -1,5 +1,5 @@
-// The list of runs in a folder: search, look at one, compare several. It is served by `sinew view`.
-import { Look } from './look.js';
+// List of the runs in a folder, served by `sinew view`: search runs, open one, compare several.
+import { Appearance } from './appearance.js';
 import { by_id, element } from './page.js';
 import { Units } from './units.js';
 
@@ -7,16 +7,16 @@ class RunList {
   constructor({ folder, most, runs }) {
     this.most = most;
     this.ticked = [];  // numbers of runs, in the order in which they were ticked
-    // The newest first; of the same minute the one that came later.
+    // The newest first; within the same minute, the one with the greater number first.
     this.runs = [...runs].sort((a, b) => (a.date === b.date ? b.run - a.run : a.date < b.date ? 1 : -1));
     by_id('title').textContent = 'Runs';
-    by_id('facts').textContent = [folder && `below ${folder}`, `${runs.length} run${runs.length === 1 ? '' : 's'}`, 'the newest first'].filter(Boolean).join(' · ');
+    by_id('facts').textContent = [folder && `below ${folder}`, `${runs.length} run${runs.length === 1 ? '' : 's'}`, 'newest first'].filter(Boolean).join(' · ');
     this.items = this.runs.map((run) => this.item(run));
     by_id('list').append(...this.items.map((i) => i.root));
     by_id('search').addEventListener('input', () => this.search());
     by_id('compare').addEventListener('click', () => (location.href = `compare/${this.ticked.join(',')}`));
     by_id('clear').addEventListener('click', () => this.clear());
-    new Look(new Units(0), { on_units() {}, on_colors() {}, on_print() {} });
+    new Appearance(new Units(0), { on_units() {}, on_colors() {}, on_print() {} });
     this.show_ticked();
   }
 
@@ -67,8 +67,8 @@ class RunList {
     by_id('compare').disabled = count < 2;
     by_id('clear').hidden = !count;
     const first = this.items.find((i) => i.run.run === this.ticked[0]);
-    by_id('chosen').textContent = !count ? 'Tick two runs or more to compare them.'
-      : `${count} ticked, beside ${first.run.folder}${full ? '; more do not fit' : ''}`;
+    by_id('chosen').textContent = !count ? 'Select two or more runs to compare them.'
+      : `${count} selected, compared with ${first.run.folder}${full ? '; no more can be selected' : ''}`;
   }
 }
 

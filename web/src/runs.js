@@ -1,12 +1,12 @@
-// How runs are told apart: a letter, a color and dashes for each.
+// Letter, color and dashes of each run of a comparison.
 import { element } from './page.js';
 
-// In pixels of the screen; the first run's line is full and wide, so that one on it shows.
+// Dashes in pixels of the screen. The first run's line is full and wide, so that a line over it is visible.
 const dashes = [[], [7, 4], [2, 3], [11, 3, 2, 3], [4, 2], [14, 5], [6, 2, 1, 2], [1, 2]];
 
 export const letter_of = (run) => String.fromCharCode(65 + run);
 
-// As a plot's line wants it.
+// Returns the style of a run's line for a plot.
 export function line_of(run) {
   const dash = dashes[run % dashes.length];
   return { color: run, style: run === 0 ? 'full' : 'dashed', width: run === 0 ? 2.5 : 1.8, dash: dash.length ? dash : undefined };
@@ -34,7 +34,7 @@ function swatch(run) {
   return svg;
 }
 
-// A button per run, which shows and hides it everywhere.
+// Legend with one button per run, which shows or hides the run everywhere.
 export class RunLegend {
   constructor(root, runs, on_toggle) {
     this.buttons = runs.map((run, i) => {

@@ -1,4 +1,4 @@
-// The run's samples: base64 of zlib of columns, laid out as sinew/report/page/content.h says.
+// Samples of a run: base64 of zlib of columns, in the format described in sinew/report/page/content.h.
 
 const ticks_per_second = 10000;
 
@@ -15,7 +15,7 @@ async function inflate(packed) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Numbers whose bytes stand by rank, the lowest ones first.
+// Reads numbers whose bytes are grouped by significance, the lowest bytes first.
 function words(bytes, at, count) {
   const out = new Uint32Array(count);
   const b = at + count, c = b + count, d = c + count;
@@ -31,7 +31,7 @@ function times(bytes, at, count) {
   return out;
 }
 
-// Columns as { time, values }; those of one clock share their times.
+// Returns columns as { time, values }; columns of one clock share their times.
 export async function read_samples(layout, base64) {
   const bytes = await inflate(from_base64(base64));
   let at = 0;
@@ -48,7 +48,7 @@ export async function read_samples(layout, base64) {
   });
 }
 
-// Position of the last time that is not after t; -1 before the first.
+// Returns the index of the last time that is not after t; -1 before the first.
 export function index_at(time, t) {
   let low = 0, high = time.length;
   while (low < high) {
@@ -59,13 +59,13 @@ export function index_at(time, t) {
   return low - 1;
 }
 
-// The value that holds at t; NaN before the first.
+// Returns the last value not after t; NaN before the first.
 export function held(column, t) {
   const i = index_at(column.time, t);
   return i < 0 ? NaN : column.values[i];
 }
 
-// Straight between two samples, for what moves. Before the first and after the last: that one.
+// Interpolates linearly between two samples. Before the first and after the last, returns that one.
 export function between(column, t) {
   const { time, values } = column;
   const i = index_at(time, t);
@@ -76,10 +76,10 @@ export function between(column, t) {
   return share > 0 ? a + share * (b - a) : a;
 }
 
-// Was a valve with these edges (1 opens, 0 shuts) open at any time in [from, to]?
+// Returns whether a valve with these edges (1 opens, 0 closes) was open at any time in [from, to].
 export function open_within(column, from, to) {
   const i = index_at(column.time, to);
   if (i < 0) return false;
   if (column.values[i] > 0) return true;
-  return column.time[i] >= from;  // it shut in between, so it was open
+  return column.time[i] >= from;  // it closed within the interval, so it was open before
 }

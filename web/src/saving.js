@@ -1,5 +1,5 @@
-// Saving pictures: their names, their two kinds, and what is told where it fails.
-import { tell } from './sheet.js';
+// Saves pictures as SVG or PNG, and reports errors.
+import { show_message } from './dialog.js';
 
 const sharpness = 3;  // pixels of a PNG for each unit of the picture
 
@@ -11,12 +11,12 @@ async function png_of(svg) {
   canvas.width = Math.round(sharpness * image.naturalWidth);
   canvas.height = Math.round(sharpness * image.naturalHeight);
   canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
-  return new Promise((done, fail) => canvas.toBlob((b) => (b ? done(b) : fail(new Error('the browser makes no PNG of it'))), 'image/png'));
+  return new Promise((done, fail) => canvas.toBlob((b) => (b ? done(b) : fail(new Error('the browser could not convert the picture to PNG'))), 'image/png'));
 }
 
-const longest = 40;  // of each part of a file's name
+const longest = 40;  // characters of each part of a file name
 
-// "walk-test-1-joint-angles"
+// Returns a name such as "walk-test-1-joint-angles".
 const file_name = (...parts) => parts.map((words) =>
   words.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, longest).replace(/^-+|-+$/g, '')).filter(Boolean).join('-');
 
@@ -33,10 +33,10 @@ async function save(name, kind, draw) {
     const svg = draw();
     save_as(name, kind === 'svg' ? new Blob([svg], { type: 'image/svg+xml' }) : await png_of(svg));
   } catch (error) {
-    tell(`${name} was not saved: ${error.message}`);
+    show_message(`${name} was not saved: ${error.message}`);
   }
 }
 
-// Entries of a menu. `of`: what the picture is of, as a run's name; `draw` returns it as SVG.
+// Returns the entries of a menu. `of`: name of the run; `draw` returns the picture as SVG.
 export const save_entries = (of, title, draw) => ['svg', 'png'].map((kind) =>
   [`Save as ${kind.toUpperCase()}`, () => save(`${file_name(of || 'run', title())}.${kind}`, kind, draw)]);

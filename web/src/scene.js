@@ -1,39 +1,39 @@
-// The machine from the side. Frames say where its parts are (sinew/report/page/scene.h); here they are
-// only drawn.
+// Side view of the machine. The program writes the pose of each part as a frame
+// (sinew/report/page/scene.h); this file only draws them.
 import { between, index_at, open_within } from './samples.js';
 import { pressure_color } from './colors.js';
 import * as shapes from './shapes.js';
 
 const trail_seconds = 3;
-const window_seconds = 0.01;  // a valve is lit if it was open at any time in it
+const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
 
 export class Scene {
   constructor(canvas, spec, columns, units, duration) {
     Object.assign(this, { canvas, spec, columns, units, duration });
     this.follow = true;
-    this.tick_step = null;  // of the ground, for an animation that loops
+    this.tick_step = null;  // distance of the ground's ticks, for an animation that loops [m]
     this.column = (index) => (index === null || index === undefined ? null : columns[index]);
     this.reach = longest_reach(spec);
     this.refit();
-    this.read_look();
+    this.read_theme();
     new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
   }
 
-  // To what the columns hold, which may have grown.
+  // Adapts area, pressure scale and force scale to the columns, which may have grown.
   refit() {
     this.box = this.bounds();
     this.pressures = this.pressure_range();
     this.force_scale = this.find_force_scale();
   }
 
-  read_look() {
+  read_theme() {
     const css = getComputedStyle(document.documentElement);
-    this.look = Object.fromEntries(
+    this.theme = Object.fromEntries(
       ['ink', 'quiet', 'ground', 'ground-edge', 'metal', 'metal-edge', 'paper', 'actual', 'desired',
-       'force', 'inlet', 'exhaust', 'cord', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
+       'force', 'inlet', 'exhaust', 'tendon', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
   }
 
-  // --- what the drawing must hold ---
+  // --- extent of the drawing ---
 
   pose(frame, t) {
     const f = this.spec.frames[frame];
@@ -41,7 +41,7 @@ export class Scene {
     return { x: at(f.x), y: at(f.y), heading: at(f.heading) };
   }
 
-  // Of everything that ever moves, about the body and in the plane.
+  // Returns the area that all parts cover during the run: relative to the body, and absolute.
   bounds() {
     const own = { x: [-0.3 * this.reach, 0.3 * this.reach], y: [-0.1 * this.reach, 0.15 * this.reach] };
     const wide = { x: [0, 0] };
@@ -100,7 +100,8 @@ export class Scene {
             of('force') && ['force', 'ground reaction']].filter(Boolean);
   }
 
-  // Meters per newton: the greatest force is as long as two thirds of the leg.
+  // Returns the scale of force arrows [m/N]: the 99.5 % percentile of the forces is drawn half as long as
+// the leg.
   find_force_scale() {
     const greatest = (force) => {
       const [x, y] = force.map((i) => this.columns[i].values);
@@ -132,21 +133,21 @@ export class Scene {
     this.draw_paths(ctx, view, t);
     this.draw_machine(ctx, view, t);
     this.draw_force(ctx, view, t);
-    if (this.spec.surface !== undefined) return;  // its ticks say how large everything is
+    if (this.spec.surface !== undefined) return;  // the ticks of the ground already show the scale
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    shapes.scale_bar(ctx, view, this.units, this.look, width, height);
+    shapes.scale_bar(ctx, view, this.units, this.theme, width, height);
   }
 
-  // Meters to pixels, y up.
+  // Sets the transformation from meters, y up, to pixels.
   place(ctx, width, height, t) {
     const body = this.pose(0, t);
     const x = this.follow ? this.box.own.x.map((v) => v + body.x) : this.box.wide.x;
     const y = this.box.own.y;
-    const above = 28, margin = 4;  // time and button stand above
+    const above = 28, margin = 4;  // space for time and button above
     const high = height - above - margin;
     const scale = Math.min((width - 2 * margin) / (x[1] - x[0]), high / (y[1] - y[0]));
     const left = width / 2 - (scale * (x[0] + x[1])) / 2;
-    // Of the whole track much room is left: above it.
+    // A view of the whole track is low; the free space is left above it.
     const bottom = this.follow ? above + high / 2 + (scale * (y[0] + y[1])) / 2 : height - margin + scale * y[0];
     ctx.transform(scale, 0, 0, -scale, left, bottom);
     return { scale, left: -left / scale, right: (width - left) / scale,
@@ -164,40 +165,40 @@ export class Scene {
 
   draw_world(ctx, view) {
     const { surface, track } = this.spec;
-    if (surface !== undefined) shapes.table(ctx, view, surface, this.units, this.look, this.tick_step);
-    if (track) shapes.track(ctx, view, track, this.look, this.reach);
+    if (surface !== undefined) shapes.table(ctx, view, surface, this.units, this.theme, this.tick_step);
+    if (track) shapes.track(ctx, view, track, this.theme, this.reach);
   }
 
   draw_machine(ctx, view, t) {
-    const { spec, look, reach } = this;
+    const { spec, theme, reach } = this;
     const pose = this.pose(0, t);
     this.in_frame(ctx, 0, t, () => {
-      if (spec.cylinder) shapes.cylinder(ctx, view, spec, this.chambers(t), look, reach, pose);
-      shapes.body(ctx, view, spec, look, reach, pose);
+      if (spec.cylinder) shapes.cylinder(ctx, view, spec, this.chambers(t), theme, reach, pose);
+      shapes.body(ctx, view, spec, theme, reach, pose);
     });
-    for (const cord of spec.cords)
-      this.in_frame(ctx, cord.frame, t, () => shapes.cord(ctx, view, cord.from, cord.to, look));
+    for (const tendon of spec.cords)
+      this.in_frame(ctx, tendon.frame, t, () => shapes.tendon(ctx, view, tendon.from, tendon.to, theme));
     for (const link of spec.links)
-      this.in_frame(ctx, link.frame, t, () => shapes.link(ctx, view, link, look, reach));
+      this.in_frame(ctx, link.frame, t, () => shapes.link(ctx, view, link, theme, reach));
     if (spec.discs.length)
-      this.in_frame(ctx, spec.discs[0].frame, t, () => shapes.sole(ctx, view, spec.discs, look));
+      this.in_frame(ctx, spec.discs[0].frame, t, () => shapes.sole(ctx, view, spec.discs, theme));
     for (const disc of spec.discs)
-      this.in_frame(ctx, disc.frame, t, () => shapes.disc(ctx, view, disc, look));
+      this.in_frame(ctx, disc.frame, t, () => shapes.disc(ctx, view, disc, theme));
     for (const cam of spec.cams)
-      this.in_frame(ctx, cam.frame, t, () => shapes.cam(ctx, view, cam, look));
+      this.in_frame(ctx, cam.frame, t, () => shapes.cam(ctx, view, cam, theme));
     for (const link of spec.links)
-      this.in_frame(ctx, link.frame, t, () => shapes.pin(ctx, view, look, reach));
+      this.in_frame(ctx, link.frame, t, () => shapes.pin(ctx, view, theme, reach));
     for (const m of spec.muscles) this.in_frame(ctx, m.frame, t, () => this.draw_muscle(ctx, view, m, t));
   }
 
-  // Of air in a column's pressure; of metal where there is none.
+  // Returns the color of air at a column's pressure; the color of metal if the pressure is unknown.
   color_of(index, t) {
     const pressure = index === null ? NaN : between(this.column(index), t);
     const [low, high] = this.pressures;
-    return Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.look.metal;
+    return Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.theme.metal;
   }
 
-  // Of the cylinder: color of each, and which of its valves are open.
+  // Returns the color of each chamber of the cylinder, and which of its valves are open.
   chambers(t) {
     const c = this.spec.cylinder;
     const chamber = (pressure, valves) => ({
@@ -210,23 +211,23 @@ export class Scene {
   draw_muscle(ctx, view, m, t) {
     const length = between(this.column(m.length), t), diameter = between(this.column(m.diameter), t);
     const color = this.color_of(m.pressure, t);
-    shapes.muscle(ctx, view, m, { length, diameter, color }, this.look);
+    shapes.muscle(ctx, view, m, { length, diameter, color }, this.theme);
     for (const [which, at] of [['inlet', 0], ['exhaust', 1]])
-      if (m[which] !== null) shapes.valve(ctx, view, m, at, this.is_open(m[which], t), this.look, this.reach);
+      if (m[which] !== null) shapes.valve(ctx, view, m, at, this.is_open(m[which], t), this.theme, this.reach);
   }
 
   is_open(index, t) {
     return open_within(this.column(index), t - window_seconds, t);
   }
 
-  // Where the foot was and was to be. With the trolley held in the middle: about the body.
+  // Draws the actual and the desired path of the feet; relative to the body while the trolley is followed.
   draw_paths(ctx, view, t) {
     for (const foot of this.spec.feet ?? []) this.draw_path(ctx, view, t, foot);
   }
 
   draw_path(ctx, view, t, foot) {
     const base = this.pose(0, t);
-    for (const [path, color, dash] of [[foot.desired, this.look.desired, [5, 4]], [foot.path, this.look.actual, []]]) {
+    for (const [path, color, dash] of [[foot.desired, this.theme.desired, [5, 4]], [foot.path, this.theme.actual, []]]) {
       if (!path) continue;
       const [x, y] = path.map((i) => this.columns[i]);
       const first = Math.max(0, index_at(x.time, t - trail_seconds)), last = index_at(x.time, t);
@@ -254,7 +255,7 @@ export class Scene {
     if (!(Math.hypot(x, y) * this.force_scale > 6 * view.px)) return;
     const from = [between(this.columns[foot.contact], t), this.spec.surface ?? 0];
     shapes.arrow(ctx, view, from, [x * this.force_scale, y * this.force_scale],
-                 this.force_text(Math.hypot(x, y)), this.look);
+                 this.force_text(Math.hypot(x, y)), this.theme);
   }
 }
 

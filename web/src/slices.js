@@ -1,5 +1,5 @@
-// What a plot draws of its columns: of those in view every sample, or from afar the least and the
-// greatest of every pixel, in the units shown.
+// Data that a plot draws of its columns: every sample in view, or the minimum and maximum of every pixel
+// if there are too many, in the units shown.
 import uPlot from 'uplot';
 import { bucket_size, level_for, pyramid } from './pyramid.js';
 import { index_at } from './samples.js';
@@ -10,19 +10,19 @@ export class Slices {
   // Columns may have different clocks.
   constructor(columns) {
     this.columns = columns;
-    this.pyramids = columns.map(() => null);  // made when they are first needed
+    this.pyramids = columns.map(() => null);  // computed when first needed
     const clocks = [...new Set(columns.map((c) => c.time))];
     this.clocks = clocks.map((time) => {
       const lines = columns.map((c, i) => i).filter((i) => columns[i].time === time);
       return { time, lines };
     });
-    // Where a column stands among those of all clocks, one clock after the other.
+    // Position of each column in the data of all clocks, one clock after the other.
     const order = this.clocks.flatMap((c) => c.lines);
     this.places = columns.map((c, i) => order.indexOf(i));
   }
 
-  // uPlot's data: times, then a line per column. A column has nothing to say (undefined) at times of
-  // other clocks, and a gap (null) where it is no number. `unit`: of all columns, or a list of each.
+  // Returns data for uPlot: times, then a line per column. A column is undefined at times of other clocks,
+  // and null, a gap, where it is NaN. `unit`: one for all columns, or a list.
   of(view, pixels, unit) {
     if (!this.clocks.length) return [[]];
     const units = Array.isArray(unit) ? unit : this.columns.map(() => unit);
@@ -32,7 +32,7 @@ export class Slices {
     return [time, ...this.places.map((place) => lines[place])];
   }
 
-  // Samples in view and one on either side.
+  // Returns the samples in view and one on either side.
   of_clock({ time, lines }, [from, to], pixels, units) {
     const first = Math.max(0, index_at(time, from));
     const last = Math.min(time.length, index_at(time, to) + 2);

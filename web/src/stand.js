@@ -1,12 +1,13 @@
-// The test stand from the side: an element hangs from a beam, something pulls at its lower end.
-// Lengths are true to scale, and so are the braid's diameter and its threads' turns.
+// Side view of the test stand: an element hangs from a beam, with a load at its lower end. Lengths, the
+// diameter of the braid and the turns of its threads are true to scale.
 import { between, open_within } from './samples.js';
 import { pressure_color } from './colors.js';
 import * as parts from './stand_parts.js';
 
-const window_seconds = 0.01;  // a valve is lit if it was open at any time in it
+const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
 
-// What the page asks of any machine: its name for a stand's element is a muscle's.
+// Returns the stand in the form of a machine's scene, for the parts of the page that both share; the
+// stand's element is its only muscle.
 export const as_scene = (stand) => ({
   drawn_from: stand.drawn_from,
   muscles: [{ name: stand.element, pressure: stand.pressure, inlet: stand.inlet, exhaust: stand.exhaust }],
@@ -18,15 +19,15 @@ export class StandScene {
     this.reach = spec.bore > 0 ? 1.8 * spec.stroke : Math.max(spec.longest, spec.most, 1e-3);
     this.start = this.at(spec.length, 0);
     this.pressures = this.pressure_range();
-    this.read_look();
+    this.read_theme();
     new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
   }
 
-  read_look() {
+  read_theme() {
     const css = getComputedStyle(document.documentElement);
-    this.look = Object.fromEntries(
+    this.theme = Object.fromEntries(
       ['ink', 'quiet', 'edge', 'ground', 'ground-edge', 'metal', 'metal-edge', 'paper', 'actual', 'desired', 'force',
-       'inlet', 'exhaust', 'cord', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
+       'inlet', 'exhaust', 'tendon', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
   }
 
   at(column, t) {
@@ -68,16 +69,16 @@ export class StandScene {
     ctx.clearRect(0, 0, width, height);
     const v = this.place(width, height);
     const state = this.state(t);
-    parts.beam(ctx, v, this.spec.load === 'hanging', this.look);
-    if (this.spec.load !== 'hanging') parts.columns(ctx, v, this.spec.most, this.look);
+    parts.beam(ctx, v, this.spec.load === 'hanging', this.theme);
+    if (this.spec.load !== 'hanging') parts.columns(ctx, v, this.spec.most, this.theme);
     this.draw_ruler(ctx, v, state);
-    parts.feed(ctx, v, this.spec, state, this.look);
-    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, this.look);
-    else parts.actuators(ctx, v, this.spec, state, this.look);
+    parts.feed(ctx, v, this.spec, state, this.theme);
+    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, this.theme);
+    else parts.actuators(ctx, v, this.spec, state, this.theme);
     this.draw_load(ctx, v, state);
   }
 
-  // Everything that moves, at t.
+  // Returns the values of everything that moves, at t.
   state(t) {
     const { spec } = this;
     const [low, high] = this.pressures, pressure = this.at(spec.pressure, t);
@@ -86,14 +87,14 @@ export class StandScene {
     return {
       length: this.at(spec.length, t), desired: this.at(spec.desired, t), diameter: this.at(spec.diameter, t),
       tension: this.at(spec.tension, t), weight: this.at(spec.weight, t), inlet,
-      // One valve for both joins to the room when it does not join to the supply.
+      // A 3-way valve connects the element to the room whenever it does not connect it to the supply.
       exhaust: spec.air === '3-way' ? !inlet : open(spec.exhaust),
-      color: Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.look.metal,
+      color: Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.theme.metal,
     };
   }
 
-  // Pixels from meters: x from the element's axis, y from where it hangs, downwards. The element's
-  // end is at `zero` plus its length.
+  // Returns the transformation from meters to pixels: x from the element's axis, y downwards from its upper
+  // end. The element's lower end is at `zero` plus its length.
   place(width, height) {
     const { spec, reach } = this;
     const barrel = spec.bore > 0 ? 1.25 * spec.stroke : 0;
@@ -106,13 +107,13 @@ export class StandScene {
              x: (m) => left + scale * m, y: (m) => top + scale * m, px: (m) => scale * m, reach };
   }
 
-  // An element is small: in the place of metres it has millimetres.
+  // Returns the unit of length; millimetres in place of metres, since an element is small.
   length_unit() {
     const unit = this.units.of('m');
     return unit.label === 'm' ? { label: 'mm', scale: 1e3 } : unit;
   }
 
-  // To a tenth of a millimetre, or about that.
+  // Returns a length to about a tenth of a millimetre.
   length_text(meters, sign = false) {
     const { label, scale } = this.length_unit();
     const words = (meters * scale).toFixed(Math.max(0, Math.ceil(4 - Math.log10(scale))));
@@ -126,31 +127,31 @@ export class StandScene {
 
   draw_ruler(ctx, v, state) {
     const { label, scale } = this.length_unit();
-    const { spec, look } = this;
+    const { spec, theme } = this;
     const x = v.x(-0.74 * this.reach);
     parts.ruler(ctx, v, x, { to: Math.max(spec.most, spec.longest), shortest: spec.shortest, longest: spec.longest,
-                             unit: 1 / scale, label }, look);
+                             unit: 1 / scale, label }, theme);
     if (Number.isFinite(this.start) && spec.most > spec.least)
-      parts.pointer(ctx, v, x, this.start, look.quiet, [1, 3], '', look, -1);
-    // As much as there is room for beside the element.
+      parts.pointer(ctx, v, x, this.start, theme.quiet, [1, 3], '', theme, -1);
+    // Uses the longest text that fits next to the element.
     const half = Math.max(0.08 * this.reach, 0.6 * spec.count * (state.diameter || 0), 0.6 * spec.bore);
     const room = v.x(-half) - x - 14;
-    const longest = (...texts) => texts.find((text) => parts.width(ctx, text, look) < room) ?? texts.at(-1);
-    const now = this.length_text(state.length), wish = this.length_text(state.desired);
+    const longest = (...texts) => texts.find((text) => parts.width(ctx, text, theme) < room) ?? texts.at(-1);
+    const now = this.length_text(state.length), desired = this.length_text(state.desired);
     if (Number.isFinite(state.desired))
-      parts.pointer(ctx, v, x, state.desired, look.desired, [5, 4], longest(`desired ${wish}`, wish), look,
+      parts.pointer(ctx, v, x, state.desired, theme.desired, [5, 4], longest(`desired ${desired}`, desired), theme,
                     state.desired < state.length ? -1 : 1);
     const moved = spec.most > spec.least ? `${now}  (${this.length_text(state.length - this.start, true)})` : now;
-    parts.pointer(ctx, v, x, state.length, look.actual, [], longest(moved, now), look,
+    parts.pointer(ctx, v, x, state.length, theme.actual, [], longest(moved, now), theme,
                   state.desired < state.length ? 1 : -1);
   }
 
   draw_load(ctx, v, state) {
-    const { spec, look } = this;
+    const { spec, theme } = this;
     const tension = Number.isFinite(state.tension) ? `tension ${this.force_text(state.tension)}` : '';
-    parts.load_cell(ctx, v, state.length, tension, look);
+    parts.load_cell(ctx, v, state.length, tension, theme);
     if (spec.load === 'hanging')
-      parts.weights(ctx, v, spec, state, `load ${this.force_text(state.weight)}`, look);
-    else parts.crosshead(ctx, v, spec, state.length, look);
+      parts.weights(ctx, v, spec, state, `load ${this.force_text(state.weight)}`, theme);
+    else parts.crosshead(ctx, v, spec, state.length, theme);
   }
 }

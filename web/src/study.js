@@ -1,13 +1,13 @@
-// The page of a study, or of two beside each other: history, all columns, two of them, what a number
-// follows, a number over two parameters, and every row with what runs it again.
+// Page of one study or of two compared studies: history, all columns, two columns, influence of the
+// parameters, a number over two parameters, and every row with the command that runs it again.
 import { pressure_gradient } from './colors.js';
-import { Look } from './look.js';
+import { Appearance } from './appearance.js';
 import { by_id, element } from './page.js';
 import { colors_now, value_text } from './study_chart.js';
 import { Filter, StudyData } from './study_data.js';
 import { Parallel } from './study_parallel.js';
 import { Growing } from './study_growing.js';
-import { Chosen, Importance, RowTable } from './study_tables.js';
+import { ChosenRow, Importance, RowTable } from './study_tables.js';
 import { chooser, History, Scatter, Surface } from './study_views.js';
 import { Units } from './units.js';
 
@@ -18,20 +18,20 @@ class StudyPage {
     this.filter = new Filter(this.data);
     this.chosen = -1;
     this.under = -1;
-    this.hurry = false;  // while a person drags: what takes long waits
+    this.is_dragging = false;  // while a range is dragged, slow views are not drawn
     this.sort_columns();
     this.color_column = this.data.studies.length > 1 ? null : this.first_figures[1] ?? this.first_figures[0] ?? null;
-    document.querySelector('.switch').hidden = true;  // a heading has its unit
+    document.querySelector('.switch').hidden = true;  // each heading has its own unit
     this.views = [new History(this), new Scatter(this), new Importance(this), new Surface(this)];
     this.parallel = new Parallel(this);
     this.table = new RowTable(this);
-    this.side = new Chosen(this);
+    this.side = new ChosenRow(this);
     by_id('overview').append(this.parallel.root);
     by_id('views').append(...this.views.map((v) => v.root));
     by_id('side').append(this.side.root);
     by_id('table').append(this.table.root);
     this.head();
-    this.look = new Look(new Units(101325), { on_units: () => {}, on_colors: () => this.redraw(), on_print: () => this.draw() });
+    this.appearance = new Appearance(new Units(101325), { on_units: () => {}, on_colors: () => this.redraw(), on_print: () => this.draw() });
     this.controls();
     this.arrange_choices();
     this.draw();
@@ -40,8 +40,8 @@ class StudyPage {
     if (run.served) this.growing = new Growing(this);
   }
 
-  // Parameters first; what a person looks at first are objectives, then numbers that vary. What both
-  // studies have comes before what one has.
+  // Sorts columns: parameters, objectives, constraints, numbers; within each, columns of both studies before
+  // those of one. The views first show objectives, then other numbers that vary.
   sort_columns() {
     const rank = (c) => (['parameter', 'objective', 'constraint', 'figure'].indexOf(c.role) + 1 || 9) + (this.data.is_common(c) ? 0 : 0.5);
     this.columns = this.data.columns.map((c, i) => [rank(c), i, c]).sort((a, b) => a[0] - b[0] || a[1] - b[1]).map((c) => c[2]);
@@ -50,7 +50,7 @@ class StudyPage {
     this.first_figures = figures.some((c) => c.varies) ? figures.filter((c) => c.varies) : figures;
   }
 
-  // --- what is above ---
+  // --- head of the page ---
 
   head() {
     const { studies } = this.data;
@@ -100,7 +100,7 @@ class StudyPage {
     this.filtered();
   }
 
-  // What is pressed says so at once; what is drawn follows in the next frame.
+  // Updates the buttons at once and the drawings in the next frame.
   filtered() {
     this.filter.update();
     this.show_filter();
@@ -116,7 +116,7 @@ class StudyPage {
     by_id('ranges').replaceChildren(...[...filter.ranges].map(([column, [from, to]]) => {
       const words = column.number ? `${value_text(column, from)} – ${value_text(column, to)}`
         : column.words.filter((_, i) => i >= from && i <= to).join(', ') || 'none';
-      const button = element('button', { type: 'button', class: 'chip', title: `${column.heading}; let go` }, `${column.key}: ${words} ✕`);
+      const button = element('button', { type: 'button', class: 'chip', title: `${column.heading}; remove this range` }, `${column.key}: ${words} ✕`);
       button.addEventListener('click', () => this.set_range(column, null));
       return button;
     }));
@@ -150,7 +150,7 @@ class StudyPage {
     this.mark();
   }
 
-  // Through the rows as the table has them.
+  // Chooses the next (1) or previous (-1) row in the order of the table.
   step(by) {
     const { sorted } = this.table, at = sorted.indexOf(this.chosen);
     if (sorted.length) this.choose(sorted[Math.min(sorted.length - 1, Math.max(0, at + by))]);
@@ -162,7 +162,7 @@ class StudyPage {
 
   // --- drawing ---
 
-  // In the next frame, once, however often it is asked for.
+  // Draws once in the next frame, even after several calls.
   redraw() {
     this.waiting ??= requestAnimationFrame(() => this.draw());
   }
@@ -171,13 +171,13 @@ class StudyPage {
     this.waiting = undefined;
     const began = performance.now(), colors = colors_now();
     this.show_filter();
-    for (const view of [this.parallel, ...this.views]) if (!this.hurry || !view.takes_long) view.draw(colors);
+    for (const view of [this.parallel, ...this.views]) if (!this.is_dragging || !view.takes_long) view.draw(colors);
     this.table.draw();
     this.mark();
     this.took = performance.now() - began;
   }
 
-  // After rows came: the axes and the words may be others.
+  // Updates the page after new rows; axes and texts of columns may have changed.
   grown(columns_changed) {
     this.filter.update();
     this.facts();
@@ -212,7 +212,7 @@ class StudyPage {
 
 try {
   const run = JSON.parse(by_id('run-data').textContent);
-  window.sinew = { run, page: new StudyPage(run) };  // for scripts that take pictures, and for tests
+  window.sinew = { run, page: new StudyPage(run) };  // used by scripts that take pictures and by tests
   document.documentElement.dataset.ready = 'yes';
 } catch (error) {
   document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));

@@ -1,5 +1,5 @@
-// A canvas with two axes and marks for rows: what history, scatter and surface share. What stands is
-// drawn once; the row under the pointer and the chosen one come on top.
+// Canvas with two axes and marks for rows, used by history, scatter and surface. Everything is drawn once
+// on a second canvas; the row under the pointer and the chosen row are drawn over it.
 import { pressure_color } from './colors.js';
 import { menu_button } from './menu.js';
 import { element } from './page.js';
@@ -11,9 +11,9 @@ import { number, tick_text } from './units.js';
 
 export const color_steps = 16;
 const margin = { left: 58, right: 14, top: 28, bottom: 40 };  // [px]
-const near_enough = 18;  // of the pointer to a mark [px]
+const near_enough = 18;  // largest distance of the pointer to a mark [px]
 
-// Colors of the page as they are now.
+// Returns the current colors of the page.
 export function colors_now() {
   const css = getComputedStyle(document.documentElement), of = (name) => css.getPropertyValue(`--${name}`).trim();
   return { ink: of('ink'), quiet: of('quiet'), grid: of('grid'), paper: of('paper'), edge: of('edge'), unlit: of('unlit'),
@@ -21,14 +21,14 @@ export function colors_now() {
            ramp: ramp_on(of('paper')) };
 }
 
-// The part of the ramp that can be told from the paper, in steps.
+// Returns the part of the color scale that contrasts with the background, in steps.
 function ramp_on(paper) {
   const dark = parseInt(paper.slice(1, 3), 16) < 128, [from, to] = dark ? [0.28, 1] : [0, 0.88];
   return Array.from({ length: color_steps }, (_, i) => pressure_color(from + ((to - from) * i) / (color_steps - 1)));
 }
 
-// How rows are colored: by a column, or by their study. `step_of(row)`: the number of a color, -1
-// for none.
+// Returns how rows are colored: by a column, or by study. `step_of(row)`: index of a color, -1 if the
+// value is missing.
 export function coloring(data, column, colors) {
   if (!column || !column.varies)
     return { list: colors.studies, column: null, step_of: (row) => data.study[row] };
@@ -37,7 +37,7 @@ export function coloring(data, column, colors) {
            step_of: (row) => (values[row] === values[row] ? Math.min(color_steps - 1, Math.floor((values[row] - low) * scale)) : -1) };
 }
 
-// An axis of a column, a little wider than its values.
+// Returns the axis of a column, slightly wider than its values.
 export function axis_of(column, room = 0.04) {
   const { low, high } = column;
   if (!(high >= low)) return { span: [0, 1], column };
@@ -48,7 +48,7 @@ export function axis_of(column, room = 0.04) {
 export const value_text = (column, value) =>
   (value !== value || value === undefined ? '–' : column.number ? number(value) : column.words[value]);
 
-// Empties a canvas and what stands on it, at a size on the page; returns where the latter is drawn.
+// Clears and resizes a canvas and its second canvas `still`; returns the context of `still`.
 export function fresh_context(canvas, still, width, height) {
   const ratio = window.devicePixelRatio || 1;
   canvas.style.height = `${height}px`;
@@ -61,8 +61,9 @@ export function fresh_context(canvas, still, width, height) {
   return ctx;
 }
 
-// The menu of a view: it is drawn once more, as a picture on paper, and then as before. `view`: has a
-// `title`, a `canvas`, draw(colors), and a `chart` whose `instead` it then draws on, and its `height`.
+// Returns the menu of a view. To save a picture, the view is drawn into an SvgContext in light colors, and
+// then again on the page. `view` has `title`, `canvas`, draw(colors), and a `chart` with `height` and
+// `instead`, the context that replaces its canvas.
 export function picture_menu(page, view) {
   const drawn = () => {
     const ctx = new SvgContext(), { chart } = view;
@@ -79,15 +80,15 @@ export function picture_menu(page, view) {
   };
   const of = page.data.studies.map((s) => s.title).join('-');
   return element('div', { class: 'panel-tools' },
-    menu_button('⋯', 'More of this chart', () => save_entries(of, () => view.title, drawn)));
+    menu_button('⋯', 'Chart menu', () => save_entries(of, () => view.title, drawn)));
 }
 
 export class Chart {
-  // `on_pick(row)` and `on_over(row)` with the row at the pointer, -1 where there is none.
+  // Calls `on_pick(row)` on a click and `on_over(row)` on a move with the row at the pointer, -1 if none.
   constructor(canvas, { on_pick, on_over, height = 320 }) {
     Object.assign(this, { canvas, on_pick, on_over, height });
     this.still = document.createElement('canvas');
-    this.instead = null;  // of its canvas: where it is drawn for a picture
+    this.instead = null;  // context that replaces the canvas while a picture is saved
     this.rows = [];
     canvas.tabIndex = 0;
     canvas.addEventListener('pointermove', (e) => on_over(this.row_at(e)));
@@ -95,7 +96,7 @@ export class Chart {
     canvas.addEventListener('click', (e) => on_pick(this.row_at(e)));
   }
 
-  // Begins a drawing with these axes; null while there is no room.
+  // Begins a drawing with these axes. Returns the context; null if the canvas has no width.
   begin(x_axis, y_axis, colors) {
     const width = this.canvas.clientWidth;
     if (!width) return null;
@@ -141,7 +142,7 @@ export class Chart {
     ctx.fillText(fitting(ctx, `↑ ${y_axis.column.heading}`, right - 8), 8, 14);
   }
 
-  // Remembers where the marks of rows are. `xs`, `ys`: numbers by row.
+  // Computes the positions of the rows' marks. `xs`, `ys`: values by row.
   place(rows, xs, ys) {
     this.rows = rows.filter((r) => xs[r] === xs[r] && ys[r] === ys[r]);
     this.px = Float32Array.from(this.rows, (r) => this.x(xs[r]));
@@ -149,8 +150,8 @@ export class Chart {
     this.index = new Map(this.rows.map((r, i) => [r, i]));
   }
 
-  // Draws the marks that were placed: those that are feasible full, the others hollow and faint; those
-  // of a second study as triangles. The higher a color, the larger.
+  // Draws the marks: filled if the row is feasible, else hollow and faint; triangles for the second study.
+  // Marks with a higher value of the color column are larger.
   marks(ctx, data, color) {
     const groups = new Map(), sized = color.column !== null;
     this.rows.forEach((row, i) => {
@@ -173,7 +174,7 @@ export class Chart {
     ctx.globalAlpha = 1;
   }
 
-  // What stands, with the row at the pointer and the chosen one on it.
+  // Shows the drawing with the row at the pointer and the chosen row over it.
   show(over, chosen, words) {
     if (!this.box) return;
     const ctx = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
@@ -220,7 +221,7 @@ export class Chart {
   }
 }
 
-// Strokes a path so that it shows on every color.
+// Strokes a path with an outline that makes it visible on every color.
 export function outlined(ctx, colors, is_chosen) {
   for (const [color, width] of [[colors.paper, is_chosen ? 7 : 4], [colors.ink, is_chosen ? 3 : 1.6]]) {
     ctx.strokeStyle = color;
@@ -242,7 +243,7 @@ function trace(ctx, x, y, size, triangle) {
   ctx.closePath();
 }
 
-// [value, words] of an axis, about `count` of them.
+// Returns about `count` ticks of an axis as [value, text].
 function ticks({ span, column }, count) {
   if (column && !column.number) return column.words.map((w, i) => [i, w.length > 18 ? `${w.slice(0, 17)}…` : w]);
   return round_values(span, Math.max(2, count)).filter((v) => v >= span[0] && v <= span[1]).map((v) => [v, tick_text(v)]);

@@ -1,25 +1,25 @@
-// The rows of one study or of two, as columns of numbers: matched by heading, filtered by ranges and
-// words. Nothing here knows of the page.
+// Rows of one or two studies as columns of numbers, matched by heading and filtered by ranges and words.
+// Independent of the page.
 
-// What a heading says: "joint.hip.angle_gain [%/count]".
+// Splits a heading such as "joint.hip.angle_gain [%/count]" into key and unit.
 export function heading_parts(heading) {
   const found = /^(.*?) \[(.*)\]$/.exec(heading);
   return found ? { key: found[1], unit: found[2] } : { key: heading, unit: '' };
 }
 
-// Numbers of which less is usually better. A person may say otherwise on the page.
+// Returns whether a smaller value is usually better. The reader can change the direction on the page.
 export const usually_less = (heading) =>
   /rms|error|overshoot|oscillation|air|energy|switchings|duty|time|settling|violation/.test(heading);
 
-// A text the page can quote for a shell.
+// Returns a text quoted for a shell, if necessary.
 const quoted = (text) => (/^[\w.,:+/=@%-]+$/.test(text) ? text : `"${text.replace(/(["\\$`])/g, '\\$1')}"`);
 
 class Column {
   constructor({ heading, number, role, maximize, set = role === 'parameter' }) {
     Object.assign(this, { heading, number, role, set, ...heading_parts(heading) });
     this.less = role === 'objective' ? !maximize : usually_less(heading);
-    this.texts = [];     // as the table has them
-    this.values = [];    // NaN where there is none; words by their number in `words`
+    this.texts = [];     // as in the table
+    this.values = [];    // NaN if missing; for text, the index in `words`
     this.words = [];
     this.low = Infinity;  // of the values
     this.high = -Infinity;
@@ -36,7 +36,7 @@ class Column {
   word(text) {
     const at = this.words.indexOf(text);
     if (at >= 0) return at;
-    if (this.words.length >= 50) return NaN;  // as of messages: no axis has room for more
+    if (this.words.length >= 50) return NaN;  // an axis has no room for more, as with messages
     return this.words.push(text) - 1;
   }
 
@@ -53,7 +53,7 @@ export class StudyData {
     for (const s of this.studies) this.add(s, s.rows);
   }
 
-  // The column of that heading: one for both studies. A parameter in either is one.
+  // Returns the column of a heading, which both studies share. It is a parameter if it is one in either study.
   column(spec) {
     let found = this.by_heading.get(spec.heading);
     if (!found) {
@@ -66,8 +66,8 @@ export class StudyData {
     return found;
   }
 
-  // Rows [number, ok, generation, violation, cells]; one whose number is there takes its place. Returns
-  // how many are new.
+  // Adds rows [number, ok, generation, violation, cells]; a row with a known number replaces the old one.
+  // Returns the number of new rows.
   add(study, rows) {
     const before = this.count;
     for (const [number, ok, generation, violation, cells] of rows) {
@@ -86,7 +86,7 @@ export class StudyData {
     return this.count - before;
   }
 
-  // Whether each study has the column.
+  // Returns whether all studies have the column.
   is_common(column) {
     return this.studies.every((s) => s.own.includes(column));
   }
@@ -96,14 +96,14 @@ export class StudyData {
     return this.studies.length > 1 ? `${letter}${this.number[row]}` : String(this.number[row]);
   }
 
-  // What runs the row's machine again, in the shell; a candidate's in one of its cases.
+  // Returns the shell command that repeats a row; for a candidate, in one of its cases.
   command_of(row, one = this.studies[this.study[row]]) {
     const study = this.studies[this.study[row]];
     let { experiment } = one;
     const sets = [...(one.sets ?? [])];
     for (const c of study.own) {
       if (!c.set || !c.texts[row]) continue;
-      if (c.key === 'experiment') experiment = beside(experiment, c.texts[row]);
+      if (c.key === 'experiment') experiment = in_folder_of(experiment, c.texts[row]);
       else sets.push(`${c.key}=${c.texts[row]}${c.unit && c.number ? ` ${c.unit}` : ''}`);
     }
     return [`sinew run ${quoted(experiment)}`, ...sets.map((s) => `--set ${quoted(s)}`),
@@ -111,15 +111,16 @@ export class StudyData {
   }
 }
 
-function beside(file, name) {
+// Returns a name relative to the folder of `file`.
+function in_folder_of(file, name) {
   return name.startsWith('/') || !file.includes('/') ? name : file.replace(/[^/]*$/, name);
 }
 
-// Which rows are shown: those within every range, with every word, of the studies that are on.
+// Filter of rows: shown are those within every range, with every word, of the studies that are switched on.
 export class Filter {
   constructor(data) {
     this.data = data;
-    this.ranges = new Map();  // of a column: [from, to]
+    this.ranges = new Map();  // [from, to] by column
     this.words = [];
     this.only_feasible = false;
     this.studies = data.studies.map(() => true);

@@ -1,4 +1,4 @@
-// A study that still grows: asks the program for rows that are new, a second after the last answer.
+// Updates of a study in progress: requests new rows from the program one second after the last reply.
 import { by_id } from './page.js';
 
 const again_after = 1000;  // [ms]
@@ -6,21 +6,21 @@ const again_after = 1000;  // [ms]
 export class Growing {
   constructor(page) {
     this.page = page;
-    this.known = [...page.run.known];  // of each study: changes of rows that the program has told
-    this.answers = 0;
+    this.known = [...page.run.known];  // changes of rows received so far, for each study
+    this.replies = 0;
     this.wait();
   }
 
   wait() {
-    setTimeout(() => this.ask(), again_after);
+    setTimeout(() => this.request_rows(), again_after);
   }
 
-  async ask() {
+  async request_rows() {
     try {
       for (const study of this.page.data.studies) {
-        const answer = await fetch(new URL(`${study.path}rows/${this.known[study.study]}`, location.href));
-        if (!answer.ok) throw new Error(answer.statusText);
-        this.take(study, await answer.json());
+        const reply = await fetch(new URL(`${study.path}rows/${this.known[study.study]}`, location.href));
+        if (!reply.ok) throw new Error(reply.statusText);
+        this.take(study, await reply.json());
       }
       by_id('lost').hidden = true;
     } catch {
@@ -30,8 +30,8 @@ export class Growing {
   }
 
   take(study, { known, rows, expected, error }) {
-    ++this.answers;
-    by_id('lost').textContent = error ?? 'The program that serves this page is gone; what was there stays.';
+    ++this.replies;
+    by_id('lost').textContent = error ?? 'The program that serves this page has ended; rows loaded so far stay visible.';
     if (error) throw new Error(error);
     const { data } = this.page;
     this.known[study.study] = known;

@@ -1,10 +1,10 @@
-// What the page of a study computes from its rows: fronts, shares of variance, surfaces. Pure
-// functions of numbers; NaN is a number that is not there.
+// Computations of the page of a study: Pareto fronts, shares of variance, surfaces. They are pure
+// functions; NaN is a missing value.
 
 // --- the Pareto front ---
 
-// Returns those of `rows` that no other one beats: it would be as good in both and better in one.
-// `less_x`, `less_y`: less is better. In order of x.
+// Returns the rows that no other row dominates, that is, is at least as good in both and better in one,
+// in order of x. `less_x`, `less_y`: less is better.
 export function pareto_front(rows, x, y, less_x, less_y) {
   const sign_x = less_x ? 1 : -1, sign_y = less_y ? 1 : -1;
   const of = (row) => ({ row, x: sign_x * x[row], y: sign_y * y[row] });
@@ -20,7 +20,7 @@ export function pareto_front(rows, x, y, less_x, less_y) {
   return less_x ? front : front.reverse();
 }
 
-// The best value up to and with each of `values`, NaN before the first.
+// Returns the best value up to and including each of `values`; NaN before the first.
 export function best_so_far(values, less) {
   let best = NaN;
   return values.map((v) => {
@@ -33,8 +33,8 @@ export function best_so_far(values, less) {
 
 const most_bins = 24;
 
-// Bins with about as many values each; equal values share one. Returns the bin of each value and how
-// many there are. Few distinct values are a bin each.
+// Divides values into bins of about equal count; equal values share a bin, and a few distinct values get
+// a bin each. Returns the bin of each value and the number of bins.
 export function bins_of(values) {
   const sorted = [...values].sort((a, b) => a - b);
   const wanted = Math.max(2, Math.min(most_bins, Math.floor(Math.sqrt(values.length) / 2)));
@@ -59,10 +59,10 @@ function last_at_most(starts, value) {
   return low;
 }
 
-// The share of the variance of `figure` that goes with `parameter` alone: the correlation ratio over
-// bins of the parameter, less what as many bins would explain by chance (Kelley's epsilon squared), not
-// below 0. `chance` is the share that one value in twenty exceeds where the parameter does nothing.
-// null: too few rows, or nothing varies.
+// Returns the share of the variance of `figure` that `parameter` alone explains: the correlation ratio over
+// bins of the parameter, corrected for the share that as many bins explain by chance (Kelley's epsilon
+// squared), at least 0. `chance` is the share that is exceeded with a probability of 5 % if the parameter
+// has no effect. Returns null if there are too few rows or nothing varies.
 export function variance_share(rows, parameter, figure) {
   const used = rows.filter((r) => parameter[r] === parameter[r] && figure[r] === figure[r]);
   const n = used.length;
@@ -85,8 +85,8 @@ export function variance_share(rows, parameter, figure) {
   return { share: corrected(between / total), chance: corrected(chance_ratio(k, n)), bins: k, rows: n };
 }
 
-// The correlation ratio of k bins and n rows that chance exceeds once in twenty: chi-squared of k - 1
-// degrees of freedom after Wilson and Hilferty, over n - 1.
+// Returns the correlation ratio of k bins and n rows that is exceeded by chance with a probability of 5 %:
+// chi-squared of k - 1 degrees of freedom after Wilson and Hilferty, divided by n - 1.
 function chance_ratio(k, n) {
   const f = k - 1, a = 2 / (9 * f);
   return Math.min(1, (f * (1 - a + 1.6449 * Math.sqrt(a)) ** 3) / (n - 1));
@@ -95,12 +95,12 @@ function chance_ratio(k, n) {
 // --- a surface over two quantities ---
 
 const nearest_used = 9;
-const reach = 1.2;         // of the points' spacing: further from all of them it stays blank
-const least_reach = 0.06;  // of the axis
+const reach = 1.2;         // distance to the nearest point beyond which the surface is blank, in mean spacings
+const least_reach = 0.06;  // the same at least, as a share of the axis
 
-// A value of z on size × size nodes over the box of `x_span` and `y_span`, row by row from the lowest y:
-// a plane fitted to the nearest points, the nearer the more it counts, and never beyond what they
-// have. NaN where no point is near.
+// Returns z on size × size nodes over the box of `x_span` and `y_span`, row by row from the lowest y. Each
+// value is that of a plane fitted to the nearest points, weighted by distance and limited to their range;
+// NaN where no point is near.
 export function surface(rows, x, y, z, x_span, y_span, size = 40) {
   const points = gathered(rows, x, y, z, x_span, y_span, size);
   const nodes = new Float64Array(size * size).fill(NaN);
@@ -112,7 +112,7 @@ export function surface(rows, x, y, z, x_span, y_span, size = 40) {
   return nodes;
 }
 
-// Rows as points of the unit square; those of one cell as one.
+// Returns rows as points of the unit square; rows in one cell are averaged.
 function gathered(rows, x, y, z, [x0, x1], [y0, y1], size) {
   const cells = new Map();
   for (const r of rows) {
@@ -126,7 +126,7 @@ function gathered(rows, x, y, z, [x0, x1], [y0, y1], size) {
   return [...cells.values()].map(({ u, v, z: sum, n }) => ({ u: u / n, v: v / n, z: sum / n, n }));
 }
 
-// Where the nearest points are, in order of distance; one place for all nodes.
+// Nearest points in order of distance; allocated once and used for all nodes.
 const near = { at: new Int32Array(nearest_used), d: new Float64Array(nearest_used), count: 0 };
 
 function find_nearest(points, u, v) {
@@ -162,7 +162,7 @@ function value_at(points, u, v, far) {
   return Math.min(high, Math.max(low, plane_at_origin(s, t)));
 }
 
-// The constant of the weighted plane, by Cramer's rule; the mean where the points are on one line.
+// Returns the constant of the weighted plane, by Cramer's rule; the mean if the points are on one line.
 function plane_at_origin([s0, s1, s2, s3, s4, s5], [t0, t1, t2]) {
   const c0 = s3 * s5 - s4 * s4, c1 = s2 * s4 - s1 * s5, c2 = s1 * s4 - s2 * s3;
   const det = s0 * c0 + s1 * c1 + s2 * c2;
@@ -172,8 +172,8 @@ function plane_at_origin([s0, s1, s2, s3, s4, s5], [t0, t1, t2]) {
 
 // --- lines of equal value ---
 
-// Pieces [u0, v0, u1, v1] in the unit square on which the surface has the level; none where it is
-// blank.
+// Returns line pieces [u0, v0, u1, v1] in the unit square on which the surface has this value; none where
+// it is blank.
 export function level_lines(nodes, size, level) {
   const pieces = [], at = (i, j) => nodes[j * size + i];
   for (let j = 0; j + 1 < size; ++j)
@@ -192,13 +192,13 @@ export function level_lines(nodes, size, level) {
   return pieces;
 }
 
-// A round step of which about `count` go into `span`.
+// Returns a round step that divides `span` into about `count` parts.
 export function step_of(span, count) {
   const rough = span / count, power = 10 ** Math.floor(Math.log10(rough));
   return power * ([1, 2, 5, 10].find((m) => m * power >= rough * (1 - 1e-9)) ?? 10);
 }
 
-// Round values within the span, about `count` of them.
+// Returns about `count` round values within the span.
 export function round_values([low, high], count) {
   if (!(high > low)) return [low];
   const step = step_of(high - low, count), out = [];

@@ -1,14 +1,14 @@
-// Parallel coordinates: an axis for each column, a line for each row. A range that is drawn on an axis
-// filters every view.
+// Parallel coordinates: an axis for each column, a line for each row. A range drawn on an axis filters
+// every view.
 import { element } from './page.js';
 import { axis_of, coloring, fresh_context, outlined, picture_menu, value_text } from './study_chart.js';
 import { number } from './units.js';
 
 const pad = { top: 12, bottom: 12 };  // [px]
 const height = 300;
-const narrowest = 84;  // between two axes; more of them scroll
+const narrowest = 84;  // smallest distance of two axes; more axes scroll [px]
 const near_enough = 14;
-const lines_at_once = 250;  // of one path: longer ones are slower than several
+const lines_at_once = 250;  // per path; one long path is slower than several short ones
 
 const name_of = (column) => column.key.split('.').slice(-2).join('.');
 const thin = (rows, most) => rows.filter((_, i) => i % Math.ceil(rows.length / most) === 0);
@@ -26,14 +26,14 @@ export class Parallel {
     this.root = element('section', { class: 'study-view', id: 'parallel' },
       element('header', {}, element('h2', {}, this.title), this.toggles, picture_menu(page, this)),
       element('div', { class: 'parallel-scroll' }, this.inner),
-      element('p', { class: 'hint' }, 'Drag along an axis to keep a range, tap it to let go; with the keyboard ↑ ↓ move its lower end, with shift its upper end, Delete lets go. ',
+      element('p', { class: 'hint' }, 'Drag along an axis to select a range, click the axis to remove it. With the keyboard, ↑ ↓ move the lower end, Shift ↑ ↓ the upper end, Delete removes it. ',
         'Click a line to choose its row.'));
     this.canvas.addEventListener('pointermove', (e) => page.over(this.row_at(e)));
     this.canvas.addEventListener('pointerleave', () => page.over(-1));
     this.canvas.addEventListener('click', (e) => page.choose(this.row_at(e)));
   }
 
-  // The axes until a person says otherwise.
+  // Chooses the axes, unless the reader has chosen them.
   choose_first() {
     if (this.chosen_by_hand) return;
     const { columns, data } = this.page, there = columns.filter((c) => c.varies && c.role !== 'other');
@@ -61,11 +61,11 @@ export class Parallel {
     this.handles.replaceChildren(...this.columns.map((c, i) => this.handle(c, i)));
   }
 
-  // The part of an axis that a person drags over.
+  // Returns the element over an axis along which ranges are dragged.
   handle(column, i) {
     const band = element('i', { class: 'band' });
     const root = element('div', { class: 'axis-handle', tabindex: '0', role: 'group', 'data-heading': column.heading,
-                                  'aria-label': `${column.heading}: drag to keep a range` }, band);
+                                  'aria-label': `${column.heading}: drag to select a range` }, band);
     root.style.left = `${(100 * (i + 0.5)) / this.columns.length}%`;
     root.addEventListener('pointerdown', (e) => this.drag(e, column, root));
     root.addEventListener('keydown', (e) => this.key(e, column));
@@ -76,7 +76,7 @@ export class Parallel {
     event.preventDefault();
     root.focus();
     root.setPointerCapture(event.pointerId);
-    this.page.hurry = true;
+    this.page.is_dragging = true;
     const from = event.clientY, value = (e) => this.value_at(column, e.clientY - root.getBoundingClientRect().top);
     const first = value(event);
     const move = (e) => {
@@ -86,7 +86,7 @@ export class Parallel {
     };
     const end = (e) => {
       root.removeEventListener('pointermove', move);
-      this.page.hurry = false;
+      this.page.is_dragging = false;
       this.page.redraw();
       if (e.type === 'pointerup' && Math.abs(e.clientY - from) < 4) this.page.set_range(column, null);
     };
@@ -130,11 +130,11 @@ export class Parallel {
     this.bands();
   }
 
-  // Hidden rows faint and below; then those shown, by color.
+  // Draws hidden rows faintly, then visible rows by color over them.
   lines(ctx, colors) {
     const { data, filter, color_column } = this.page, color = coloring(data, color_column, colors);
     const groups = new Map();
-    for (const row of this.page.hurry ? thin(filter.rows, 1500) : filter.rows) {
+    for (const row of this.page.is_dragging ? thin(filter.rows, 1500) : filter.rows) {
       const key = 2 * (color.step_of(row) + 1) + (data.study[row] ? 1 : 0);
       if (!groups.has(key)) groups.set(key, []);
       groups.get(key).push(row);
@@ -162,7 +162,7 @@ export class Parallel {
     }
   }
 
-  // A gap where a value is missing.
+  // Adds a row's line to the path, with a gap where a value is missing.
   trace(ctx, row) {
     let drawing = false;
     this.columns.forEach((c, i) => {
@@ -196,7 +196,7 @@ export class Parallel {
     });
   }
 
-  // A picture has them too; on the page they are words above the canvas.
+  // Draws the names of the axes into a picture; on the page they are text above the canvas.
   write_names(ctx, colors) {
     ctx.textAlign = 'center';
     ctx.fillStyle = colors.ink;

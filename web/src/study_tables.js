@@ -1,4 +1,4 @@
-// Importance as bars, the chosen row with what runs it again, and the table of rows.
+// Influence of the parameters as bars, the chosen row with its command, and the table of rows.
 import { element } from './page.js';
 import { value_text } from './study_chart.js';
 import { variance_share } from './study_math.js';
@@ -19,7 +19,7 @@ export class Importance {
     this.list = element('ol', { class: 'shares' });
     this.hint = element('p', { class: 'hint' });
     this.root = element('section', { class: 'study-view', id: 'importance' },
-      element('header', {}, element('h2', {}, 'What a number follows'), this.choices), this.list, this.hint);
+      element('header', {}, element('h2', {}, 'Influence of parameters'), this.choices), this.list, this.hint);
   }
 
   arrange() {
@@ -40,28 +40,28 @@ export class Importance {
   }
 
   bar({ column, share, chance, bins, rows }) {
-    const fill = element('i', { class: 'share' }), tick = element('i', { class: 'chance', title: `one in twenty by chance: ${percent(chance)}` });
+    const fill = element('i', { class: 'share' }), tick = element('i', { class: 'chance', title: `exceeded by chance with a probability of 5 %: ${percent(chance)}` });
     fill.style.width = `${100 * share}%`;
     tick.style.left = `${100 * chance}%`;
     const none = share <= chance;
     return element('li', { 'data-heading': column.heading, 'data-share': share, class: none ? 'none' : null, title: `${rows} rows in ${bins} bins` },
       element('span', { class: 'key' }, column.heading), element('span', { class: 'track' }, fill, tick),
-      element('b', {}, none ? `${percent(share)}, may be chance` : percent(share)));
+      element('b', {}, none ? `${percent(share)}, not significant` : percent(share)));
   }
 
   words() {
     const sum = this.shares.reduce((all, s) => all + s.share, 0);
     const drawn = this.page.data.studies.every((s) => s.kind === 'sweep') && !this.page.filter.is_on;
-    return 'Share of the number’s variance that goes with one parameter alone: how far its mean differs between bins of that parameter, less what chance would give as many bins. ' +
-      'The mark is what chance exceeds once in twenty. It depends on how far each was varied, and says nothing of what two do only together. ' +
-      (drawn ? `What is left, ${percent(Math.max(0, 1 - sum))}, is of parameters together, of seeds, or within bins.`
-        : 'These rows were chosen, by a tuner or a filter: parameters go together then, and their shares overlap.');
+    return 'Share of the number’s variance that one parameter alone explains: the variation of its mean over bins of that parameter, corrected for chance. ' +
+      'The mark is the share that is exceeded by chance with a probability of 5 %. Shares depend on the ranges that were varied and do not include interactions. ' +
+      (drawn ? `The rest, ${percent(Math.max(0, 1 - sum))}, is due to interactions, seeds, and variation within bins.`
+        : 'These rows were chosen by a tuner or a filter: their parameters are correlated, and the shares overlap.');
   }
 }
 
 // --- the chosen row ---
 
-export class Chosen {
+export class ChosenRow {
   constructor(page) {
     this.page = page;
     this.root = element('aside', { class: 'chosen-row', id: 'chosen', 'aria-label': 'The chosen row', 'aria-live': 'polite' });
@@ -71,7 +71,7 @@ export class Chosen {
     const { page } = this, { data, chosen } = page;
     this.root.classList.toggle('is-empty', chosen < 0);
     if (chosen < 0) return this.root.replaceChildren(element('h2', {}, 'No row is chosen'),
-      element('p', { class: 'quiet' }, 'Click a mark, a line or a row of the table; ← → go from row to row, Esc lets go.'));
+      element('p', { class: 'quiet' }, 'Click a mark, a line or a row of the table; ← → move from row to row, Esc clears the choice.'));
     const study = data.studies[data.study[chosen]], command = data.command_of(chosen);
     const kind = study.kind === 'tune' ? 'Candidate' : 'Row';
     this.root.replaceChildren(
@@ -91,7 +91,7 @@ export class Chosen {
       button.addEventListener('click', () => this.page.step(by));
       return button;
     };
-    return element('div', { class: 'steps no-print' }, step('←', 'Row before (←)', -1), step('→', 'Next row (→)', 1));
+    return element('div', { class: 'steps no-print' }, step('←', 'Previous row (←)', -1), step('→', 'Next row (→)', 1));
   }
 
   state(row) {
@@ -121,16 +121,16 @@ export class Chosen {
     const { page } = this;
     const copy = element('button', { type: 'button', id: 'copy' }, 'Copy');
     copy.addEventListener('click', async () => {
-      copy.textContent = (await copied(command, this.root.querySelector('.command'))) ? 'Copied' : 'Marked: press Ctrl-C';
+      copy.textContent = (await copied(command, this.root.querySelector('.command'))) ? 'Copied' : 'Selected: press Ctrl-C';
     });
     const run = page.run.served && page.data.ok[page.chosen] !== undefined
-      ? element('a', { id: 'run-it', class: 'button', href: `${study.path}run/${page.data.number[page.chosen]}`, target: '_blank', rel: 'noopener' }, 'Run it and look at it')
+      ? element('a', { id: 'run-it', class: 'button', href: `${study.path}run/${page.data.number[page.chosen]}`, target: '_blank', rel: 'noopener' }, 'Run and show')
       : null;
     return element('div', { class: 'buttons no-print' }, copy, run);
   }
 }
 
-// A page from a file has no clipboard in every browser: then the text is marked.
+// Some browsers give a page from a file no clipboard; the text is then selected and copied.
 async function copied(text, place) {
   try {
     await navigator.clipboard.writeText(text);
@@ -147,7 +147,7 @@ export class RowTable {
   constructor(page) {
     this.page = page;
     this.from = 0;
-    this.by = null;  // a column; null: the order of rows
+    this.by = null;  // sort by this column; null: in order of rows
     this.down = false;
     this.head = element('thead', {});
     this.body = element('tbody', {});
@@ -157,7 +157,7 @@ export class RowTable {
       button.addEventListener('click', () => this.turn(by));
       return button;
     };
-    this.turns = element('div', { class: 'turns no-print' }, turn('‹', 'Rows before', -1), this.count, turn('›', 'Next rows', 1));
+    this.turns = element('div', { class: 'turns no-print' }, turn('‹', 'Previous rows', -1), this.count, turn('›', 'Next rows', 1));
     this.root = element('section', { class: 'block', id: 'rows' },
       element('header', {}, element('h2', {}, 'Rows'), this.turns),
       element('div', { class: 'scroll' }, element('table', { 'aria-label': 'Rows' }, this.head, this.body)));
@@ -181,7 +181,7 @@ export class RowTable {
     this.draw();
   }
 
-  // Rows in the table's order; those without a value come last.
+  // Returns rows in the order of the table; those without a value are last.
   order() {
     const { filter: { rows }, data } = this.page, { by } = this, sign = this.down ? -1 : 1;
     const plain = (a, b) => data.study[a] - data.study[b] || data.number[a] - data.number[b];
@@ -217,7 +217,7 @@ export class RowTable {
     return line;
   }
 
-  // The page of the chosen row comes into the table, not into sight.
+  // Turns the table to the page of the chosen row, without scrolling to it.
   show(chosen) {
     const at = chosen < 0 ? -1 : this.sorted.indexOf(chosen);
     if (at >= 0 && (at < this.from || at >= this.from + page_of_rows)) {

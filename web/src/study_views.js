@@ -1,4 +1,4 @@
-// History, scatter and surface of a study: each a canvas with what a person chooses above it.
+// Views of a study: history, scatter and surface. Each is a canvas with its choices above it.
 import { element } from './page.js';
 import { axis_of, Chart, coloring, color_steps, picture_menu, value_text } from './study_chart.js';
 import { best_so_far, level_lines, pareto_front, round_values, surface } from './study_math.js';
@@ -6,7 +6,7 @@ import { number, tick_text } from './units.js';
 
 const surface_size = 40;  // nodes across
 
-// A field with columns to choose from; `more` stands before them: [value, words].
+// Returns a field to choose a column; the entries `more`, [value, words], come first.
 export function chooser(label, columns, chosen, on_change, more = []) {
   const field = element('select', { 'aria-label': label, title: label },
     ...more.map(([value, words]) => element('option', { value }, words)),
@@ -16,7 +16,7 @@ export function chooser(label, columns, chosen, on_change, more = []) {
   return element('label', { class: 'choice' }, element('span', {}, label), field);
 }
 
-// Whether more of a column is better, for all views.
+// Returns a button that selects, for all views, whether less or more of a column is better.
 export function direction(page, column) {
   const words = () => (column.less ? '↓ less is better' : '↑ more is better');
   const button = element('button', { type: 'button', class: 'direction', title: `of ${column.heading}` }, words());
@@ -28,7 +28,7 @@ export function direction(page, column) {
   return button;
 }
 
-// The frame of a view: heading, choices, canvas, a sentence.
+// View with heading, choices, canvas and a sentence of explanation.
 export class View {
   constructor(page, id, title, label, height) {
     Object.assign(this, { page, title });
@@ -41,7 +41,7 @@ export class View {
     this.canvas.addEventListener('keydown', (e) => this.key(e));
   }
 
-  // Left and right go through the marks as they stand.
+  // Moves through the marks from left to right with the arrow keys.
   key(event) {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!by || !this.chart.rows.length) return;
@@ -93,7 +93,7 @@ export class History extends View {
     this.hint.textContent = `Line: the best so far${words.length ? `, now row ${words.join(', row ')}` : ''}. Hollow: without numbers, or beyond a limit.`;
   }
 
-  // The stair of the best so far of one study; returns where it ends.
+  // Draws the staircase of the best value so far of one study; returns its best row.
   best(ctx, { study }, xs, colors) {
     const { page: { data, filter }, y, chart } = this, { values } = y;
     const rows = filter.rows.filter((r) => data.study[r] === study && data.feasible[r] && values[r] === values[r]);
@@ -116,7 +116,7 @@ export class History extends View {
 
 export class Scatter extends View {
   constructor(page) {
-    super(page, 'scatter', 'Two columns', 'One column over another, with the rows that no other beats in both');
+    super(page, 'scatter', 'Two columns', 'One column over another, with the Pareto front');
     [this.x, this.y] = [page.first_figures[0] ?? page.columns[0], page.first_figures[1] ?? page.columns[1] ?? page.columns[0]];
     this.front = [];
   }
@@ -139,10 +139,10 @@ export class Scatter extends View {
     this.front = pareto_front(filter.rows.filter((r) => data.feasible[r]), x.values, y.values, x.less, y.less);
     this.draw_front(ctx, colors);
     const better = (c) => (c.less ? 'less' : 'more');
-    this.hint.textContent = `${this.front.length} ringed ${this.front.length === 1 ? 'row' : 'rows'}: no other has ${better(x)} ${x.key} and ${better(y)} ${y.key}.`;
+    this.hint.textContent = `${this.front.length} ringed ${this.front.length === 1 ? 'row' : 'rows'} (Pareto front): no other row has ${better(x)} ${x.key} and ${better(y)} ${y.key}.`;
   }
 
-  // Stairs between rows that no other beats: what lies behind them is beaten.
+  // Draws the Pareto front as a staircase between its rows.
   draw_front(ctx, colors) {
     const { x, y, chart, front } = this;
     ctx.strokeStyle = colors.ink;
@@ -199,11 +199,11 @@ export class Surface extends View {
     for (let i = 0; i < chart.rows.length; ++i) ctx.fillRect(chart.px[i] - 1, chart.py[i] - 1, 2, 2);
     ctx.globalAlpha = 1;
     this.hint.textContent = there.length
-      ? `${z.heading}: ${number(span[0])} to ${number(span[1])}, a plane through the nearest rows at each place, blank where none is near. Whatever else was varied is averaged; rows beyond a limit are dots alone.`
+      ? `${z.heading}: ${number(span[0])} to ${number(span[1])}, a plane fitted to the nearest rows at each point, blank if no row is near. Effects of other parameters are averaged; rows beyond a limit are shown as dots only.`
       : 'Too few rows for a surface.';
   }
 
-  // A pixel for each node, drawn as large as the box.
+  // Draws the surface as an image with a pixel per node, enlarged to the box.
   fill(ctx, [low, high], colors) {
     const { chart, x, y, nodes } = this, size = surface_size;
     const cells = document.createElement('canvas'), paint = cells.getContext('2d');
@@ -221,7 +221,7 @@ export class Surface extends View {
     ctx.globalAlpha = 1;
   }
 
-  // Lines at round values, each with its number once.
+  // Draws lines at round values, each with one number.
   lines(ctx, span, colors) {
     const { chart, x, y, nodes } = this;
     const at = (u, v) => [chart.x(x.low + u * (x.high - x.low)), chart.y(y.low + v * (y.high - y.low))];

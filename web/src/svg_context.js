@@ -1,9 +1,9 @@
-// An SVG of what a page draws on a canvas: those parts of a canvas's context that the views of a study
-// use, in coordinates of the page. A small canvas that is drawn becomes a rectangle for each pixel.
+// Drawing context that produces SVG. It implements the part of a canvas context that the views of a study
+// use, in coordinates of the page. An image becomes a rectangle for each run of equal pixels.
 import { at, escaped } from './picture.js';
 
 const anchors = { left: 'start', center: 'middle', right: 'end' };
-const below = { top: 0.8, middle: 0.35, alphabetic: 0 };  // from there to the foot of the letters, in their size
+const below = { top: 0.8, middle: 0.35, alphabetic: 0 };  // distance to the alphabetic baseline, in font sizes
 
 export class SvgContext {
   constructor() {
@@ -22,7 +22,7 @@ export class SvgContext {
   lineTo(x, y) { this.d += `L${at(x)} ${at(y)}`; }
   closePath() { this.d += 'Z'; }
 
-  // A whole circle.
+  // Adds a full circle.
   arc(x, y, r) {
     this.d += `M${at(x + r)} ${at(y)}a${at(r)} ${at(r)} 0 1 1 ${at(-2 * r)} 0a${at(r)} ${at(r)} 0 1 1 ${at(2 * r)} 0Z`;
   }
@@ -76,14 +76,14 @@ export class SvgContext {
         const color = paint(row * width + from);
         for (to = from + 1; to < width && paint(row * width + to) === color;) ++to;
         if (!color) continue;
-        // Neighbors end where the next begins, to the digit that is written.
+        // Rounds edges first, so that neighbours share them exactly.
         const [left, right] = [x + from * wide, x + to * wide].map((v) => Number(at(v)));
         const [top, bottom] = [y + row * tall, y + (row + 1) * tall].map((v) => Number(at(v)));
         this.fillRect(left, top, right - left, bottom - top, color, ' shape-rendering="crispEdges"');
       }
   }
 
-  // All of it under a title, on white paper.
+  // Returns the SVG on white, with a title.
   svg(title, width, height, sans) {
     const head = 30, all = height + head;
     return `<svg xmlns="http://www.w3.org/2000/svg" width="${at(width)}" height="${at(all)}" viewBox="0 0 ${at(width)} ${at(all)}" ` +

@@ -1,4 +1,5 @@
-// Results beside what is reported, all numbers, warnings, and every value that was used.
+// Tables of the page of a run: results compared with reported values, all numbers, warnings, and all
+// parameters.
 import { by_id, element } from './page.js';
 import { number, unit_of_key, words_of_key } from './units.js';
 
@@ -22,12 +23,12 @@ export const count_verdicts = (verdicts) => ({
   bad: verdicts.filter((v) => verdict_class(v.is) === 'bad').length,
 });
 
-// By class, what is worth most first: "agree: 0 of 1 predicted, 5 of 5 fitted".
+// Counts of verdicts by class, the strongest class first: "agree: 0 of 1 predicted, 5 of 5 fitted".
 const classes = ['predicted', 'fitted', 'put in', 'by construction', 'code against code', '-'];
 export function counts_in_words(verdicts) {
   const parts = classes.map((of) => [of, count_verdicts(verdicts.filter((v) => (v.class ?? '-') === of))])
     .filter(([, n]) => n.judged).map(([of, n]) => `${n.agree} of ${n.judged} ${of === '-' ? 'without a class' : of}`);
-  return parts.length ? `agree: ${parts.join(', ')}` : 'none is judged';
+  return parts.length ? `agree: ${parts.join(', ')}` : 'have no verdict';
 }
 
 // --- results ---
@@ -66,12 +67,12 @@ export function show_warnings(run, seek) {
 
 // --- faults ---
 
-// The key of what the plots shade; each leads to where it begins.
+// Shows the list of faults that the plots shade; each is a button that moves the time to its start.
 export function show_faults(run, seek) {
   const root = by_id('faults');
   root.hidden = !run.faults?.length;
   if (root.hidden) return;
-  root.append(element('span', { class: 'key' }, 'broken on purpose'), ...run.faults.map((f) => {
+  root.append(element('span', { class: 'key' }, 'injected faults'), ...run.faults.map((f) => {
     const button = element('button', { type: 'button', class: 'time' },
       `${f.of} ${f.what}, ${f.from.toFixed(2)}–${f.to.toFixed(2)} s`);
     button.addEventListener('click', () => seek(f.from));
@@ -79,7 +80,7 @@ export function show_faults(run, seek) {
   }));
 }
 
-// Those that act at that time.
+// Returns the faults that are active at t.
 export function faults_at(run, t) {
   return (run.faults ?? []).filter((f) => t >= f.from && t < f.to);
 }
@@ -126,7 +127,7 @@ export class Numbers {
 
 // --- every value ---
 
-// A list of a hundred numbers is there for who asks for it.
+// Returns a table cell; a long list is shortened, with the whole text in its title.
 export function long_cell(words) {
   const most = 120;
   if (words.length <= most) return cell(words, 'long');
@@ -146,7 +147,7 @@ export function show_parameters(run, file = 'resolved.toml') {
     searched(list, rows, 'Search keys, values and sources'));
 }
 
-// A field above the table that leaves the rows with all of its words.
+// Returns a table with a search field above it, which hides rows that lack any of its words.
 export function searched(list, rows, label) {
   const field = element('input', { type: 'search', placeholder: label, 'aria-label': label, class: 'no-print' });
   const texts = rows.map((r) => `${r.row.dataset.key} ${r.row.textContent}`.toLowerCase());

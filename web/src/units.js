@@ -1,32 +1,32 @@
-// Units in which the page shows what the log holds in SI.
+// Units of the page; the log is in SI.
 
 import { recall, remember } from './memory.js';
 
-// Without a table everything stays in SI.
+// Used if the page has no table of units: everything stays in SI.
 const none = { start: 'si', sets: [{ name: 'si', title: 'SI', about: '', units: {} }] };
 
-// The table that the library wrote into the page (sinew/report/page/content.h).
+// Returns the table that the library has written into the page (sinew/report/page/content.h).
 export function page_units() {
   const text = globalThis.document?.getElementById('units-data')?.textContent;
   return text ? JSON.parse(text) : none;
 }
 
 export class Units {
-  // Gauges count from `atmosphere` [Pa]. What a reader chose before holds for every page that begins
-  // in the same units; one that somebody made to begin in others does.
+  // Gauge pressures are relative to `atmosphere` [Pa]. A reader's earlier choice applies to every page with
+  // the same initial units, but not to pages that were made with other initial units.
   constructor(atmosphere, table = page_units()) {
     Object.assign(this, { atmosphere, table });
     this.choose(table.start);
     this.choose(recall(`units of ${table.start}`));
   }
 
-  // Shows everything in the units of that set; one that is not there changes nothing.
+  // Selects a set of units; an unknown name has no effect.
   choose(name) {
     this.set = this.table.sets.find((s) => s.name === name) ?? this.set ?? this.table.sets[0];
   }
 
-  // The same, and from now on.
-  keep(name) {
+  // Selects a set of units and stores the choice.
+  choose_and_store(name) {
     this.choose(name);
     remember(`units of ${this.table.start}`, name);
   }
@@ -35,7 +35,8 @@ export class Units {
     return this.set.name;
   }
 
-  // `value`: a single number that stands alone, which may have a larger unit than an axis.
+  // Returns label, scale and offset of a unit. A single `value` of 1000 or more may get a larger unit, which
+// an axis does not use.
   of(unit, value) {
     let found = this.set.units[unit] ?? { label: unit === '1' ? '' : unit, scale: 1 };
     if (found.large && Math.abs(value) * found.scale >= 1000) found = found.large;
@@ -47,7 +48,7 @@ export class Units {
     return (value + u.offset) * u.scale;
   }
 
-  // A number and its unit, apart: what a row of a table shows.
+  // Returns a number and its unit separately, for a row of a table.
   words(value, unit) {
     const u = this.of(unit, value);
     return { value: (value + u.offset) * u.scale, label: u.label };
@@ -59,7 +60,7 @@ export class Units {
   }
 }
 
-// Four digits for people; a dash for what is no number.
+// Returns a number with about four digits; a dash for NaN and infinity.
 export function number(value) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);
@@ -68,22 +69,22 @@ export function number(value) {
   return value.toFixed(decimals).replace(/^-(0\.?0*)$/, '$1').replace('-', '−');
 }
 
-// Where there is little room: whole numbers, and one decimal of what is as small as bars are.
+// Returns a short number, for narrow places: a whole number, or one decimal below 20, as for bar.
 export function short_number(value) {
   return value.toFixed(Math.abs(value) < 20 ? 1 : 0).replace(/^-(0\.?0*)$/, '$1').replace('-', '−');
 }
 
-// Of an axis: as many digits as a tick has.
+// Returns the number of a tick, with as many digits as it needs.
 export function tick_text(v) {
   const size = Math.abs(v);
   if (size !== 0 && (size < 1e-3 || size >= 1e5)) return v.toExponential(1).replaceAll('-', '−');
   return String(+v.toPrecision(6)).replace('-', '−');
 }
 
-// A difference: "+1.2", "−1.2", "=" for none.
+// Returns a difference: "+1.2", "−1.2", or "=" for zero.
 export const signed = (value) => (value === 0 ? '=' : value > 0 ? `+${number(value)}` : number(value));
 
-// Of a difference between two values in that unit.
+// Returns the unit of a difference between two values in this unit.
 export const difference_unit = (unit) => (unit === 'Pa' ? 'Pa diff' : unit);
 
 // "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/reference/analysis.md.

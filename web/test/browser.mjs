@@ -1,8 +1,8 @@
-// browser.mjs RUNS [PICTURES]   opens the pages in the folders of RUNS in a browser without network
-// and does what a person would; exit code 1 if a test fails. Pictures are written into PICTURES.
-// Each *_page.mjs has a browser of its own. Two files run at a time, since a page mostly waits, except
-// those whose page has to keep up with the clock on the wall. What failed is printed last, because
-// ./check shows the end of what a step prints.
+// browser.mjs RUNS [PICTURES]   opens the pages in the folders of RUNS in a browser without network and
+// operates them as a user would; exit code 1 if a test fails. Screenshots are written into PICTURES.
+// Each *_page.mjs starts its own browser. Two files run at a time, since a page mostly waits, except those
+// whose page must keep up with real time. Failures are printed last, because ./check shows the end of
+// the output of a step.
 import { spawn } from 'node:child_process';
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -13,8 +13,8 @@ const long = ['study_page.mjs', 'compare_page.mjs', 'references_page.mjs', 'plot
 const short = readdirSync(folder).filter((name) => name.endsWith('_page.mjs') && ![...alone, ...long].includes(name));
 const failed = [];
 
-// Runs the tests of a file; prints those that passed in one piece, and keeps those that failed. If the
-// file itself fails, all that it printed is kept.
+// Runs the tests of a file; prints the output of tests that passed and stores that of tests that failed.
+// If the file itself fails, its whole output is stored.
 const run = (name) => new Promise((done) => {
   const child = spawn(process.execPath, [folder + name, ...process.argv.slice(2)], { stdio: ['ignore', 'pipe', 'pipe'] });
   let printed = '', errors = '';

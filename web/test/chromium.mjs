@@ -1,5 +1,5 @@
-// A browser without a window and without network: Debian's chromium, or what CHROMIUM names. Of those
-// that are installed the one that cannot open a window is the quickest.
+// Browser without window and network: Debian's chromium, or the file in CHROMIUM. Of those installed,
+// chromium-headless-shell is tried first, since it is the fastest.
 import { accessSync, constants } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { chromium } from 'playwright-core';
@@ -21,16 +21,16 @@ export async function open_browser() {
   return chromium.launch({ executablePath: executable(), args: ['--no-sandbox', '--disable-dev-shm-usage'] });
 }
 
-// A page that remembers what went wrong: console messages, exceptions, anything it asked for.
-// `beside`: the page may show pictures that stand in its folder.
-export async function open_page(browser, file, { beside = false, ...options } = {}) {
+// Opens a page and records errors in `page.wrong`: console messages, exceptions, requests of other files.
+// `own_folder`: the page may load pictures from its own folder.
+export async function open_page(browser, file, { own_folder = false, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, offline: true, ...options });
   const page = await context.newPage();
   page.wrong = [];
   page.on('console', (m) => ['error', 'warning'].includes(m.type()) && page.wrong.push(`${m.type()}: ${m.text()}`));
   page.on('pageerror', (e) => page.wrong.push(`exception: ${e.message}`));
-  const its_own = (url) => url === `file://${file}` || (beside && url.startsWith(`file://${dirname(file)}/`));
-  page.on('request', (r) => its_own(r.url()) || page.wrong.push(`asked for ${r.url().slice(0, 100)}`));
+  const its_own = (url) => url === `file://${file}` || (own_folder && url.startsWith(`file://${dirname(file)}/`));
+  page.on('request', (r) => its_own(r.url()) || page.wrong.push(`requested ${r.url().slice(0, 100)}`));
   page.started = Date.now();
   await page.goto(`file://${file}`);
   await page.waitForSelector('html[data-ready]', { timeout: 60000 });

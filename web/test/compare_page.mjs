@@ -1,17 +1,17 @@
-// The page of several runs: RUNS/compare/{two,same,stand,measured,long}.html of walk-test-1 and
-// walk-test-2, of a run with itself, of weights-60 and weights-90, of the bench's lever and a recording
-// of another one's angle alone, aligned by correlation, and of two runs of 10 min.
+// Tests of the page that compares runs, with RUNS/compare/{two,same,stand,measured,long}.html: walk-test-1
+// and walk-test-2; a run and itself; weights-60 and weights-90; the lever of the bench and a recording
+// with only the angle of another lever, aligned by correlation; and two runs of 10 min.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawing_of, picture, seek, summary_of, time_of, vectors_of, with_page } from './pages.mjs';
 
-const opens_within = 5000, generous = 5;  // [ms]; times that, where others work too
+const opens_within = 5000, generous = 5;  // [ms] on an idle computer; factor for a busy one
 
 const compared = (file, does, options) => with_page('compare', does, options, `${file}.html`);
 const spec_of = (topic, difference = false) => `window.sinew.page.plots.panels.find((p) =>
   p.spec.lines[0].topic === '${topic}' && Boolean(p.spec.difference) === ${difference})`;
 
-test('runs beside each other: a plot per channel, a line per run', () => compared('two', async (page) => {
+test('a comparison has a plot per channel and a line per run', () => compared('two', async (page) => {
   assert.equal(await page.locator('.run').count(), 2);
   const panels = await page.evaluate(() => window.sinew.page.plots.panels.filter((p) => !p.spec.difference)
     .map((p) => p.spec.lines.map((l) => [l.label, l.run, l.color, String(l.dash ?? '')])));
@@ -116,9 +116,9 @@ test('zoom and cursor are one for plots, plan and foot', () => compared('two', a
   assert.notEqual(await page.locator('#clock').textContent(), clock);
 }));
 
-// --- the machines over each other ---
+// --- machines drawn over each other ---
 
-// Pixels of the drawing that are nearly of a color of the page.
+// Counts pixels of the drawing whose color is close to a color of the page.
 const pixels_like = (page, name) => page.evaluate((variable) => {
   const canvas = document.getElementById('scene');
   const probe = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
@@ -128,7 +128,7 @@ const pixels_like = (page, name) => page.evaluate((variable) => {
   probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(variable);
   probe.fillRect(0, 0, 1, 1);
   const [r, g, b] = probe.getImageData(0, 0, 1, 1).data;
-  // A ghost lets half of what is below through: its hue counts, not how light it is.
+  // A ghost is translucent, so only its hue is compared, not its lightness.
   const hue = (x, y, z) => Math.atan2(Math.sqrt(3) * (y - z), 2 * x - y - z);
   const wanted = hue(r, g, b);
   let count = 0;
@@ -140,7 +140,7 @@ const pixels_like = (page, name) => page.evaluate((variable) => {
   return count;
 }, name);
 
-test('the other machine stands over the first one as a ghost in its color', () => compared('two', async (page) => {
+test('the other machine is drawn over the first one as a ghost in its color', () => compared('two', async (page) => {
   await seek(page, 3);
   const both = await drawing_of(page), ghost = await pixels_like(page, '--line-1');
   assert.ok(ghost > 500, `${ghost} pixels of the ghost`);
@@ -153,10 +153,10 @@ test('the other machine stands over the first one as a ghost in its color', () =
   await page.keyboard.press('1');
   await page.locator('#follow').click();
   assert.notEqual(await drawing_of(page), both, 'where they really were');
-  assert.match(await page.locator('#machine-note').textContent(), /A as it is; B over it as a ghost in its color/);
+  assert.match(await page.locator('#machine-note').textContent(), /A in full; B over it as a ghost in its color/);
 }));
 
-test('they play, as on the page of a run; plots and drawing show one time', () => compared('two', async (page) => {
+test('a comparison plays as the page of a run does; plots and drawing show the same time', () => compared('two', async (page) => {
   await page.keyboard.press('Home');
   const from = await time_of(page), before = await drawing_of(page);
   await page.locator('#speed').selectOption('4');
@@ -174,14 +174,14 @@ test('they play, as on the page of a run; plots and drawing show one time', () =
   assert.ok(Math.abs((await page.evaluate(() => window.sinew.page.plots.time)) - 2.5) < 1e-9);
 }));
 
-test('of a recording of angles alone there is a ghost, and what is left stands under each plot', () => compared('measured', async (page) => {
+test('a recording with only angles gives a ghost, and differences are shown under each plot', () => compared('measured', async (page) => {
   await seek(page, 3);
   assert.ok(await pixels_like(page, '--line-1') > 300, 'links and muscles of the angle');
   const { align, clock, runs } = await page.evaluate(() => window.sinew.data);
   assert.deepEqual([align, clock], ['correlation', 'fit']);
   const { alignment } = runs[1];
   assert.ok(Math.abs(alignment.rate) < 0.01 && Math.abs(alignment.shift_s) < 0.05 && alignment.correlation > 0.95);
-  assert.match(await page.locator('#facts').textContent(), /B's clock shows [+−]0\.\d+ s ± 0\.\d+ s at A's 0 and goes .* % faster, r 0\.9\d+/);
+  assert.match(await page.locator('#facts').textContent(), /B's clock shows [+−]0\.\d+ s ± 0\.\d+ s at A's 0 and runs .* % faster, r 0\.9\d+/);
   assert.equal(await page.locator('#show-differences').getAttribute('aria-pressed'), 'true');
   assert.ok(await page.locator('.panel.difference:visible').count() >= 1);
   const cells = await page.locator('#channels tr[data-key="/joint/lever/angle"] td').allTextContents();
@@ -191,7 +191,7 @@ test('of a recording of angles alone there is a ghost, and what is left stands u
   await picture(page, 'compare-measured');
 }));
 
-test('stands are drawn over each other, too', () => compared('stand', async (page) => {
+test('test stands are drawn over each other', () => compared('stand', async (page) => {
   const end = await page.evaluate(() => window.sinew.page.whole[1]);
   await seek(page, 0.9 * end);
   const both = await drawing_of(page);
@@ -227,8 +227,8 @@ test('numbers are those of both summaries, in either unit', () => compared('two'
 }));
 
 for (const [file, options] of [['two', {}], ['measured', {}], ['two', { viewport: { width: 390, height: 844 } }]])
-  test(`what is left can be read from its axis: ${file}, ${options.viewport?.width ?? 1440} px`, () => compared(file, async (page) => {
-    if (!(await page.evaluate(() => window.sinew.page.apart))) await page.locator('#show-differences').click();
+  test(`differences can be read from their axis: ${file}, ${options.viewport?.width ?? 1440} px`, () => compared(file, async (page) => {
+    if (!(await page.evaluate(() => window.sinew.page.shows_differences))) await page.locator('#show-differences').click();
     for (const units of ['si', 'thesis', 'metric']) {
       const button = page.locator(`#units-${units}`);
       if (!(await button.count())) continue;
@@ -261,12 +261,12 @@ test('a channel of the table leads to its plot and time', () => compared('two', 
   assert.ok(Math.abs((await page.evaluate(() => window.sinew.page.plots.time)) - at) < 1e-9);
 }));
 
-test('a run beside itself is said to be the same', () => compared('same', async (page) => {
+test('a run compared with itself is reported as equal', () => compared('same', async (page) => {
   const words = await page.locator('.chip').allTextContents();
-  assert.match(words.join(' | '), /0 of \d+ numbers differ \| the same parameters \| the same samples in every channel/);
+  assert.match(words.join(' | '), /0 of \d+ numbers differ \| same parameters \| same samples in every channel/);
   assert.match(await page.locator('.panel .line .value').nth(1).textContent(), /\(=\)$/);
   assert.equal(await page.locator('#channels tbody tr:visible').count(), 0);
-  await page.locator('#channels button', { hasText: 'Equal ones too' }).click();
+  await page.locator('#channels button', { hasText: 'Show equal ones' }).click();
   assert.ok((await page.locator('#channels tbody tr:visible').count()) > 90);
 }));
 

@@ -1,5 +1,5 @@
-// The page of an identification: `static`, of a map that somebody else measured, and of
-// recordings with samples that were left out (recording.mjs).
+// Tests of the page of an identification: `static`, from a published force map, and `static-left`, from
+// recordings of which some samples are left out (recording.mjs).
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -69,7 +69,7 @@ test('charts are saved with their rings, dots and lines, also when they are enla
   assert.match(png.name, /-model-less-measured\.png$/);
 }));
 
-// --- bands, laws, what was left out, parts, what comes next ---
+// --- bands, laws, left-out points, errors by part, further measurements ---
 
 const charts_of = (page) => page.evaluate(() => window.sinew.page.parts[0].charts.list.map((chart) => ({
   curves: chart.curves.map((c) => ({ ...c, x: [...c.x], y: [...c.y], y_high: c.y_high && [...c.y_high] })) })));
@@ -91,14 +91,14 @@ for (const run of ['static', 'static-left'])
     assert.ok(lines.every((line) => line.bold));
     assert.equal(lines.length, wide.length);
     lines.forEach((line, k) => line.y.forEach((y, i) => assert.ok(Math.abs(wide[k].y[i] + wide[k].y_high[i] - 2 * y) < 1e-3 * Math.max(1, Math.abs(y)))));
-    // They go on beyond what was measured, and are wider there.
+    // They continue beyond the measured range and are wider there.
     const width = (k, i) => wide[k].y_high[i] - wide[k].y[i], n = wide[0].x.length;
     assert.ok(width(0, n - 1) >= width(0, n >> 1));
     assert.ok(wide[0].x[n - 1] > Math.max(...styled(fit, 'points')[0].x));
     for (const name of ['68 % band', '95 % band']) assert.equal(await page.locator('.chart').first().locator('.line', { hasText: name }).count(), 1);
   }));
 
-test('a band is drawn, and goes when its name is touched', () => with_page('static', async (page) => {
+test('a band is drawn, and hidden by a click on its name', () => with_page('static', async (page) => {
   const chart = page.locator('.chart').first(), drawing = () => chart.locator('canvas').first().evaluate((c) => c.toDataURL());
   const before = await drawing();
   await chart.locator('.line', { hasText: '95 % band' }).click();
@@ -116,7 +116,7 @@ test('every law has a stroke of its own, whatever its color', () => with_page('s
   assert.equal(new Set([...laws.values()].map((c) => String(c.dash))).size, laws.size);
   assert.ok([...laws.values()].every((c) => c.dash.length && c.hidden));
 
-  // One is shown and hidden from the legend, which tells strokes apart as the chart does.
+  // A law is shown and hidden from the legend, which has the same strokes as the chart.
   const names = page.locator('.chart').first().locator('.others .line');
   assert.equal(await names.count(), laws.size);
   const strokes = await names.evaluateAll((all) => all.map((b) => b.querySelector('path').getAttribute('stroke-dasharray')));
@@ -132,7 +132,7 @@ test('every law has a stroke of its own, whatever its color', () => with_page('s
   assert.equal(await drawing(), before);
 }));
 
-test('what was left out has a mark by its reason, a row and an explanation', () => with_page('static-left', async (page) => {
+test('left-out points have a mark by their reason, a row and an explanation', () => with_page('static-left', async (page) => {
   const report = JSON.parse(readFileSync(join(runs, 'static-left', 'report.json'), 'utf8'));
   const [fit] = await charts_of(page), marks = styled(fit, 'left out');
   const reasons = report.left_out.map((o) => o.reason);
@@ -148,7 +148,7 @@ test('what was left out has a mark by its reason, a row and an explanation', () 
   assert.match(wrong.rows.map((r) => r.why).join(), /ten times what the law has: a slipped decimal/);
   assert.match(wrong.rows.map((r) => r.why).join(), /as at 200 mm, another mount of these data/);
   assert.equal(await page.locator('tr.explained').count(), 2);
-  // Marks are in sight, also that of ten times the force.
+  // All marks are within the axes, also that of ten times the force.
   const inside = await page.evaluate(() => {
     const chart = window.sinew.page.parts[0].charts.list[0], [low, high] = chart.view.y;
     return chart.curves.filter((c) => c.style === 'left out').every((c) => c.y.every((y) => y > low && y < high));
@@ -173,7 +173,7 @@ for (const run of ['static', 'static-left'])
     if (run === 'static-left') assert.deepEqual(report.errors.map((e) => e.by), ['length', 'pressure', 'branch']);
   }));
 
-test('a page shows which values the data pin, and what they do not show', () => with_page('static', async (page) => {
+test('a page shows which values are pinned by the data, and what the data do not show', () => with_page('static', async (page) => {
   const report = await report_of(page);
   assert.deepEqual(report.not_pinned, report.parameters.filter((p) => (p.profile ? !p.pinned : p.at_bound)).map((p) => p.name));
   for (const p of report.parameters.filter((each) => each.profile)) {
@@ -185,7 +185,7 @@ test('a page shows which values the data pin, and what they do not show', () => 
   assert.deepEqual(await page.locator('.unseen li').allTextContents(), report.does_not_show);
 }));
 
-test('a page says what a further measurement would buy, in the units that are chosen', () => with_page('static', async (page) => {
+test('a page shows what further measurements would improve, in the chosen units', () => with_page('static', async (page) => {
   const report = await report_of(page), [next] = report.further;
   assert.ok(next.mounts[0].after.rms_percent < next.before.rms_percent);
   assert.equal(await page.locator('tr[data-length]').count(), next.mounts.length);
@@ -199,7 +199,8 @@ test('the title of a fit is a sentence of words', () => with_page('static', asyn
   assert.equal(await page.locator('h1').textContent(), 'Static law of the muscle bpa, identified from DMSP-10-250_force_map.csv');
 }));
 
-// Contrast with the paper as WCAG counts it. The lightest of the palette, meant for broad strokes, has 2.8.
+// Returns the contrast with the background as defined by WCAG. The lightest color of the palette, meant for
+// broad strokes, has 2.8.
 const contrast_of = (page, of) => page.evaluate((of) => {
   const lit = (color) => {
     const sheet = document.createElement('canvas').getContext('2d');
@@ -208,7 +209,7 @@ const contrast_of = (page, of) => page.evaluate((of) => {
     const [r, g, b] = [...sheet.getImageData(0, 0, 1, 1).data].map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
-  const { charts } = window.sinew.page.parts[0], chart = charts.list[0], paper = lit(charts.look.paper);
+  const { charts } = window.sinew.page.parts[0], chart = charts.list[0], paper = lit(charts.theme.paper);
   return chart.curves.filter((c) => of.includes(c.style)).map((c) => {
     const own = lit(chart.color_of(c));
     return (Math.max(own, paper) + 0.05) / (Math.min(own, paper) + 0.05);
@@ -216,12 +217,12 @@ const contrast_of = (page, of) => page.evaluate((of) => {
 }, of);
 
 for (const colorScheme of ['light', 'dark'])
-  test(`strokes and marks are seen on ${colorScheme} paper`, () => with_page('static-left', async (page) => {
+  test(`strokes and marks are visible on a ${colorScheme} background`, () => with_page('static-left', async (page) => {
     for (const ratio of await contrast_of(page, ['left out', 'other line', 'line'])) assert.ok(ratio >= 2.7, `${ratio}`);
     await picture(page, `static-left-${colorScheme}`);
   }, { colorScheme }));
 
-test('a fit on paper keeps its tables and leaves out what is not shown', () => with_page('static-left', async (page) => {
+test('a printed fit has its tables and omits hidden curves', () => with_page('static-left', async (page) => {
   await page.emulateMedia({ media: 'print' });
   assert.ok(await page.locator('tr[data-reason]').first().isVisible());
   assert.equal(await page.locator('.others').first().isVisible(), false);

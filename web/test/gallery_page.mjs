@@ -1,11 +1,11 @@
-// The page of figures: index.html of `sinew figures --thesis` in the folder thesis-figures.
+// Tests of the page of figures: index.html of `sinew figures --thesis` in the folder thesis-figures.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { picture, runs, with_page } from './pages.mjs';
 
-const with_gallery = (does, options) => with_page('thesis-figures', does, { beside: true, ...options }, 'index.html');
+const with_gallery = (does, options) => with_page('thesis-figures', does, { own_folder: true, ...options }, 'index.html');
 const index = () => JSON.parse(readFileSync(join(runs, 'thesis-figures', 'index.json'), 'utf8'));
 const svg_of = (figure) => readFileSync(join(runs, 'thesis-figures', figure.svg), 'utf8');
 const visible = (page) => page.locator('article:visible').evaluateAll((all) => all.map((a) => a.id));
@@ -23,7 +23,7 @@ test('the page of figures has every figure, its picture and its claims', () => w
     assert.deepEqual(await article.locator('.verdict').allTextContents(), figure.claims.map((c) => c.verdict));
     assert.deepEqual(await article.locator('.class').allTextContents(), figure.claims.map((c) => c.class ?? ''));
   }
-  // The table: verdicts by class, the last row is all of them.
+  // The table has verdicts by class; the last row is their sum.
   const tally = await page.locator('.tally tbody tr').evaluateAll((rows) => rows.map((r) =>
     [r.firstElementChild.textContent, ...[...r.querySelectorAll('td')].map((c) => Number(c.textContent))]));
   for (const [name, counts] of Object.entries(classes)) {
@@ -36,13 +36,13 @@ test('the page of figures has every figure, its picture and its claims', () => w
   await picture(page, 'thesis-figures');
 }));
 
-test('a picture with a synthetic curve says so', () => {
+test('a picture with a synthetic curve is labelled as synthetic', () => {
   const synthetic = index().figures.filter((f) => f.curves.some((c) => c.kind === 'synthetic'));
   assert.ok(synthetic.length > 10);
   for (const figure of synthetic) assert.match(svg_of(figure), /\(synthetic\)/, figure.figure);
 });
 
-test('what differs is shown alone', () => with_gallery(async (page) => {
+test('figures that differ can be selected', () => with_gallery(async (page) => {
   await page.selectOption('#choice', 'differs');
   const wanted = index().figures.filter((f) => f.claims.some((c) => c.verdict.startsWith('differs'))).map((f) => f.figure);
   assert.ok(wanted.length > 0);

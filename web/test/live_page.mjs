@@ -1,5 +1,5 @@
-// The page of a run that goes: `sinew view --live`, watched, paused, steered, repeated. The program
-// is what SINEW names.
+// Tests of the page of a run in progress, `sinew view --live`: watching, pausing, setting values, repeating.
+// The program is the file in SINEW.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -17,7 +17,7 @@ after(() => rmSync(folder, { recursive: true, force: true }));
 
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
-// A run with its server; `url`, and what it came to at the end.
+// Starts a run with its server; returns `url`, and `ended` with exit code and messages.
 async function start(name, options = []) {
   const out = join(folder, name);
   return { out, ...(await serve(['view', '--live', experiment, '--no-open', '-o', out, ...options], folder)) };
@@ -27,14 +27,14 @@ const live = (page) => page.evaluate(() => ({ ...window.sinew.live.state, shown:
   known: window.sinew.live.time, frames: window.sinew.live.frames }));
 const until = (page, what, argument) => page.waitForFunction(what, argument, { timeout: 30000 });
 
-// All samples of a log, as text.
+// Returns all samples of a log as text.
 function samples(run) {
   const file = `${run}.csv`;
   execFileSync(program, ['export', run, '--csv', '-o', file, '--quiet']);
   return readFileSync(file, 'utf8');
 }
 
-test('what is broken is told while it is', async () => {
+test('a fault is shown while it is active', async () => {
   const set = ['--set', 'fault=[{ at = "0.5 s", for = "3 s", of = "knee_extensor.inlet", what = "stuck open" }]'];
   const run = await start('broken', [...set, '--paused']);
   await watch(run, async (page) => {
@@ -47,7 +47,7 @@ test('what is broken is told while it is', async () => {
   run.child.kill('SIGKILL');
 });
 
-test('a run is watched, paused, steered; its file repeats it', async () => {
+test('a run is watched, paused and changed by hand; its file repeats it', async () => {
   const run = await start('steered');
   await watch(run, async (page) => {
     await until(page, () => window.sinew.live.time > 1);
@@ -64,7 +64,7 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
     assert.ok(drawn <= known, `plots have grown to ${drawn} s of ${known} s`);
     await picture(page, 'live');
 
-    // Paused, it stands.
+    // A paused run does not advance.
     await page.locator('#run-pause').click();
     await until(page, () => window.sinew.live.state.paused);
     await wait(300);
@@ -93,18 +93,18 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
     await hip.locator('.release').click();
     await until(page, () => window.sinew.live.state.overridden.filter(Boolean).length === 1);
 
-    // A page that comes late has what was so far.
+    // A page that is opened later has all samples from the start.
     await watch(run, async (late) => {
       const first = await late.evaluate(() => window.sinew.live.growing.clocks[0].room[0]);
       assert.ok(first < 0.02, `from ${first} s on`);
     });
 
-    // At the end it is the finished run's.
+    // At the end the page becomes that of the finished run.
     await page.locator('#run-pace').selectOption('0');
     await until(page, () => !window.sinew?.live && document.documentElement.dataset.ready);
     assert.ok((await page.locator('#numbers tr[data-key]').count()) > 20);
     assert.ok((await page.locator('#parameters tr[data-key^="change["]').count()) >= 6);
-    assert.ok((await page.locator('#changes button').count()) >= 3, 'marked as while it went, with the release');
+    assert.ok((await page.locator('#changes button').count()) >= 3, 'marks as during the run, with the release');
   });
   run.child.kill('SIGINT');
   const { code, errors } = await run.ended;
@@ -118,7 +118,7 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
 
 test('watched by several, some of them slow, the log keeps its bytes', async () => {
   const run = await start('watched', ['--set', 'sequence.repeat=2', '--paused', '--pace', '4', '--once']);
-  // One that never reads what it is sent.
+  // A client that never reads.
   const deaf = http.request(`${run.url}live`, { headers: { connection: 'Upgrade', upgrade: 'websocket',
     origin: new URL(run.url).origin, 'sec-websocket-key': 'c2luZXcgaXMgd2F0Y2hlZA==', 'sec-websocket-version': 13 } });
   deaf.on('upgrade', (response, socket) => socket.pause());
@@ -137,7 +137,7 @@ test('watched by several, some of them slow, the log keeps its bytes', async () 
   assert.ok(log(alone).equals(log(run.out)));
 });
 
-test('Ctrl-C brings the run to its end, whole', async () => {
+test('after Ctrl-C the run is completed', async () => {
   const run = await start('stopped', ['--paused']);
   await wait(300);
   run.child.kill('SIGINT');
@@ -147,7 +147,7 @@ test('Ctrl-C brings the run to its end, whole', async () => {
   assert.ok(summary.sequence_duration_s > 50);
 });
 
-test('a recorded run is served, of what kind it ever is, and nothing besides', async () => {
+test('recorded runs of every kind are served, and nothing else', async () => {
   const here = join(folder, 'here');
   for (const [name, file] of [['kick', 'kick.toml'], ['stand', 'rig/feedback.toml']])
     execFileSync(program, ['run', fileURLToPath(new URL(`../../experiments/${file}`, import.meta.url)), '-o',
@@ -165,9 +165,9 @@ test('a recorded run is served, of what kind it ever is, and nothing besides', a
   assert.equal((await run.ended).code, 0);
 });
 
-// --- who may ask what ---
+// --- permitted requests ---
 
-// `path` is below the address, token and all; `bare` is below the host.
+// Sends a request. `path` is relative to the address with its token; if `bare`, relative to the host.
 function ask(url, path, headers = {}, method = 'GET', bare = false) {
   return new Promise((done) => {
     const { hostname, port, pathname } = new URL(url);
@@ -210,13 +210,13 @@ test('only its own page may watch; there are no files', async () => {
     assert.equal((await upgrade(url, origin)).status, 403, String(origin));
   assert.equal((await upgrade(url, own, { host: 'evil.example' })).status, 403);
 
-  // Nonsense is answered, and the run goes on.
-  await talk_nonsense(url);
+  // Invalid requests get an error message, and the run continues.
+  await send_invalid_requests(url);
   run.child.kill('SIGINT');
   assert.equal((await run.ended).code, 0);
 });
 
-async function talk_nonsense(url) {
+async function send_invalid_requests(url) {
   const context = await new_context();
   const page = await context.newPage();
   await page.goto(`${url}nothing-here`);  // of the same origin, without a policy

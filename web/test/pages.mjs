@@ -1,5 +1,5 @@
-// What tests of pages share: a browser without network, a page that must do nothing wrong, and what
-// a person would see and touch. browser.mjs runs them.
+// Common functions of tests of pages: a browser without network, checks for errors, and the operations of
+// a user. browser.mjs runs the tests.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -16,11 +16,11 @@ after(() => browser.close());
 
 export { runs, pictures };
 
-// For pages that have a server.
+// Returns a browser context for pages that have a server.
 export const new_context = (options = {}) => browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
 
-// The page of a run, or another page in its folder; closed afterwards; it must have done nothing
-// wrong.
+// Opens the page of a run, or another page in its folder, and closes it afterwards; fails if the page has
+// caused an error.
 export async function with_page(name, does, options, file = 'report.html') {
   const page = await open_page(browser, join(runs, name, file), options);
   try {
@@ -31,7 +31,7 @@ export async function with_page(name, does, options, file = 'report.html') {
   }
 }
 export const picture = async (page, name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
-// The picture that an entry of a menu saves, `of`: a plot, a chart or a view with a menu; `kind`: SVG or PNG.
+// Returns the picture that a menu saves. `of`: a plot, a chart or a view with a menu; `kind`: SVG or PNG.
 export async function saved(page, of, kind) {
   await of.locator('button[aria-haspopup]').click();
   const [download] = await Promise.all([page.waitForEvent('download'),
@@ -39,7 +39,7 @@ export async function saved(page, of, kind) {
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
-// An SVG that was saved, as text: it is whole, on white, of paths and words alone.
+// Returns a saved SVG as text, after checking that it is complete, on white, and has only paths and text.
 export async function vectors_of(page, of) {
   const { name, bytes } = await saved(page, of, 'SVG'), text = bytes.toString('utf8');
   assert.match(name, /\.svg$/);
@@ -62,9 +62,9 @@ export const seek = (page, t) => page.locator('#seek').evaluate((slider, to) => 
   slider.value = to;
   slider.dispatchEvent(new Event('input', { bubbles: true }));
 }, t);
-// What is drawn, as a number that changes with it.
+// Returns the drawing as a string, to detect changes.
 export const drawing_of = (page) => page.locator('#scene').evaluate((canvas) => canvas.toDataURL());
-// Of every plot in sight: its line at the time of the replay, and where it should be.
+// Returns, for every visible plot, the position of its time cursor and where it should be.
 export const playheads = (page) => page.evaluate(() =>
   window.sinew.page.plots.panels.filter((p) => p.visible && p.plot).map((p) => {
     const box = p.plot.over.getBoundingClientRect(), head = p.head.getBoundingClientRect();

@@ -1,5 +1,5 @@
-// These tests do what a person does with the plots of a run: as large as the window, channels together, formulas,
-// an own arrangement that the browser keeps, pictures of plots, marks of what was set.
+// Tests of the plots of a run: enlarging, combining channels, formulas, layouts that the browser stores,
+// pictures of plots, marks of values that were set.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { picture, saved, seek, time_of, vectors_of, with_page } from './pages.mjs';
@@ -19,7 +19,7 @@ test('a plot becomes as large as the window; Escape brings it back', () => with_
   await page.waitForFunction(() => document.querySelector('dialog.enlarged[open] .u-over').clientHeight > 500);
   const large = await over.boundingBox();
   assert.ok(large.width > 1.8 * small.width && large.height > 5 * small.height, JSON.stringify(large));
-  // It plays and zooms as ever.
+  // It still plays and zooms.
   await page.mouse.move(large.x + 0.2 * large.width, large.y + 100);
   await page.mouse.down();
   await page.mouse.move(large.x + 0.4 * large.width, large.y + 150, { steps: 4 });
@@ -35,7 +35,7 @@ test('a plot becomes as large as the window; Escape brings it back', () => with_
   assert.equal(await page.locator('.panel').first().locator('h3').textContent().then((t) => t.startsWith('Joint angles')), true);
 }));
 
-test('channels are dragged together; what does not fit is refused; the browser keeps it', () => with_page('walk-test-1', async (page) => {
+test('channels are combined by dragging; a third unit is refused; the browser stores the layout', () => with_page('walk-test-1', async (page) => {
   const angles = panel(page, 'Joint angles');
   const before = await lines(angles);
   await panel(page, 'Joint torque').locator('.line').first().dragTo(angles.locator('.u-over'));
@@ -50,12 +50,12 @@ test('channels are dragged together; what does not fit is refused; the browser k
 
   // A third unit; a whole plot onto another one; a channel between the plots.
   await panel(page, 'Joint stiffness').locator('h3').dragTo(angles.locator('.u-over'));
-  assert.match(await page.locator('.toast').textContent(), /room for two units; these would be rad, N m, N m\/rad/);
+  assert.match(await page.locator('.toast').textContent(), /can have two units; these would be rad, N m, N m\/rad/);
   assert.equal((await lines(angles)).length, before.length + 1);
   await panel(page, 'Angle error').locator('h3').dragTo(panel(page, 'Joint torque').locator('.u-over'));
   assert.deepEqual((await lines(panel(page, 'Joint torque'))).slice(-2), ['Angle error · hip', 'Angle error · knee']);
 
-  // The keyboard's way, from the list.
+  // The same from the list, by keyboard.
   await page.locator('#show-channels').click();
   await page.locator('#channels input').fill('tension knee flexor true');
   assert.equal(await page.locator('.channel-rows li').count(), 1);
@@ -66,7 +66,7 @@ test('channels are dragged together; what does not fit is refused; the browser k
   assert.deepEqual(await lines(own), ['knee flexor true']);
   assert.match(await own.locator('h3').textContent(), /^TensionN/);
   await menu(page, own, 'Move down');
-  await menu(page, panel(page, 'Joint stiffness'), 'Put this plot away');
+  await menu(page, panel(page, 'Joint stiffness'), 'Hide this plot');
 
   await page.reload();
   await ready(page);
@@ -81,7 +81,7 @@ test('channels are dragged together; what does not fit is refused; the browser k
   assert.equal(await page.locator('#reset-layout').isVisible(), false);
 }));
 
-test('a formula is drawn in its unit, and what is wrong with it is told', () => with_page('walk-test-1', async (page) => {
+test('a formula is drawn in its unit, and its errors are shown', () => with_page('walk-test-1', async (page) => {
   const error = panel(page, 'Angle error');
   await menu(page, error, 'Add a formula…');
   const field = page.getByRole('textbox', { name: 'Formula' });
@@ -95,14 +95,14 @@ test('a formula is drawn in its unit, and what is wrong with it is told', () => 
   await page.getByRole('textbox', { name: 'Name of the line' }).fill('by hand');
   await page.keyboard.press('Enter');
   assert.equal((await lines(error)).at(-1), 'by hand');
-  // It is what the log has under another name, but for its sign.
+  // The log has the same values under another name, with the opposite sign.
   const apart = await page.evaluate(() => {
     const p = window.sinew.page.plots.panels.find((o) => o.spec.title === 'Angle error');
     const mine = p.columns.at(-1).values, logged = p.columns[0].values;
     return Math.max(...mine.map((v, i) => Math.min(Math.abs(v - logged[i]), Math.abs(v + logged[i]))));
   });
   assert.ok(apart < 1e-5, `${apart} rad apart`);
-  // Letters typed in a sheet are no shortcuts.
+  // Letters typed into a dialog are not shortcuts.
   const at = await time_of(page);
   await menu(page, error, 'Add a formula…');
   await page.keyboard.type('f + 0 [ ]');
@@ -124,7 +124,7 @@ test('a plot is saved as vectors and as pixels, on white, with axes, units and l
   assert.equal(png.bytes.readUInt32BE(16), 2160);
 }, { colorScheme: 'dark' }));
 
-test('a browser that keeps nothing shows the page as ever', () => with_page('walk-test-1', async (page) => {
+test('a browser without storage shows the page as usual', () => with_page('walk-test-1', async (page) => {
   await page.addInitScript(() => {
     Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('refused', 'SecurityError'); } });
   });
@@ -134,16 +134,16 @@ test('a browser that keeps nothing shows the page as ever', () => with_page('wal
   assert.equal((await lines(panel(page, 'Joint angles'))).at(-1), 'Joint torque · hip');
 }));
 
-test('a plot without a number is not there, nor its group', () => with_page('one-joint', async (page) => {
+test('a plot without finite values is not shown, nor its group', () => with_page('one-joint', async (page) => {
   const titles = await page.evaluate(() => window.sinew.run.panels.map((p) => p.title));
   assert.ok(titles.length > 8 && !titles.includes('Foot position'), titles.join());
   assert.equal(await page.locator('#groups button', { hasText: 'Foot' }).count(), 0);
 }));
 
-test('what was set while it ran is marked in every plot, and named', () => with_page('changed', async (page) => {
+test('values set during the run are marked and named in every plot', () => with_page('changed', async (page) => {
   const told = await page.locator('#changes button').allTextContents();
   assert.match(told[0], /^hip angle gain: .*\/count, 3\.00–3\.20 s$/);
-  assert.deepEqual(told.slice(1), ['knee desired stiffness: 2.000 N m/rad, 5.00 s', "hip angle gain: the plan's own again, 7.00 s"]);
+  assert.deepEqual(told.slice(1), ['knee desired stiffness: 2.000 N m/rad, 5.00 s', "hip angle gain: back to the plan's value, 7.00 s"]);
   const shown = await page.evaluate(() => window.sinew.page.plots.panels.filter((p) => p.visible && p.plot && !p.root.hidden)
     .map((p) => p.plot.over.querySelectorAll('.mark-handle').length));
   assert.ok(shown.length > 3 && shown.every((n) => n === 3), String(shown));
@@ -159,7 +159,7 @@ test('what was set while it ran is marked in every plot, and named', () => with_
 }));
 
 for (const [name, options] of [['plots-phone', { viewport: { width: 390, height: 844 } }], ['plots-dark', { colorScheme: 'dark' }]])
-  test(`the list of channels, a menu and a sheet fit: ${name}`, () => with_page('walk-test-1', async (page) => {
+  test(`the list of channels, a menu and a dialog fit: ${name}`, () => with_page('walk-test-1', async (page) => {
     const fits = async () => {
       const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
       assert.ok(wide <= 0, `${wide} px too wide`);

@@ -1,5 +1,5 @@
-// plots_unit.mjs   what plots are made of: axes, formulas of channels, kept layouts, marks of what was
-// set. Against plain ways to the same end.
+// Unit tests of plots: axes, formulas of channels, stored layouts, marks of values that were set. Results
+// are compared with those of simple algorithms.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { range_of, spoiling_start, ticks } from '../src/axis.js';
@@ -25,14 +25,14 @@ test('noise of 1e-6 is at rest: the axis is that of a constant', () => {
     assert.ok(high - low > 0.1 * middle, `${unit}: ${low} … ${high}`);
     assert.ok(low < middle && middle < high);
   }
-  // A zero with noise: about zero, and ticks that need no power of ten.
+  // The axis of a zero with noise is symmetric and needs no powers of ten.
   const [low, high] = range_of(-1e-6, 2e-6, 'rad');
   assert.equal(low, -high);
   assert.ok(high >= 1e-3, `${high}`);
   assert.deepEqual(range_of(-0.1, 0.1, 'rad').map((v) => Math.abs(v) > 0.1), [true, true], 'but a tenth of a radian moves');
 });
 
-test('air of a milligram moves, and nothing at all has an axis, too', () => {
+test('a milligram of air is a change, and missing values have an axis', () => {
   const [low, high] = range_of(0, 1e-6, 'kg');
   assert.ok(high - low < 2e-6);
   for (const none of [[null, null], [Infinity, -Infinity], [NaN, NaN]]) assert.deepEqual(range_of(...none, 'm'), [0, 1]);
@@ -55,7 +55,7 @@ test('a first sample that the second one leaves at once does not count for the a
   assert.equal(spoiling_start({ values: constant(NaN) }, 'N'), 0);
 });
 
-test('ticks are round, within the axis, and about as many as asked for', () => {
+test('ticks are round, within the axis, and of about the requested number', () => {
   assert.deepEqual(ticks(0, 1, 5), [0, 0.2, 0.4, 0.6, 0.8, 1]);
   assert.deepEqual(ticks(-0.31, 0.31, 4), [-0.2, 0, 0.2]);
   for (const [low, high] of [[1.234, 1.2345], [-7e5, 9e6], [3e-7, 4e-7]]) {
@@ -90,7 +90,7 @@ test('the unit of a formula follows from its channels', () => {
   ]) assert.equal(unit_of(text), unit, text);
 });
 
-test('the difference of two absolute pressures is none, their mean is one', () => {
+test('the difference of two absolute pressures is not absolute, their mean is', () => {
   for (const [text, unit] of [['/p', 'Pa'], ['/p - /q', 'Pa diff'], ['(/p + /q)/2', 'Pa'], ['0.5*/p + 0.5*/q', 'Pa'], ['/p - 1 bar', 'Pa'],
                               ['mean(/p, 0.1)', 'Pa'], ['/g', 'Pa gauge'], ['abs(/p - /q)', 'Pa diff'], ['min(/p, /q)', 'Pa']])
     assert.equal(unit_of(text), unit, text);
@@ -102,14 +102,14 @@ test('dimensions have the names of the log, and others are composed', () => {
   for (const unknown of ['furlong', 'N m/s/s', 'm^', '']) if (unknown) assert.equal(dims_of(unknown), null, unknown);
 });
 
-test('what is wrong with a formula is told with its place', () => {
+test('errors of a formula are reported with their column', () => {
   for (const [text, words] of [
     ['', /column 1: found the end; expected a channel/], ['/joint/hip/angel', /found "\/joint\/hip\/angel".*did you mean \/joint\/hip\/angle/],
-    ['/f + 2', /column 4: found N \+ a plain number; expected the same unit on both sides; a number takes its unit/],
+    ['/f + 2', /column 4: found N \+ a plain number; expected the same unit on both sides; write the unit after/],
     ['/f + /l', /found N \+ m/], ['/f /l x', /found "x"; expected \+ - \* \/ or the end/], ['(/f', /found the end; expected \)/], ['/f)', /found "\)"/],
     ['root(/f)', /column 1: found "root"; expected one of abs, deriv/], ['mean(/f)', /expected a comma: mean takes 2 values/],
     ['mean(/f, /l)', /expected a time above zero/], ['mean(/f, 0 s)', /expected a time above zero/], ['sin(/f)', /found sin of N; expected an angle/],
-    ['3 + 4', /at least one channel/], [`${'('.repeat(60)}/f`, /at most 40 parentheses/], [`/f${' + /f'.repeat(200)}`, /at most 500 characters/],
+    ['3 + 4', /at least one channel/], [`${'('.repeat(60)}/f`, /at most 40 nested/], [`/f${' + /f'.repeat(200)}`, /at most 500 characters/],
     ['constructor(/f)', /found "constructor"/], ['__proto__', /found "__proto__"/], ['alert(1)', /found "alert"/], ['/f; /f', /found ";"/],
   ]) assert.match(error_of(text), words, text);
 });
@@ -123,7 +123,7 @@ const columns = {
 const values_of = (text) => column_of_formula(parse_formula(text, channels), (id) => columns[id]);
 const near = (a, b, slack, words) => assert.ok(Math.abs(a - b) <= slack, `${words}: ${a} for ${b}`);
 
-test('a formula gives at every time what its channels say', () => {
+test('a formula is evaluated at every time of its channels', () => {
   const both = values_of('2*(/f) - /f*(0.5 + 1)');
   assert.equal(both.time, time);
   both.values.forEach((v, i) => near(v, 0.5 * (3 * time[i] + 1), 1e-5, `at ${time[i]}`));
@@ -136,17 +136,17 @@ test('deriv and integral undo each other, mean keeps a straight line', () => {
   values_of('deriv(/l)').values.forEach((v, i) => i && i < 400 && near(v, 2 * Math.cos(2 * time[i]), 1e-3, 'cosine'));
   values_of('integral(deriv(/l))').values.forEach((v, i) => near(v, Math.sin(2 * time[i]), 2e-3, 'back again'));
   values_of('mean(/f, 0.5 s)').values.forEach((v, i) => near(v, 3 * time[i] + 1, 1e-4, 'straight, also at the ends'));
-  // Half a period of a sine: 2/pi of it.
+  // The mean over half a period of a sine is 2/pi of its amplitude.
   const mean = values_of('mean(/l, 1.5707963 s)').values, middle = 200;
   near(mean[middle], (2 / Math.PI) * Math.sin(2 * time[middle]), 5e-3, 'mean');
-  // Against the sum itself.
+  // Compared with a direct sum.
   const w = 21;
   let sum = 0;
   for (let k = -10; k <= 10; ++k) sum += columns['/l'].values[150 + k];
   near(values_of('mean(/l, 0.2 s)').values[150], sum / w, 1e-6, 'window');
 });
 
-test('a channel of another clock counts with what was last known', () => {
+test('a channel of another clock contributes its last value', () => {
   const held = values_of('/p + 0 Pa * (/l / (1 m))');
   assert.equal(held.time, time);
   assert.ok(Number.isNaN(held.values[49]));
@@ -164,7 +164,7 @@ test('a gap stays a gap', () => {
 
 // --- layouts ---
 
-test('a layout comes back, and what is none counts as nothing', () => {
+test('a layout is read back, and invalid text is ignored', () => {
   const layout = { ...nothing(), own: [{ id: 'own/1', title: 'Mine', lines: ['/f', { formula: '/f*2', name: '' }] }],
                    added: { 'Joints/Joint angles': ['/l'] }, away: ['Foot/Slip velocity'], order: ['own/1'],
                    shown: { 'Joints/Joint angles': { '/l': false } }, groups: { Foot: false } };
@@ -179,7 +179,7 @@ test('a layout comes back, and what is none counts as nothing', () => {
 
 // --- marks ---
 
-test('what a slider sends while it is dragged is one move', () => {
+test('the values that a slider sends while it is dragged are one move', () => {
   const key = 'control.gains.hip.angle', at = (time, value) => ({ time, key, value, unit: '1/count' });
   const moves = moves_of([at(1, 0.1), at(1.1, 0.2), at(1.9, 0.3), { time: 1.5, key: 'control.stiffness.knee', value: 2, unit: 'N m/rad' },
                           at(5, 0.4), { time: 5.2, key, value: null }, at(5.3, 0.1)]);
@@ -188,7 +188,7 @@ test('what a slider sends while it is dragged is one move', () => {
     [key, 5.3, 5.3, null, 0.1, 1]]);
 });
 
-test('settings are called as their sliders are', () => {
+test('settings have the names of their sliders', () => {
   assert.equal(setting_in_words('control.gains.hip.angle'), 'hip angle gain');
   assert.equal(setting_in_words('control.stiffness.left_knee'), 'left knee desired stiffness');
   assert.equal(setting_in_words('control.angle.hip'), 'hip desired angle');

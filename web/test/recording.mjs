@@ -1,7 +1,7 @@
-// recording.mjs LENGTH   writes a recording of a braid at a length [mm]: up and down over levels of
-//                        pressure, with the moving samples between them
-// recording.mjs rows     a table of the same braid, two of whose rows are wrong
-// They are what the test of an identification's page reads.
+// recording.mjs LENGTH   writes a recording of a braided muscle at a length [mm]: levels of pressure up and
+//                        down, with the transitions between them
+// recording.mjs rows     writes a table of the same muscle, in which two rows are wrong
+// fit_page.mjs uses both.
 const rate = 50, rest = 60, ramp = 12;  // [Hz], [samples]
 const levels = [...Array(11).keys()].map((i) => 60 * i);
 let state = 1000;

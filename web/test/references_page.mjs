@@ -1,10 +1,10 @@
-// Pages as they once looked and were looked at, web/test/references/*.png, against what they are now.
+// Compares pages with reviewed screenshots, web/test/references/*.png.
 //
-//   SINEW_RENEW=yes ./check web      writes them anew; look at them before they are committed
+//   SINEW_RENEW=yes ./check web      writes them again; review them before they are committed
 //
-// A reference is half as large as the screen. Compared are means over blocks of 8 pixels: letters may
-// be a little bolder or a line softer with another browser, but a plot that is missing, an empty
-// drawing or another pose is too much. The mutations at the end prove both.
+// A reference has half the size of the screen. Means over blocks of 8 pixels are compared, so that letters
+// may be a little bolder or lines softer in another browser, but a missing plot, an empty drawing or
+// another pose is detected. The mutations at the end check both.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -16,11 +16,11 @@ const folder = join(dirname(fileURLToPath(import.meta.url)), 'references');
 const renew = Boolean(process.env.SINEW_RENEW);
 const viewport = { width: 1200, height: 800 };
 const block = 8;           // [px of the reference]
-const off = 14;            // a block whose mean color differs by more is another one, of 255
+const off = 14;            // a block differs if its mean color differs by more than this, of 255
 const most_off = 0.004;    // share of such blocks
-const most_mean = 0.8;     // of all blocks' differences, of 255
+const most_mean = 0.8;     // mean of the differences of all blocks, of 255
 
-// In the page: a picture at half its size, as PNG.
+// Runs in a page. Returns a picture at half its size, as PNG.
 async function halved(png) {
   const image = await createImageBitmap(await (await fetch(png)).blob());
   const sheet = document.createElement('canvas');
@@ -31,10 +31,10 @@ async function halved(png) {
   return sheet.toDataURL('image/png');
 }
 
-// In the page: how two pictures of one size differ, by blocks. A block may lie a pixel or two aside:
-// the nearest mean counts, either way.
+// Runs in a page. Returns by how much two pictures of the same size differ, by blocks. A block may be moved
+// by a pixel or two: it is compared with the most similar block nearby, in both directions.
 async function difference([a, b, block, off]) {
-  // Sums over the rectangle from the corner, by channel.
+  // Integral image of each color channel.
   const sums = async (png) => {
     const image = await createImageBitmap(await (await fetch(png)).blob());
     const sheet = document.createElement('canvas');
@@ -77,7 +77,7 @@ async function difference([a, b, block, off]) {
 
 const data_url = (png) => `data:image/png;base64,${png.toString('base64')}`;
 
-// A sheet that may fetch what it is given, which the pages themselves may not.
+// Evaluates a function on an empty page, which may fetch data URLs; the tested pages may not.
 async function on_a_sheet(page, does, argument) {
   const sheet = await page.context().newPage();
   try {
@@ -96,7 +96,7 @@ async function shot(page) {
 const against = async (page, now, name) =>
   on_a_sheet(page, difference, [now, data_url(readFileSync(join(folder, `${name}.png`))), block, off]);
 const alike = (d) => d.mean <= most_mean && d.off <= most_off;
-const in_words = (d) => `${(100 * d.off).toFixed(2)} % of the blocks are others, mean ${d.mean.toFixed(2)}, largest ${d.largest.toFixed(0)}`;
+const in_words = (d) => `${(100 * d.off).toFixed(2)} % of the blocks differ, mean ${d.mean.toFixed(2)}, largest ${d.largest.toFixed(0)}`;
 
 const seek = (page, t) => t !== undefined && page.evaluate((to) => window.sinew.page.seek(to), t);
 
@@ -123,7 +123,7 @@ for (const { name, run, at, file, colorScheme = 'light' } of pages)
     assert.fail(`${in_words(found)}: compare ${seen} with ${reference}; if it is right: SINEW_RENEW=yes ./check web`);
   }, { viewport, colorScheme }, file));
 
-// --- what must not pass, and what must ---
+// --- changes that must be detected, and changes that must not ---
 
 const mutations = [
   ['another pose', false, (page) => page.evaluate(() => window.sinew.page.scene.draw(7.1))],
@@ -146,5 +146,5 @@ if (!renew)
       await change(page);
       const found = await against(page, await shot(page), 'walk-light');
       assert.equal(alike(found), passes, in_words(found));
-      if (process.env.SINEW_SAY) console.log(`# ${what}: ${in_words(found)}`);
+      if (process.env.SINEW_VERBOSE) console.log(`# ${what}: ${in_words(found)}`);
     }, { viewport, colorScheme: 'light' }));

@@ -1,5 +1,5 @@
-// The list of runs that `sinew view FOLDER` serves: search, pictures, one run, several beside each
-// other. The program is what SINEW names.
+// Tests of the list of runs that `sinew view FOLDER` serves: search, pictures, one run, a comparison. The
+// program is the file in SINEW.
 import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -11,7 +11,7 @@ import { serve, watch } from './served.mjs';
 const folder = mkdtempSync(join(tmpdir(), 'sinew-runs-'));
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-// Runs that were made for other tests, and one that cannot be read.
+// Runs of other tests, and one that cannot be read.
 for (const name of ['walk-test-1', 'walk-test-2', 'one-joint', 'feedback']) {
   mkdirSync(join(folder, name));
   for (const file of ['log.mcap', 'resolved.toml', 'summary.json'])
@@ -42,7 +42,7 @@ test('runs are listed with picture, date and title, found, and compared', async 
     assert.equal(await page.locator('#found').textContent(), '1 of 5');
     await page.locator('#search').fill('');
 
-    // One alone is nothing to compare.
+    // A single run cannot be compared.
     assert.ok(await page.locator('#compare').isDisabled());
     const tick = (title) => page.locator('#list li', { has: page.locator('h2', { hasText: title }) }).locator('input').check();
     await tick('Walking, test 1');
@@ -73,7 +73,7 @@ test('runs are listed with picture, date and title, found, and compared', async 
   assert.equal(await status('picture/99'), 404);
   assert.equal(await status('run/0%20'), 404);
 
-  // A run that comes later is in the list when it is loaded again.
+  // A run that is added later is in the list after it is loaded again.
   mkdirSync(join(folder, 'later'));
   for (const file of ['log.mcap', 'resolved.toml', 'summary.json']) symlinkSync(join(runs, 'walk-test-1', file), join(folder, 'later', file));
   await watch(run, async (page) => assert.equal((await shown(page)).length, 6), {}, 'runs');
@@ -81,7 +81,7 @@ test('runs are listed with picture, date and title, found, and compared', async 
   assert.equal((await run.ended).code, 0);
 });
 
-test('the next server of a folder has its port, and so the arrangement that a reader left', async () => {
+test('the next server of a folder uses the same port, and so the stored layout', async () => {
   const start = (cwd) => serve(['view', join(folder, 'walk-test-1'), '--no-open'], cwd);
   const stop = async ({ child, ended }) => {
     child.kill('SIGINT');
@@ -101,13 +101,13 @@ test('the next server of a folder has its port, and so the arrangement that a re
     await own(first, async (page) => {
       const panel = page.locator('.panel:visible').filter({ has: page.locator('h3', { hasText: 'Joint stiffness' }) }).first();
       await panel.locator('button[aria-haspopup]').click();
-      await page.getByRole('menuitem', { name: 'Put this plot away' }).click();
+      await page.getByRole('menuitem', { name: 'Hide this plot' }).click();
       assert.ok(await page.locator('#reset-layout').isVisible());
     });
-    // While it has its port, another one serves at a free one.
-    const beside = await start(folder);
-    assert.notEqual(port_of(beside), port_of(first));
-    await stop(beside);
+    // While the port is in use, a second server takes a free one.
+    const second = await start(folder);
+    assert.notEqual(port_of(second), port_of(first));
+    await stop(second);
     await stop(first);
 
     const again = await start(folder), elsewhere = await start(join(folder, 'walk-test-1'));

@@ -1,11 +1,11 @@
-// The pages of walk-test-1, one-joint, cylinder-following, faults/valve-stuck-open and long, which
-// lasts ten minutes.
+// Tests of the page of a run, with walk-test-1, one-joint, cylinder-following, faults/valve-stuck-open and
+// long, a run of ten minutes.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawing_of, picture, playheads, seek, summary_of, time_of, with_page } from './pages.mjs';
 
-const opens_within = 3000;   // a log of 10 min, on a machine that does nothing else [ms]
-const generous = 5;          // times that, where others work too
+const opens_within = 3000;   // a log of 10 min on an idle computer [ms]
+const generous = 5;          // factor for a busy computer
 
 for (const name of ['walk-test-1', 'one-joint', 'cylinder-following'])
   test(`${name}: opens without errors or network`, () => with_page(name, async (page) => {
@@ -38,7 +38,7 @@ test('the animation advances, pauses and steps', () => with_page('walk-test-1', 
   assert.equal(await time_of(page), await page.evaluate(() => window.sinew.run.duration));
 }));
 
-test('speed is what the clock on the wall says', () => with_page('walk-test-1', async (page) => {
+test('speed is relative to real time', () => with_page('walk-test-1', async (page) => {
   for (const speed of ['0.25', '4']) {
     await seek(page, 1);
     await page.locator('#speed').selectOption(speed);
@@ -50,7 +50,7 @@ test('speed is what the clock on the wall says', () => with_page('walk-test-1', 
       player.toggle();
       return [player.time - from, (performance.now() - start) / 1000];
     });
-    // A frame that takes long is cut to 0.1 s, so a busy machine is slower, never faster.
+    // A slow frame counts as 0.1 s, so the replay is slower on a busy computer, never faster.
     assert.ok(sim <= 1.1 * wall * Number(speed), `${sim} s in ${wall} s at ${speed}`);
     assert.ok(sim > 0.2 * wall * Number(speed), `${sim} s in ${wall} s at ${speed}`);
   }
@@ -77,7 +77,7 @@ test('scrubbing moves the cursors of all plots, the drawing and the numbers toge
     assert.equal(seen.size, 4);
   }));
 
-test('hovering shows values at the cursor in every plot; a click goes there', () =>
+test('hovering shows values at the cursor in every plot; a click moves the time', () =>
   with_page('walk-test-1', async (page) => {
     const over = page.locator('.panel .u-over').nth(1);
     const box = await over.boundingBox();
@@ -115,7 +115,7 @@ test('dragging zooms all plots, down to every sample; a double click shows the w
       assert.equal(p.most, p.high, 'no peak is lost');
     }
 
-    // Three times a hundredth and more of what is in view.
+    // Zooms three times, each time to a tenth of the view.
     for (let i = 0; i < 3; ++i) {
       const box = await page.locator('.panel .u-over').first().boundingBox();
       await page.mouse.move(box.x + 0.4 * box.width, box.y + 30);
@@ -194,7 +194,7 @@ test('dark and light follow the system and the button', async () => {
   assert.notEqual(seen.light, seen.dark);
 });
 
-test('what was broken on purpose is named, shaded and found', () =>
+test('injected faults are named, shaded and found', () =>
   with_page('faults/valve-stuck-open', async (page) => {
     const [fault] = await page.evaluate(() => window.sinew.run.faults);
     assert.deepEqual(fault, { of: 'knee_extensor.inlet', what: 'stuck open', from: 5, to: 5.2 });
@@ -203,13 +203,13 @@ test('what was broken on purpose is named, shaded and found', () =>
     assert.ok(Math.abs((await time_of(page)) - 5) < 1e-6);
     assert.match(await page.locator('#clock').textContent(), / s {2}·  .*  ·  knee_extensor\.inlet stuck open$/);
     assert.equal(await page.locator('#clock .broken, #faults button.now').count(), 2);
-    // Its color stands in the plots where it acts, and nowhere else: shares of a column's pixels.
+    // Plots have its color only while it is active: shares of the pixels of a column.
     await page.evaluate(() => window.sinew.page.plots.zoom(4, 6));
     await page.waitForTimeout(100);
     const shaded = await page.evaluate((times) => {
       const { plots } = window.sinew.page, { plot } = plots.panels[0], { ctx, bbox } = plot;
       const probe = document.createElement('canvas').getContext('2d');
-      probe.fillStyle = plots.look.fault;
+      probe.fillStyle = plots.theme.fault;
       probe.fillRect(0, 0, 1, 1);
       const wanted = probe.getImageData(0, 0, 1, 1).data, seen = ctx.getImageData(0, bbox.top, bbox.left + bbox.width, bbox.height);
       const is = (x, y) => [0, 1, 2].every((k) => Math.abs(seen.data[4 * (y * seen.width + x) + k] - wanted[k]) < 3);
@@ -222,7 +222,7 @@ test('what was broken on purpose is named, shaded and found', () =>
     assert.deepEqual([shaded[0], shaded[2]], [0, 0]);
   }));
 
-test('on paper it is light, without controls, with every plot', () => with_page('walk-test-1', async (page) => {
+test('a print is light, without controls, with every plot', () => with_page('walk-test-1', async (page) => {
   await seek(page, 3.3);
   const pdf = await page.pdf({ format: 'A4', printBackground: true });
   assert.ok(pdf.length > 100000);
@@ -232,7 +232,7 @@ test('on paper it is light, without controls, with every plot', () => with_page(
   assert.ok(drawn);
 }, { colorScheme: 'dark' }));
 
-test('a phone has it too', () => with_page('walk-test-1', async (page) => {
+test('the page fits on a phone', () => with_page('walk-test-1', async (page) => {
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wide <= 0, `${wide} px too wide`);
   await picture(page, 'phone');

@@ -1,17 +1,17 @@
-// What tests of served pages share: a program that serves, and a page that asks nobody else.
+// Common functions of tests of served pages: a program that serves, and a page that requests nothing else.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { resolve } from 'node:path';
 import { after } from 'node:test';
 import { new_context } from './pages.mjs';
 
-if (!process.env.SINEW) throw new Error('SINEW must name the program, as build/release/bin/sinew');
+if (!process.env.SINEW) throw new Error('SINEW is not set; expected the path of the program, as build/release/bin/sinew');
 export const program = resolve(process.env.SINEW);
 
 const children = [];
 after(() => children.forEach((child) => child.kill('SIGKILL')));
 
-// Starts the program, which prints where it serves; `ended`: what it came to.
+// Starts the program, which prints its address; `ended` resolves to its exit code and messages.
 export async function serve(words_of_line, cwd) {
   const child = spawn(program, words_of_line, { cwd });
   children.push(child);
@@ -28,7 +28,7 @@ export async function serve(words_of_line, cwd) {
   return { url, child, ended };
 }
 
-// Opens what it serves, lets `does` happen, and sees that the page did nothing wrong.
+// Opens the served page, calls `does`, and checks that the page has caused no error.
 export async function watch(run, does, options = {}, path = '') {
   const context = await new_context(options);
   const page = await context.newPage(), wrong = [];

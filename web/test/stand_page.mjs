@@ -1,5 +1,5 @@
-// The pages of experiments/rig: feedback (two valves, a desired length), weights-60, sealed-cylinder,
-// isometric and duty-sweep.
+// Tests of the pages of experiments/rig: feedback (two valves, a desired length), weights-60,
+// sealed-cylinder, isometric and duty-sweep.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawing_of, picture, saved, seek, summary_of, vectors_of, with_page } from './pages.mjs';
@@ -16,7 +16,7 @@ for (const [name, at] of [['feedback', 7], ['weights-60', 20.2], ['sealed-cylind
   }));
 
 test('the drawing shows the length and the pressure of the log', () => with_page('weights-60', async (page) => {
-  // Where the ruler's pointer ends and how long the tube is: by the words that are drawn.
+  // Length, load and pressure are read from the text that is drawn.
   const drawn = await page.evaluate(() => {
     const words = [], { fillText } = CanvasRenderingContext2D.prototype;
     CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
@@ -110,7 +110,7 @@ for (const colorScheme of ['light', 'dark'])
     assert.equal(png.bytes.subarray(1, 4).toString(), 'PNG');
     assert.equal(png.bytes.readUInt32BE(16), 2160);
 
-    // The picture is of the part that is zoomed to, without a curve that is hidden.
+    // The picture shows the current zoom, without hidden curves.
     await page.evaluate((middle) => {
       const [c] = window.sinew.page.charts.list;
       c.set_view({ ...c.view, x: [c.view.x[0], middle] });

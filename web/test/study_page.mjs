@@ -1,6 +1,6 @@
-// The page of a study: RUNS/study/{walk,pair}.html of the sweeps RUNS/study/{walk,other}.db, tuned.html of
-// the tuning of tuning.toml; what the program serves while a study grows, and a row that is run from the
-// page. SINEW names the program.
+// Tests of the page of a study, with RUNS/study/{walk,pair}.html of the sweeps RUNS/study/{walk,other}.db and
+// tuned.html of tuning.toml; of the page served while a study is in progress; and of a row that is run from
+// the page. The program is the file in SINEW.
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
@@ -11,14 +11,14 @@ import { fileURLToPath } from 'node:url';
 import { picture, runs, saved, vectors_of, with_page } from './pages.mjs';
 import { program, serve, watch } from './served.mjs';
 
-const draws_within = 1500, generous = 5;  // 10,000 rows [ms]; times that, where others work too
+const draws_within = 1500, generous = 5;  // 10,000 rows on an idle computer [ms]; factor for a busy one
 
 const study = (file, does, options) => with_page('study', does, options, `${file}.html`);
 const experiment = fileURLToPath(new URL('../../experiments/leg-in-air.toml', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'sinew-study-'));
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-// The table as the program writes it: an object a row.
+// Returns the rows of a table of the program as objects.
 function table(name) {
   const [head, ...lines] = readFileSync(join(runs, 'study', `${name}.csv`), 'utf8').trim().split('\n');
   const cells = (line) => [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].map((m) => m[1].replace(/^"|"$/g, ''));
@@ -29,14 +29,14 @@ const gain = 'joint.hip.angle_gain [%/count]', speed = 'trolley.mean_speed [in/s
 const numbers = (page) => page.evaluate(() => window.sinew.page.filter.rows.map((r) => window.sinew.page.data.number[r]).sort((a, b) => a - b));
 const drawn = (page, id) => page.locator(`#${id}-canvas`).evaluate((c) => c.toDataURL());
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-// The speed that a command of the page says when it is run [in/s].
+// Returns the speed in the result of a command of the page [in/s].
 function speed_of(command, name) {
-  const said = execFileSync('sh', ['-c', `${command.replace(/^sinew/, program)} --json --quiet --no-report -o ${join(folder, name)}`], { encoding: 'utf8' });
-  return JSON.parse(said).trolley.mean_speed_m_per_s / 0.0254;
+  const printed = execFileSync('sh', ['-c', `${command.replace(/^sinew/, program)} --json --quiet --no-report -o ${join(folder, name)}`], { encoding: 'utf8' });
+  return JSON.parse(printed).trolley.mean_speed_m_per_s / 0.0254;
 }
 const axis = (page, heading) => page.locator('.axis-handle').and(page.locator(`[data-heading="${heading}"]`));
 
-test('a study: every row of the table, its columns by what they are', () => study('walk', async (page) => {
+test('a study has every row of the table, and the role of each column', () => study('walk', async (page) => {
   const rows = table('walk');
   assert.equal(await page.locator('#count').textContent(), `${rows.length} rows`);
   const held = await page.evaluate(() => {
@@ -54,7 +54,7 @@ test('a study: every row of the table, its columns by what they are', () => stud
 }));
 
 for (const colorScheme of ['light', 'dark'])
-  test(`every view is saved on white, and stays as it was: ${colorScheme}`, () => study('walk', async (page) => {
+  test(`every view is saved on white and not changed on the page: ${colorScheme}`, () => study('walk', async (page) => {
     await settle(page);
     const rows = await page.evaluate(() => window.sinew.page.filter.rows.length);
     for (const view of ['history', 'scatter', 'surface', 'parallel']) {
@@ -74,7 +74,7 @@ for (const colorScheme of ['light', 'dark'])
     assert.ok(Math.abs(png.bytes.readUInt32BE(16) - 3 * wide) <= 3);
   }, { colorScheme }));
 
-test('a range that is drawn on an axis filters every view, and a tap lets go', () => study('walk', async (page) => {
+test('a range drawn on an axis filters every view, and a click removes it', () => study('walk', async (page) => {
   const rows = table('walk'), views = ['history', 'scatter', 'surface', 'parallel'];
   await settle(page);
   const before = await Promise.all(views.map((v) => drawn(page, v)));
@@ -117,7 +117,7 @@ test('the filter by keyboard, by words, by whole rows', () => study('walk', asyn
   assert.deepEqual(await numbers(page), whole);
 }));
 
-test('the front is what no other row beats, in each of the four directions', () => study('walk', async (page) => {
+test('the front has the rows that no other row dominates, in each of the four directions', () => study('walk', async (page) => {
   const rows = table('walk').map((r, i) => ({ i, x: Number(r[speed]), y: Number(r[error]), there: r[speed] !== '' && r[error] !== '' })).filter((r) => r.there);
   await page.locator('#scatter').getByLabel('x', { exact: true }).selectOption(speed);
   await page.locator('#scatter').getByLabel('y', { exact: true }).selectOption(error);
@@ -189,7 +189,7 @@ test('two studies: a column of both is one, each is hidden and shown', () => stu
   await picture(page, 'study-pair');
 }));
 
-test('a tuning: its candidates by generation, its own goals, what is beyond a limit apart', () => study('tuned', async (page) => {
+test('a tuning has its candidates by generation, its objectives, and infeasible candidates marked', () => study('tuned', async (page) => {
   const held = await page.evaluate(() => {
     const { data, views: [history, scatter] } = window.sinew.page;
     return { kinds: data.studies[0].kind, count: data.count, generations: [...new Set(data.generation)].sort((a, b) => a - b),
@@ -209,7 +209,7 @@ test('a tuning: its candidates by generation, its own goals, what is beyond a li
   assert.equal((await numbers(page)).length, held.feasible.filter(Boolean).length);
   await page.evaluate((row) => window.sinew.page.choose(row), held.front[0]);
   assert.equal(await page.locator('#chosen h2').textContent(), `Candidate ${held.front[0]}`);
-  assert.match(await page.locator('#importance .hint').textContent(), /chosen, by a tuner/);
+  assert.match(await page.locator('#importance .hint').textContent(), /chosen by a tuner/);
   await picture(page, 'study-tuned');
 
   const speeds = await Promise.all(['as it is', 'more drag'].map(async (name) => {
@@ -221,7 +221,7 @@ test('a tuning: its candidates by generation, its own goals, what is beyond a li
   assert.ok(Math.abs((speeds[0] + 0.5 * speeds[1]) / 1.5 - mean) <= 1e-8 * mean, `${speeds} for ${mean}`);
 }));
 
-test('ten thousand rows are drawn soon', () => study('walk', async (page) => {
+test('ten thousand rows are drawn in time', () => study('walk', async (page) => {
   const took = await page.evaluate(() => {
     const { page: p } = window.sinew, [s] = p.data.studies, rows = window.sinew.run.studies[0].rows;
     p.data.add(s, Array.from({ length: 10000 }, (_, i) => {
@@ -231,7 +231,7 @@ test('ten thousand rows are drawn soon', () => study('walk', async (page) => {
     p.grown(true);
     p.draw();
     const whole = p.took;
-    p.hurry = true;
+    p.is_dragging = true;
     p.set_range(p.parameters[0], [p.parameters[0].low, p.parameters[0].high * 0.7]);
     p.draw();
     return { whole, dragged: p.took, rows: p.data.count };
@@ -242,7 +242,7 @@ test('ten thousand rows are drawn soon', () => study('walk', async (page) => {
   assert.ok(took.dragged < took.whole * 1.5 + 50, `${took.dragged} ms while dragging`);
 }));
 
-// A finger along the first axis keeps a range and does not scroll; a tap lets go.
+// Dragging along the first axis by touch selects a range and does not scroll; a tap removes it.
 async function drag_by_touch(page) {
   const all = (await numbers(page)).length, handle = page.locator('.axis-handle').first(), box = await handle.boundingBox();
   const session = await page.context().newCDPSession(page), before = await page.evaluate(() => scrollY);
@@ -278,9 +278,9 @@ test('dark, on paper, on a phone', async () => {
   }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 });
 
-// --- while it grows ---
+// --- studies in progress ---
 
-// A sweep that writes the study, slower than it could.
+// Starts a slow sweep that writes the study.
 function sweep(file, more = []) {
   return spawn(program, ['sweep', experiment, '--vary', 'joint.hip.angle_gain=0.02:0.1:60 %/count', '--seeds', '3', '--threads', '1',
     '--set', 'sequence.repeat=12', '--report', 'joints.hip.tracking_rms_rad [deg], air_used_kg [g]', '--results', file, '-o', `${file}.csv`, '--quiet', ...more],
@@ -288,7 +288,7 @@ function sweep(file, more = []) {
 }
 const ended = (child) => new Promise((done) => child.on('close', done));
 
-test('a study is watched while it grows; a row is run, and is the row', async () => {
+test('a study in progress is watched; a row that is run again gives its numbers', async () => {
   const file = join(folder, 'grows.db'), child = sweep(file), end = ended(child);
   for (let i = 0; i < 600 && !readdirSync(folder).includes('grows.db-wal'); ++i) await new Promise((next) => setTimeout(next, 50));
   let served;
@@ -302,7 +302,7 @@ test('a study is watched while it grows; a row is run, and is the row', async ()
     await page.waitForFunction(() => window.sinew.page.data.count === 180, null, { timeout: 60000 });
     assert.match(await page.locator('#facts').textContent(), /180 of 180 points/);
     const asked = await page.evaluate(() => window.sinew.page.growing.known[0]);
-    assert.equal(asked, 180, 'each row was told once');
+    assert.equal(asked, 180, 'each row was sent once');
 
     await page.evaluate(() => window.sinew.page.choose(window.sinew.page.data.number.indexOf(100)));
     const [replay] = await Promise.all([page.context().waitForEvent('page'), page.locator('#run-it').click()]);
@@ -319,14 +319,14 @@ test('a study is watched while it grows; a row is run, and is the row', async ()
   assert.equal((await served.ended).code, 0);
 });
 
-test('two studies are watched beside each other; a row of the second is run', async () => {
+test('two studies are watched together; a row of the second is run', async () => {
   const files = ['one', 'two'].map((name) => join(folder, `${name}.db`)), rms = 'joints.hip.tracking_rms_rad';
   files.forEach((file, i) => execFileSync(program, ['sweep', experiment, '--vary', `joint.hip.angle_gain=0.02:0.0${4 + i}:${3 + i} %/count`,
     '--report', `${rms} [deg]`, '--results', file, '-o', `${file}.csv`, '--quiet'], { cwd: folder }));
   const served = await serve(['view', ...files, '--no-open'], folder);
   await watch(served, async (page) => {
     assert.equal(await page.locator('#count').textContent(), '7 rows');
-    await page.waitForFunction(() => window.sinew.page.growing.answers >= 4, null, { timeout: 60000 });
+    await page.waitForFunction(() => window.sinew.page.growing.replies >= 4, null, { timeout: 60000 });
     assert.deepEqual(await page.evaluate(() => window.sinew.page.growing.known), [3, 4]);
     assert.equal(await page.evaluate(() => window.sinew.page.data.count), 7, 'nothing comes twice');
     await page.evaluate(() => window.sinew.page.choose(3 + 3));

@@ -1,10 +1,10 @@
-// The parts of a study's page that need no browser: fronts, shares of variance, surfaces, filters.
+// Unit tests of the page of a study: Pareto fronts, shares of variance, surfaces, filters.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Filter, heading_parts, StudyData } from '../src/study_data.js';
 import { best_so_far, bins_of, level_lines, pareto_front, round_values, surface, variance_share } from '../src/study_math.js';
 
-// Repeatable numbers in 0 … 1.
+// Returns a generator of repeatable random numbers in [0, 1).
 function random_from(seed) {
   let state = seed;
   return () => (state = (1103515245 * state + 12345) % 2147483648) / 2147483648;
@@ -14,7 +14,7 @@ const near = (value, expected, exact, what = '') => assert.ok(Math.abs(value - e
 
 // --- the front ---
 
-test('a front is every row that no other beats, as counting says, for all directions and with ties', () => {
+test('a front equals that of a direct comparison of all rows, for all directions and with ties', () => {
   const random = random_from(1);
   for (const size of [1, 2, 5, 40, 200]) {
     for (const steps of [4, 1000]) {
@@ -31,7 +31,7 @@ test('a front is every row that no other beats, as counting says, for all direct
   }
 });
 
-test('the best so far only gets better, and is a value that was there', () => {
+test('the best so far is the best of the values so far', () => {
   const random = random_from(2), values = range(300).map(() => (random() < 0.1 ? NaN : random()));
   for (const less of [true, false])
     best_so_far(values, less).forEach((best, i) => {
@@ -54,7 +54,7 @@ test("Ishigami's function: the shares that are known in closed form", () => {
   assert.ok(shares[0].share > shares[0].chance && shares[1].share > shares[1].chance);
 });
 
-test('a parameter that does nothing has no share on the mean, and exceeds the mark once in twenty', () => {
+test('a parameter without effect has a mean share of zero, and exceeds the mark with a probability of 5 %', () => {
   const random = random_from(4), n = 120;
   let sum = 0, above = 0;
   for (let i = 0; i < 600; ++i) {
@@ -66,7 +66,7 @@ test('a parameter that does nothing has no share on the mean, and exceeds the ma
   near(above / 600, 0.05, 0.03);
 });
 
-test('words are groups; all of a figure may go with one; nothing comes of nothing', () => {
+test('text values are bins; one parameter may explain the whole variance; without variation the share is null', () => {
   const word = range(40).map((i) => i % 2), f = word.map((w) => 3 + w);
   near(variance_share(range(40), word, f).share, 1, 1e-12);
   assert.deepEqual(bins_of(word).count, 2);
@@ -96,7 +96,7 @@ test('a surface over points of a plane is that plane, and blank where no point i
   assert.ok(there > 300, `${there} nodes`);
 });
 
-test('a surface never goes beyond its points, and rows of one place count by their mean', () => {
+test('a surface stays within the range of its points, and rows at one point are averaged', () => {
   const random = random_from(6), n = 900, x = range(n).map(() => Math.floor(5 * random())), y = range(n).map(() => Math.floor(5 * random()));
   const z = range(n).map((i) => x[i] * y[i] + (random() - 0.5));
   const nodes = surface(range(n), x, y, z, [0, 4], [0, 4], 41);
@@ -104,7 +104,7 @@ test('a surface never goes beyond its points, and rows of one place count by the
   assert.ok(nodes.every((v) => v >= Math.min(...z) && v <= Math.max(...z)), 'all of a whole grid is there');
 });
 
-test('lines of equal value lie where the surface has the value', () => {
+test('lines of equal value are where the surface has the value', () => {
   const size = 21, nodes = Float64Array.from(range(size * size), (k) => Math.hypot((k % size) / 20 - 0.5, Math.floor(k / size) / 20 - 0.5));
   const pieces = level_lines(nodes, size, 0.3);
   assert.ok(pieces.length > 30);

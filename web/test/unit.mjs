@@ -1,4 +1,5 @@
-// unit.mjs   the parts of the page that need no browser, against plain ways to the same end.
+// Unit tests of the page of a run: shapes, samples, units, axes. Results are compared with those of simple
+// algorithms.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
@@ -10,7 +11,7 @@ import { between, held, index_at, open_within, read_samples } from '../src/sampl
 import { Slices } from '../src/slices.js';
 import { number, short_number, unit_of_key, Units, words_of_key } from '../src/units.js';
 
-// Repeatable numbers in 0 … 1.
+// Returns a generator of repeatable random numbers in [0, 1).
 function random_from(seed) {
   let state = seed;
   return () => (state = (1103515245 * state + 12345) % 2147483648) / 2147483648;
@@ -65,7 +66,7 @@ test('index_at is the last time that is not after', () => {
   assert.equal(index_at(new Float64Array(), 1), -1);
 });
 
-test('held keeps a value, between goes straight to the next', () => {
+test('held keeps a value, between interpolates linearly', () => {
   const column = { time: Float64Array.of(1, 2, 4), values: Float32Array.of(10, 20, 0) };
   assert.ok(Number.isNaN(held(column, 0.9)));
   assert.equal(held(column, 1.999), 10);
@@ -76,7 +77,7 @@ test('held keeps a value, between goes straight to the next', () => {
   assert.equal(between(column, 9), 0);
 });
 
-test('a valve was open within a time if any edge or the state before says so', () => {
+test('a valve was open within an interval if an edge or the state before shows it', () => {
   const random = random_from(3);
   const time = [], values = [];
   for (let t = 0.01, open = 1; t < 5; t += 0.002 + 0.05 * random(), open = 1 - open) {
@@ -127,7 +128,8 @@ test('a plot gets all samples where there is room, else at most two per pixel', 
 
 // --- units ---
 
-// As the library writes them into a page (sinew/report/page/units_test.cpp holds their numbers).
+// In the form in which the library writes them into a page; sinew/report/page/units_test.cpp checks the
+// numbers.
 const unit_table = {
   start: 'own',
   sets: [
@@ -142,7 +144,7 @@ const unit_table = {
 test('a page shows numbers in the units of its table', () => {
   const units = new Units(95000, unit_table);
   const near = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-9 * Math.max(1, Math.abs(expected)), `${value}`);
-  assert.equal(units.system, 'own', 'it begins in those that somebody asked for');
+  assert.equal(units.system, 'own', 'it begins in the units of the page');
   near(units.convert(0.0254, 'm'), 2.54);
   near(units.convert(293.15, 'K'), 20);
   assert.equal(units.text(0.75, 'kg'), '750.0 g');
@@ -153,7 +155,7 @@ test('a page shows numbers in the units of its table', () => {
   units.choose('si');
   near(units.convert(101325, 'Pa'), 101.325);
   near(units.convert(0.25, 'share'), 25);
-  assert.equal(units.text(3, 'furlong'), '3.000 furlong', 'a unit that no table knows stays');
+  assert.equal(units.text(3, 'furlong'), '3.000 furlong', 'a unit that is not in the table is unchanged');
   assert.equal(units.text(3, '1'), '3.000');
   units.choose('parsec');
   assert.equal(units.system, 'si', 'a set that is not there changes nothing');
@@ -165,7 +167,7 @@ test('without a table numbers stay in SI', () => {
   assert.deepEqual(units.table.sets.map((s) => s.name), ['si']);
 });
 
-test('where there is little room, bars keep a decimal and kilopascals none', () => {
+test('short numbers of bar have a decimal, those of kilopascals do not', () => {
   for (const [value, text] of [[4.2137, '4.2'], [421.37, '421'], [0, '0.0'], [-0.01, '0.0'], [-0.6, '−0.6']])
     assert.equal(short_number(value), text);
 });
@@ -176,7 +178,7 @@ test('numbers keep about four digits', () => {
     assert.equal(number(value), text);
 });
 
-test('keys tell their unit and read as words', () => {
+test('units and labels are derived from keys', () => {
   assert.equal(unit_of_key('trolley.mean_speed_m_per_s'), 'm/s');
   assert.equal(unit_of_key('joints.hip.stiffness_mean_Nm_per_rad'), 'N m/rad');
   assert.equal(unit_of_key('steps'), '1');
@@ -209,12 +211,12 @@ test('columns of different clocks meet without a sample that is not theirs', () 
   const also = { time: slow.time, values: Float32Array.of(7, 8, 9) };
   const [x, a, b, c] = new Slices([slow, fast, also]).of([0, 1], 600, plain);
   assert.deepEqual([...x], [0, 0.1, 0.2, 0.3, 0.4]);
-  assert.deepEqual([...a], [1, undefined, null, undefined, 3], 'no number is a gap, no sample is none');
+  assert.deepEqual([...a], [1, undefined, null, undefined, 3], 'NaN is null, a missing sample is undefined');
   assert.deepEqual([...b], [undefined, 4, 5, 6, undefined]);
   assert.deepEqual([...c], [7, undefined, 8, undefined, 9]);
 });
 
-// --- columns that grow ---
+// --- growing columns ---
 
 test('pieces that are appended are the whole, and columns of one clock share its times', () => {
   const random = random_from(3);
@@ -237,7 +239,7 @@ test('pieces that are appended are the whole, and columns of one clock share its
   });
 });
 
-test('a phase that goes on in the next piece stays one', () => {
+test('a phase that continues in the next piece stays one phase', () => {
   const all = [];
   append_stretches(all, [{ phase: 0, step: 0, from: 0, to: 0.1 }]);
   append_stretches(all, [{ phase: 0, step: 0, from: 0.1, to: 0.2 }, { phase: 1, step: 0, from: 0.2, to: 0.3 }]);
@@ -251,7 +253,7 @@ test('an upright axis has three numbers or more, which do not touch', () => {
   const random = random_from(7);
   for (let i = 0; i < 5000; ++i) {
     const low = (random() - 0.5) * 10 ** (8 * random() - 4), high = low + 10 ** (6 * random() - 3), pixels = 62 + 300 * random();
-    // The step as it would be otherwise: the least of 1, 2 or 5 that leaves 26 px, where there may be one number.
+    // The usual step: the smallest of 1, 2 or 5 that leaves 26 px, with which an axis may have a single number.
     const least = (26 / pixels) * (high - low), size = 10 ** Math.floor(Math.log10(least));
     const usual = [1, 2, 5, 10].map((k) => k * size).find((k) => k >= least);
     const at = upright_ticks(low, high, usual, pixels), y = at.map((v) => ((v - low) / (high - low)) * pixels);

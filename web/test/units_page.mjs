@@ -1,4 +1,4 @@
-// The switch of units: every set changes axes, drawing, legend and tables; what was chosen is kept.
+// Tests of the switch of units: every set changes axes, drawing, legend and tables, and the choice is stored.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync } from 'node:fs';

@@ -1,19 +1,19 @@
-// This is for what a person does with the plots of a run: groups, enlarging, saving, arranging, formulas.
+// Tools of the plots of a run: groups, enlarging, saving, arranging, formulas.
 import { ChannelDrawer } from './channel_drawer.js';
 import { ChannelList } from './channels.js';
 import { dragged } from './dragging.js';
 import { Enlarged } from './enlarged.js';
-import { open_formula_sheet } from './formula_sheet.js';
+import { open_formula_dialog } from './formula_dialog.js';
 import { menu_button } from './menu.js';
 import { own_group, OwnPlots } from './own_plots.js';
 import { by_id, element } from './page.js';
 import { plot_picture } from './plot_picture.js';
 import { save_entries } from './saving.js';
-import { open_sheet, tell } from './sheet.js';
+import { open_dialog, show_message } from './dialog.js';
 
-const in_layout = (line) => line.kept ?? line.id;
+const in_layout = (line) => line.stored ?? line.id;
 
-export class PlotDesk {
+export class PlotTools {
   constructor(run, plots, columns) {
     Object.assign(this, { run, plots });
     this.channels = new ChannelList(run, columns);
@@ -46,9 +46,9 @@ export class PlotDesk {
     dragged.onto(this.new_plot, (lines) => this.add(null, lines));
   }
 
-  // After any change of the layout, and of the samples of a run that goes.
+  // Updates the tools after any change of the layout or of the samples.
   refresh() {
-    if (!this.own) return;  // it is being made
+    if (!this.own) return;  // called during construction
     for (const panel of this.plots.panels) {
       if (!panel.tools) this.equip(panel);
       panel.spec.lines.forEach((line, i) => this.make_draggable(panel, i));
@@ -74,7 +74,7 @@ export class PlotDesk {
         plots.show_group(name, next);
         button.setAttribute('aria-pressed', String(next));
         this.grouped = null;
-        own.keep_group(name, next, name === own_group ? undefined : this.usual_groups.get(name));
+        own.store_group(name, next, name === own_group ? undefined : this.usual_groups.get(name));
       });
       return button;
     }));
@@ -83,7 +83,7 @@ export class PlotDesk {
   // --- a plot's tools ---
 
   equip(panel) {
-    const more = menu_button('⋯', 'More of this plot', () => this.entries(panel));
+    const more = menu_button('⋯', 'Plot menu', () => this.entries(panel));
     panel.tools = element('div', { class: 'panel-tools' }, this.enlarged.button_of(panel), more);
     panel.root.querySelector('header').append(panel.tools);
     panel.title.draggable = true;
@@ -106,23 +106,23 @@ export class PlotDesk {
       ['Add a formula…', () => this.write_formula(panel)],
       !large && shown.length && ['Add its lines to…', () => this.choose_place(panel, shown.map(in_layout))],
       panel.own && ['Rename…', () => this.rename(panel)],
-      ...panel.spec.lines.filter((l) => l.kept).map((l) => [`Take out ${l.label}`, () => own.take_out(panel, l)]),
+      ...panel.spec.lines.filter((l) => l.stored).map((l) => [`Remove ${l.label}`, () => own.take_out(panel, l)]),
       !large && ['Move up', () => own.move(panel, -1)],
       !large && ['Move down', () => own.move(panel, 1)],
-      !large && [panel.own ? 'Remove this plot' : 'Put this plot away', () => this.put_away(panel)],
+      !large && [panel.own ? 'Remove this plot' : 'Hide this plot', () => this.put_away(panel)],
     ];
   }
 
   put_away(panel) {
     const { title } = panel.spec, { own } = panel;
     this.own.put_away(panel);
-    if (!own) tell(`${title} is put away; "Usual plots" brings it back.`);
+    if (!own) show_message(`${title} is hidden; "Default plots" shows it again.`);
   }
 
   rename(panel) {
     const field = element('input', { type: 'text', maxlength: 80, 'aria-label': 'Title of the plot' });
     field.value = panel.spec.title;
-    open_sheet('Title of the plot', [field], 'Rename', () => {
+    open_dialog('Title of the plot', [field], 'Rename', () => {
       this.own.rename(panel, field.value.trim());
       return '';
     });
@@ -133,13 +133,13 @@ export class PlotDesk {
 
   add(panel, lines) {
     const why = panel && this.own.refusal(panel, lines);
-    if (why) return tell(why), panel;
+    if (why) return show_message(why), panel;
     const made = this.own.add(panel, lines);
     if (!panel) made.root.scrollIntoView({ block: 'nearest' });
     return made;
   }
 
-  // A menu's entries: every plot that is shown, and a new one.
+  // Returns entries of a menu: every visible plot except `but`, and a new one.
   places_for(lines, but = null) {
     return ['Add to', ['a new plot', () => this.add(null, lines)],
       ...this.plots.panels.filter((p) => p !== but && !p.root.hidden).map((p) => [p.spec.title, () => this.add(p, lines)])];
@@ -148,21 +148,21 @@ export class PlotDesk {
   choose_place(panel, lines) {
     const places = this.places_for(lines, panel).slice(1);
     const select = element('select', { 'aria-label': 'Plot' }, ...places.map(([words], i) => element('option', { value: i }, words)));
-    open_sheet('Add its lines to', [select], 'Add', () => {
+    open_dialog('Add its lines to', [select], 'Add', () => {
       places[Number(select.value)][1]();
       return '';
     });
   }
 
   write_formula(panel) {
-    open_formula_sheet(this.channels, this.plots.units, (line) => {
+    open_formula_dialog(this.channels, this.plots.units, (line) => {
       const why = panel ? this.own.refusal(panel, [line]) : '';
       if (!why) this.add(panel, [line]);
       return why;
     });
   }
 
-  // A run that goes has new samples.
+  // Updates plots and formulas after new samples of a run in progress.
   grow() {
     this.own.recompute();
     for (const panel of this.plots.panels) panel.renew();

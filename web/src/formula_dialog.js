@@ -1,7 +1,7 @@
-// The sheet in which a formula is written: channels to pick from, and at once what is wrong with it.
+// Dialog for a formula: it offers the channels and shows errors while the formula is typed.
 import { functions, parse_formula } from './formula.js';
 import { element } from './page.js';
-import { open_sheet } from './sheet.js';
+import { open_dialog } from './dialog.js';
 
 function put_in(field, words) {
   field.setRangeText(words, field.selectionStart, field.selectionEnd, 'end');
@@ -10,7 +10,7 @@ function put_in(field, words) {
 }
 
 function channel_picker(channels, field) {
-  const picker = element('select', { 'aria-label': 'Channel to put into the formula' }, element('option', { value: '' }, 'Put in a channel…'));
+  const picker = element('select', { 'aria-label': 'Channel to insert into the formula' }, element('option', { value: '' }, 'Insert a channel…'));
   for (const channel of channels.with_samples())
     picker.append(element('option', { value: channel.id }, `${channels.words(channel)}  (${channel.id})`));
   picker.addEventListener('change', () => {
@@ -28,11 +28,11 @@ function function_buttons(field) {
   });
 }
 
-// `does` is given { formula, name } and returns why it cannot be taken, or ''.
-export function open_formula_sheet(channels, units, does, { start = '', title = 'A formula of channels' } = {}) {
+// Calls `does` with { formula, name }; it returns an error message, or '' if it accepts the formula.
+export function open_formula_dialog(channels, units, does, { start = '', title = 'A formula of channels' } = {}) {
   const field = element('input', { type: 'text', class: 'formula', maxlength: 500, spellcheck: 'false', autocomplete: 'off',
                                    'aria-label': 'Formula', placeholder: '/joint/hip/angle - /desired/joint/hip/angle' });
-  const name = element('input', { type: 'text', maxlength: 80, 'aria-label': 'Name of the line', placeholder: 'Name of the line (or the formula stands for itself)' });
+  const name = element('input', { type: 'text', maxlength: 80, 'aria-label': 'Name of the line', placeholder: 'Name of the line (default: the formula)' });
   const hint = element('p', { class: 'quiet' }, '+ − * / ( ), numbers with units as in 2 deg, and:');
   const check = () => {
     try {
@@ -43,8 +43,8 @@ export function open_formula_sheet(channels, units, does, { start = '', title = 
     }
   };
   field.value = start;
-  const { wrong } = open_sheet(title, [field, channel_picker(channels, field), hint,
-    element('div', { class: 'functions' }, ...function_buttons(field)), name], 'Draw it', () =>
+  const { wrong } = open_dialog(title, [field, channel_picker(channels, field), hint,
+    element('div', { class: 'functions' }, ...function_buttons(field)), name], 'Draw', () =>
     check().wrong || does({ formula: field.value.trim(), name: name.value.trim() }));
   field.addEventListener('input', () => {
     const { unit, wrong: why } = check();

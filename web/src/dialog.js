@@ -1,8 +1,9 @@
-// A sheet that asks for a few words: above the page until it is done or closed (Escape).
+// Modal dialog with a few fields, closed by its buttons or Escape.
 import { element } from './page.js';
 
-// `fields`: elements; `does` gets the sheet and returns why it cannot be done, '' when it is.
-export function open_sheet(title, fields, done_words, does) {
+// Opens a dialog with the elements `fields`. `does(dialog)` performs the action; it returns an error
+// message, or '' on success.
+export function open_dialog(title, fields, done_words, does) {
   const wrong = element('p', { class: 'wrong', role: 'alert' });
   const done = element('button', { type: 'submit', class: 'done' }, done_words);
   const cancel = element('button', { type: 'button' }, 'Cancel');
@@ -23,8 +24,8 @@ export function open_sheet(title, fields, done_words, does) {
   return { sheet, wrong };
 }
 
-// Words for a moment at the foot of the page.
-export function tell(words) {
+// Shows a message at the bottom of the page for six seconds.
+export function show_message(words) {
   document.querySelector('.toast')?.remove();
   const toast = element('div', { class: 'toast no-print', role: 'status' }, words);
   (document.querySelector('dialog.enlarged[open]') ?? document.body).append(toast);

@@ -1,9 +1,9 @@
-// How a page looks: units, light or dark, paper. The same buttons on every page.
+// Appearance of a page: units, light or dark colors, print. Every page has the same buttons.
 import { by_id, element, set_icon } from './page.js';
 
-export class Look {
-  // `on_units` and `on_colors` draw again; `on_print(begins)` prepares for paper, and for the screen
-  // again.
+export class Appearance {
+  // `on_units` and `on_colors` redraw the page; `on_print(begins)` prepares it for printing (true) or for
+  // the screen again (false).
   constructor(units, { on_units, on_colors, on_print }) {
     Object.assign(this, { units, on_units, on_colors, on_print });
     this.offer_units();
@@ -14,7 +14,7 @@ export class Look {
     this.set_icon();
   }
 
-  // A button for each set.
+  // Adds a button for each set of units.
   offer_units() {
     this.buttons = this.units.table.sets.map(({ name, title, about }) => {
       const button = element('button', { type: 'button', id: `units-${name}`, title: about }, title);
@@ -30,7 +30,7 @@ export class Look {
   }
 
   set_units(name) {
-    this.units.keep(name);
+    this.units.choose_and_store(name);
     this.show_units();
     this.on_units();
   }
@@ -55,7 +55,7 @@ export class Look {
     this.on_colors();
   }
 
-  // On paper everything is light.
+  // Prints always use the light colors.
   print(begins) {
     if (begins) this.theme_before = document.documentElement.dataset.theme;
     this.on_print(begins);
