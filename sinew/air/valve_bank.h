@@ -123,6 +123,7 @@ class ValveBank {
   bool shut(int inlet, const Now& now) const noexcept;
 
   double through_holes(int i, const Now& now, double y) const noexcept;
+  // Returns whether a fault closes the line of a muscle.
   bool blocked(int i, const Valves& valves) const noexcept;
   double failed_line(const Valves& valves, Answer& out) const noexcept;
   double slope_of_faults(int pair, const ActingFaults& faults) const noexcept;

@@ -47,6 +47,7 @@ inline constexpr std::array<std::uint32_t, 16> of_32 = ieee();
 
 }  // namespace crc_tables
 
+// Returns the checksum CCITT-FALSE of the bytes.
 constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
   std::uint32_t r = 0xffff;
   for (const std::uint8_t byte : bytes) {

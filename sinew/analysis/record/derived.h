@@ -25,6 +25,7 @@
 
 namespace sinew::analysis {
 
+// Returns the derived series of a log.
 signals::Table derive(const signals::Table&, const Machine&);
 
 }  // namespace sinew::analysis

@@ -10,6 +10,7 @@
 
 namespace sinew::link {
 
+// Sequence numbers of a board that have been seen.
 class SequenceWindow {
  public:
   // False: seen before, or older than what was.

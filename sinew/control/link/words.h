@@ -6,6 +6,7 @@
 
 namespace sinew::link {
 
+// Returns the meaning of a code that a board replies with.
 constexpr const char* in_words(Code code) noexcept {
   switch (code) {
     case Code::done:
@@ -46,6 +47,7 @@ constexpr const char* in_words(Code code) noexcept {
   return "an answer that this program does not know";
 }
 
+// Returns what a fault of a board is.
 constexpr const char* in_words(control::BoardFault fault) noexcept {
   using control::BoardFault;
   switch (fault) {

@@ -246,6 +246,7 @@ class FrictionLanes {
 
 }  // namespace detail
 
+// Solves W problems in lanes. Each result is that of its problem alone.
 template <int C, int W>
 std::array<units::Pack<W>, C> solve_friction(const FrictionProblem<C, units::Pack<W>>& p,
                                              const std::array<units::Pack<W>, C>& last) {

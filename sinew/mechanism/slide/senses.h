@@ -11,6 +11,7 @@
 
 namespace sinew::plant {
 
+// Readings and true values of a stand.
 class StandSenses {
  public:
   using Truth = StandTruth;

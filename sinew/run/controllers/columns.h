@@ -31,6 +31,7 @@ struct Snapshot {
   const Drive* drive = nullptr;
 };
 
+// A column of a run's table.
 struct Column {
   signals::Topic topic;                                     // of one or two fields
   std::function<void(const Snapshot&, double* out)> value;  // no heap, no exceptions

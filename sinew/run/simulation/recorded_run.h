@@ -53,10 +53,12 @@ class RecordedRun {
   RecordedRun(const RecordedRun&) = delete;
   RecordedRun& operator=(const RecordedRun&) = delete;
 
+  // Runs all that happens before the tick.
   template <class Clock>
   void advance(signals::Tick until, Clock& clock) noexcept {
     simulation_.advance(until, clock, watch_);
   }
+  // Returns whether the run is over.
   bool ended() noexcept { return simulation_.ended() || watch_.stopped(); }
   // Is a sample due at the next tick?
   bool samples(signals::Tick t) const noexcept { return t >= watch_.sample_at(); }
