@@ -49,7 +49,9 @@ list='
     faces  dpkg-shlibdeps      dpkg-dev                         finds what the .deb depend on
     faces  file                file                             tells programs from other files there
     faces  -                   mkdocs-material                  builds the docs site, with MkDocs
-    faces  doxygen             doxygen                          reads the headers for its reference
+    faces  -                   mkdocs-literate-nav              lists its pages by folder
+    faces  doxygen             doxygen                          makes its reference of the headers
+    faces  -                   doxygen-awesome-css              colours of that, light and dark
     faces  -                   libjs-katex                      sets its formulas
     faces  ffmpeg              ffmpeg                           makes videos of runs, in tests
     faces  mpirun              openmpi-bin                      starts them in tests

@@ -1,139 +1,119 @@
-"""How comments become the reference: what stands where in a header, and in a binding of Python."""
+"""How comments of a header become those of the reference, and docstrings a page; the bibliography."""
 
 import os
 import re
+import subprocess
 import sys
+import tempfile
 import unittest
 from typing import Dict, List, Set
 
-sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../tools/site"))
+HERE = os.path.dirname(os.path.abspath(__file__))
+SITE = os.path.join(HERE, "../../tools/site")
+sys.path.insert(0, SITE)
 
-import comments  # noqa: E402
-from api import Name, documented, share_texts  # noqa: E402
-from names import blocks_of  # noqa: E402
-from python_pages import docs_of, prose, setting_rows  # noqa: E402
+from python_pages import docstring, prose  # noqa: E402
 
 
-def converted(text: str) -> List[str]:
+def converted(text: str, name: str = "b.h") -> List[str]:
     """The lines of a header below its own comment."""
-    lines = ["// a/b.h - a test.", "#pragma once"] + text.strip("\n").split("\n")
-    return comments.convert(lines)[2:]
-
-
-def name(kind: str, word: str, line: int, **more: str) -> Name:
-    return Name(kind, word, word, "a/b.h", line, **more)
-
-
-class Settings(unittest.TestCase):
-    def test_each_method_has_those_of_its_table(self) -> None:
-        rows = setting_rows(os.path.join(os.path.dirname(__file__), "../../sinew/identify/task"))
-        self.assertGreater(len(rows), 11)
-        self.assertIn("`moment_arm` [m]: is known, at the rest angle.", rows["joint"])
-        self.assertIn("`tie`: NAME=OTHER: two parameters that are one.", rows["pair"])
-        self.assertTrue(set(rows["check"]) < set(rows["static"]))
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("// a/b.h - a test.\n#pragma once\n" + text.strip("\n") + "\n")
+        made = subprocess.run(["awk", "-f", os.path.join(SITE, "comments.awk"), path], capture_output=True, text=True, check=True)
+    return made.stdout.split("\n")[:-1][2:]
 
 
 class Headers(unittest.TestCase):
-    def test_lines_keep_their_numbers(self) -> None:
-        text = ["// a/b.h - a test", "// of two lines.", "#pragma once", "", "// Adds.", "int add(int a);  // [m]", ""]
-        made = comments.convert(text)
-        self.assertEqual(len(made), len(text))
-        self.assertEqual(made[0], "/// @file")
-        self.assertIn("int add(int a);", made[5])
-
     def test_a_comment_in_front_is_the_declarations(self) -> None:
-        made = converted("// Adds a \\f and <b>.\n// Twice.\nint add(int a);")
-        self.assertEqual(made[0], "/// @verbatim Adds a \\f and <b>.")
-        self.assertEqual(made[1], "/// Twice. @endverbatim")
+        self.assertEqual(converted("// Adds \\f and <b>.\n// Twice.\nint add(int a);"),
+                         ["/** %Adds \\\\f and \\<b\\>.", "%Twice. */", "int add(int a);"])
 
     def test_a_comment_behind_is_the_members(self) -> None:
         made = converted("struct A {\n  int a = 0;  // first\n              // and more\n};")
-        self.assertEqual(made[1], "  int a = 0;  ///< @verbatim< first")
-        self.assertEqual(made[2].strip(), "///< and more @endverbatim")
+        self.assertEqual(made[1:3], ["  int a = 0;  /**< first", "and more */"])
 
     def test_a_comment_behind_an_enum_is_not_its_last_values(self) -> None:
-        made = converted("enum class A { b, c };  // two")
-        self.assertEqual(made[0], "/** @verbatim< two @endverbatim */ enum class A { b, c };")
+        self.assertEqual(converted("enum class A { b, c };  // two")[0].strip(), "/** two */ enum class A { b, c };")
 
-    def test_others_stay(self) -> None:
+    def test_a_comment_holds_up_to_an_empty_line(self) -> None:
+        made = converted("// Both.\nint a();\nint b();\n\nint c();")
+        self.assertEqual(made, ["/** %Both. */", "int a();", "/** %Both. */ int b();", "", "int c();"])
+
+    def test_variables_of_one_line_have_their_parts(self) -> None:
+        made = converted("double a, b;  // [m], [s]\ndouble c = 1, d;  // of both")
+        self.assertEqual([re.sub(" +", " ", line).strip() for line in made], [
+            "/** [m] */ double a; /** [s] */ double b;",
+            "/** of both */ double c = 1; /** of both */ double d;"])
+
+    def test_indented_lines_stay_as_they_are(self) -> None:
+        made = converted("// Returns F:\n//\n//   F = a *b\n//\n//   b < 1\n// here.\nint f();")
+        self.assertEqual(made, ["/** %Returns F:", " @details @verbatim", "F = a *b", "", "b < 1", "@endverbatim here. */", "int f();"])
+
+    def test_the_name_of_a_file_has_the_comment_of_the_file(self) -> None:
+        self.assertEqual(converted("class TwoLinks {\n};", "two_links.h")[0].split(), "/** A test. */ class TwoLinks {".split())
+
+    def test_other_comments_are_left_out(self) -> None:
         for text in ("// --- a heading ---\n\nint a();", "int f() {\n  // inside\n  return 1;  // one\n}",
                      'const char* a = "// none";', "inline int f() { return 1; }\n// at the end\n}"):
-            self.assertNotIn("@verbatim", "\n".join(converted(text)), text)
+            made = converted(text)
+            self.assertNotIn("/**", "\n".join(made), text)
+            self.assertEqual(len(made), text.count("\n") + 1)
 
-    def test_behind_a_body_of_several_lines(self) -> None:
-        made = converted("struct A {\n  int f() const {\n    return 1;\n  }  // one [N]\n};")
-        self.assertEqual(made[3], "  }  ///< @verbatim< one [N] @endverbatim")
+    def test_a_class_of_a_private_part_is_left_out(self) -> None:
+        made = converted("class A {\n private:\n  class B;\n};\n\nclass A::B {\n  int c;\n};")
+        self.assertNotIn("int c", "\n".join(made))
+        self.assertEqual(len(made), 8)
 
     def test_a_namespace_that_doxygen_would_read_otherwise(self) -> None:
-        made = converted("namespace sinew::signals {\nsignals::Tick f(); // signals::Tick")
-        self.assertIn("signalsNamespace {", made[0])
-        self.assertIn("signalsNamespace::Tick f();", made[1])
-        self.assertIn("@verbatim< signals::Tick", made[1])
+        self.assertEqual(converted("signals::Tick f(sinew::signals::Tick t);"), ["sinew::signals::Tick f(sinew::signals::Tick t);"])
 
 
-class Groups(unittest.TestCase):
-    def test_a_comment_holds_up_to_an_empty_line(self) -> None:
-        source = ["// Both.", "int a();", "int b();", "", "int c();"]
-        a, b, c = name("function", "a", 2, text="Both."), name("function", "b", 3), name("function", "c", 5)
-        share_texts([a, b, c], source)
-        self.assertTrue(documented(a) and documented(b))
-        self.assertFalse(documented(c))
+class Undocumented(unittest.TestCase):
+    def findings(self, warnings: str, text: str = "") -> int:
+        search = ('<field name="type">struct</field>\n<field name="name">sinew::A</field>\n'
+                  f'<field name="text">{text}</field>\n')
+        with tempfile.TemporaryDirectory() as folder:
+            for name, words in (("a.xml", search), ("a.txt", warnings)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(words)
+            return subprocess.run(["awk", "-f", os.path.join(SITE, "undocumented.awk"), "a.xml", "a.txt"], cwd=folder,
+                                  env={**os.environ}, capture_output=True).returncode
 
-    def test_variables_of_one_line(self) -> None:
-        a, b = name("variable", "a", 1), name("variable", "b", 1, behind="[m], [s]")
-        share_texts([a, b], ["double a, b;  // [m], [s]"])
-        self.assertEqual((a.behind, b.behind), ("[m]", "[s]"))
-        a, b = name("variable", "a", 1), name("variable", "b", 1, behind="of both")
-        share_texts([a, b], ["double a, b;  // of both"])
-        self.assertEqual((a.behind, b.behind), ("of both", "of both"))
+    def test_functions_and_classes_need_a_comment(self) -> None:
+        for name in ("Member f(int) (function) of namespace sinew", "Compound sinew::A", "Member A (enumeration) of namespace sinew"):
+            self.assertEqual(self.findings(f"a.h:1: warning: {name} is not documented.\n"), 1, name)
 
-    def test_usual_members_need_no_words(self) -> None:
-        for signature in ("A(const A&) =delete", "~A()", "bool operator==(const A&) const"):
-            self.assertTrue(documented(name("function", "A", 1, signature=signature)), signature)
+    def test_usual_members_need_none(self) -> None:
+        for name in ("A(const A &)=delete", "~A()", "operator==(const A &) const", "begin() const"):
+            self.assertEqual(self.findings(f"a.h:1: warning: Member {name} (function) of class sinew::A is not documented.\n"), 0, name)
 
     def test_a_struct_is_described_by_its_members(self) -> None:
-        whole, part = name("struct", "A", 1), name("struct", "B", 9)
-        whole.members = [name("variable", "a", 2, behind="[m]")]
-        part.members = whole.members + [name("variable", "b", 3)]
-        self.assertTrue(documented(whole))
-        self.assertFalse(documented(part))
+        one = "a.h:1: warning: Member a (variable) of struct sinew::A is not documented.\n"
+        self.assertEqual(self.findings(one, "Has a comment"), 0)
+        self.assertEqual(self.findings(one, "Described by its members"), 1)
 
 
-class Words(unittest.TestCase):
-    def test_what_is_indented_stays_as_it_is(self) -> None:
-        made = blocks_of("One\ntwo.\n\n  a = b\n\n  c = d\n\n* point\n  goes on\n* other")
-        self.assertEqual([kind for kind, _ in made], ["p", "pre", "li", "li"])
-        self.assertEqual(made[1][1], ["  a = b", "", "  c = d"])
-        self.assertEqual(made[2][1], ["* point", "  goes on"])
+class Docstrings(unittest.TestCase):
+    def test_paragraphs_examples_and_settings(self) -> None:
+        self.assertEqual(prose("Takes `a` < b.\n\n    a = 1\n\nrest [m]: its length.\nname: of it."),
+                         '<p>Takes <code>a</code> &lt; b.</p>\n<pre class="as-it-stands"><code>a = 1</code></pre>\n'
+                         "<ul>\n<li><code>rest</code> [m]: its length.</li>\n<li><code>name</code>: of it.</li>\n</ul>")
 
-    def test_docstrings(self) -> None:
-        self.assertEqual(prose("Takes `a` < b.\n\n    a = 1"),
-                         '<p>Takes <code>a</code> &lt; b.</p>\n<pre class="as-it-stands"><code>a = 1</code></pre>')
+    def test_signatures_of_the_binding_are_left_out(self) -> None:
+        def of() -> None:
+            """f(self: sinew._sinew.A, b: int) -> int
 
+            Does f."""
 
-class Bindings(unittest.TestCase):
-    def found(self, text: str) -> Dict[str, str]:
-        return docs_of(text)
-
-    def test_members_of_a_class(self) -> None:
-        found = self.found('py::class_<A, std::shared_ptr<A>>(m, "A", "An " "a.")\n'
-                           '  .def("f", [](A& a, int b) { return a.f("no", b); }, py::arg("b"), "Does \\"f\\".\\nSo.")\n'
-                           '  .def(py::init<int>(), "Makes.");\nm.def("g", &g, "Does g.");')
-        self.assertEqual(found, {"A": "An a.", "A.f": 'Does "f".\nSo.', "A.__init__": "Makes.", "g": "Does g."})
-
-    def test_a_class_that_several_functions_fill(self) -> None:
-        found = self.found('using Class = py::class_<A>;\nvoid more(Class& c) { c.def("f", &f, "Does f."); }\n'
-                           'void bind(py::module_& m) { Class c(m, "A", "An a."); more(c); }')
-        self.assertEqual(found, {"A": "An a.", "A.f": "Does f."})
-
-    def test_what_has_no_words_is_not_there(self) -> None:
-        self.assertEqual(self.found('py::class_<A>(m, "A").def("__repr__", [](A&) { return "<A>"; });'), {})
+        self.assertEqual(docstring(of), "Does f.")
 
 
 class Bibliography(unittest.TestCase):
     """The keys of references.bib, the anchors of bibliography.md and what the theory pages cite are the same."""
 
-    FOLDER = os.path.join(os.path.dirname(__file__), "../../docs/theory")
+    FOLDER = os.path.join(HERE, "../../docs/theory")
 
     def read(self, name: str) -> str:
         with open(os.path.join(self.FOLDER, name), encoding="utf-8") as file:

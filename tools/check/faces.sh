@@ -127,7 +127,8 @@ step_fmu() {
 }
 
 step_site() {
-  /usr/bin/python3 tests/site/test_reference.py && tools/npm-ci.sh web && tools/site.sh "$logs/site" | tee "$logs/site.txt" || return 1
+  build_all || return 1
+  /usr/bin/python3 tests/site/test_reference.py && tools/npm-ci.sh web && SINEW_BUILD=$build tools/site.sh "$logs/site" | tee "$logs/site.txt" || return 1
   node tests/site/browser.mjs "$logs/site" | tee "$logs/site-browser" || return 1
   echo "site: $(sed -n 's/^site: //p' "$logs/site.txt"); $(sed -n 's/^names: //p' "$logs/site.txt");" \
     "$(grep -c '^ok ' "$logs/site-browser") tests in a browser"

@@ -1,323 +1,122 @@
-"""python_pages.py - the reference of the Python package, from its sources alone: names, signatures and
-docstrings of python/sinew, types of its .pyi, and the docstrings that python/binding gives."""
+"""Reference of the Python package: names and docstrings of the built package, signatures of its sources
+and of its .pyi, one page for each module."""
 
 import ast
 import glob
 import html
+import importlib
+import inspect
 import os
 import re
-from typing import Dict, Iterator, List, Optional, Tuple
+import textwrap
+from typing import Any, Dict, Iterator, List, Tuple
 
-from names import as_it_stands, blocks_of
-
-MODULES = {"sinew": "sinew/__init__.py", "sinew.identify": "sinew/identify.py", "sinew.gym": "sinew/gym/__init__.py"}
-
-
-# --- docstrings of the compiled part --------------------------------------------------------------
+MODULES = ("sinew", "sinew.identify", "sinew.gym")
+SETTING = re.compile(r"^(\w+)(?= \[[^\]]*\]: |: )(?=.*\.$)")
+Definitions = Dict[Tuple[str, str], ast.stmt]
 
 
-def tokens(text: str) -> Iterator[Tuple[str, str]]:
-    """A C++ file as strings, words and signs."""
-    pattern = re.compile(
-        r'(?P<comment>//[^\n]*)|R"(?P<d>\w*)\((?P<raw>.*?)\)(?P=d)"|"(?P<string>(?:[^"\\]|\\.)*)"'
-        r"|'(?:[^'\\]|\\.)'|(?P<word>[\w:.]+)|(?P<sign>\S)", re.S)
-    for match in pattern.finditer(text):
-        if match.group("raw") is not None:
-            yield "string", match.group("raw")
-        elif match.group("string") is not None:
-            yield "string", match.group("string").replace("\\n", "\n").replace('\\"', '"').replace("\\\\", "\\")
-        elif match.group("word"):
-            yield "word", match.group("word")
-        elif match.group("sign"):
-            yield "sign", match.group("sign")
-
-
-# Words whose call defines something: a class, a variable of that kind, a member (also by a
-# helper that is called add_… and gets the class), an exception.
-DEFINES = re.compile(r"(?:^|[.:])(def\w*|class_)$|^(Class|new_exception|add_\w+)$")
-
-
-Tokens = List[Tuple[str, str]]
-
-
-def call_at(found: Tokens, i: int) -> Optional[Tuple[bool, List[Tokens]]]:
-    """The call whose name stands at i: does it make a variable, and its arguments; None if it is none."""
-    j, angle = i + 1, 0
-    while j < len(found) and (angle or found[j][1] != "("):
-        angle += {"<": 1, ">": -1}.get(found[j][1], 0)
-        if not angle and found[j][1] in ";,)&=":
-            return None
-        j += 1
-    variable = found[j - 1][0] == "word" and j > i + 1
-    depth = 0
-    parts: List[Tokens] = [[]]
-    for token in found[j:]:
-        if token[0] == "sign" and token[1] in "([{":
-            depth += 1
-            if depth == 1:
-                continue
-        elif token[0] == "sign" and token[1] in ")]}":
-            depth -= 1
-            if depth == 0:
-                return variable, parts
-        if depth == 1 and token == ("sign", ","):
-            parts.append([])
-        else:
-            parts[-1].append(token)
-    return None
-
-
-def calls(text: str) -> Iterator[Tuple[str, bool, List[Tokens]]]:
-    """Calls that define something: the word, does it make a variable, and its arguments."""
-    found = list(tokens(text))
-    for i, (kind, word) in enumerate(found):
-        if kind == "word" and DEFINES.search(word):
-            call = call_at(found, i)
-            if call is not None:
-                yield (word, *call)
-
-
-def strings(part: Tokens) -> Optional[str]:
-    """The text of an argument that is nothing but string literals."""
-    if not part or any(kind != "string" for kind, _ in part):
-        return None
-    return "".join(text for _, text in part)
-
-
-def docs_of(text: str) -> Dict[str, str]:
-    """Docstrings of one file of python/binding."""
-    found: Dict[str, str] = {}
-    # `Class` is what a file calls its one class where several functions fill it.
-    variable = next((strings(parts[1]) or "" for word, _, parts in calls(text)
-                     if word == "Class" and len(parts) > 1), "")
-    owner = ""
-    for word, named, parts in calls(text):
-        literal = [s for s in (strings(p) for p in parts) if s is not None]
-        if not literal:
+def definitions(package: str) -> Definitions:
+    """Top-level definitions of the package's files by module and name."""
+    found: Definitions = {}
+    for path in glob.glob(os.path.join(package, "sinew/**/*.py*"), recursive=True):
+        name, ending = os.path.splitext(os.path.relpath(path, package))
+        if ending not in (".py", ".pyi"):
             continue
-        if word.endswith("class_") or word in ("Class", "new_exception"):
-            owner = literal[0]
-            if named:
-                variable = owner
-            if len(literal) > 1:
-                found[owner] = literal[-1]
-            continue
-        if word.startswith("add_") and parts[0] != [("word", "c")]:
-            continue
-        of_module = re.match(r"(m|module)\.", word)
-        if not word.startswith("."):
-            owner = "" if of_module else variable
-        name = "__init__" if ("word", "py::init") in parts[0] else literal[0]
-        if name == "__init__" or len(literal) > 1:
-            found[f"{owner}.{name}" if owner else name] = literal[-1]
+        module = name.replace("/", ".").replace(".__init__", "")
+        with open(path, encoding="utf-8") as file:
+            for node in ast.parse(file.read()).body:
+                target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", node)
+                found[module, getattr(target, "id", getattr(target, "name", ""))] = node
     return found
 
 
-def compiled_docs(folder: str) -> Dict[str, str]:
-    """Docstrings of the compiled part by name: Class, Class.member or function."""
-    found: Dict[str, str] = {}
-    for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))):
-        with open(path, encoding="utf-8") as file:
-            found.update(docs_of(file.read()))
-    return found
-
-
-# --- settings of the methods of identification ------------------------------------------------------
-
-
-def row_of(part: Tokens, constants: Dict[str, str]) -> List[str]:
-    """Name and line of a row, `Setting{"name", "doc", "unit", …}.in_python("keyword")`."""
-    fields: List[str] = [""]
-    for kind, text in part[part.index(("sign", "{")) + 1 :]:
-        if (kind, text) == ("sign", "}"):
-            break
-        if (kind, text) == ("sign", ","):
-            fields.append("")
-        else:
-            fields[-1] += text if kind == "string" else constants.get(text, "")
-    words = [text for _, text in part]
-    keyword = words[words.index(".in_python") + 2] if ".in_python" in words else fields[0]
-    unit = f" [{fields[2]}]" if len(fields) > 2 and fields[2] not in ("", "1") else ""
-    return [f"`{keyword}`{unit}: {fields[1]}."]
-
-
-def rows_of(functions: Dict[Tuple[str, str], str], name: str, kind: str) -> List[str]:
-    """The rows of a table fields(Visitor&, kind&), with those of the tables that it calls."""
-    body = functions[name, kind]
-    constants = dict(re.findall(r'(\w+) = "([^"]*)";', body))
-    found, out = list(tokens(body)), []
-    for i, (_, word) in enumerate(found):
-        call = call_at(found, i) if re.fullmatch(r"v\.(?!method)\w+|\w*fields", word) else None
-        if call is None:
-            continue
-        if word.startswith("v."):
-            out += row_of(call[1][0], constants)
-        else:
-            out += rows_of(functions, word, "WishTexts" if word == "fields" else kind.replace("Check", "Static"))
-    return out
-
-
-def setting_rows(folder: str) -> Dict[str, List[str]]:
-    """A line for each setting of a method, by the method's name."""
-    functions: Dict[Tuple[str, str], str] = {}
-    for path in sorted(glob.glob(os.path.join(folder, "*.h"))):
-        with open(path, encoding="utf-8") as file:
-            for match in re.finditer(r"^void (\w+)\(Visitor& v, (\w+)&.*?\{\n(.*?)^\}", file.read(), re.S | re.M):
-                functions[match[1], match[2]] = match[3]
-    return {match[1]: rows_of(functions, name, kind) for (name, kind), body in functions.items()
-            if (match := re.search(r'v\.method\(\s*\{"([\w-]+)"', body))}
-
-
-# --- names of the package ---------------------------------------------------------------------------
-
-
-def public_names(tree: ast.Module) -> List[str]:
-    for node in tree.body:
-        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "__all__":
-            return [n for n in ast.literal_eval(node.value) if not n.startswith("__")]
-    raise SystemExit("python/sinew: found a module without __all__; expected the list of its public names")
-
-
-def parse(path: str) -> ast.Module:
-    with open(path, encoding="utf-8") as file:
-        return ast.parse(file.read())
-
-
-def definition(tree: ast.Module, name: str) -> Optional[ast.stmt]:
-    for node in tree.body:
-        if getattr(node, "name", None) == name:
-            return node
-        if isinstance(node, (ast.Assign, ast.AnnAssign)):
-            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            if getattr(target, "id", None) == name:
-                return node
-    return None
-
-
-def find(root: str, module: str, tree: ast.Module, name: str) -> Tuple[Optional[ast.stmt], bool]:
-    """Where a public name is defined, followed through imports; is it in the compiled part?"""
-    node = definition(tree, name)
-    if node is not None:
-        return node, module.endswith("_sinew")
-    for node in tree.body:
-        if isinstance(node, ast.ImportFrom) and node.module:
-            for alias in node.names:
-                if (alias.asname or alias.name) == name:
-                    base = os.path.join(root, node.module.replace(".", "/"))
-                    for path in (base + ".pyi", base + ".py", os.path.join(base, "__init__.py")):
-                        if os.path.exists(path):
-                            return find(root, node.module, parse(path), alias.name)
-    return None, False
+def decorators(node: ast.stmt) -> str:
+    return " ".join(ast.unparse(d) for d in getattr(node, "decorator_list", []))
 
 
 def shown(node: ast.stmt) -> str:
-    """A definition's first lines."""
+    """Returns the first lines of a definition."""
     if isinstance(node, ast.ClassDef):
         bases = ", ".join(ast.unparse(b) for b in node.bases)
         return f"class {node.name}({bases})" if bases else f"class {node.name}"
-    if isinstance(node, ast.FunctionDef):
-        args = ast.unparse(node.args)
-        arrow = f" -> {ast.unparse(node.returns)}" if node.returns else ""
-        text = f"{node.name}({args}){arrow}"
-        if len(text) > 88:
-            parts = re.split(r", (?![^\[]*\])", args)
-            text = f"{node.name}(\n    " + ",\n    ".join(parts) + f",\n){arrow}"
-        return text
-    return ast.unparse(node)
-
-
-def is_property(node: ast.stmt) -> bool:
-    return isinstance(node, ast.FunctionDef) and any(
-        getattr(d, "id", getattr(d, "attr", "")) in ("property", "cached_property") for d in node.decorator_list)
-
-
-def is_setter(node: ast.stmt) -> bool:
-    return isinstance(node, ast.FunctionDef) and any(getattr(d, "attr", "") == "setter" for d in node.decorator_list)
+    if not isinstance(node, ast.FunctionDef):
+        return ast.unparse(node)
+    returns = ast.unparse(node.returns) if node.returns else ""
+    if "property" in decorators(node):
+        return f"{node.name}: {returns or 'Any'}"
+    args, arrow = ast.unparse(node.args), f" -> {returns}" if returns else ""
+    text = f"{node.name}({args}){arrow}"
+    if len(text) > 88:
+        text = f"{node.name}(\n    " + ",\n    ".join(re.split(r", (?![^\[]*\])", args)) + f",\n){arrow}"
+    return text
 
 
 def prose(text: str) -> str:
-    """A docstring: paragraphs, and what is indented as it stands."""
-    out = []
-    for kind, block in blocks_of(text):
-        inner = re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape("\n".join(block), quote=False))
-        out.append(as_it_stands(block) if kind == "pre" else f"<p>{inner}</p>")
+    """Returns a docstring as HTML: paragraphs, lines of settings as a list, indented blocks as they are."""
+    out: List[str] = []
+    named = r"<code>\1</code>"
+    for block in re.split(r"\n\n(?=\S)", text.strip("\n")):
+        words, _, example = block.partition("\n\n    ")
+        inner = re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(words, quote=False))
+        if all(SETTING.match(line) for line in words.split("\n")):
+            out += ["<ul>", *(f"<li>{SETTING.sub(named, line)}</li>" for line in inner.split("\n")), "</ul>"]
+        elif words:
+            out.append(f"<p>{inner}</p>")
+        if example:
+            code = html.escape(textwrap.dedent("    " + example), quote=False)
+            out.append(f'<pre class="as-it-stands"><code>{code}</code></pre>')
     return "\n".join(out)
 
 
-class ModulePage:
-    """The page of one module; counts what has no words."""
-
-    def __init__(self, root: str, module: str, docs: Dict[str, str], rows: Dict[str, List[str]]) -> None:
-        self.root = root
-        self.rows = rows
-        self.module = module
-        self.docs = docs
-        self.out: List[str] = []
-        self.bare: List[str] = []
-        self.count = 0
-
-    def text_of(self, node: ast.stmt, name: str, compiled: bool) -> str:
-        own = None
-        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
-            own = ast.get_docstring(node)
-            for call in node.decorator_list:
-                if isinstance(call, ast.Call) and ast.unparse(call.func) == "_of":
-                    own = "\n\n".join([own or "", *self.rows[ast.literal_eval(call.args[0])]])
-        return own or (self.docs.get(name, "") if compiled else "")
-
-    def entry(self, level: int, name: str, node: ast.stmt, text: str) -> None:
-        self.count += 1
-        if not text and not isinstance(node, (ast.Assign, ast.AnnAssign)):
-            self.bare.append(f"{self.module}.{name}")
-        signature = html.escape(shown(node), quote=False)
-        if is_property(node):
-            kind = ast.unparse(node.returns) if node.returns else "Any"
-            signature = html.escape(f"{node.name}: {kind}", quote=False)
-        full = f"{self.module}.{name}"
-        # Two underscores would be strong in Markdown.
-        anchor = full.replace("__init__", "init")
-        title, label = full.replace(".__init__", "(…)"), re.sub(r"(?:.*\.)?(\w+)\.__init__$", r"\1(…)", name).split(".")[-1]
-        self.out += [f"{'#' * level} `{title}` {{: #{anchor} data-toc-label=\"{label}\" }}", "",
-                     '<div class="api">', f'<pre class="signature"><code>{signature}</code></pre>',
-                     prose(text) if text else "", "</div>", ""]
-
-    def members(self, node: ast.ClassDef, name: str, compiled: bool) -> None:
-        for inner in node.body:
-            own = getattr(inner, "name", "")
-            if not isinstance(inner, ast.FunctionDef) or is_setter(inner):
-                continue
-            if own == "__init__":
-                text = self.text_of(inner, f"{name}.__init__", compiled)
-                if text or len(inner.args.args) > 1:
-                    inner.name = name.split(".")[-1]
-                    self.entry(3, f"{name}.__init__", inner, text or "Makes one.")
-            elif not own.startswith("_"):
-                self.entry(3, f"{name}.{own}", inner, self.text_of(inner, f"{name}.{own}", compiled))
-
-    def render(self) -> str:
-        tree = parse(os.path.join(self.root, MODULES[self.module]))
-        self.out = [f"# {self.module}", "", '<div class="api">', prose(ast.get_docstring(tree) or ""), "</div>", ""]
-        for name in public_names(tree):
-            node, compiled = find(self.root, self.module, tree, name)
-            if node is None:
-                raise SystemExit(f"python/{MODULES[self.module]}: found no definition of {name}; expected it in the "
-                                 "package or its .pyi")
-            self.entry(2, name, node, self.text_of(node, name, compiled))
-            if isinstance(node, ast.ClassDef):
-                self.members(node, name, compiled)
-        return "\n".join(self.out)
+def docstring(of: Any) -> str:
+    """Returns what __doc__ has, without the signatures that pybind11 puts before it."""
+    text = inspect.cleandoc(getattr(of, "__doc__", None) or "")
+    if "(self: sinew." in text or " -> " in text.split("\n")[0]:
+        text = re.sub(r"^(\d+\. )?\w+\(.*\)( -> .*)?$|^Overloaded function\.$", "", text, flags=re.M)
+    return re.sub(r"\n{3,}", "\n\n", text).strip()
 
 
-def write_python_pages(root: str, out: str) -> Tuple[int, List[str]]:
-    """Write the pages; return how many names there are, and those without words."""
-    docs = compiled_docs(os.path.join(root, "python/binding"))
-    rows = setting_rows(os.path.join(root, "sinew/identify/task"))
-    count, bare = 0, []
-    os.makedirs(os.path.join(out, "reference/python"), exist_ok=True)
+def entry(level: int, name: str, node: ast.stmt, of: Any) -> Iterator[str]:
+    """Yields the lines on one name. Raises SystemExit if it has no docstring, as only a constructor may."""
+    text = "" if isinstance(node, (ast.Assign, ast.AnnAssign)) else docstring(of)
+    if not text and isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not name.endswith("__init__"):
+        raise SystemExit(f"{name}: found no docstring; expected one, as each public name has")
+    title = name.replace(".__init__", "(…)")
+    anchor = name.replace("__init__", "init")  # two underscores would be bold
+    yield f"{'#' * level} `{title}` {{: #{anchor} data-toc-label=\"{title.split('.')[-1]}\" }}\n"
+    yield f'<div class="api">\n<pre class="signature"><code>{html.escape(shown(node), quote=False)}</code></pre>'
+    yield f"{prose(text)}\n</div>\n"
+
+
+def module_page(name: str, found: Definitions) -> Iterator[str]:
+    module = importlib.import_module(name)
+    yield f'# {name}\n\n<div class="api">\n{prose(inspect.getdoc(module) or "")}\n</div>\n'
+    for own in (n for n in module.__all__ if not n.startswith("__")):
+        of = getattr(module, own)
+        places = [getattr(of, "__module__", ""), name, "sinew._sinew", *(m for m, n in found if n == own)]
+        node = next((found[p, own] for p in places if (p, own) in found), None)
+        if node is None:
+            raise SystemExit(f"{name}.{own}: found no definition; expected one in python/sinew or its .pyi")
+        yield from entry(2, f"{name}.{own}", node, of)
+        for inner in node.body if isinstance(node, ast.ClassDef) else []:
+            if isinstance(inner, ast.FunctionDef) and ".setter" not in decorators(inner):
+                made = inner.name == "__init__" and len(inner.args.args) > 1
+                if made or not inner.name.startswith("_"):
+                    member = getattr(of, inner.name)
+                    path = f"{name}.{own}.{inner.name}"
+                    inner.name = own if made else inner.name
+                    yield from entry(3, path, inner, member)
+
+
+def write_python_pages(package: str, out: str) -> int:
+    """Writes the pages. Returns the number of names."""
+    found = definitions(package)
+    os.makedirs(out, exist_ok=True)
+    count = 0
     for module in MODULES:
-        page = ModulePage(os.path.join(root, "python"), module, docs, rows)
-        with open(os.path.join(out, f"reference/python/{module.replace('.', '-')}.md"), "w", encoding="utf-8") as file:
-            file.write(page.render())
-        count += page.count
-        bare += page.bare
-    return count, bare
+        lines = list(module_page(module, found))
+        count += sum(line.startswith("##") for line in lines)
+        with open(os.path.join(out, f"{module.replace('.', '-')}.md"), "w", encoding="utf-8") as file:
+            file.write("\n".join(lines))
+    return count

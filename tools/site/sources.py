@@ -1,19 +1,17 @@
-"""sources.py - the repository's text files as plain pages with numbered lines, and its folders as
-lists, below source/. They are no part of the search."""
+"""Text files of the repository as pages with numbered lines, and its folders as lists, below source/.
+Headers and Markdown have pages of their own. The search does not cover sources."""
 
 import html
 import os
 import re
-from typing import Dict, List
+from typing import Callable, Dict, List
 
-LARGEST = 300_000  # bytes; what is larger is named and not shown
-COMMENT = {
-    ".h": "//", ".cpp": "//", ".mjs": "//", ".ts": "//", ".toml": "#", ".py": "#", ".pyi": "#",
-    ".sh": "#", ".cmake": "#", ".txt": "#", ".in": "#", "": "#",
-}
+from docs_pages import PICTURES
+
+LARGEST = 300_000  # bytes; larger files are not shown
 
 PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{path} - Sinew</title>
+<html lang="en"><head><meta charset="utf-8"><title>{title} - Sinew</title>
 <meta name="viewport" content="width=device-width,initial-scale=1">
 <link rel="icon" href="{up}assets/images/favicon.png">
 <link rel="stylesheet" href="{up}assets/source.css">
@@ -24,63 +22,45 @@ PAGE = """<!doctype html>
 """
 
 
-def crumbs(path: str, up: str) -> str:
-    """The way from the front page to a file, each step of it a link."""
-    parts = [f'<a href="{up}index.html">Sinew</a>', f'<a href="{up}source/index.html">sources</a>']
-    steps = path.split("/") if path else []
-    for i, step in enumerate(steps[:-1]):
-        parts.append(f'<a href="{up}source/{"/".join(steps[: i + 1])}/index.html">{step}</a>')
-    return " / ".join(parts + [f"<b>{step}</b>" for step in steps[-1:]])
-
-
-def shown_text(path: str, text: str) -> str:
-    sign = COMMENT.get(os.path.splitext(path)[1])
-    lines = []
-    for number, line in enumerate(text.rstrip("\n").split("\n"), 1):
-        inner = html.escape(line, quote=False)
-        if sign and (match := re.search(rf"(^|\s){sign}(\s|$).*", inner)):
-            inner = f"{inner[: match.start()]}<i>{match.group(0)}</i>"
-        lines.append(f'<span id="L{number}">{inner}</span>')
-    return "<pre>" + "\n".join(lines) + "</pre>"
-
-
-def write(out: str, path: str, body: str) -> None:
+def write(out: str, path: str, name: str, body: str) -> None:
+    """Writes the page source/`path` of the file or folder `name`."""
+    up = "../" * (path.count("/") + 1)
+    steps = name.split("/")
+    links = [f'<a href="{up}index.html">Sinew</a>', f'<a href="{up}source/index.html">sources</a>']
+    links += [f'<a href="{up}source/{"/".join(steps[:i])}/index.html">{steps[i - 1]}</a>' for i in range(1, len(steps))]
     where = os.path.join(out, "source", path)
     os.makedirs(os.path.dirname(where), exist_ok=True)
-    up = "../" * (path.count("/") + 1)
-    shown = re.sub(r"(^|/)index\.html$|\.html$", "", path)
     with open(where, "w", encoding="utf-8") as file:
-        file.write(PAGE.format(path=shown or "sources", up=up, crumbs=crumbs(shown, up), body=body))
+        file.write(PAGE.format(title=name or "sources", up=up, crumbs=" / ".join([*links, f"<b>{steps[-1]}</b>"]), body=body))
 
 
-def write_sources(root: str, out: str, files: List[str], pages: Dict[str, str]) -> int:
-    """Write a page for each file and folder; `pages` are Markdown files that have one already."""
+def write_sources(root: str, out: str, files: List[str], target: Callable[[str], str]) -> int:
+    """Writes the pages; `target` gives the page that a file has. Returns the number of sources."""
     folders: Dict[str, Dict[str, str]] = {"": {}}
     count = 0
     for path in files:
-        name = os.path.basename(path)
-        up = "../" * (path.count("/") + 1)
-        link = ""
+        folder, name = os.path.split(path)
+        link = os.path.relpath(re.sub(r"(README)?\.md$", lambda m: "index.html" if m[1] else ".html", target(path)),
+                               os.path.join("source", folder))
         full = os.path.join(root, path)
-        if path in pages:
-            html_of = re.sub(r"README\.html$", "index.html", path[:-3] + ".html")
-            link = up + html_of
-        elif os.path.getsize(full) <= LARGEST:
+        if link == f"{name}.html":
             try:
                 with open(full, encoding="utf-8") as file:
-                    write(out, path + ".html", shown_text(path, file.read()))
-                link = name + ".html"
-                count += 1
+                    lines = file.read().rstrip("\n").split("\n") if os.path.getsize(full) <= LARGEST else []
             except UnicodeDecodeError:
-                pass  # no text: it is named alone
+                lines = []
+            rows = (f'<span id="L{i}">{html.escape(line, quote=False)}</span>' for i, line in enumerate(lines, 1))
+            write(out, f"{path}.html", path, "<pre>" + "\n".join(rows) + "</pre>" if lines else "<p>It is not shown here.</p>")
+            count += 1
+        elif path.endswith(PICTURES) and not os.path.isfile(os.path.join(out, path)):
+            link = ""  # no page shows it
         label = html.escape(name)
-        folder = os.path.dirname(path)
         folders.setdefault(folder, {})[name] = f'<a href="{link}">{label}</a>' if link else label
         while folder:
             above, last = os.path.split(folder)
             folders.setdefault(above, {})[last + "/"] = f'<a href="{last}/index.html">{last}/</a>'
             folder = above
     for folder, entries in folders.items():
-        rows = "\n".join(f"<li>{entries[k]}</li>" for k in sorted(entries, key=lambda k: (not k.endswith("/"), k)))
-        write(out, os.path.join(folder, "index.html"), f"<ul>{rows}</ul>")
+        rows = (f"<li>{entries[k]}</li>" for k in sorted(entries, key=lambda k: (not k.endswith("/"), k)))
+        write(out, os.path.join(folder, "index.html"), folder, "<ul>" + "\n".join(rows) + "</ul>")
     return count
