@@ -9,7 +9,7 @@ import re
 import sys
 from typing import List
 
-from docs_pages import Pages, title_of
+from docs_pages import Pages
 from python_pages import write_python_pages
 from reference import Reference
 from sources import write_sources
@@ -18,8 +18,7 @@ from sources import write_sources
 def build(root: str, work: str, files: List[str]) -> None:
     docs = os.path.join(work, "docs")
     headers = [f for f in files if re.match(r"(sinew|thesis|fmu)/.*\.h$", f) and not re.search(r"_test\.h|/testing\.h|/test_", f)]
-    theory = {f: title_of(os.path.join(root, f)) for f in files if re.match(r"docs/theory/.*\.md$", f)}
-    reference = Reference(root, work, headers, theory)
+    reference = Reference(root, work, headers)
     pages = Pages(root, docs, [f for f in files if f.endswith((".md", ".ipynb"))], reference)
     pages.write()
     reference.write_theory()

@@ -62,7 +62,10 @@ class Pages:
             path = os.path.normpath(os.path.join(folder, path))
             if path.endswith(PICTURES):
                 self.save(path)
-            return match[1] + os.path.relpath(self.target(path, mark + heading), folder or ".") + match[3]
+            place = self.target(path, mark + heading)
+            if page.startswith("docs/theory/"):
+                self.reference.theory.setdefault(place, {})[page] = self.titles[page]
+            return match[1] + os.path.relpath(place, folder or ".") + match[3]
 
         # Code keeps what looks like a link, but a link's text may be code.
         spans = re.findall(r"`[^`]+`", text)

@@ -14,7 +14,7 @@ def purposes_of(root: str) -> Dict[str, str]:
     """Returns what each folder is for: from the table of docs/architecture.md and from folders.txt."""
     with open(os.path.join(root, "docs/architecture.md"), encoding="utf-8") as file:
         rows = re.findall(r"^\| (\[`.*?) \| (.*?) \|$", file.read(), re.M)
-    found = {}
+    found: Dict[str, str] = {}
     for links, words in rows:
         folders = re.findall(r"\]\((?:\.\./)?(sinew/[\w/]+)\)", links)
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", words)
@@ -29,23 +29,19 @@ def purposes_of(root: str) -> Dict[str, str]:
 class Reference:
     """Places of headers, folders and names in the site."""
 
-    def __init__(self, root: str, work: str, headers: List[str], theory: Dict[str, str]) -> None:
+    def __init__(self, root: str, work: str, headers: List[str]) -> None:
         self.root, self.work = root, work
         self.folders = {os.path.dirname(h) for h in headers}
-        self.write_folders(theory)
+        self.write_folders()
         os.makedirs(os.path.join(work, "docs", FOLDER))
         with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
             settings = f"{file.read()}\nINPUT = {work}/folders.dox {' '.join(headers)}\n"
         subprocess.run(["doxygen", "-"], input=settings, cwd=root, text=True, check=True, env={**os.environ, "WORK": work})
         self.read_places()
 
-    def write_folders(self, theory: Dict[str, str]) -> None:
-        """Gives Doxygen the purpose of each folder, and the theory pages that lead there."""
+    def write_folders(self) -> None:
+        """Gives Doxygen the purpose of each folder."""
         purposes = purposes_of(self.root)
-        leads: Dict[str, List[str]] = {}
-        for page, title in theory.items():
-            for folder in self.folders_of(os.path.join(self.root, page)):
-                leads.setdefault(folder, []).append(f'<a href="../../{page[:-3]}.html">{title}</a>')
         if missing := sorted(self.folders - set(purposes)):
             raise SystemExit(f"{missing[0]}: found no words on what it is for; expected a row in docs/architecture.md's "
                              "table of folders, or a line in tools/site/folders.txt")
@@ -55,7 +51,6 @@ class Reference:
             for folder in sorted(self.folders):
                 target = folder.removeprefix("sinew/").replace("/", "_")
                 words = f"Target `sinew::{target}`." if folder.startswith("sinew/") else ""
-                words += f" Theory: {', '.join(leads[folder])}." if folder in leads else ""
                 file.write(f"/** @dir {folder}\n@brief {purposes[folder]}\n\n{words} */\n")
 
     def folders_of(self, page: str) -> List[str]:
@@ -69,12 +64,12 @@ class Reference:
         self.places: Dict[str, str] = {}
         self.names: Dict[str, str] = {}
         self.folder_of: Dict[str, str] = {}  # of a page
-        self.theory: Dict[str, Dict[str, str]] = {}  # pages with a name, and their titles, by its place
+        self.theory: Dict[str, Dict[str, str]] = {}  # pages with a link to a place, and their titles
         for doc in ElementTree.parse(os.path.join(self.work, "searchdata.xml")).getroot():
             kind, name, url = (doc.findtext(f"field[@name='{field}']", "") for field in ("type", "name", "url"))
             if kind == "dir":
                 self.places[name.replace("::", "/")] = f"{FOLDER}/{url}"
-            elif kind not in ("file", "source", "namespace"):
+            elif kind not in ("file", "source", "namespace", "enumvalue"):
                 self.names.setdefault(name, f"{FOLDER}/{url}")
         for file in ElementTree.parse(os.path.join(self.work, "tags.xml")).iterfind("compound[@kind='file']"):
             path = os.path.relpath(file.findtext("path", "") + file.findtext("name", ""), self.root)
@@ -91,12 +86,12 @@ class Reference:
         return here[0] if here else found[0] if inner and len(found) == 1 else ""
 
     def write_theory(self) -> None:
-        """Lets each name lead to the theory pages that lead to it."""
+        """Lets folders, headers and names lead to the theory pages that lead to them."""
         for place, pages in self.theory.items():
             page, _, anchor = place.partition("#")
             links = ", ".join(f'<a href="../../{path[:-3]}.html">{title}</a>' for path, title in pages.items())
             at = f'<a id="{anchor}" name="{anchor}"></a>' if anchor else '<div class="contents">'
-            if place:
+            if place.startswith(FOLDER):
                 with open(os.path.join(self.work, "docs", page), "r+", encoding="utf-8") as file:
                     text = file.read().replace(at, f'{at}<div class="theory">Theory: {links}</div>', 1)
                     file.seek(0)
