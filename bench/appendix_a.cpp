@@ -169,7 +169,7 @@ AppendixFriction appendix_a_friction(const double* x) {
   const double at_rest[4] = {x[0], 0.0, x[2], x[3]};
   fnc_xdot(at_rest, without, 0);
   fnc_xdot(at_rest, with, 1);
-  return {.bound = (without[1] - with[1]) * MASS, .asks = without[1] * MASS};
+  return {.bound = (without[1] - with[1]) * MASS, .unbalanced = without[1] * MASS};
 }
 
 }  // namespace sinew::bench

@@ -25,8 +25,8 @@ std::array<double, 4> appendix_a_start();
 void appendix_a_rates(int valve, int side, const double* x, double* rates);
 
 struct AppendixFriction {
-  double bound = 0;  // of the dry friction [lbf]
-  double asks = 0;   // force on a load at rest, down > 0 [lbf]
+  double bound = 0;       // of the dry friction [lbf]
+  double unbalanced = 0;  // force on a load at rest, down > 0 [lbf]
 };
 AppendixFriction appendix_a_friction(const double* x);
 

@@ -127,11 +127,11 @@ void one_node(benchmark::State& state) {
 BENCHMARK(one_node);
 
 // One evaluation between two nodes.
-void one_peek(benchmark::State& state) {
+void one_preview(benchmark::State& state) {
   plant::ChainWorld<2> world(run::planar_setup(walk()));
   for (auto _ : state) benchmark::DoNotOptimize(world.truth(0.5005));
 }
-BENCHMARK(one_peek);
+BENCHMARK(one_preview);
 
 struct FourMuscles {
   using Air = air::AirNetwork<plant::chain_muscles>;
@@ -141,14 +141,14 @@ struct FourMuscles {
   Air::Ends ends{};
   Air::State state;
   Air::Memory memory;
-  Air::Answer look;
+  Air::Evaluation evaluation;
 
   FourMuscles() {
     ends.length.of.fill(0.08);
     state = air.initial(3e5, ends.length, 0);
     memory = air.memory_at_rest(3e5, ends.length);
-    air.evaluate(0, ends, state, valves, memory, look);
-    air.remember(look, state, memory);
+    air.evaluate(0, ends, state, valves, memory, evaluation);
+    air.update_memory(evaluation, state, memory);
   }
 };
 
@@ -156,8 +156,8 @@ struct FourMuscles {
 void four_muscles(benchmark::State& state) {
   FourMuscles m;
   for (auto _ : state) {
-    m.air.evaluate(0, m.ends, m.state, m.valves, m.memory, m.look);
-    benchmark::DoNotOptimize(m.look);
+    m.air.evaluate(0, m.ends, m.state, m.valves, m.memory, m.evaluation);
+    benchmark::DoNotOptimize(m.evaluation);
   }
 }
 BENCHMARK(four_muscles);
@@ -166,10 +166,10 @@ BENCHMARK(four_muscles);
 void four_muscles_in_sequence(benchmark::State& state) {
   FourMuscles m;
   for (auto _ : state) {
-    m.ends.length[0] = 0.08 + 1e-12 * m.look.tension[0];
-    m.air.evaluate(0, m.ends, m.state, m.valves, m.memory, m.look);
+    m.ends.length[0] = 0.08 + 1e-12 * m.evaluation.tension[0];
+    m.air.evaluate(0, m.ends, m.state, m.valves, m.memory, m.evaluation);
   }
-  benchmark::DoNotOptimize(m.look);
+  benchmark::DoNotOptimize(m.evaluation);
 }
 BENCHMARK(four_muscles_in_sequence);
 

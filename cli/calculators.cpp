@@ -81,7 +81,7 @@ ExitCode run_actuator(const ActuatorOptions& options) {
 
   const double velocity =
       options.velocity.empty()
-          ? Point::not_asked
+          ? Point::not_given
           : quantity_setting("--velocity", options.velocity, "m/s", air.atmosphere,
                              {-100, 100, "a muscle's end is slower than 100 m/s"});
 
@@ -103,7 +103,7 @@ ExitCode run_actuator(const ActuatorOptions& options) {
     return ok;
   }
   const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  const units::ShownUnits* shown = asked.is_requested ? &asked.units : nullptr;
   fmt::print("{}", points.size() == 1 ? run::text_of(points[0], shown)
                                       : run::table_of(points, lengths.unit, pressures.unit, shown));
   warn(points, Messages(options.quiet));
@@ -181,7 +181,7 @@ ExitCode run_valve(const ValveOptions& options) {
     return ok;
   }
   const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  const units::ShownUnits* shown = asked.is_requested ? &asked.units : nullptr;
   fmt::print("{}{}{}", run::text_of(valve, f, shown),
              run::text_of(times, volume, f, shown, air.atmosphere),
              run::text_of(duties, options.frequency));
@@ -199,7 +199,7 @@ struct KinematicsOptions {
 // Returns the chosen units, else those of the robot's file.
 run::StanceUnits stance_units(const experiment::Experiment& e, const KinematicsOptions& options) {
   const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
-  if (!chosen.asked) return run::units_of_file(e, options.request.force);
+  if (!chosen.is_requested) return run::units_of_file(e, options.request.force);
   const std::string length = chosen.units.of("m").name;
   return {length, chosen.units.of("rad").name, chosen.units.of("N m").name, length + "/rad"};
 }

@@ -128,7 +128,7 @@ ExitCode show(const ShowOptions& options) {
   if (options.json)
     fmt::print("{}\n", Json::parse(files::json_of(values)).text(2));
   else
-    fmt::print("{}", files::text_of(values, asked.asked ? &asked.units : nullptr));
+    fmt::print("{}", files::text_of(values, asked.is_requested ? &asked.units : nullptr));
   return ok;
 }
 

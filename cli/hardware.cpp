@@ -121,7 +121,7 @@ std::optional<bool> asked(const std::string& question, bool yes, const Interrupt
 
 std::string problem_of_port(const std::string& place) {
   if (std::string problem = run::problem_of_place(place); !problem.empty()) return problem;
-  if (!run::is_elsewhere(place) || place.starts_with("comedi:"))
+  if (!run::is_outside_simulation(place) || place.starts_with("comedi:"))
     return "found " + config::in_quotes(place) +
            "; expected a board, serial:DEVICE[@RATE], lock-step:FILE or emulated:FILE: a bring-up "
            "is a board's";

@@ -15,7 +15,7 @@
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/host/side_by_side.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/task/found_text.h"
 #include "sinew/identify/task/inputs.h"
@@ -531,7 +531,7 @@ ExitCode run_force_beam(const ForceBeamOptions& options) {
     return ok;
   }
   const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  const units::ShownUnits* shown = asked.is_requested ? &asked.units : nullptr;
   fmt::print("{}", text_of(s, shown));
   if (wanted)
     fmt::print("\n{} with the gages, from the load:\n{}", options.settings.sensitivity,

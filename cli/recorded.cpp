@@ -48,18 +48,18 @@ constexpr int most_runs = 8;  // as many colors are distinct
 struct Alignment {
   std::vector<std::string> align_by;
   std::string align = "start", clock = "none", event;
-  double most_shift = std::numeric_limits<double>::infinity();  // [s]
+  double largest_shift = std::numeric_limits<double>::infinity();  // [s]
 
-  report::AlignWish wish() const;
+  report::AlignOptions wish() const;
   std::string given() const;  // the setting of one that was given, "align_by"; "" for none
 };
 
-report::AlignWish Alignment::wish() const {
-  report::AlignWish wish;
+report::AlignOptions Alignment::wish() const {
+  report::AlignOptions wish;
   wish.event = event;
   wish.channels = align_by;
   wish.fit_clock = clock == "fit";
-  wish.most_shift = most_shift;
+  wish.largest_shift = largest_shift;
   for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
     if (to_text(by) == align) wish.by = by;
   // An event or channels choose the way of alignment.
@@ -73,7 +73,7 @@ std::string Alignment::given() const {
   if (!event.empty()) return "event";
   if (!align_by.empty()) return "align_by";
   if (clock != "none") return "clock";
-  return most_shift < std::numeric_limits<double>::infinity() ? "within" : "";
+  return largest_shift < std::numeric_limits<double>::infinity() ? "within" : "";
 }
 
 void add_alignment(CLI::App& sub, Alignment& alignment) {
@@ -88,7 +88,7 @@ void add_alignment(CLI::App& sub, Alignment& alignment) {
   sub.add_option("--clock", alignment.clock,
                  "fit: the rate of a run's clock is found and taken out; none")
       ->check(one_of({"none", "fit"}));
-  sub.add_option("--within", alignment.most_shift, "largest shift that is looked for, in s");
+  sub.add_option("--within", alignment.largest_shift, "largest shift that is looked for, in s");
 }
 
 // --- report ---

@@ -28,11 +28,11 @@
 #include "sinew/report/page/content.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/imported_run.h"
-#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/replayed.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
+#include "sinew/run/folder/run_storage.h"
 #include "sinew/run/folder/runnable.h"
 #include "sinew/run/folder/verdict_text.h"
 #include "sinew/run/setup/buildable.h"
@@ -64,14 +64,14 @@ void note_page(const std::filesystem::path& folder, const Messages& messages) {
 }
 
 // Prints verdicts or summary.json to stdout, and the place of the run to stderr.
-void tell(const run::Kept& kept, const RunOptions& options, const Messages& messages) {
+void tell(const run::StoredRun& kept, const RunOptions& options, const Messages& messages) {
   if (options.json) {
     fmt::print("{}", kept.json);
     messages.note(kept.folder.string());
   } else {
     const config::UnitsToShow units =
         chosen_units(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
-    print_verdicts(kept.summary, kept.machine, units.asked ? &units.units : nullptr);
+    print_verdicts(kept.summary, kept.machine, units.is_requested ? &units.units : nullptr);
     messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", kept.duration, kept.wall,
                               kept.folder.string()));
   }
@@ -79,12 +79,12 @@ void tell(const run::Kept& kept, const RunOptions& options, const Messages& mess
 }
 
 // Runs the experiment, with its log where there is one.
-run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept, Interrupt& interrupt) {
+run::Outcome run_logged(const RunOptions& options, run::RunStorage& kept, Interrupt& interrupt) {
   std::atomic<std::int64_t> tick{0};
   run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
   kept.apply(run_options);
   std::optional<SpaceBar> space_bar;
-  if (run::is_elsewhere(options.run.port)) space_bar.emplace([&] { interrupt.ask(); });
+  if (run::is_outside_simulation(options.run.port)) space_bar.emplace([&] { interrupt.ask(); });
   if (space_bar && space_bar->listens() && !options.quiet)
     fmt::print(stderr, "the space bar stops the machine\n");
   const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
@@ -94,16 +94,16 @@ run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept, Interrupt
 
 ExitCode run_experiment(const RunOptions& options) {
   const Messages messages(options.quiet);
-  if (options.pace > 0 && run::keeps_its_own_time(options.run.port))
+  if (options.pace > 0 && run::has_own_clock(options.run.port))
     config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
                  "no pace: the machine keeps its own time");
   // From before a board is opened until the machine rests.
-  Interrupt interrupt(run::is_elsewhere(options.run.port) ? Interrupt::Of::machine
-                                                          : Interrupt::Of::work);
+  Interrupt interrupt(run::is_outside_simulation(options.run.port) ? Interrupt::Of::machine
+                                                                   : Interrupt::Of::work);
   run::RunRequest request = options.run;
   request.stop = &interrupt.asked();
-  run::KeptRun kept(request, messages.notices());
-  tell(kept.keep(run_logged(options, kept, interrupt)), options, messages);
+  run::RunStorage kept(request, messages.notices());
+  tell(kept.store(run_logged(options, kept, interrupt)), options, messages);
   return ok;
 }
 
@@ -266,7 +266,7 @@ bool is_out_dat(const std::string& path) {
 }
 
 // Imports the thesis's own log, whose columns are fixed.
-run::Kept import_out_dat(const ImportOptions& options, const Messages& messages) {
+run::StoredRun import_out_dat(const ImportOptions& options, const Messages& messages) {
   const run::ImportRequest& request = options.request;
   const std::string& path = request.files.front();
   if (request.files.size() > 1)
@@ -281,11 +281,13 @@ run::Kept import_out_dat(const ImportOptions& options, const Messages& messages)
     file.rows = std::max(file.rows, static_cast<int>(s.time_ns.size()));
     file.values += static_cast<int>(s.time_ns.size());
   }
-  return run::keep_imported(table, e, {std::move(file)}, "",
-                            {.folder = request.folder, .force = request.force}, messages.notices());
+  return run::store_imported(table, e, {std::move(file)}, "",
+                             {.folder = request.folder, .force = request.force},
+                             messages.notices());
 }
 
-ExitCode tell_kept(const run::Kept& kept, const ImportOptions& options, const Messages& messages) {
+ExitCode tell_kept(const run::StoredRun& kept, const ImportOptions& options,
+                   const Messages& messages) {
   for (const std::string& text : kept.summary.warnings) messages.warning(text);
   if (options.json)
     fmt::print("{}", kept.json);
@@ -370,7 +372,7 @@ ExitCode tell(const AnalyzeOptions& options, const Messages& messages, const sig
   } else if (options.json) {
     fmt::print("{}", json);
   } else {
-    print_verdicts(summary, a.machine, units.asked ? &units.units : nullptr);
+    print_verdicts(summary, a.machine, units.is_requested ? &units.units : nullptr);
   }
   return ok;
 }

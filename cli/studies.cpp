@@ -79,7 +79,7 @@ std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   Interrupt interrupt;
   options.stop = &interrupt.asked();
   options.progress = &progress;
-  if (how.master) options.elsewhere = how.master->elsewhere(s, options.stop);
+  if (how.master) options.dispatch = how.master->dispatcher(s, options.stop);
   options.row = [&](const tune::Row& row) {
     if (how.csv && !late && !how.csv->add(row.cells)) interrupt.ask();
   };
@@ -195,16 +195,17 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   const auto all = static_cast<std::int64_t>(tune::points(tuning.runs));
   std::atomic<std::int64_t> progress{0};
   Interrupt interrupt;
-  tune::KeptOptions kept{.tune = {.runs = {.threads = host::threads_of(options.runs.threads)}},
-                         .ask_to_stop = [&] { interrupt.ask(); },
-                         .notices = messages.notices()};
+  tune::StoredTuningOptions kept{
+      .tune = {.runs = {.threads = host::threads_of(options.runs.threads)}},
+      .ask_to_stop = [&] { interrupt.ask(); },
+      .notices = messages.notices()};
   kept.tune.runs.stop = &interrupt.asked();
   kept.tune.runs.progress = &progress;
-  kept.tune.elsewhere = [&](const tune::Sweep& s) {
-    return master.elsewhere(s, &interrupt.asked());
+  kept.tune.dispatch = [&](const tune::Sweep& s) {
+    return master.dispatcher(s, &interrupt.asked());
   };
   const ProgressBar bar(progress, all, {.each = 1, .unit = "runs", .decimals = 0}, options.quiet);
-  return tune::optimize_kept(tuning, options.runs.results, kept);
+  return tune::optimize_and_store(tuning, options.runs.results, kept);
 }
 
 // Returns the command that runs the candidate.
@@ -224,7 +225,7 @@ void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Tune
   const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
   const char* session = std::getenv(config::units_variable);
   const tune::TableUnits shown{asked.units, !options.units.empty() || (session && *session)};
-  fmt::print("{}", tune::text_of(tuning, tuned, asked.asked ? &shown : nullptr));
+  fmt::print("{}", tune::text_of(tuning, tuned, asked.is_requested ? &shown : nullptr));
   if (tuned.best.size() == 1)
     fmt::print("{}\n", command_of(tuning, tuned.candidates[tuned.best.front()]));
 }

@@ -37,7 +37,7 @@ constinit std::atomic<std::uint32_t> ticks = 0, last_round = 0;
 
 // State of the line in run().
 std::uint32_t last_byte = 0;  // [ticks]
-bool heard = false;           // bytes came, and the pause after them is not over
+bool in_frame = false;        // bytes came, and the pause after them is not over
 
 // Conversion in progress, and its start.
 struct Sampling {
@@ -76,8 +76,8 @@ void drive(const board::Outputs& out, Tick now) {
 }
 
 struct Ticks {
-  void keep_away() noexcept { hardware::keep_ticks_away(); }
-  void let_come() noexcept { hardware::let_ticks_come(); }
+  void block() noexcept { hardware::block_ticks(); }
+  void allow() noexcept { hardware::allow_ticks(); }
 };
 
 // Passes received bytes to the program. A byte that it has no room for waits until the program has
@@ -86,17 +86,17 @@ void listen() {
   std::uint8_t byte = 0;
   bool any = false;
   while (from_line.take(byte)) {
-    any = heard = true;
+    any = in_frame = true;
     while (program().receive({&byte, 1}) == 0) program().serve(Ticks{});
   }
   const std::uint32_t now = ticks.load(std::memory_order_relaxed);
   if (any) last_byte = now;
-  if (!heard || now - last_byte <= hardware::longest_pause()) return;
+  if (!in_frame || now - last_byte <= hardware::longest_pause()) return;
   program().silent();
-  heard = false;
+  in_frame = false;
 }
 
-void speak() {
+void send() {
   std::array<std::uint8_t, 64> bytes;
   bool any = false;
   while (to_line.room() >= bytes.size()) {
@@ -111,7 +111,7 @@ void speak() {
 board::Identification identification() {
   board::Identification who{.firmware = {'0', '.', '1', '.', '0'},
                             .nonce = hardware::nonce(),
-                            .bitten = hardware::bitten(),
+                            .reset_by_watchdog = hardware::reset_by_watchdog(),
                             .active_low = hardware::active_low()};
   const char* name = hardware::name();
   for (std::size_t i = 0; i + 1 < who.board.size() && name[i] != 0; ++i)
@@ -153,7 +153,7 @@ void run() {
     last_round.store(ticks.load(std::memory_order_relaxed), std::memory_order_relaxed);
     listen();
     const bool more = program().serve(Ticks{});
-    speak();
+    send();
     if (!more) hardware::idle();
   }
 }

@@ -47,11 +47,11 @@ struct Drive {
 };
 
 // run() calls these once, in this order.
-void start();           // clocks and pins; first of all, coils without current. <= 1 s, or reset
-const char* name();     // up to 15 characters
-bool bitten();          // returns whether the watchdog has reset the board
-std::uint32_t nonce();  // a different number after each reset
-bool active_low();      // whether level 0 gives a coil current (level.h); reported to hosts
+void start();              // clocks and pins; first of all, coils without current. <= 1 s, or reset
+const char* name();        // up to 15 characters
+bool reset_by_watchdog();  // returns whether the watchdog has reset the board
+std::uint32_t nonce();     // a different number after each reset
+bool active_low();         // whether level 0 gives a coil current (level.h); reported to hosts
 void start_line(std::uint32_t baud);  // 8 bits, no parity, 1 stop bit; with its interrupts
 std::uint32_t longest_pause();        // longest pause within a frame [ticks]; a longer one ends it
 void start_watchdog();  // resets the board if it is not fed for about 20 ms; cannot be stopped
@@ -69,8 +69,8 @@ void drive(const Drive& drive);
 void feed_watchdog();
 
 // run() calls these repeatedly.
-void keep_ticks_away();  // for about 10 us; the line's interrupts stay enabled
-void let_ticks_come();
+void block_ticks();  // for about 10 us; the line's interrupts stay enabled
+void allow_ticks();
 void wake_sender();  // makes the line call next_to_send() until it returns false
 void idle();         // waits until an interrupt
 

@@ -33,12 +33,12 @@ inline void request(std::uint32_t interrupt) {
 }
 
 // Blocks interrupts of the tick's priority; those of the line stay enabled.
-inline void keep_ticks_away() { asm volatile("msr basepri, %0" ::"r"(of_tick) : "memory"); }
-inline void let_ticks_come() { asm volatile("msr basepri, %0" ::"r"(0) : "memory"); }
+inline void block_ticks() { asm volatile("msr basepri, %0" ::"r"(of_tick) : "memory"); }
+inline void allow_ticks() { asm volatile("msr basepri, %0" ::"r"(0) : "memory"); }
 
 // Block all interrupts except faults, and enable them.
-inline void keep_all_away() { asm volatile("cpsid i" ::: "memory"); }
-inline void let_all_come() { asm volatile("cpsie i" ::: "memory"); }
+inline void block_interrupts() { asm volatile("cpsid i" ::: "memory"); }
+inline void allow_interrupts() { asm volatile("cpsie i" ::: "memory"); }
 
 // Waits until writes have arrived. Without it, an interrupt whose request is cleared last may be
 // raised again.

@@ -2,7 +2,7 @@
 // computing time and of interrupts. The tick leaves the word for the pins here; a timer's compare
 // interrupt, which is short and has the highest priority, outputs it.
 //
-//   the tick's interrupt:       forget(), then the pins; or leave() and the compare's instant
+//   the tick's interrupt:       clear(), then the pins; or set() and the compare's instant
 //   the compare's interrupt:    take(), and write that word to the pins
 //
 // Code that writes to the pins itself drops the waiting word first. After that no older word can
@@ -34,12 +34,12 @@ constexpr bool is_late(std::uint32_t now, std::uint32_t instant, std::uint32_t c
 template <class Word>
 class WaitingWord {
  public:
-  void leave(const Word& word) {
-    forget();
+  void set(const Word& word) {
+    clear();
     word_ = word;
     waits_.store(true, std::memory_order_release);
   }
-  void forget() {
+  void clear() {
     waits_.store(false, std::memory_order_relaxed);
     std::atomic_signal_fence(std::memory_order_seq_cst);
   }

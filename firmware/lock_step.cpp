@@ -56,8 +56,8 @@ class Host {
 };
 
 struct NoTicks {
-  void keep_away() noexcept {}
-  void let_come() noexcept {}
+  void block() noexcept {}
+  void allow() noexcept {}
 };
 
 // Storage for objects that are constructed later: the language's start-up code does not run here.

@@ -43,7 +43,7 @@ for level in -O0 -O3; do
     "$root"/sinew/control/supervise/supervisor.cpp "$root"/sinew/control/supervise/safety.cpp \
     "$root"/sinew/control/supervise/output_stage.cpp "$root"/sinew/control/link/baud.cpp \
     "$root"/sinew/control/link/configuration.cpp "$root"/sinew/control/link/frame.cpp \
-    "$root"/sinew/control/link/telemetry.cpp "$root"/sinew/control/link/thesis_words.cpp
+    "$root"/sinew/control/link/telemetry.cpp "$root"/sinew/control/link/thesis_bytes.cpp
   host=$("$build/same-bits-host")
   if [ -z "$host" ] || [ "$host" != "$board" ]; then
     echo "same-bits: host ($level) $host, Cortex-M4F $board" >&2

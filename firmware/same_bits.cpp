@@ -51,25 +51,25 @@ void random_command(Random& random, Command& command, bool timed = false) {
 
 // Runs one random run; some readings are late.
 void run(const JointControllerConfig& config, std::uint32_t seed, Hash& hash) {
-  JointController spine(config);
+  JointController controller(config);
   Random random(seed);
   Command command = control::rest_command(config);
-  for (Tick t = 0; t < periods * config.period; t = spine.next_event(t)) {
-    if (spine.starts_period(t)) {
+  for (Tick t = 0; t < periods * config.period; t = controller.next_event(t)) {
+    if (controller.starts_period(t)) {
       random_command(random, command, is_timed(config.joint[control::hip].kind));
-      spine.command(command);
+      controller.command(command);
     }
-    for (const signals::Edge& e : spine.edges(t)) {
+    for (const signals::Edge& e : controller.edges(t)) {
       hash.add(static_cast<std::uint32_t>(e.at));
       hash.add(2u * e.valve.index + e.open);
       hash.add(static_cast<std::uint32_t>(e.level));
     }
-    if (const signals::Conversion* c = spine.due(t)) {
+    if (const signals::Conversion* c = controller.due(t)) {
       const auto status = random.below(50) == 0 ? signals::Status::late : signals::Status::ok;
-      spine.take(*c, {static_cast<std::uint16_t>(random.below(4096)), status}, t);
+      controller.take(*c, {static_cast<std::uint16_t>(random.below(4096)), status}, t);
     }
     for (std::size_t j = 0; j < config.joints; ++j) {
-      const control::JointSeen& s = spine.seen().joint[j];
+      const control::JointState& s = controller.state().joint[j];
       hash.add(s.stiffness);
       hash.add(s.stiffness_output);
       hash.add(s.angle_output);
@@ -89,27 +89,27 @@ void run_supervised(std::uint32_t seed, Hash& hash) {
   limits.gap_vent = seed % 2 ? 100 : 1'000'000;
   for (std::size_t i = 0; i < 7; ++i)
     limits.sensor[i] = {.low = 100, .high = 4000, .max_step = 2500, .joint = 0};
-  control::Supervisor spine(control::test_leg(), limits);
+  control::Supervisor controller(control::test_leg(), limits);
   Random random(seed);
-  Command command = control::rest_command(spine.config());
-  for (Tick t = 0; t < periods * spine.config().period;) {
-    if (spine.starts_period(t)) {
+  Command command = control::rest_command(controller.config());
+  for (Tick t = 0; t < periods * controller.config().period;) {
+    if (controller.starts_period(t)) {
       random_command(random, command);
       if (random.below(4) == 0)
         command.joint[1].stiffness = random.below(2) ? 2e6f : std::bit_cast<float>(0x7fc00000u);
-      spine.command(command);
+      controller.command(command);
     }
-    for (const signals::Edge& e : spine.edges(t)) {
+    for (const signals::Edge& e : controller.edges(t)) {
       hash.add(static_cast<std::uint32_t>(e.at));
       hash.add(2u * e.valve.index + e.open);
     }
-    if (const signals::Conversion* c = spine.due(t))
-      spine.take(*c, {static_cast<std::uint16_t>(random.below(4096)), signals::Status::ok}, t);
-    const control::Supervised& s = spine.supervised();
+    if (const signals::Conversion* c = controller.due(t))
+      controller.take(*c, {static_cast<std::uint16_t>(random.below(4096)), signals::Status::ok}, t);
+    const control::Supervised& s = controller.supervised();
     for (const std::uint32_t n : {s.rejected, s.rejected_commands, s.gaps, s.worst_gap, s.holds,
                                   static_cast<std::uint32_t>(s.trip.at)})
       hash.add(n);
-    t = spine.next_event(t);
+    t = controller.next_event(t);
     if (random.below(64) == 0) t += 1 + random.below(random.below(64) == 0 ? 200 : 20);
   }
 }

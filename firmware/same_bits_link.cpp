@@ -12,17 +12,17 @@
 #include "sinew/control/link/command_queue.h"
 #include "sinew/control/link/configuration.h"
 #include "sinew/control/link/telemetry.h"
-#include "sinew/control/link/thesis_words.h"
+#include "sinew/control/link/thesis_bytes.h"
 
 namespace sinew::firmware {
 namespace {
 
 // Visitor that fills a message with random valid values.
-class Dice {
+class RandomFields {
  public:
   static constexpr bool reads = true;
 
-  explicit Dice(Random& random) : random_(&random) {}
+  explicit RandomFields(Random& random) : random_(&random) {}
 
   template <class T>
   void whole(T& x) {
@@ -74,18 +74,18 @@ struct Ends {
 };
 
 void run_telemetry(Random& random, Ends& ends, Hash& hash) {
-  Dice dice(random);
+  RandomFields random_fields(random);
   for (signals::Tick tick = 0; tick < 20'000; tick += 100) {
     link::Telemetry t{.tick = tick, .joints = 5, .channels = 19};
-    for (control::JointSeen& j : t.seen.joint) link::fields(dice, j);
-    for (control::SensorSeen& s : t.supervised.sensor) link::fields(dice, s);
-    link::fields(dice, t.supervised.trip);
+    for (control::JointState& j : t.controller.joint) link::fields(random_fields, j);
+    for (control::SensorStatistics& s : t.supervised.sensor) link::fields(random_fields, s);
+    link::fields(random_fields, t.supervised.trip);
     for (std::uint8_t p = 0; p < link::parts_of(t.joints, t.channels); ++p) {
       const link::TelemetryMessage m = link::part_of(t, p);
       ends.carry(m.type, m.body, random, hash);
     }
     link::CommandFor command{.from = tick + 100, .joints = 5};
-    for (control::JointCommand& c : command.joint) link::fields(dice, c);
+    for (control::JointCommand& c : command.joint) link::fields(random_fields, c);
     ends.carry(link::Type::command, link::body_of(command), random, hash);
     hash.add(std::uint32_t{ends.queue.at(tick + 100) != nullptr});
   }
@@ -104,14 +104,14 @@ void run_configuration(Hash& hash) {
   hash.add(static_cast<std::uint32_t>(receiver.take(sender.end(), got).code));
   hash.add(link::ConfigurationSender(got).crc());
   constexpr std::uint32_t choices[] = {115'200, 921'600, 2'000'000};
-  hash.add(link::choose_baud(got.spine, true, choices));
+  hash.add(link::choose_baud(got.joint_controller, true, choices));
 }
 
 void run_words(Random& random, Hash& hash) {
-  link::WordReader reader(link::thesis_joints(control::test_leg()));
+  link::ThesisByteReader reader(link::thesis_joints(control::test_leg()));
   control::Command command;
   for (int i = 0; i < 5000; ++i) {
-    const link::WordStep step = reader.take(
+    const link::ThesisByteResult step = reader.take(
         static_cast<std::uint8_t>(random.below(2) ? random.below(60) : random.below(256)));
     step.apply(command);
     hash.add(static_cast<std::uint32_t>(step.what));

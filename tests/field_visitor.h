@@ -83,7 +83,7 @@ struct FieldVisitor {
     }
     prefix_ = outer;
   }
-  void complain(std::string_view key, std::string, std::string, std::string) {
+  void report_conflict(std::string_view key, std::string, std::string, std::string) {
     complaints.push_back(prefix_ + std::string(key));
   }
 

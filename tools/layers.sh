@@ -40,8 +40,8 @@ layers='
     port/hardware   control/link control/board host signals
     port/comedi     control/supervise host signals
     experiment      robot config control/gait
-    identify/fit    actuator config host
-    identify/data   identify/fit recording
+    identify/contest  actuator config host
+    identify/data   identify/contest recording
     identify/actuator  identify/data
     identify/check  identify/actuator
     identify/plan   identify/actuator
@@ -51,7 +51,7 @@ layers='
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
     identify/machine  identify/data run/simulation robot
-    identify/page   identify/fit report
+    identify/page   identify/contest report
     identify/task   identify experiment run/folder
     analysis/verdict   signals config
     analysis/align     analysis/verdict signals config
@@ -103,8 +103,8 @@ libraries='
     comedi          sinew/port/comedi/module
     matio[.]h       sinew/recording/module
     nlohmann/       sinew/json
-    ceres/          sinew/identify/fit
-    Eigen/          sinew/identify/fit
+    ceres/          sinew/identify/contest
+    Eigen/          sinew/identify/contest
 '
 
 # Largest number of lines of a file, except for tables (*.fields.h) and tests.

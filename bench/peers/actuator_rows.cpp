@@ -11,7 +11,7 @@ namespace sinew::bench {
 
 namespace {
 
-using Way = Counts (*)(const Drill&, Pressures*);
+using DrillFunction = Counts (*)(const Drill&, Pressures*);
 
 constexpr int finer = 8;                            // the limit: steps of an eighth of a tick
 constexpr int strides[] = {50, 20, 10, 5, 2, 1};    // [ticks]
@@ -24,22 +24,24 @@ double largest_difference(const Pressures& a, const Pressures& b) {  // relative
   return most;
 }
 
-Pressures pressures_of(Way way, const Drill& d) {
+Pressures pressures_of(DrillFunction run_drill, const Drill& d) {
   Pressures p(drill_machines * drill_muscles * drill_samples);
-  way(d, &p);
+  run_drill(d, &p);
   return p;
 }
 
 // One implementation of the drill and its limit for small steps.
 struct Side {
   std::string name;
-  Way way;
+  DrillFunction run_drill;
   Pressures limit;
 
-  Side(const std::string& of, Way how)
-      : name(of), way(how), limit(pressures_of(how, drill(finer))) {}
+  Side(const std::string& of, DrillFunction how)
+      : name(of), run_drill(how), limit(pressures_of(how, drill(finer))) {}
 
-  double error(const Drill& d) const { return largest_difference(pressures_of(way, d), limit); }
+  double error(const Drill& d) const {
+    return largest_difference(pressures_of(run_drill, d), limit);
+  }
   Accuracy accuracy(const Drill& d) const {
     return {name, "pressure, largest relative difference from steps of 12.5 us", error(d), "1"};
   }
@@ -64,9 +66,9 @@ Row step_for_step(Row row, const Side& own, const Side& peer, int rounds) {
   const Drill d = drill(1);
   row.per = "step of 100 us of one muscle";
   row.accuracy = accuracies(own, d, peer, d);
-  return times_faster(std::move(row), by_turns([&] { return own.way(d, nullptr).steps; },
-                                               [&] { return peer.way(d, nullptr).steps; }, rounds,
-                                               Clock::processor));
+  return times_faster(std::move(row), by_turns([&] { return own.run_drill(d, nullptr).steps; },
+                                               [&] { return peer.run_drill(d, nullptr).steps; },
+                                               rounds, Clock::processor));
 }
 
 // Compares both, each with its own steps.
@@ -75,9 +77,9 @@ Row second_for_second(Row row, const Side& own, int mine, const Side& peer, int 
   row.per = "simulated second of one muscle";
   row.what += fmt::format(" (steps of {:g} and {:g} ms)", 0.1 * mine, 0.1 * other);
   row.accuracy = accuracies(own, a, peer, b);
-  return times_faster(std::move(row), by_turns([&] { return own.way(a, nullptr).seconds; },
-                                               [&] { return peer.way(b, nullptr).seconds; }, rounds,
-                                               Clock::processor));
+  return times_faster(std::move(row), by_turns([&] { return own.run_drill(a, nullptr).seconds; },
+                                               [&] { return peer.run_drill(b, nullptr).seconds; },
+                                               rounds, Clock::processor));
 }
 
 Row against_the_divider(const Wide& wide, int rounds, bool widest) {

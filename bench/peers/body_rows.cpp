@@ -75,11 +75,11 @@ class OurLegs {
     std::array<bool, 8> begun{};
     auto turn = [&](int k) noexcept {
       bool& b = begun[static_cast<std::size_t>(k)];
-      const double to = b ? plant::Batch::over : 1e-3 * milliseconds;
+      const double to = b ? plant::Batch::finished : 1e-3 * milliseconds;
       b = true;
       return to;
     };
-    while (batch_.go(turn) >= 0) {}
+    while (batch_.run(turn) >= 0) {}
     return 1.0 * milliseconds * width;
   }
 

@@ -41,36 +41,37 @@ class Muscles {
     for (int i = 0; i < drill_muscles; ++i) ends_.length[i] = d.rest + d.stroke[0];
     state_ = network_.initial(d.start, ends_.length, 0);
     memory_ = network_.memory_at_rest(d.start, ends_.length);
-    network_.evaluate(0, ends_, state_, valves_, memory_, look_[0]);
+    network_.evaluate(0, ends_, state_, valves_, memory_, evaluations_[0]);
   }
 
   void command(const Switching& s) {
     const auto valve = static_cast<std::uint8_t>(2 * s.muscle + (s.exhaust ? 1 : 0));
-    network_.command({.at = s.tick, .valve = {valve}, .open = s.open}, 1e-4 * s.tick, look_[0],
-                     valves_);
+    network_.command({.at = s.tick, .valve = {valve}, .open = s.open}, 1e-4 * s.tick,
+                     evaluations_[0], valves_);
   }
-  void move_valves(double t) { network_.move_valves(t, look_[0], valves_); }
+  void move_valves(double t) { network_.move_valves(t, evaluations_[0], valves_); }
 
   // RK4, as world/kernel/world.h has it.
   void step(const Drill& d, std::size_t half, std::size_t wide, double h) {
-    look(d, half, state_, look_[0]);
-    network_.remember(look_[0], state_, memory_);
+    evaluate(d, half, state_, evaluations_[0]);
+    network_.update_memory(evaluations_[0], state_, memory_);
     for (int s = 0; s < 3; ++s) {
-      network_.move(stage_, state_, s == 2 ? h : 0.5 * h, look_[s], valves_, course_);
-      look(d, half + (s == 2 ? 2 : 1) * wide, stage_, look_[s + 1]);
+      network_.move(stage_, state_, s == 2 ? h : 0.5 * h, evaluations_[s], valves_, quick_masses_);
+      evaluate(d, half + (s == 2 ? 2 : 1) * wide, stage_, evaluations_[s + 1]);
     }
-    const Air::Answer* looks[4] = {&look_[0], &look_[1], &look_[2], &look_[3]};
-    network_.finish(state_, h, looks, valves_, course_);
+    const Air::Evaluation* evaluations[4] = {&evaluations_[0], &evaluations_[1], &evaluations_[2],
+                                             &evaluations_[3]};
+    network_.finish(state_, h, evaluations, valves_, quick_masses_);
   }
   double pressure(const Drill& d, std::size_t half, int muscle) {
-    look(d, half, state_, look_[0]);
-    return look_[0].pressure[muscle];
+    evaluate(d, half, state_, evaluations_[0]);
+    return evaluations_[0].pressure[muscle];
   }
 
  private:
   using Air = air::AirNetwork<drill_muscles>;
 
-  void look(const Drill& d, std::size_t half, const Air::State& state, Air::Answer& out) {
+  void evaluate(const Drill& d, std::size_t half, const Air::State& state, Air::Evaluation& out) {
     // Writes whole lanes, since a wide load would wait for narrow stores.
     ends_.length.four(0) = d.rest + d.stroke[half] + air::Four{};
     ends_.rate.four(0) = d.speed[half] + air::Four{};
@@ -82,8 +83,8 @@ class Muscles {
   Air::Ends ends_{};
   Air::State state_{}, stage_{};
   Air::Memory memory_;
-  Air::Course course_;
-  Air::Answer look_[4];
+  Air::QuickMasses quick_masses_;
+  Air::Evaluation evaluations_[4];
 };
 
 std::size_t place(int machine, int muscle, int tick) {

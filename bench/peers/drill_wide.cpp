@@ -70,21 +70,22 @@ class Machines {
   // RK4, as world/kernel/nodes.h has it.
   void step(const Places& p, const Pack& h) {
     constexpr int at[] = {0, 1, 1, 2};
-    look(p, 0, state_, look_[0]);
-    air_->remember(Pack(0.0) < Pack(1.0), look_[0], memory_);
+    evaluate(p, 0, state_, evaluations_[0]);
+    air_->update_memory(Pack(0.0) < Pack(1.0), evaluations_[0], memory_);
     for (int s = 0; s < 3; ++s) {
-      air_->move(stage_, state_, s == 2 ? h : Pack(0.5 * h), look_[s], shares_, {});
-      look(p, at[s + 1], stage_, look_[s + 1]);
+      air_->move(stage_, state_, s == 2 ? h : Pack(0.5 * h), evaluations_[s], shares_, {});
+      evaluate(p, at[s + 1], stage_, evaluations_[s + 1]);
     }
-    const Air::Answer* looks[4] = {&look_[0], &look_[1], &look_[2], &look_[3]};
-    air_->finish(state_, h, looks, shares_, {});
+    const Air::Evaluation* evaluations[4] = {&evaluations_[0], &evaluations_[1], &evaluations_[2],
+                                             &evaluations_[3]};
+    air_->finish(state_, h, evaluations, shares_, {});
   }
 
   // Writes the pressures of one machine at the beginning of the current step.
-  void tell(int lane, int tick, Pressures& out) const {
+  void write_pressures(int lane, int tick, Pressures& out) const {
     for (int i = 0; i < drill_muscles; ++i)
       out[static_cast<std::size_t>(((first_ + lane) * drill_muscles + i) * drill_samples +
-                                   tick / drill_sampling)] = look_[0].pressure[i][lane];
+                                   tick / drill_sampling)] = evaluations_[0].pressure[i][lane];
   }
 
   // Returns the square roots of one stage. One flow suffices if some muscles fill, others empty,
@@ -101,7 +102,7 @@ class Machines {
   }
 
  private:
-  void look(const Places& p, int n, const Air::State& state, Air::Answer& out) {
+  void evaluate(const Places& p, int n, const Air::State& state, Air::Evaluation& out) {
     for (int i = 0; i < drill_muscles; ++i) {
       ends_.length[i] = p.length[n];
       ends_.rate[i] = p.rate[n];
@@ -116,7 +117,7 @@ class Machines {
   Air::State state_, stage_;
   Air::Shares shares_;
   Air::Memory memory_;
-  Air::Answer look_[4];
+  Air::Evaluation evaluations_[4];
 };
 
 // Runs all machines with the same steps, of one tick or a part of a tick.
@@ -131,7 +132,7 @@ void by_ticks(const Drill& d, int, Machines& machines, Pressures* pressures, Cou
       places.all(d, half);
       machines.step(places, h);
       for (int k = 0; pressures && k < W && part == 0 && tick % drill_sampling == 0; ++k)
-        machines.tell(k, tick, *pressures);
+        machines.write_pressures(k, tick, *pressures);
     }
     counts.steps += 1.0 * W * drill_muscles * d.parts;
     counts.divisions += 4.0 * drill_muscles * d.parts;
@@ -140,7 +141,7 @@ void by_ticks(const Drill& d, int, Machines& machines, Pressures* pressures, Cou
 }
 
 // Progress of one machine in the drill.
-struct Course {
+struct MachineDrill {
   std::vector<Switching> switchings;  // those of this machine
   std::size_t next = 0;
   int tick = 0, to = 0;  // beginning and end of the current step
@@ -149,16 +150,16 @@ struct Course {
 // Runs each machine with its own nodes, in lockstep by node; a machine that has reached its end
 // waits.
 void by_nodes(const Drill& d, int first, Machines& machines, Pressures* pressures, Counts& counts) {
-  std::array<Course, W> courses;
+  std::array<MachineDrill, W> machine_drills;
   for (const Switching& s : d.switchings)
     if (s.machine >= first && s.machine < first + W)
-      courses[static_cast<std::size_t>(s.machine - first)].switchings.push_back(s);
+      machine_drills[static_cast<std::size_t>(s.machine - first)].switchings.push_back(s);
   Places places;
   Pack h = 0.0;
   for (bool goes = true; goes;) {
     goes = false;
     for (int k = 0; k < W; ++k) {
-      Course& c = courses[static_cast<std::size_t>(k)];
+      MachineDrill& c = machine_drills[static_cast<std::size_t>(k)];
       c.tick = c.to;
       h.set(k, 0.0);
       if (c.tick >= drill_ticks) continue;
@@ -175,8 +176,9 @@ void by_nodes(const Drill& d, int first, Machines& machines, Pressures* pressure
     if (!goes) break;
     machines.step(places, h);
     for (int k = 0; pressures && k < W; ++k) {
-      const int tick = courses[static_cast<std::size_t>(k)].tick;
-      if (tick < drill_ticks && tick % drill_sampling == 0) machines.tell(k, tick, *pressures);
+      const int tick = machine_drills[static_cast<std::size_t>(k)].tick;
+      if (tick < drill_ticks && tick % drill_sampling == 0)
+        machines.write_pressures(k, tick, *pressures);
     }
   }
 }

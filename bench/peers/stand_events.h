@@ -51,7 +51,7 @@ class StandRun {
           to = where(stepper, t, reached);
           then = stepper.state_at(to);
         }
-        look(stepper, t, to, every, lengths);
+        sample(stepper, t, to, every, lengths);
         t = to;
         state_ = then;
       }
@@ -63,7 +63,7 @@ class StandRun {
   double margin(const StandState& x) const {
     if (side_ != 0) return side_ * x[1];
     const AppendixFriction f = appendix_a_friction(x.data());
-    return f.bound - std::fabs(f.asks);
+    return f.bound - std::fabs(f.unbalanced);
   }
   bool turns(const StandState& x) const { return margin(x) < 0; }
 
@@ -82,13 +82,13 @@ class StandRun {
     const AppendixFriction f = appendix_a_friction(state_.data());
     if (side_ != 0 && side_ * state_[1] > 1e-9) return;
     state_[1] = 0;
-    const bool broke_loose = side_ == 0 && std::fabs(f.asks) > f.bound * (1 - 1e-9);
+    const bool broke_loose = side_ == 0 && std::fabs(f.unbalanced) > f.bound * (1 - 1e-9);
     side_ = 0;
-    if (broke_loose || std::fabs(f.asks) > f.bound) side_ = f.asks > 0 ? 1 : -1;
+    if (broke_loose || std::fabs(f.unbalanced) > f.bound) side_ = f.unbalanced > 0 ? 1 : -1;
   }
 
   template <class Stepper>
-  void look(Stepper& stepper, double from, double to, int every, Lengths& lengths) const {
+  void sample(Stepper& stepper, double from, double to, int every, Lengths& lengths) const {
     const double first = std::floor(1e3 * from / every + 1e-9) + 1;
     for (double k = first; 1e-3 * every * k <= to + 1e-12; ++k) {
       const auto ms = static_cast<std::size_t>(std::lround(every * k));

@@ -11,7 +11,7 @@
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 
 namespace {
 
@@ -31,7 +31,7 @@ bool same_from_the_log(const std::filesystem::path& folder, const analysis::Summ
 }
 
 void walk(const std::string& experiment, const std::filesystem::path& folder) {
-  const auto kept = run::run_and_keep({.experiment = experiment, .folder = folder / "walk"});
+  const auto kept = run::run_and_store({.experiment = experiment, .folder = folder / "walk"});
   std::printf("%s\n", kept.machine.title.c_str());
   for (const char* key : {"trolley.distance_m", "trolley.mean_speed_m_per_s",
                           "joints.hip.passiveness", "joints.knee.passiveness", "air_used_kg"})
@@ -46,7 +46,7 @@ void walk(const std::string& experiment, const std::filesystem::path& folder) {
   std::printf("\nfrom the log: %s\n", same ? "the same numbers" : "other numbers");
 
   // Overrides one value of a file.
-  const auto easy = run::run_and_keep(
+  const auto easy = run::run_and_store(
       {.experiment = experiment, .folder = folder / "easy", .sets = {"trolley.drag=0 lbf"}});
   std::printf("\nwithout drag\n");
   print(easy.summary, "trolley.distance_m");

@@ -28,11 +28,11 @@ void show(const experiment::Experiment& lever, const char* key) {
 void try_gains(const std::string& file) {
   std::printf("\ngain [%%/count]  tracking [deg]  passiveness  air [g]\n");
   for (const char* gain : {"0.03", "0.06", "0.12", "0.24", "0.48"}) {
-    const tune::Ran ran =
+    const tune::RunResult result =
         tune::run_once(file, {std::string("joint.lever.angle_gain=") + gain + " %/count"});
     std::printf("%14s %15.2f %12.3f %8.3f\n", gain,
-                *ran.summary.find("joints.lever.tracking_rms_rad") * 57.29577951308232,
-                *ran.summary.find("passiveness"), 1e3 * *ran.summary.find("air_used_kg"));
+                *result.summary.find("joints.lever.tracking_rms_rad") * 57.29577951308232,
+                *result.summary.find("passiveness"), 1e3 * *result.summary.find("air_used_kg"));
   }
 }
 

@@ -57,11 +57,11 @@ class HangingMass {
     state_.velocity = 0;
     state_.mass = air_.mass_at(0, air.atmosphere, state_.length);
     memory_ = air_.memory_at_rest(air.atmosphere, lanes(state_.length));
-    remember();
+    update_memory();
   }
 
   void inlet(bool open) {
-    air_.command({.valve = {0}, .open = open}, time_, ask(time_, state_), valves_);
+    air_.command({.valve = {0}, .open = open}, time_, evaluate(time_, state_), valves_);
   }
 
   // Steps of RK4. They end where a valve moves, since the slope jumps there.
@@ -70,14 +70,14 @@ class HangingMass {
       const double next = std::min({time_ + step, valves_.next_change, end});
       rk4(next - time_);
       time_ = next;
-      air_.move_valves(time_, ask(time_, state_), valves_);
-      remember();
+      air_.move_valves(time_, evaluate(time_, state_), valves_);
+      update_memory();
     }
   }
 
   double time() const { return time_; }
   const State& state() const { return state_; }
-  Air::Answer look() const { return ask(time_, state_); }
+  Air::Evaluation evaluation() const { return evaluate(time_, state_); }
 
  private:
   static constexpr double weight = load * units::standard_gravity;
@@ -95,16 +95,16 @@ class HangingMass {
     return air;
   }
 
-  Air::Answer ask(double t, const State& s) const {
-    Air::Answer out{};
+  Air::Evaluation evaluate(double t, const State& s) const {
+    Air::Evaluation out{};
     air_.evaluate(t, {lanes(s.length), lanes(s.velocity)}, air_state(s), valves_, memory_, out);
     return out;
   }
 
-  void remember() { air_.remember(ask(time_, state_), air_state(state_), memory_); }
+  void update_memory() { air_.update_memory(evaluate(time_, state_), air_state(state_), memory_); }
 
   State slope(double t, const State& s) const {
-    const Air::Answer a = ask(t, s);
+    const Air::Evaluation a = evaluate(t, s);
     return {s.velocity, (weight - a.tension[0]) / load, a.inflow[0] - a.outflow[0]};
   }
 
@@ -129,7 +129,7 @@ class HangingMass {
 };
 
 void print(const HangingMass& world, const gas::Air& air) {
-  const Air::Answer pull = world.look();
+  const Air::Evaluation pull = world.evaluation();
   const double gauge = units::gauge(pull.pressure[0], air.atmosphere);
   std::printf("%8.0f %12.2f %14.1f %11.2f %11.3f\n", 1e3 * world.time(), 1e3 * world.state().length,
               gauge / 1e3, pull.tension[0], 1e6 * world.state().mass);

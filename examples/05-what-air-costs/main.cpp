@@ -16,14 +16,14 @@ using namespace sinew;
 void compare_plumbing(const std::string& experiments) {
   std::printf("experiment             way [m]  passiveness  air per step [g]\n");
   for (const char* name : {"walk-test-1", "walk-3-way", "walk-with-regulators"}) {
-    const tune::Ran ran = tune::run_once(experiments + name + ".toml", {});
-    const double* passiveness = ran.summary.find("passiveness");
-    std::printf("%-20s %9.2f ", name, *ran.summary.find("trolley.distance_m"));
+    const tune::RunResult result = tune::run_once(experiments + name + ".toml", {});
+    const double* passiveness = result.summary.find("passiveness");
+    std::printf("%-20s %9.2f ", name, *result.summary.find("trolley.distance_m"));
     if (passiveness)
       std::printf("%12.3f", *passiveness);
     else
       std::printf("%12s", "-");  // a regulator is never shut, nor open
-    std::printf("%18.3f\n", 1e3 * *ran.summary.find("air_used_per_step_kg"));
+    std::printf("%18.3f\n", 1e3 * *result.summary.find("air_used_per_step_kg"));
   }
 }
 

@@ -12,7 +12,7 @@
 #include "sinew/actuator/operating_point.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static.h"
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 
 namespace {
 
@@ -23,12 +23,12 @@ namespace fs = std::filesystem;
 // point, without a time.
 identify::Measured measured_at(int psi, const fs::path& folder) {
   const auto kept =
-      run::run_and_keep({.experiment = "pressures.toml",
-                         .folder = folder / std::to_string(psi),
-                         .sets = {"charge.pressure=" + std::to_string(psi) + " psi gauge"},
-                         .report = false});
-  std::vector<identify::Wanted> columns;
-  for (const identify::Wanted& column : identify::static_columns())
+      run::run_and_store({.experiment = "pressures.toml",
+                          .folder = folder / std::to_string(psi),
+                          .sets = {"charge.pressure=" + std::to_string(psi) + " psi gauge"},
+                          .report = false});
+  std::vector<identify::ColumnSpec> columns;
+  for (const identify::ColumnSpec& column : identify::static_columns())
     if (column.name != "time") columns.push_back(column);
   return identify::read_measured({.path = kept.folder / "measured.csv"}, columns);
 }

@@ -20,14 +20,14 @@
 #include <vector>
 
 #include "sinew/run/setup/buildable.h"
-#include "sinew/run/simulation/course.h"
+#include "sinew/run/simulation/episode.h"
 
 namespace {
 
 using namespace sinew;
 
 constexpr std::size_t tried = 48, kept = 10;
-constexpr std::size_t actions = 4, sights = 14, phase_at = 12, features = sights + 2;
+constexpr std::size_t actions = 4, observations = 14, phase_at = 12, features = observations + 2;
 
 using Gait = std::array<double, actions * features>;  // [action][feature]
 
@@ -38,20 +38,20 @@ run::Task task() {
     t.actions.push_back({.setting = std::string("control.angle.") + joint, .offset = 0.2});
   for (const char* joint : {"hip", "knee"})
     t.actions.push_back({.setting = std::string("control.stiffness.") + joint, .factor = 2});
-  t.sights = {{"/joint/hip/angle", 4.9, 0.5},
-              {"/joint/knee/angle", 5.2, 0.5},
-              {"/desired/joint/hip/angle", 4.9, 0.5},
-              {"/desired/joint/knee/angle", 5.2, 0.5},
-              {"/true/joint/hip/velocity", 0, 3},
-              {"/true/joint/knee/velocity", 0, 3},
-              {"/joint/hip/stiffness", 0, 4},
-              {"/joint/knee/stiffness", 0, 4},
-              {"/muscle/hip_flexor/tension", 0, 200},
-              {"/muscle/hip_extensor/tension", 0, 200},
-              {"/muscle/knee_flexor/tension", 0, 200},
-              {"/muscle/knee_extensor/tension", 0, 200},
-              {"/plan/phase"},
-              {"/true/trolley/velocity", 0, 0.3}};
+  t.observations = {{"/joint/hip/angle", 4.9, 0.5},
+                    {"/joint/knee/angle", 5.2, 0.5},
+                    {"/desired/joint/hip/angle", 4.9, 0.5},
+                    {"/desired/joint/knee/angle", 5.2, 0.5},
+                    {"/true/joint/hip/velocity", 0, 3},
+                    {"/true/joint/knee/velocity", 0, 3},
+                    {"/joint/hip/stiffness", 0, 4},
+                    {"/joint/knee/stiffness", 0, 4},
+                    {"/muscle/hip_flexor/tension", 0, 200},
+                    {"/muscle/hip_extensor/tension", 0, 200},
+                    {"/muscle/knee_flexor/tension", 0, 200},
+                    {"/muscle/knee_extensor/tension", 0, 200},
+                    {"/plan/phase"},
+                    {"/true/trolley/velocity", 0, 0.3}};
   return t;
 }
 
@@ -77,20 +77,20 @@ class Track {
   // Runs the plan once, which the constructor of the course requires.
   explicit Track(const std::string& file)
       : walk_(run::buildable(file, {"trolley.track_length=20 m", "sequence.repeat=4"})),
-        course_(task(), *std::make_unique<run::Simulation>(walk_)) {}
+        episode_(task(), *std::make_unique<run::Simulation>(walk_)) {}
 
   // Returns the distance of a gait with a seed [m].
   double way(const Gait& gait, int seed) const {
     experiment::Experiment walk = walk_;
     walk.seed = seed;
     run::Simulation leg(walk);
-    course_.begin(leg);
-    std::array<double, sights> seen;
+    episode_.begin(leg);
+    std::array<double, observations> observed;
     std::array<double, 1> before, after;
     double way = 0;
-    for (course_.look(leg, seen, before); !leg.ended(); before = after) {
-      course_.step(leg, action(gait, seen));
-      course_.look(leg, seen, after);
+    for (episode_.observe(leg, observed, before); !leg.ended(); before = after) {
+      episode_.step(leg, action(gait, observed));
+      episode_.observe(leg, observed, after);
       way += after[0] - before[0];
     }
     return way;
@@ -106,12 +106,12 @@ class Track {
  private:
   // Encodes the index of the phase as three numbers 0 or 1.
   static std::array<double, actions> action(const Gait& gait,
-                                            const std::array<double, sights>& seen) {
+                                            const std::array<double, observations>& observed) {
     std::array<double, features> f;
     for (int phase = 0; phase < 3; ++phase)
-      f[static_cast<std::size_t>(phase)] = std::lround(seen[phase_at]) == phase;
-    std::copy_n(seen.begin(), phase_at, f.begin() + 3);
-    std::copy(seen.begin() + phase_at + 1, seen.end(), f.begin() + 3 + phase_at);
+      f[static_cast<std::size_t>(phase)] = std::lround(observed[phase_at]) == phase;
+    std::copy_n(observed.begin(), phase_at, f.begin() + 3);
+    std::copy(observed.begin() + phase_at + 1, observed.end(), f.begin() + 3 + phase_at);
     std::array<double, actions> out;
     for (std::size_t i = 0; i < actions; ++i)
       out[i] = std::inner_product(f.begin(), f.end(), gait.begin() + i * features, 0.0);
@@ -119,7 +119,7 @@ class Track {
   }
 
   experiment::Experiment walk_;
-  run::Course course_;
+  run::Episode episode_;
 };
 
 // Normal distribution of gaits: mean and standard deviation.

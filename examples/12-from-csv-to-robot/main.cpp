@@ -11,7 +11,7 @@
 #include <string>
 
 #include "sinew/identify/task/methods.h"
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 #include "sinew/tune/study.h"
 
 namespace {
@@ -78,9 +78,9 @@ void build(const std::string& share, const fs::path& folder) {
               heaviest(experiment, gain));
 
   // Stored, so that its page can be opened.
-  const auto kept = run::run_and_keep({.experiment = experiment,
-                                       .folder = folder / "run",
-                                       .sets = {"joint.elbow.angle_gain=" + gain + " %/count"}});
+  const auto kept = run::run_and_store({.experiment = experiment,
+                                        .folder = folder / "run",
+                                        .sets = {"joint.elbow.angle_gain=" + gain + " %/count"}});
   std::printf("a run of %.1f s: the elbow moves by %.1f deg, peak tension %.0f N\n", kept.duration,
               *kept.summary.find("joints.elbow.excursion_rad") * 57.29577951308232,
               *kept.summary.find("muscles.flexor.peak_tension_N"));

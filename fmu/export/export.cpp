@@ -53,84 +53,85 @@ Made make_light(Description description, std::string name, std::string doc) {
   return out;
 }
 
-Made make_tube(const Asked& asked, const std::string& kind) {
+Made make_tube(const ExportRequest& request, const std::string& kind) {
   if (kind == "actuator") {
-    const auto file = experiment::load_machine_file(asked.file, asked.sets);
+    const auto file = experiment::load_machine_file(request.file, request.sets);
     const actuator::Actuator& a =
-        config::named(file.experiment.actuators, asked.actuator, asked.file, "actuator");
+        config::named(file.experiment.actuators, request.actuator, request.file, "actuator");
     return make_light<Tube>(Tube::describe(a, file.experiment.air, 1, 0), a.name,
                             "A braided pneumatic muscle whose pressure is given");
   }
-  const run::MuscleSetup read = run::muscle_setup(asked.file, asked.muscle, asked.sets);
+  const run::MuscleSetup read = run::muscle_setup(request.file, request.muscle, request.sets);
   const air::Muscle& m = read.muscle;
   return make_light<Tube>(Tube::describe(m.actuator, read.air, m.count, m.external_volume), m.name,
                           "A braided pneumatic muscle whose pressure is given");
 }
 
-Made make_muscle(const Asked& asked) {
-  const run::MuscleSetup read = run::muscle_setup(asked.file, asked.muscle, asked.sets);
+Made make_muscle(const ExportRequest& request) {
+  const run::MuscleSetup read = run::muscle_setup(request.file, request.muscle, request.sets);
   const double length = read.length > 0 ? read.length : read.muscle.actuator.long_end.length;
   return make_light<Muscle>(
       Muscle::describe(read.muscle, read.air, read.supply, {length, read.pressure}),
       read.muscle.name, "A braided pneumatic muscle with its valves");
 }
 
-Made make_joints(const Asked& asked) {
-  const auto file = experiment::load_machine_file(asked.file, asked.sets);
+Made make_joints(const ExportRequest& request) {
+  const auto file = experiment::load_machine_file(request.file, request.sets);
   const experiment::Experiment& e = file.experiment;
-  std::vector<std::string> joints = asked.joints;
+  std::vector<std::string> joints = request.joints;
   if (joints.empty())
     for (const robot::Joint& j : e.robot.joints)
       if (j.kind == robot::Joint::Kind::driven) joints.push_back(j.name);
   const double pressure = e.start.pressure > 0 ? e.start.pressure : e.air.atmosphere;
-  std::string name = fs::path(asked.file).stem().string();
-  if (!asked.joints.empty()) name = fmt::format("{}", fmt::join(joints, "_"));
+  std::string name = fs::path(request.file).stem().string();
+  if (!request.joints.empty()) name = fmt::format("{}", fmt::join(joints, "_"));
   return make_light<Joint>(
       Joint::describe(e.robot, run::muscles_of(e), joints, e.air, e.supply, pressure), name,
       fmt::format("Joints with their braided muscles and valves: {}", fmt::join(joints, ", ")));
 }
 
-Made make_machine(const Asked& asked) {
-  const experiment::Experiment e = run::buildable(asked.file, asked.sets);
+Made make_machine(const ExportRequest& request) {
+  const experiment::Experiment e = run::buildable(request.file, request.sets);
   Made out{.kind = std::string(Machine::kind),
            .name = e.name,
            .doc = e.title.empty() ? "A machine with its controllers" : e.title,
            .module = "sinew_fmu_machine.so",
            .step = 0.01};
-  out.description = Machine::describe(e, {asked.inputs, asked.outputs, asked.parameters});
+  out.description = Machine::describe(e, {request.inputs, request.outputs, request.parameters});
   const Machine machine(out.description);
   out.variables = machine.sheet().variables();
   out.stop_time = machine.duration();
   return out;
 }
 
-Made make(const Asked& asked) {
-  const std::string kind(config::tables_kind(config::compose(asked.file, asked.sets)));
+Made make(const ExportRequest& request) {
+  const std::string kind(config::tables_kind(config::compose(request.file, request.sets)));
   const bool of_machine =
-      !asked.inputs.empty() || !asked.outputs.empty() || !asked.parameters.empty();
-  const bool of_joint = !asked.joints.empty(), of_muscle = !asked.muscle.empty();
+      !request.inputs.empty() || !request.outputs.empty() || !request.parameters.empty();
+  const bool of_joint = !request.joints.empty(), of_muscle = !request.muscle.empty();
   if (of_joint && of_muscle) refuse("found a muscle and joints; expected one of them");
   if (of_machine && (of_joint || of_muscle || kind != "experiment"))
     refuse(
         "inputs, outputs and parameters: expected an experiment, not one of its muscles or joints; "
         "other FMUs expose everything");
-  if (of_joint && asked.without_valves)
+  if (of_joint && request.without_valves)
     refuse("found joints without valves; expected a muscle for that");
-  if (!asked.actuator.empty() && kind != "actuator")
+  if (!request.actuator.empty() && kind != "actuator")
     refuse("actuator: found a " + kind + " file; expected an actuator file");
   if (kind == "actuator") {
     if (of_joint || of_muscle)
       refuse("found an actuator file; expected a robot for muscle or joint");
-    return make_tube(asked, kind);
+    return make_tube(request, kind);
   }
   if (kind == "rig" || of_muscle) {
     if (of_joint) refuse("joint: found a rig, which has none; expected a robot or an experiment");
-    return asked.without_valves ? make_tube(asked, kind) : make_muscle(asked);
+    return request.without_valves ? make_tube(request, kind) : make_muscle(request);
   }
-  if (asked.without_valves) refuse("found no muscle whose valves are to be left out; expected one");
-  if (kind == "robot" || of_joint) return make_joints(asked);
-  if (kind == "experiment") return make_machine(asked);
-  config::fail({asked.file, 0, 0}, "format", config::in_quotes(kind),
+  if (request.without_valves)
+    refuse("found no muscle whose valves are to be left out; expected one");
+  if (kind == "robot" || of_joint) return make_joints(request);
+  if (kind == "experiment") return make_machine(request);
+  config::fail({request.file, 0, 0}, "format", config::in_quotes(kind),
                "an actuator, rig, robot or experiment file");
 }
 
@@ -220,37 +221,37 @@ void refuse_unprintable(const std::string& name) {
 
 }  // namespace
 
-Fmu make_fmu(const Asked& asked) {
-  if (asked.version != 2 && asked.version != 3)
-    refuse(fmt::format("version: found {}; expected 2 or 3", asked.version));
-  Made made = make(asked);
-  if (!asked.name.empty()) made.name = asked.name;
+Fmu make_fmu(const ExportRequest& request) {
+  if (request.version != 2 && request.version != 3)
+    refuse(fmt::format("version: found {}; expected 2 or 3", request.version));
+  Made made = make(request);
+  if (!request.name.empty()) made.name = request.name;
   refuse_unprintable(made.name);
   refuse_twins(made.variables);
 
-  Described model{.name = made.name,
-                  .identifier = identifier_of(made.name),
-                  .token = made.description.hash(),
-                  .description = made.doc,
-                  .version = SINEW_VERSION,
-                  .stop_time = made.stop_time,
-                  .step = made.step,
-                  .sources = made.sources,
-                  .variables = made.variables};
+  ModelDescription model{.name = made.name,
+                         .identifier = identifier_of(made.name),
+                         .token = made.description.hash(),
+                         .description = made.doc,
+                         .version = SINEW_VERSION,
+                         .stop_time = made.stop_time,
+                         .step = made.step,
+                         .sources = made.sources,
+                         .variables = made.variables};
   std::vector<ArchiveFile> files;
   files.push_back({"modelDescription.xml",
-                   asked.version == 2 ? fmi2_description(model) : fmi3_description(model)});
+                   request.version == 2 ? fmi2_description(model) : fmi3_description(model)});
   files.push_back({"documentation/index.html", variables_page(model)});
-  const fs::path module = module_of(made, asked.modules);
+  const fs::path module = module_of(made, request.modules);
   files.push_back(
-      {fmt::format("binaries/{}/{}.so", platform_folder(asked.version), model.identifier),
+      {fmt::format("binaries/{}/{}.so", platform_folder(request.version), model.identifier),
        bytes_of(module)});
   files.push_back({"resources/model.txt", made.description.text()});
   for (const auto& [name, text] : made.description.attached())
     files.push_back({"resources/" + name, text});
   if (made.sources) {
-    add_sources(files, module.parent_path() / "fmu_sources", asked.version);
-    if (asked.version == 3)
+    add_sources(files, module.parent_path() / "fmu_sources", request.version);
+    if (request.version == 3)
       files.push_back({"sources/buildDescription.xml", build_description(model)});
   }
   return {made.kind, made.name, model.identifier, model.token, made.variables, archive_of(files)};

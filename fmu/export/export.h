@@ -23,7 +23,7 @@
 namespace sinew::fmu {
 
 // File to export as an FMU, and the variables to include.
-struct Asked {
+struct ExportRequest {
   std::string file;
   std::vector<std::string> sets;  // key=value, overrides the file's
   std::string name;               // model name; empty: from the file, the muscle or the joints
@@ -49,7 +49,7 @@ struct Fmu {
 
 // Exports a file. Throws config::Error with all faults of the file, std::invalid_argument for
 // requests that contradict each other, and std::runtime_error if the installation lacks the module.
-Fmu make_fmu(const Asked& asked);
+Fmu make_fmu(const ExportRequest& request);
 
 // Return what was made and kept in `file`: the names of its variables as lines of text, or all of
 // them as JSON.

@@ -90,7 +90,7 @@ std::string log_categories(std::string_view description) {
       std::string(" ") + std::string(description));
 }
 
-std::string experiment_of(const Described& model) {
+std::string experiment_of(const ModelDescription& model) {
   return "  <DefaultExperiment startTime=\"0\"" + attribute("stopTime", model.stop_time) +
          attribute("stepSize", model.step) + "/>\n";
 }
@@ -132,14 +132,14 @@ std::string range_of(const Variable& v) {
   return (least ? text_of(v.min) + " to " : "at most ") + text_of(v.max);
 }
 
-std::vector<std::size_t> places_of(const Described& model, Causality causality) {
+std::vector<std::size_t> places_of(const ModelDescription& model, Causality causality) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < model.variables.size(); ++k)
     if (model.variables[k].causality == causality) out.push_back(k);
   return out;
 }
 
-std::string head(const Described& model, std::string_view version, std::string_view token) {
+std::string head(const ModelDescription& model, std::string_view version, std::string_view token) {
   return xml_head + ("<fmiModelDescription" + attribute("fmiVersion", version)) +
          attribute("modelName", std::string_view(model.name)) +
          attribute(token, std::string_view(model.token)) +
@@ -160,7 +160,7 @@ std::string named(const Variable& v, std::size_t place) {
 
 }  // namespace
 
-std::string fmi2_description(const Described& model) {
+std::string fmi2_description(const ModelDescription& model) {
   const bool interpolates =
       std::ranges::any_of(model.variables, [](const Variable& v) { return v.rate > 0; });
   std::string out = head(model, "2.0", "guid");
@@ -195,7 +195,7 @@ std::string fmi2_description(const Described& model) {
   return out + "  </ModelStructure>\n</fmiModelDescription>\n";
 }
 
-std::string fmi3_description(const Described& model) {
+std::string fmi3_description(const ModelDescription& model) {
   std::string out = head(model, "3.0", "instantiationToken");
   out += "  <CoSimulation" + attribute("modelIdentifier", std::string_view(model.identifier)) +
          " canHandleVariableCommunicationStepSize=\"true\" canGetAndSetFMUState=\"true\""
@@ -218,7 +218,7 @@ std::string fmi3_description(const Described& model) {
   return out + "  </ModelStructure>\n</fmiModelDescription>\n";
 }
 
-std::string build_description(const Described& model) {
+std::string build_description(const ModelDescription& model) {
   return std::string(xml_head) + "<fmiBuildDescription fmiVersion=\"3.0\">\n  <BuildConfiguration" +
          attribute("modelIdentifier", std::string_view(model.identifier)) +
          ">\n    <SourceFileSet language=\"C++20\" compiler=\"gcc\" "
@@ -227,7 +227,7 @@ std::string build_description(const Described& model) {
          "    </SourceFileSet>\n  </BuildConfiguration>\n</fmiBuildDescription>\n";
 }
 
-std::string variables_page(const Described& model) {
+std::string variables_page(const ModelDescription& model) {
   std::string out = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body{{font:16px/1.5 sans-serif;margin:2em auto;max-width:70em;padding:0 1em}}"

@@ -10,7 +10,7 @@
 namespace sinew::fmu {
 
 // Contents of a model description.
-struct Described {
+struct ModelDescription {
   std::string name;        // display name of the model
   std::string identifier;  // a C identifier: the binary's file name
   std::string token;       // token that the binary expects
@@ -23,13 +23,13 @@ struct Described {
 };
 
 // Return modelDescription.xml.
-std::string fmi2_description(const Described& model);
-std::string fmi3_description(const Described& model);
+std::string fmi2_description(const ModelDescription& model);
+std::string fmi3_description(const ModelDescription& model);
 
 // Returns sources/buildDescription.xml, which FMI 3.0 requires together with sources.
-std::string build_description(const Described& model);
+std::string build_description(const ModelDescription& model);
 
 // Returns documentation/index.html: each variable with its unit, start, range and meaning.
-std::string variables_page(const Described& model);
+std::string variables_page(const ModelDescription& model);
 
 }  // namespace sinew::fmu

@@ -56,7 +56,8 @@ Number number_of_key(const experiment::Experiment& e, const config::Node& in_si,
 
 }  // namespace
 
-Description Machine::describe(const experiment::Experiment& experiment, const MachineShown& shown) {
+Description Machine::describe(const experiment::Experiment& experiment,
+                              const ExposedVariables& shown) {
   Description out;
   out.add("kind", std::string(kind));
   for (const std::string& key : shown.inputs) out.add("input", key);
@@ -136,8 +137,8 @@ void Machine::place_output(const std::string& name) {
 // Returns the experiment with the parameters that were set.
 experiment::Experiment Machine::experiment() const {
   config::Node tree = tree_;
-  for (const Shown& p : parameters_)
-    if (sheet_.value(p.place) != p.told)
+  for (const ExposedVariable& p : parameters_)
+    if (sheet_.value(p.place) != p.last_value)
       config::apply_set(
           tree, p.key + "=" + text_of(sheet_.value(p.place)) + (p.unit == "1" ? "" : " " + p.unit));
   return run::buildable(tree, file_name);
@@ -162,10 +163,10 @@ double Machine::output(std::size_t place) const {
 
 const char* Machine::advance(double end, double) noexcept {
   try {
-    for (Shown& input : inputs_)
-      if (const double value = sheet_.value(input.place); value != input.told) {
+    for (ExposedVariable& input : inputs_)
+      if (const double value = sheet_.value(input.place); value != input.last_value) {
         simulation_->change(input.number, value);
-        input.told = value;
+        input.last_value = value;
       }
   } catch (const std::exception&) {  // the range was checked when the value was set
     return "a setting was refused";
@@ -183,14 +184,14 @@ const char* Machine::advance(double end, double) noexcept {
 
 std::vector<std::byte> Machine::save() const {
   std::vector<std::byte> out;
-  for (const Shown& input : inputs_) append(out, input.told);
+  for (const ExposedVariable& input : inputs_) append(out, input.last_value);
   const std::vector<std::byte> own = simulation_->save();
   out.insert(out.end(), own.begin(), own.end());
   return out;
 }
 
 void Machine::restore(std::span<const std::byte> saved) {
-  for (Shown& input : inputs_) input.told = take<double>(saved);
+  for (ExposedVariable& input : inputs_) input.last_value = take<double>(saved);
   simulation_->restore(saved);
   fresh_ = false;
 }

@@ -24,7 +24,7 @@
 namespace sinew::fmu {
 
 // Variables of an experiment that an importer can access.
-struct MachineShown {
+struct ExposedVariables {
   std::vector<std::string> inputs;      // keys of settings
   std::vector<std::string> outputs;     // channels; empty: all that have a value
   std::vector<std::string> parameters;  // keys of the experiment's numbers
@@ -38,7 +38,8 @@ class Machine {
   explicit Machine(const Description& description);
   // Returns the description of an experiment. Throws config::Error or std::exception for an
   // experiment that cannot be built and for unknown names.
-  static Description describe(const experiment::Experiment& experiment, const MachineShown& shown);
+  static Description describe(const experiment::Experiment& experiment,
+                              const ExposedVariables& shown);
 
   // Return the variables, with the values that were set.
   const Sheet& sheet() const { return sheet_; }
@@ -47,7 +48,7 @@ class Machine {
   void begin();
   // See instance.h: an output, the reason why a step is refused, the step, and the end of the plan.
   double output(std::size_t place) const;
-  std::string wrong(double) const { return {}; }
+  std::string refusal(double) const { return {}; }
   const char* advance(double end, double step) noexcept;
   double last() const noexcept { return simulation_->ended() ? simulation_->time() : duration(); }
 
@@ -59,11 +60,11 @@ class Machine {
   double duration() const noexcept;
 
  private:
-  struct Shown {
+  struct ExposedVariable {
     std::size_t place = 0, number = 0;  // of the variable; of the setting or channel
     std::string key;
     std::string unit;
-    double told = 0;  // inputs: value that was last passed to the simulation
+    double last_value = 0;  // inputs: value that was last passed to the simulation
   };
 
   experiment::Experiment experiment() const;
@@ -72,7 +73,7 @@ class Machine {
 
   Sheet sheet_;
   config::Node tree_;
-  std::vector<Shown> inputs_, parameters_;
+  std::vector<ExposedVariable> inputs_, parameters_;
   std::unique_ptr<run::Simulation> simulation_;
 
   // Outputs at the simulation's present tick, read together when one is read first. They follow

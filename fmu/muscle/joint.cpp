@@ -225,7 +225,7 @@ std::vector<double> Joint::angles_after(double step) const {
   return out;
 }
 
-std::string Joint::wrong(double step) const { return wrong_at(angles_after(step)); }
+std::string Joint::refusal(double step) const { return wrong_at(angles_after(step)); }
 
 void Joint::begin() {
   const std::vector<Parameter> set = sheet_.parameters();

@@ -146,7 +146,7 @@ double Muscle::output(std::size_t place) const {
   return driven_->account().in;
 }
 
-std::string Muscle::wrong(double step) const {
+std::string Muscle::refusal(double step) const {
   return wrong_length(muscle_.actuator, "length + rate x step", length_after(step));
 }
 

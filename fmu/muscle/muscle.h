@@ -60,7 +60,7 @@ class Muscle {
   // impossible length.
   void begin();
   double output(std::size_t place) const;
-  std::string wrong(double step) const;
+  std::string refusal(double step) const;
   const char* advance(double end, double step) noexcept;
   double last() const noexcept { return units::unbounded; }
 

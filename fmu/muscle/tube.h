@@ -39,7 +39,7 @@ class Tube {
   // Returns an output. Throws Discarded for an impossible length.
   double output(std::size_t place) const;
   // A tube is static: each step succeeds.
-  std::string wrong(double) const { return {}; }
+  std::string refusal(double) const { return {}; }
   const char* advance(double, double) noexcept { return nullptr; }
   double last() const noexcept { return units::unbounded; }
 

@@ -39,8 +39,8 @@ struct Held {
 
 // Logs the reason of a status and returns the status.
 template <class HeldInstance>
-typename HeldInstance::Status told(const HeldInstance& held, typename HeldInstance::Status status,
-                                   const char* function, const char* why) noexcept {
+typename HeldInstance::Status logged(const HeldInstance& held, typename HeldInstance::Status status,
+                                     const char* function, const char* why) noexcept {
   try {
     held.log(status, std::string(function) + ": " + why);
   } catch (...) {  // out of memory for the message
@@ -63,9 +63,9 @@ typename HeldInstance::Status guarded(void* component, const char* function,
       return work(held);
     }
   } catch (const Discarded& e) {
-    return told(held, Status::discard, function, e.what());
+    return logged(held, Status::discard, function, e.what());
   } catch (const std::exception& e) {
-    return told(held, Status::error, function, e.what());
+    return logged(held, Status::error, function, e.what());
   }
 }
 
@@ -79,13 +79,14 @@ typename HeldInstance::Status do_step(HeldInstance& held, const char* function, 
   const bool before = instance.ended();
   const auto became = instance.step(from, length);
   using Step = decltype(became);
-  if (became == Step::failed) return told(held, Status::error, function, instance.trouble());
+  if (became == Step::failed) return logged(held, Status::error, function, instance.trouble());
   if (instance.ended() && !before) held.log(Status::ok, "the model has come to its end");
   if (became == Step::done) return Status::ok;
-  if (before) return told(held, Status::discard, function, "the model had come to its end before");
+  if (before)
+    return logged(held, Status::discard, function, "the model had come to its end before");
   return short_of == Status::ok
              ? Status::ok
-             : told(held, short_of, function, "the model has come to its end within the step");
+             : logged(held, short_of, function, "the model has come to its end within the step");
 }
 
 // Reads values by their references. `convert` returns the element of the caller's array.

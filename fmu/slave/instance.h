@@ -8,7 +8,7 @@
 //   sheet()       variables and their values
 //   begin()       start with the present parameters and inputs; throws
 //   output(k)     value of the output at index k, after begin(); may throw
-//   wrong(h)      reason why a step of h seconds is refused; empty: none. Changes nothing
+//   refusal(h)      reason why a step of h seconds is refused; empty: none. Changes nothing
 //   advance(end, h)   advances to `end` seconds after the start. Returns the failure, or nullptr
 //   last()        end of the model in seconds after the start; infinite: no end
 //   save(), restore(bytes)   its own state, after begin()
@@ -177,7 +177,7 @@ class Instance {
                                " s; expected at most " + text_of(stop_) +
                                " s, the stop time that was set before initialization");
     if (ended()) return Step::ended;
-    if (const std::string why = std::visit([&](auto& m) { return m.wrong(length); }, model_);
+    if (const std::string why = std::visit([&](auto& m) { return m.refusal(length); }, model_);
         !why.empty())
       throw Discarded(why);
 
@@ -232,7 +232,7 @@ class Instance {
       std::visit([&](auto& m) { m.restore(from); }, model_);
       std::ranges::copy(values, sheet().values().begin());
     } else {
-      model_ = made_anew(values, header.begun != 0, from);
+      model_ = rebuilt_model(values, header.begun != 0, from);
     }
     phase_ = header.phase;
     begun_ = header.begun != 0;
@@ -278,8 +278,8 @@ class Instance {
   }
 
   // Returns a model with these values and, if it had begun, with this state.
-  Models made_anew(const std::vector<double>& values, bool begun,
-                   std::span<const std::byte> own) const {
+  Models rebuilt_model(const std::vector<double>& values, bool begun,
+                       std::span<const std::byte> own) const {
     Models out = make_model<Models>(description_);
     std::visit(
         [&](auto& m) {

@@ -147,7 +147,7 @@ class Filler {
       value = c.value;
       return;
     }
-    complain(f.name, "\"" + p->word + "\"", "a word of this version", "");
+    report_conflict(f.name, "\"" + p->word + "\"", "a word of this version", "");
   }
   template <class Inside>
   void group(const Field& f, const Inside& inside) {
@@ -157,8 +157,8 @@ class Filler {
     prefix_ = outer;
   }
   // Throws for values that contradict each other.
-  [[noreturn]] void complain(std::string_view key, const std::string& found,
-                             const std::string& expected, const std::string& try_this) {
+  [[noreturn]] void report_conflict(std::string_view key, const std::string& found,
+                                    const std::string& expected, const std::string& try_this) {
     throw std::runtime_error(prefix_ + std::string(key) + ": found " + found + "; expected " +
                              expected + (try_this.empty() ? "" : "; try " + try_this));
   }

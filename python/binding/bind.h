@@ -74,9 +74,9 @@ std::vector<std::string> sets_of(const py::object& sets,
 ExperimentPointer experiment_of(const py::object& meant, const py::object& sets);
 
 // Runs `work` on a thread of its own, without Python's lock, and rethrows its exception. Meanwhile
-// calls `look` several times a second, with Python's lock. If Ctrl-C, another signal handler of
-// Python or `look` raises an exception, sets `stop`, waits for the end of the work, and raises it.
+// calls `poll` several times a second, with Python's lock. If Ctrl-C, another signal handler of
+// Python or `poll` raises an exception, sets `stop`, waits for the end of the work, and raises it.
 void do_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work,
-                      const std::function<void()>& look = {});
+                      const std::function<void()>& poll = {});
 
 }  // namespace sinew::python

@@ -28,9 +28,9 @@ std::vector<std::string> paths_of(const py::sequence& runs) {
   return out;
 }
 
-report::AlignWish wish_of(const std::string& align, const std::string& event,
-                          const std::vector<std::string>& align_by, const std::string& clock,
-                          double within) {
+report::AlignOptions wish_of(const std::string& align, const std::string& event,
+                             const std::vector<std::string>& align_by, const std::string& clock,
+                             double within) {
   using report::Align;
   std::optional<Align> by;
   for (const Align one : {Align::start, Align::sequence, Align::event, Align::correlation})
@@ -40,12 +40,12 @@ report::AlignWish wish_of(const std::string& align, const std::string& event,
                           "; expected start, sequence, event or correlation");
   if (clock != "none" && clock != "fit")
     throw py::value_error("clock: found " + config::in_quotes(clock) + "; expected none or fit");
-  report::AlignWish wish(*by);
-  wish.event = event;
-  wish.channels = align_by;
-  wish.fit_clock = clock == "fit";
-  wish.most_shift = within;
-  return wish;
+  report::AlignOptions align_options(*by);
+  align_options.event = event;
+  align_options.channels = align_by;
+  align_options.fit_clock = clock == "fit";
+  align_options.largest_shift = within;
+  return align_options;
 }
 
 // Returns settings as texts; values in a dict must be texts with their units.
@@ -60,11 +60,11 @@ py::object compare(const py::sequence& runs, const std::string& align, const std
                    const std::vector<std::string>& align_by, const std::string& clock,
                    double within, const std::vector<std::string>& channels) {
   const std::vector<std::string> paths = paths_of(runs);
-  const report::AlignWish wish = wish_of(align, event, align_by, clock, within);
+  const report::AlignOptions align_options = wish_of(align, event, align_by, clock, within);
   std::string json;
   {
     const py::gil_scoped_release others;
-    json = to_json(run::compare_runs(paths, wish, channels));
+    json = to_json(run::compare_runs(paths, align_options, channels));
   }
   return dict_of(json);
 }

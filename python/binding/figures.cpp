@@ -46,9 +46,9 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
                    const std::string& units, const std::string& width, const std::string& height,
                    const std::string& font, const std::string& title, const py::object& start,
                    const py::object& stop, bool force) {
-  run::OverlaidRuns asked{paths_of(runs), names, align_of(align, fit_clock)};
-  overlay = overlay || !names.empty() || asked.align;
-  if (asked.runs.size() > 1 && !overlay)
+  run::OverlaidRuns overlaid{paths_of(runs), names, align_of(align, fit_clock)};
+  overlay = overlay || !names.empty() || overlaid.align;
+  if (overlaid.runs.size() > 1 && !overlay)
     throw py::value_error("runs: found several; expected one, or names or overlay=True");
   run::DrawingRequest request{.units = units, .channels = channels, .only = only, .title = title};
   request.options.from = time_of(start, request.options.from);
@@ -66,21 +66,21 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
   std::string index;
   {
     const py::gil_scoped_release unlocked;
-    index = overlay ? run::draw_runs(asked, out, request, notices)
-                    : run::draw_run(asked.runs[0], out, request, notices);
+    index = overlay ? run::draw_runs(overlaid, out, request, notices)
+                    : run::draw_run(overlaid.runs[0], out, request, notices);
   }
-  const py::object told = py::module_::import("json").attr("loads")(index);
-  told["warnings"] = warnings;
-  return told;
+  const py::object parsed = py::module_::import("json").attr("loads")(index);
+  parsed["warnings"] = warnings;
+  return parsed;
 }
 
-report::AlignWish wish_of(const std::string& word, bool fit_clock) {
+report::AlignOptions wish_of(const std::string& word, bool fit_clock) {
   for (const auto by : {report::Align::start, report::Align::sequence, report::Align::event,
                         report::Align::correlation}) {
     if (report::to_text(by) != word) continue;
-    report::AlignWish wish(by);
-    wish.fit_clock = fit_clock;
-    return wish;
+    report::AlignOptions align_options(by);
+    align_options.fit_clock = fit_clock;
+    return align_options;
   }
   throw py::value_error("align: found \"" + word +
                         "\"; expected start, sequence, event or correlation");
@@ -99,8 +99,8 @@ int film(const py::object& runs, const py::object& path, const py::object& start
   options.to = time_of(stop, options.to);
   Names of;
   for (const std::filesystem::path& run : paths_of(runs)) of.push_back(run.string());
-  const report::AlignWish wish = wish_of(align, fit_clock);
-  if (of.size() == 1 && (wish.by != report::Align::start || fit_clock))
+  const report::AlignOptions align_options = wish_of(align, fit_clock);
+  if (of.size() == 1 && (align_options.by != report::Align::start || fit_clock))
     throw py::value_error(
         "align: found one run; expected several, which are aligned with each other");
   const std::string file = path_of(path);
@@ -112,7 +112,7 @@ int film(const py::object& runs, const py::object& path, const py::object& start
   do_interruptibly(interrupted, [&] {
     std::atomic<std::int64_t> done{0};
     film::Filming filming = of.size() == 1 ? film::Filming(of[0], "", options, interrupted)
-                                           : film::Filming(of, wish, options, interrupted);
+                                           : film::Filming(of, align_options, options, interrupted);
     filming.make(file, done);
     frames = filming.frames();
   });

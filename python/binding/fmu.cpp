@@ -20,7 +20,7 @@ py::object start_of(const fmu::Variable& v) {
                               : py::object(py::float_(v.start));
 }
 
-py::dict told(const fmu::Fmu& made, const std::string& path) {
+py::dict summary_of(const fmu::Fmu& made, const std::string& path) {
   py::dict out;
   out["file"] = path_text(path);
   out["kind"] = made.kind;
@@ -49,28 +49,28 @@ py::dict export_fmu(const py::object& file, const py::object& path, const std::s
                     const Names& joints, const std::string& actuator, bool without_valves,
                     const Names& inputs, const Names& outputs, const Names& parameters,
                     const py::object& sets, int fmi, const std::string& name, bool force) {
-  fmu::Asked asked{.file = path_of(file), .name = name, .version = fmi};
+  fmu::ExportRequest request{.file = path_of(file), .name = name, .version = fmi};
   config::Origins plain;  // for the units of numbers
-  asked.sets = sets_of(sets, [&]() -> const config::Origins& {
-    if (plain.empty()) plain = files::values(asked.file).origins;
+  request.sets = sets_of(sets, [&]() -> const config::Origins& {
+    if (plain.empty()) plain = files::values(request.file).origins;
     return plain;
   });
-  asked.actuator = actuator;
-  asked.muscle = muscle;
-  asked.joints = joints;
-  asked.without_valves = without_valves;
-  asked.inputs = inputs;
-  asked.outputs = outputs;
-  asked.parameters = parameters;
+  request.actuator = actuator;
+  request.muscle = muscle;
+  request.joints = joints;
+  request.without_valves = without_valves;
+  request.inputs = inputs;
+  request.outputs = outputs;
+  request.parameters = parameters;
   const std::string out = path_of(path);
   fmu::Fmu made;
   {
     const py::gil_scoped_release unlocked;
-    made = fmu::make_fmu(asked);
-    run::refuse_to_overwrite(out, force, {asked.file}, ".fmu");
+    made = fmu::make_fmu(request);
+    run::refuse_to_overwrite(out, force, {request.file}, ".fmu");
     run::write_file(out, made.bytes);
   }
-  return told(made, out);
+  return summary_of(made, out);
 }
 
 }  // namespace

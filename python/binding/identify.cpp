@@ -10,10 +10,10 @@
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/check/check.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/json/json.h"
 
 namespace sinew::python {
@@ -56,13 +56,13 @@ identify::CheckInput input_of(const py::object& length, const py::object& pressu
                    {"length", "m", each(length, "length", points)}};
   if (!rest_length.is_none())
     table.columns.push_back({"rest_length", "m", each(rest_length, "rest_length", points)});
-  for (const identify::Wanted& wanted : identify::static_columns())
+  for (const identify::ColumnSpec& spec : identify::static_columns())
     for (const identify::Column& column : table.columns)
-      if (column.name == wanted.name && column.name.ends_with("length"))
+      if (column.name == spec.name && column.name.ends_with("length"))
         for (const double x : column.values)
-          if (!(x >= wanted.least && x <= wanted.most))
+          if (!(x >= spec.least && x <= spec.most))
             throw std::invalid_argument(fmt::format("{}: found {} m; expected {} to {} m",
-                                                    column.name, x, wanted.least, wanted.most));
+                                                    column.name, x, spec.least, spec.most));
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
   std::vector<bool> is_fitted;
   for (const double x : each(fitted, "fitted", points)) is_fitted.push_back(x != 0);
@@ -92,7 +92,7 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
   std::atomic<bool> stop = false;
   do_interruptibly(stop, [&] {
     const host::Stoppable stoppable(&stop);
-    identify::heed(identify::check_static(input), anyway, input.data.warnings);
+    identify::apply_checks(identify::check_static(input), anyway, input.data.warnings);
     found = identify::identify_static(input.data, options);
   });
   py::list files;

@@ -9,7 +9,7 @@
 #include "python/binding/recording.h"
 #include "python/binding/settings.h"
 #include "sinew/host/stop.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/task/inputs.h"
 #include "sinew/identify/task/methods.h"
@@ -163,8 +163,8 @@ py::dict identify_columns(const std::string& method) {
   py::dict out;
   for (const identify::MethodInputs& inputs : identify::method_inputs())
     if (inputs.method == method && method != "sensor")
-      for (const identify::Wanted& wanted : inputs.columns())
-        out[py::str(std::string(wanted.name))] = std::string(wanted.unit);
+      for (const identify::ColumnSpec& spec : inputs.columns())
+        out[py::str(std::string(spec.name))] = std::string(spec.unit);
   return out;
 }
 

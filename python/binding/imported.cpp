@@ -15,18 +15,18 @@ namespace {
 using Texts = std::map<std::string, std::string>;
 
 // Column settings of a caller.
-struct Said {
+struct MappingArguments {
   Texts map, units, offset, where;
   std::map<std::string, double> scale;
 };
 
-recording::Mapping mapping_of(const Said& said) {
+recording::Mapping mapping_of(const MappingArguments& arguments) {
   recording::Mapping out;
-  for (const auto& [channel, column] : said.map) map_channel(out, channel, column);
-  for (const auto& [column, unit] : said.units) map_unit(out, column, unit);
-  for (const auto& [column, scale] : said.scale) map_scale(out, column, scale);
-  for (const auto& [column, offset] : said.offset) map_offset(out, column, offset);
-  for (const auto& [column, values] : said.where) map_where(out, column, values);
+  for (const auto& [channel, column] : arguments.map) map_channel(out, channel, column);
+  for (const auto& [column, unit] : arguments.units) map_unit(out, column, unit);
+  for (const auto& [column, scale] : arguments.scale) map_scale(out, column, scale);
+  for (const auto& [column, offset] : arguments.offset) map_offset(out, column, offset);
+  for (const auto& [column, values] : arguments.where) map_where(out, column, values);
   return out;
 }
 

@@ -63,7 +63,7 @@ py::object at_points(const HeldActuator& a, const py::object& length, const py::
                      Of of) {
   return over(numbers(length, "length"), numbers(pressure, "pressure"),
               [&a, of](double l, double p) {
-                return of(point_at(a, l, p, actuator::OperatingPoint::not_asked));
+                return of(point_at(a, l, p, actuator::OperatingPoint::not_given));
               });
 }
 
@@ -149,7 +149,7 @@ void bind_actuator(py::module_& m) {
             return py::module_::import("json").attr("loads")(
                 run::json_of(point_at(a, length, pressure, velocity)));
           },
-          py::arg("length"), py::arg("pressure"), py::arg("velocity") = Point::not_asked,
+          py::arg("length"), py::arg("pressure"), py::arg("velocity") = Point::not_given,
           "Returns all that the laws say of one point, by names that end with the unit.");
 }
 

@@ -43,7 +43,7 @@ class Loop {
     advance(*use, period_);
     use->read(channels_, {out, channels_.size()});
   }
-  void look(double* out) { Use(*simulation_)->read(channels_, {out, channels_.size()}); }
+  void read(double* out) { Use(*simulation_)->read(channels_, {out, channels_.size()}); }
 
  private:
   void write(run::Simulation& simulation, const double* written) const {
@@ -64,13 +64,13 @@ Numbers step(Loop& loop, const py::object& given) {
   return out;
 }
 
-Numbers look(Loop& loop) {
+Numbers read(Loop& loop) {
   Numbers out(static_cast<py::ssize_t>(loop.reads()));
-  loop.look(out.mutable_data());
+  loop.read(out.mutable_data());
   return out;
 }
 
-Numbers step_all(const std::vector<Loop*>& loops, const py::object& given) {
+Numbers step_each(const std::vector<Loop*>& loops, const py::object& given) {
   const Numbers values = numbers(given, "values");
   if (loops.empty()) throw std::invalid_argument("loops: found none; expected one at least");
   const std::size_t writes = loops[0]->writes(), reads = loops[0]->reads();
@@ -101,8 +101,8 @@ void bind_loop(py::module_& m) {
       .def("step", &step, py::arg("values"),
            "Sets the settings to these values, in SI (NaN: left as it is), runs on by a period,\n"
            "and returns what is read, an array. Raises RunError and ValueError.")
-      .def("look", &look, "Returns what is read now, an array; nothing moves on.");
-  m.def("step_all", &step_all, py::arg("loops"), py::arg("values"),
+      .def("look", &read, "Returns what is read now, an array; nothing moves on.");
+  m.def("step_all", &step_each, py::arg("loops"), py::arg("values"),
         "Steps loops that are alike, one after the other: `values` has a row for each. Returns a\n"
         "row of readings for each. Raises as Loop.step() does.");
 }

@@ -74,7 +74,7 @@ py::object in_a_cell(const std::string& page) {
          py::str("\" style=\"width: 100%; height: 720px; border: 0\"></iframe>");
 }
 
-void sum_up(Recording& recording) {
+void summarize(Recording& recording) {
   recording.analysis = std::make_unique<analysis::Analysis>(
       recording.table, analysis::read_machine(recording.resolved));
   const analysis::Analysis& a = *recording.analysis;
@@ -131,7 +131,7 @@ Pointer read_run(const std::string& named) {
   out->table = log::read(run.log);
   out->name = run::experiment_in(run.log);
   out->folder = run.log.parent_path().string();
-  sum_up(*out);
+  summarize(*out);
   return out;
 }
 

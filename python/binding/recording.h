@@ -51,7 +51,7 @@ class Recording {
 
 // Sets the summary and the verdicts from `table` and `resolved`, which are kept; a part of a run
 // has no verdicts.
-void sum_up(Recording& recording);
+void summarize(Recording& recording);
 
 // Returns HTML that shows a page in a notebook cell.
 py::object in_a_cell(const std::string& page);

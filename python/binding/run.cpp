@@ -12,8 +12,8 @@
 
 #include "python/binding/recording.h"
 #include "sinew/config/node.h"
-#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/outcome.h"
+#include "sinew/run/folder/run_storage.h"
 #include "sinew/run/simulation/place.h"
 
 namespace sinew::python {
@@ -28,18 +28,18 @@ void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atom
   run::Place place(request.port, e.read);
   place.prepare(request.clear_fault, &stop);
   out.board = place.who();
-  out.warnings = place.told();
+  out.warnings = place.messages();
   run::RunOptions options{.stop = &stop};
   place.apply(options);
   run::Outcome outcome = run::run(e.read, options);
   if (outcome.stopped) return;
-  if (outcome.ended_early()) throw RunError(run::black_box(e.read, outcome));
+  if (outcome.ended_early()) throw RunError(run::last_records(e.read, outcome));
   if (!outcome.no_room.empty()) throw std::runtime_error(outcome.no_room);
   out.table = std::move(outcome.table);
   out.resolved = config::parse_text(experiment::resolved(e.read, SINEW_VERSION), "resolved.toml");
   out.name = e.read.name;
-  sum_up(out);
-  for (std::string& text : run::warnings_beside_the_log(e.read, outcome))
+  summarize(out);
+  for (std::string& text : run::warnings_outside_log(e.read, outcome))
     out.warnings.push_back(std::move(text));
 }
 
@@ -48,28 +48,28 @@ void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording
   std::vector<std::string> warnings;
   run::RunRequest stopped_by_python = request;
   stopped_by_python.stop = &stop;
-  run::KeptRun kept(stopped_by_python,
-                    {.on_warning = [&](std::string_view text) { warnings.emplace_back(text); }});
+  run::RunStorage kept(stopped_by_python,
+                       {.on_warning = [&](std::string_view text) { warnings.emplace_back(text); }});
   run::RunOptions options{.stop = &stop};
   kept.apply(options);
   out.board = kept.place().who();
-  for (const std::string& line : kept.place().told()) warnings.push_back(line);
+  for (const std::string& line : kept.place().messages()) warnings.push_back(line);
   run::Outcome outcome = run::run(kept.experiment(), options);
   if (outcome.stopped) return;
   out.table = outcome.table;
   out.resolved = kept.values();
   out.name = kept.experiment().name;
   if (outcome.ended_early()) {
-    const std::string words = run::black_box(kept.experiment(), outcome);
+    const std::string words = run::last_records(kept.experiment(), outcome);
     try {
-      (void)kept.keep(std::move(outcome));
-    } catch (const std::exception& told) {  // the message has the place of the log
-      throw RunError(told.what());
+      (void)kept.store(std::move(outcome));
+    } catch (const std::exception& failure) {  // the message has the place of the log
+      throw RunError(failure.what());
     }
     throw RunError(words);
   }
-  out.folder = kept.keep(std::move(outcome)).folder.string();
-  sum_up(out);
+  out.folder = kept.store(std::move(outcome)).folder.string();
+  summarize(out);
   out.warnings = std::move(warnings);
 }
 
@@ -107,7 +107,7 @@ Pointer run(const py::object& experiment, const py::object& sets, const py::obje
 }  // namespace
 
 void do_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work,
-                      const std::function<void()>& look) {
+                      const std::function<void()>& poll) {
   std::mutex mutex;
   std::condition_variable finished;
   bool done = false;
@@ -130,7 +130,7 @@ void do_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work
   while (!wait(std::chrono::milliseconds(20)) && !interruption) {
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (look) look();
+      if (poll) poll();
     } catch (...) {
       interruption = std::current_exception();
       stop.store(true);

@@ -65,7 +65,7 @@ std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e
 }
 
 // Calls the user's progress function.
-void tell(const py::object& progress, std::int64_t done, std::size_t points) {
+void report_progress(const py::object& progress, std::int64_t done, std::size_t points) {
   if (!progress.is_none()) progress(done, points);
 }
 
@@ -101,8 +101,8 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
         rows = tune::sweep(
             asked, {.threads = host::threads_of(threads), .stop = &stop, .progress = &done});
       },
-      [&] { tell(progress, done.load(), all); });
-  tell(progress, static_cast<std::int64_t>(all), all);
+      [&] { report_progress(progress, done.load(), all); });
+  report_progress(progress, static_cast<std::int64_t>(all), all);
   tune::refuse_empty_columns(rows, asked);
   return py::module_::import("json").attr("loads")(
       tune::json_of(tune::headings(asked), rows))["rows"];
@@ -126,12 +126,12 @@ py::object tune_file(const py::object& path, const py::object& results, const py
   std::atomic<bool> stop = false;
   std::atomic<std::int64_t> done = 0;
   tune::Tuned tuned;
-  tune::KeptOptions options{.ask_to_stop = [&] { stop.store(true); }};
+  tune::StoredTuningOptions options{.ask_to_stop = [&] { stop.store(true); }};
   options.tune.runs = {.threads = host::threads_of(threads), .stop = &stop, .progress = &done};
   const std::size_t all = tune::points(tuning.runs);
   do_interruptibly(
-      stop, [&] { tuned = tune::optimize_kept(tuning, kept, options); },
-      [&] { tell(progress, done.load(), all); });
+      stop, [&] { tuned = tune::optimize_and_store(tuning, kept, options); },
+      [&] { report_progress(progress, done.load(), all); });
   return py::module_::import("json").attr("loads")(tune::json_of(tuning, tuned));
 }
 

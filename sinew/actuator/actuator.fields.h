@@ -12,9 +12,9 @@
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/tension.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/constants.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::actuator {
 
@@ -66,11 +66,11 @@ void fields(Visitor& v, Braid& braid) {
   const bool mesh = lengthwise > 0 && around > 0 && side > 0;
   const bool thread = braid.thread_length > 0 && braid.turns > 0;
   if (mesh && (braid.thread_length > 0 || braid.turns > 0)) {
-    units::complain(v, "trapezoids", "a second description of the braid",
-                    "thread_length and turns, or trapezoids");
+    units::report_conflict(v, "trapezoids", "a second description of the braid",
+                           "thread_length and turns, or trapezoids");
   } else if (!mesh && !thread) {
-    units::complain(v, "thread_length", "no complete braid",
-                    "thread_length and turns, or trapezoids");
+    units::report_conflict(v, "thread_length", "no complete braid",
+                           "thread_length and turns, or trapezoids");
   }
   if (mesh) braid = braid_from_trapezoids(lengthwise, around, side);
 }
@@ -82,8 +82,9 @@ void check_share(Visitor& v, const Effectiveness& e) {
   for (const double gauge : {e.valid_from, e.valid_to}) {
     const double share = effectiveness(e, gauge, units::atmosphere);
     if (share >= least && share <= most) continue;
-    units::complain(v, "polynomial", "a share of " + std::to_string(share) + " where it is valid",
-                    "-0.5 to 3: a share of the ideal tension", "other units");
+    units::report_conflict(v, "polynomial",
+                           "a share of " + std::to_string(share) + " where it is valid",
+                           "-0.5 to 3: a share of the ideal tension", "other units");
     return;
   }
 }
@@ -96,8 +97,8 @@ void fields(Visitor& v, Effectiveness& e) {
                 .doc = "c0 + c1 p + c2 p^2, share of the ideal tension that arrives [30]"},
                coefficients, "Pa");
   if (coefficients.size() > 3) {
-    units::complain(v, "polynomial", std::to_string(coefficients.size()) + " coefficients",
-                    "at most 3");
+    units::report_conflict(v, "polynomial", std::to_string(coefficients.size()) + " coefficients",
+                           "at most 3");
   }
   coefficients.resize(3);
   e.c0 = coefficients[0];
@@ -124,8 +125,8 @@ void fields(Visitor& v, Effectiveness& e) {
              .doc = "lowest and highest pressure that were fitted; held constant outside"},
             valid);
   if (valid.size() != 2 || !(valid[0] < valid[1])) {
-    units::complain(v, "valid", "no range of pressures", "the lowest and the highest",
-                    R"(["0 psi gauge", "110 psi gauge"])");
+    units::report_conflict(v, "valid", "no range of pressures", "the lowest and the highest",
+                           R"(["0 psi gauge", "110 psi gauge"])");
   }
   valid.resize(2);
   e.valid_from = valid[0];
@@ -194,8 +195,8 @@ void fields(Visitor& v, Loss& loss) {
           .doc = "false: friction by the sign of the speed as printed; it creeps under load"},
          loss.stick);
   if (loss.coulomb_scale == Loss::Scale::constant && !(loss.coulomb_stiffness > 0)) {
-    units::complain(v, "coulomb_scale", "\"constant\" without a stiffness",
-                    "a coulomb_stiffness above zero with it");
+    units::report_conflict(v, "coulomb_scale", "\"constant\" without a stiffness",
+                           "a coulomb_stiffness above zero with it");
   }
 }
 
@@ -234,15 +235,15 @@ void fields(Visitor& v, Bladder& bladder) {
              .doc = "shortest and longest length that were fitted; the bladder is held outside"},
             valid);
   if (valid.size() != 2 || !(valid[0] < valid[1])) {
-    units::complain(v, "valid", "no range of lengths", "the shortest and the longest",
-                    R"(["80 mm", "100 mm"])");
+    units::report_conflict(v, "valid", "no range of lengths", "the shortest and the longest",
+                           R"(["80 mm", "100 mm"])");
   }
   valid.resize(2);
   bladder.valid_from = valid[0];
   bladder.valid_to = valid[1];
   if (bladder.saturating_tension != 0 && !(bladder.saturation_length > 0)) {
-    units::complain(v, "saturating_tension", "no way over which it is lost",
-                    "a saturation_length above zero with it");
+    units::report_conflict(v, "saturating_tension", "no way over which it is lost",
+                           "a saturation_length above zero with it");
   }
 }
 
@@ -277,8 +278,8 @@ void fields(Visitor& v, Taper& taper) {
             .doc = "L_0, from which the contraction counts"},
            taper.rest_length);
   if (taper.extra_gain != 0 && !(taper.extra_pressure > 0)) {
-    units::complain(v, "extra_gain", "no pressure over which it goes",
-                    "an extra_pressure above zero with it");
+    units::report_conflict(v, "extra_gain", "no pressure over which it goes",
+                           "an extra_pressure above zero with it");
   }
 }
 
@@ -303,7 +304,7 @@ void ends(Visitor& v, const char* name, const char* unit, const char* doc, const
   std::vector<double> both{low, high};
   v.numbers({.name = name, .unit = unit, .doc = doc}, both);
   if (both.size() != 2 || !(both[0] <= both[1]))
-    units::complain(v, name, "no range", "the lower end and the upper one", example);
+    units::report_conflict(v, name, "no range", "the lower end and the upper one", example);
   both.resize(2);
   low = both[0];
   high = both[1];
@@ -317,8 +318,9 @@ void fields(Visitor& v, Prediction& p) {
       {.name = "lengths", .unit = "m", .min = 0, .doc = "that were measured, in ascending order"},
       p.lengths);
   if (!std::ranges::is_sorted(p.lengths))
-    units::complain(v, "lengths", "lengths in another order",
-                    "lengths from the shortest to the longest", R"(["80 mm", "90 mm", "100 mm"])");
+    units::report_conflict(v, "lengths", "lengths in another order",
+                           "lengths from the shortest to the longest",
+                           R"(["80 mm", "90 mm", "100 mm"])");
   ends(v, "pressures", "Pa gauge", "lowest and highest pressure that were measured",
        R"(["0 kPa gauge", "600 kPa gauge"])", p.lowest, p.highest);
   v.number({.name = "inside_68",
@@ -385,8 +387,8 @@ void fields(Visitor& v, Prediction& p) {
             .doc = "|ln(L/L_0)| over which muscles of other rest lengths L were tried"},
            p.other_reach);
   if ((p.rest_length > 0 || p.inside_95 > 0) && p.lengths.empty())
-    units::complain(v, "lengths", "none", "at least the one that was measured",
-                    R"(["80 mm", "90 mm", "100 mm"])");
+    units::report_conflict(v, "lengths", "none", "at least the one that was measured",
+                           R"(["80 mm", "90 mm", "100 mm"])");
 }
 
 template <class Visitor>
@@ -464,7 +466,7 @@ void fields(Visitor& v, Creep& creep) {
   bool slow = true;
   for (const double tau : time) slow = slow && tau > 0;
   if (share.size() != time.size() || share.size() > creep.share.size() || !slow) {
-    units::complain(
+    units::report_conflict(
         v, "share",
         std::to_string(share.size()) + " shares and " + std::to_string(time.size()) + " times",
         "as many times above zero as shares, one or two", R"(share = ["3 %"], time = ["10 s"])");
@@ -503,13 +505,15 @@ void fields(Visitor& v, Actuator& a) {
   v.group({.name = "toe", .optional = true, .doc = "a slack muscle that begins to pull softly"},
           [&](auto& g) { fields(g, a.toe); });
   if (tapers(a.taper) && !(a.taper.rest_length > a.caps.length)) {
-    units::complain(v, "taper", "no rest_length", "that of the muscle without pressure and load");
+    units::report_conflict(v, "taper", "no rest_length",
+                           "that of the muscle without pressure and load");
   } else if (a.long_end.length < shortest_length(a)) {
-    units::complain(v, "long_end", "a greatest length below the shortest, thread_length / sqrt 3",
-                    "a length between that and the thread's");
+    units::report_conflict(v, "long_end",
+                           "a greatest length below the shortest, thread_length / sqrt 3",
+                           "a length between that and the thread's");
   } else if (a.air.offset < 0 && !(volume(a, a.long_end.length) > 0)) {
-    units::complain(v, "air", "an offset that leaves no air at long_end.length",
-                    "one that leaves some: above minus the volume of the braid there");
+    units::report_conflict(v, "air", "an offset that leaves no air at long_end.length",
+                           "one that leaves some: above minus the volume of the braid there");
   }
   v.group({.name = "hysteresis", .optional = true, .doc = "friction that turns with the pressure"},
           [&](auto& g) { fields(g, a.hysteresis); });

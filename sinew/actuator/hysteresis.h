@@ -55,11 +55,12 @@ constexpr double play(double z, double x, double w) {
 }
 
 // Effective pressure of the mesh at this length and pressure, and its play.
-struct Felt {
+struct EffectivePressure {
   double gauge_pressure = 0;  // [Pa]
   double play = 0;            // z [Pa]
 };
-inline Felt felt(const Actuator& a, double length, double gauge_pressure, double z) {
+inline EffectivePressure effective_pressure(const Actuator& a, double length, double gauge_pressure,
+                                            double z) {
   const double x = drive(a.hysteresis, a.braid, length, gauge_pressure);
   const double now = play(z, x, half_width(a, length, gauge_pressure));
   return {gauge_pressure - (x - now), now};

@@ -31,13 +31,13 @@ struct Point {
 double go(const Actuator& a, Point from, Point to, int n, double& z) {
   double taken = 0;
   double volume_before = volume(a.braid, from.length);
-  double s_before =
-      from.gauge_pressure - felt(a, from.length, from.gauge_pressure, z).gauge_pressure;
+  double s_before = from.gauge_pressure -
+                    effective_pressure(a, from.length, from.gauge_pressure, z).gauge_pressure;
   for (int i = 1; i <= n; ++i) {
     const double part = static_cast<double>(i) / n;
     const double length = from.length + part * (to.length - from.length);
     const double p = from.gauge_pressure + part * (to.gauge_pressure - from.gauge_pressure);
-    const Felt f = felt(a, length, p, z);
+    const EffectivePressure f = effective_pressure(a, length, p, z);
     z = f.play;
     const double v = volume(a.braid, length), s = p - f.gauge_pressure;
     taken += 0.5 * (s + s_before) * (v - volume_before);
@@ -55,7 +55,7 @@ TEST(Hysteresis, NoWidthIsNoFriction) {
   double z = 0;
   for (int i = 0; i < 1000; ++i) {
     const double p = pressures(random);
-    const Felt f = felt(a, lengths(random) * inch, p, z);
+    const EffectivePressure f = effective_pressure(a, lengths(random) * inch, p, z);
     z = f.play;
     EXPECT_NEAR(f.gauge_pressure, p, 1e-9 * bar);
   }
@@ -67,12 +67,13 @@ TEST(Hysteresis, FillAndVentStandTwoWidthsApart) {
   const double l = 3.2 * inch;
   double z = play_at_rest(a, l, 0);
   go(a, {l, 0}, {l, 4 * bar}, 100, z);
-  EXPECT_NEAR(felt(a, l, 4 * bar, z).gauge_pressure, 3.94 * bar, 1e-6);
+  EXPECT_NEAR(effective_pressure(a, l, 4 * bar, z).gauge_pressure, 3.94 * bar, 1e-6);
   go(a, {l, 4 * bar}, {l, 6 * bar}, 7, z);
   go(a, {l, 6 * bar}, {l, 5.95 * bar}, 3, z);
-  EXPECT_NEAR(felt(a, l, 5.95 * bar, z).gauge_pressure, 5.92 * bar, 1e-6);  // as at 6 bar
+  EXPECT_NEAR(effective_pressure(a, l, 5.95 * bar, z).gauge_pressure, 5.92 * bar,
+              1e-6);  // as at 6 bar
   go(a, {l, 5.95 * bar}, {l, 4 * bar}, 50, z);
-  EXPECT_NEAR(felt(a, l, 4 * bar, z).gauge_pressure, 4.06 * bar, 1e-6);
+  EXPECT_NEAR(effective_pressure(a, l, 4 * bar, z).gauge_pressure, 4.06 * bar, 1e-6);
 }
 
 // Any number of steps through the same turning points ends at the same play.
@@ -101,10 +102,10 @@ TEST(Hysteresis, LoopsGrowWithTheContraction) {
     const double l = (1 - contraction) * a.long_end.length;
     double z = play_at_rest(a, l, 0);
     go(a, {l, 0}, {l, 5 * bar}, 10, z);
-    const double fill = felt(a, l, 5 * bar, z).gauge_pressure;
+    const double fill = effective_pressure(a, l, 5 * bar, z).gauge_pressure;
     go(a, {l, 5 * bar}, {l, 7 * bar}, 10, z);
     go(a, {l, 7 * bar}, {l, 5 * bar}, 10, z);
-    const double gap = felt(a, l, 5 * bar, z).gauge_pressure - fill;
+    const double gap = effective_pressure(a, l, 5 * bar, z).gauge_pressure - fill;
     EXPECT_NEAR(gap, 0.02 * bar + 0.8 * bar * std::max(contraction, 0.0), 1e-6 * bar);
   }
 }
@@ -120,10 +121,12 @@ TEST(Hysteresis, IsBoundedAndGrowsWithThePressure) {
   double z = 0;
   for (int i = 0; i < 5000; ++i) {
     const double l = lengths(random) * inch, p = pressures(random);
-    const Felt low = felt(a, l, p, z), high = felt(a, l, p + steps(random), z);
+    const EffectivePressure low = effective_pressure(a, l, p, z),
+                            high = effective_pressure(a, l, p + steps(random), z);
     EXPECT_LE(std::abs(low.gauge_pressure - p), half_width(a, l, p) + 1e-9 * bar);
     EXPECT_GE(high.gauge_pressure, low.gauge_pressure - 1e-9 * bar);
-    EXPECT_NEAR(felt(a, l, p, low.play).gauge_pressure, low.gauge_pressure, 1e-9 * bar);
+    EXPECT_NEAR(effective_pressure(a, l, p, low.play).gauge_pressure, low.gauge_pressure,
+                1e-9 * bar);
     z = low.play;
   }
 }
@@ -210,10 +213,10 @@ TEST(Hysteresis, StretchingPullsHarder) {
   const double p = 4 * bar, l = 3.2 * inch;
   double z = play_at_rest(a, 2.8 * inch, p);
   go(a, {2.8 * inch, p}, {l, p}, 100, z);
-  const double stretched = felt(a, l, p, z).gauge_pressure;
+  const double stretched = effective_pressure(a, l, p, z).gauge_pressure;
   go(a, {l, p}, {3.6 * inch, p}, 100, z);
   go(a, {3.6 * inch, p}, {l, p}, 100, z);
-  const double shortened = felt(a, l, p, z).gauge_pressure;
+  const double shortened = effective_pressure(a, l, p, z).gauge_pressure;
   EXPECT_NEAR(stretched - shortened, 0.2 * bar, 1e-6 * bar);
   EXPECT_GT(clamped_tension(a, l, 0, stretched, thesis_atmosphere),
             clamped_tension(a, l, 0, shortened, thesis_atmosphere));

@@ -17,19 +17,19 @@ struct Surroundings {
 };
 
 struct OperatingPoint {
-  static constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
   double length = 0, gauge_pressure = 0;  // [m], [Pa]
   double tension = 0;                     // at rest, without losses [N]
   double effectiveness = 0;
   double coulomb_bound = 0;                            // bound of the dry friction [N]
-  double velocity = not_asked;                         // rate of the length [m/s]
-  double sliding_tension = not_asked;                  // tension with losses, [33] [N]
-  double viscous_loss = not_asked;                     // its viscous part [N]
+  double velocity = not_given;                         // rate of the length [m/s]
+  double sliding_tension = not_given;                  // tension with losses, [33] [N]
+  double viscous_loss = not_given;                     // its viscous part [N]
   double stiffness_at_constant_pressure = 0;           // [26] [N/m]
   double stiffness_sealed = 0, passive_stiffness = 0;  // valves shut, and without air [N/m]
   double volume = 0, diameter = 0, braid_angle = 0;    // [m3], [m], [rad]; NaN: not defined
-  double half_68 = not_asked, half_95 = not_asked;     // measured forces about the law [N];
+  double half_68 = not_given, half_95 = not_given;     // measured forces about the law [N];
                                                        // NaN: unknown, see prediction.h
   std::vector<std::string> beyond;  // limits of the model that are exceeded, as text
 };
@@ -37,6 +37,6 @@ struct OperatingPoint {
 // Evaluates the laws at `length` [m] and `gauge` pressure [Pa], and at `velocity` [m/s] if given.
 OperatingPoint operating_point(const Actuator& a, double length, double gauge,
                                const Surroundings& around,
-                               double velocity = OperatingPoint::not_asked);
+                               double velocity = OperatingPoint::not_given);
 
 }  // namespace sinew::actuator

@@ -59,7 +59,7 @@ inline double widest_gap(const std::vector<double>& lengths) {
 
 // Returns whether a muscle with this longest mount has shown the first pull of its bladder, which
 // is steepest just below the rest length: shorter mounts do not determine it, whatever the law.
-inline bool first_pull_seen(double longest, double rest_length) {
+inline bool is_first_pull_measured(double longest, double rest_length) {
   return longest >= 0.99 * rest_length;
 }
 
@@ -78,7 +78,7 @@ inline ForceInterval force_interval(const Prediction& p, double length, double g
   const double a = gap > 0 ? away / (0.5 * gap) : 0;
   out.measured = d == 0 && e == 0;
   const bool unseen =
-      length > p.lengths.back() && !first_pull_seen(p.lengths.back(), p.rest_length);
+      length > p.lengths.back() && !is_first_pull_measured(p.lengths.back(), p.rest_length);
   out.known = (d == 0 || (p.beyond_95 > 0 && d <= 1 && !unseen)) &&
               (e == 0 || (p.above_95 > 0 && e <= 1)) &&
               (p.between_95 > 0 || away < same_length * p.lengths.back());

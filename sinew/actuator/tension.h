@@ -46,7 +46,7 @@ constexpr bool is_plain(const Actuator& a) {
 }
 
 // Returns the tension that bladder and toe add to the braid's [N].
-inline double beside_the_braid(const Actuator& a, double x, double pull) {
+inline double bladder_and_toe_tension(const Actuator& a, double x, double pull) {
   const double bladder = bladder_tension(a.bladder, x);
   return a.toe.tension > 0 ? toe_tension(a.toe, pull + bladder) - pull : bladder;
 }
@@ -57,7 +57,7 @@ inline double clamped_tension(const Actuator& a, double length, double velocity,
                               double gauge_pressure, double atmosphere) {
   const double x = braid_length(a, length, gauge_pressure, atmosphere);
   const double pull = braid_pull(a, x, gauge_pressure, atmosphere);
-  const double passive = beside_the_braid(a, x, pull) + a.loss.viscous * velocity;
+  const double passive = bladder_and_toe_tension(a, x, pull) + a.loss.viscous * velocity;
   const double inside = pull + passive + long_end_tension(a.long_end, length, velocity);
 
   const double shortest = shortest_length(a);
@@ -72,8 +72,8 @@ inline double clamped_tension(const Actuator& a, double length, double velocity,
 // clamped actuator would, the tension is 0.
 inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
                       double atmosphere) {
-  const double both_ways = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);
-  return both_ways > 0 ? both_ways : 0.0;
+  const double clamped = clamped_tension(a, length, velocity, gauge_pressure, atmosphere);
+  return clamped > 0 ? clamped : 0.0;
 }
 
 }  // namespace sinew::actuator

@@ -44,7 +44,7 @@ class BodiesOfAir : public ValveBank<Most> {
  public:
   using Lanes = air::Lanes<Most>;
   using Ends = air::Ends<Most>;
-  using typename ValveBank<Most>::Answer, typename ValveBank<Most>::Memory,
+  using typename ValveBank<Most>::Evaluation, typename ValveBank<Most>::Memory,
       typename ValveBank<Most>::State, typename ValveBank<Most>::Valves;
 
   // Return the number of muscles, and the number of states other than their masses.
@@ -53,13 +53,13 @@ class BodiesOfAir : public ValveBank<Most> {
   double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
 
   // Selects a table for densities outside the series' range, for steps that often leave that range.
-  void take_long_steps() { braids_.go_by_table(); }
+  void use_power_table() { braids_.use_power_table(); }
 
   // plain() returns whether the machine has only muscles between valves on a constant supply.
-  // plain_for_good() also excludes later faults and valves that open gradually: plain_air.h
+  // stays_plain() also excludes later faults and valves that open gradually: plain_air.h
   // integrates such machines in lanes, with the values below.
   bool plain() const noexcept { return plain_; }
-  bool plain_for_good() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
+  bool stays_plain() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
   const BraidLanes& braids() const noexcept { return braids_; }
   double supply_y() const noexcept { return supply_y_; }  // (P/P_atm)^(1/7) of the supply [-]
 
@@ -79,10 +79,11 @@ class BodiesOfAir : public ValveBank<Most> {
 
   // Sets chambers and hoses of the muscles, and of a single-acting cylinder, to one absolute
   // pressure with air at the wall's temperature, as an ideal regulator would.
-  void hold(double pressure, const Lanes& length, double travel, State& state) const noexcept;
+  void impose_pressure(double pressure, const Lanes& length, double travel,
+                       State& state) const noexcept;
 
-  // Sets the rates of the states that hold() sets to 0.
-  void hold_still(Answer& look) const noexcept;
+  // Sets the rates of the states that impose_pressure() sets to 0.
+  void clear_imposed_rates(Evaluation& evaluation) const noexcept;
 
   // Returns the mass of the air in chambers, hoses and tank [kg]. It decreases only by what leaves
   // through exhausts and leaks.
@@ -90,19 +91,20 @@ class BodiesOfAir : public ValveBank<Most> {
 
   // Returns whether air flows, warms or creeps, or can start to do so without a change of a valve.
   bool flowing(const Valves& valves) const noexcept {
-    return restless_ || ramping_ || valves.open_count > 0 || valves.leaking;
+    return active_when_shut_ || ramping_ || valves.open_count > 0 || valves.leaking;
   }
 
   // Updates the memory at a node from the evaluation there: the references of the series and the
   // plays of the hysteresis. Evaluations between two nodes use the memory of the last one, which is
   // exact as long as no pressure reverses between them. Returns the first part of the air that is
   // not finite or not physical.
-  Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
+  Failure update_memory(const Evaluation& evaluation, const State& state,
+                        Memory& memory) const noexcept;
 
   // Returns the muscles, a bit each, that are always integrated ahead while air flows: those behind
   // hoses that hold air and, while nothing is broken, behind regulators that are quick at any
   // length.
-  std::uint64_t always_ahead(const Valves& valves) const noexcept {
+  std::uint64_t always_quick_muscles(const Valves& valves) const noexcept {
     return valves.broken ? behind_hoses_ : behind_hoses_ | behind_regulators_;
   }
 
@@ -111,11 +113,11 @@ class BodiesOfAir : public ValveBank<Most> {
     return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
   }
   // Returns the pressure behind the valves of muscle i: its own, or that before a hose [Pa].
-  double manifold(const Answer& a, int i, const Valves& valves) const noexcept {
-    return line(i).more || valves.broken ? a.manifold[i] : a.pressure[i];
+  double manifold(const Evaluation& a, int i, const Valves& valves) const noexcept {
+    return line(i).has_options || valves.broken ? a.manifold[i] : a.pressure[i];
   }
-  double leak(const Answer& a, int i, const Valves& valves) const noexcept {  // [kg/s]
-    return line(i).more || valves.broken ? a.leak[i] : 0.0;
+  double leak(const Evaluation& a, int i, const Valves& valves) const noexcept {  // [kg/s]
+    return line(i).has_options || valves.broken ? a.leak[i] : 0.0;
   }
   Account cylinder_account(const State& s, int side) const noexcept {
     const auto c = static_cast<std::size_t>(side);
@@ -123,12 +125,12 @@ class BodiesOfAir : public ValveBank<Most> {
     return {
         .mass = mass != none ? other(s, mass) : 0.0, .in = s.piston_in[c], .out = s.piston_out[c]};
   }
-  double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
+  double cylinder_pressure(const Evaluation& a, int side) const noexcept {  // [Pa]
     return a.cylinder_pressure[static_cast<std::size_t>(side)];
   }
   // Returns the supply's state. `past_tank` is the mass that the supply has delivered while a fault
   // had cut it from its tank; it is negative if air has flowed back.
-  SupplyState supply_state(const State& s, const Answer& a) const noexcept {
+  SupplyState supply_state(const State& s, const Evaluation& a) const noexcept {
     return {a.supply_pressure, a.tank_pressure, cut_ == none ? 0.0 : other(s, cut_)};
   }
 
@@ -148,7 +150,7 @@ class BodiesOfAir : public ValveBank<Most> {
   // an eighth of the remaining volume. Both rates grow without bound as a chamber vanishes. Returns
   // infinity without chambers. `lift_per_force`: acceleration of the body per force of the piston
   // [1/kg].
-  double longest_step_of_piston(const Ends& ends, const Answer& look,
+  double longest_step_of_piston(const Ends& ends, const Evaluation& evaluation,
                                 double lift_per_force) const noexcept;
 
  protected:
@@ -156,13 +158,13 @@ class BodiesOfAir : public ValveBank<Most> {
   // These members of the valves are used without their class's name.
   using Bank::air_, Bank::blocked, Bank::failed_line, Bank::faults_, Bank::none, Bank::of_pressure_,
       Bank::other, Bank::ramping_, Bank::rate_of, Bank::slope_of_faults, Bank::taps_;
-  using typename Bank::Flows, typename Bank::Now, typename Bank::Tap;
+  using typename Bank::Flows, typename Bank::FlowInputs, typename Bank::Tap;
 
   // The parts between a muscle's valves and its air, with the indices of their states; none: no
   // state.
-  struct Line {
+  struct AirLine {
     int energy = none, hose = none, hose_energy = none;  // a hose without volume has no mass
-    bool resists = false, more = false;                  // it has a hose; it has more than valves
+    bool has_hose = false, has_options = false;          // it has a hose; it has more than valves
     gas::HoseConstants hose_flow;
     gas::LeakConstants leak;
     bool plays = false;                                          // has hysteresis
@@ -173,11 +175,11 @@ class BodiesOfAir : public ValveBank<Most> {
     int mass = none, energy = none;
   };
   // A volume that changes steadily within a step.
-  struct Room {
+  struct LinearVolume {
     double volume = 0, rate = 0;  // [m^3], [m^3/s]
   };
   // The line to the inlets: y = (P/P_atm)^(1/7).
-  struct Inlets {
+  struct SupplyLine {
     double y = 1;
     bool cut = false;  // a fault has cut it from its tank
   };
@@ -188,14 +190,14 @@ class BodiesOfAir : public ValveBank<Most> {
 
   // Return a muscle, and its line.
   const Muscle& muscle(int i) const noexcept { return muscles_[static_cast<std::size_t>(i)]; }
-  const Line& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
+  const AirLine& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
 
   // Calls visit(i) for the muscles whose lines are evaluated one by one: those with more than
   // valves, and all of them while something is broken.
   template <class Visit>
   void each_line(const Valves& valves, Visit visit) const noexcept;
-  Inlets inlets(const State& state, const Valves& valves, const Memory& memory,
-                Answer& out) const noexcept;
+  SupplyLine supply_line(const State& state, const Valves& valves, const Memory& memory,
+                         Evaluation& out) const noexcept;
 
   int size_ = 0, others_ = 0;
   gas::Supply supply_;
@@ -207,20 +209,20 @@ class BodiesOfAir : public ValveBank<Most> {
   bool plain_ = false;     // the machine has only muscles between valves on a constant supply
   std::optional<Cylinder> cylinder_;
 
-  std::vector<Line> lines_;
-  std::vector<int> more_;      // muscles whose line has more than valves
-  std::array<Slot, 2> sides_;  // the cylinder's
-  std::vector<int> lagging_;   // valves of the regulators whose outlet pressure is a state
-  std::vector<int> held_;      // indices of the other states that hold() sets
+  std::vector<AirLine> lines_;
+  std::vector<int> with_options_;  // muscles whose line has more than valves
+  std::array<Slot, 2> sides_;      // the cylinder's
+  std::vector<int> lagging_;       // valves of the regulators whose outlet pressure is a state
+  std::vector<int> imposed_;       // indices of the other states that impose_pressure() sets
   int tank_ = none;
-  bool restless_ = false;
+  bool active_when_shut_ = false;
   int cut_ = none;           // index of the state: mass from a line that is cut from its tank
   double spring_ = 0;        // n R T: a chamber of volume V behind a slope G settles at n R T G/V
   double lag_rate_ = 0;      // rate of the quickest lag or creep [1/s]
   double longest_step_ = 0;  // for all parts whose rate does not depend on the position [s]
   std::array<double, 2> side_settling_{};  // `settling` of the cylinder's chambers [m^3/s]
   std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // always integrated ahead
-  std::uint64_t beside_ = 0;                                // integrated ahead by regulators_
+  std::uint64_t by_regulators_ = 0;                         // integrated ahead by regulators_
   bool settles_ = false;                                    // a line has a `settling` above 0
 
  private:
@@ -230,11 +232,11 @@ class BodiesOfAir : public ValveBank<Most> {
   void classify();
   void limit_step();
   double fastest_slope(int inlet) const;
-  double hose_slope(const Line& line) const;
-  bool always_quick(int i) const;
+  double hose_slope(const AirLine& line) const;
+  bool is_always_quick(int i) const;
   double density(double pressure) const noexcept;
   void fill(const Slot& slot, double mass, State& state) const noexcept;
-  double line_of_tank(const State& state, const Memory& memory, Answer& out) const noexcept;
+  double line_of_tank(const State& state, const Memory& memory, Evaluation& out) const noexcept;
 };
 
 template <int Most>
@@ -247,16 +249,16 @@ BodiesOfAir<Most>::BodiesOfAir(std::span<const Muscle> muscles, const gas::Air& 
       supply_y_(gas::y_of(air, supply.pressure)),
       muscles_(muscles.begin(), muscles.end()),
       braids_(muscles, air),
-      in_lanes_(!(air.wall_time > 0) && std::ranges::all_of(muscles, lanes_hold)),
+      in_lanes_(!(air.wall_time > 0) && std::ranges::all_of(muscles, lanes_support)),
       cylinder_(cylinder) {
   if (size_ > Most) throw std::invalid_argument("more muscles than the network is compiled for");
   for (const Muscle& m : muscles_) add_muscle(m);
-  for (Line& l : lines_) {
+  for (AirLine& l : lines_) {
     const auto i = static_cast<std::size_t>(&l - lines_.data());
-    if (air_.wall_time > 0) held_.push_back(l.energy = others_++);
-    if (!l.resists || !(muscles_[i].hose.volume > 0)) continue;
-    held_.push_back(l.hose = others_++);
-    if (air_.wall_time > 0) held_.push_back(l.hose_energy = others_++);
+    if (air_.wall_time > 0) imposed_.push_back(l.energy = others_++);
+    if (!l.has_hose || !(muscles_[i].hose.volume > 0)) continue;
+    imposed_.push_back(l.hose = others_++);
+    if (air_.wall_time > 0) imposed_.push_back(l.hose_energy = others_++);
   }
   if (cylinder_) add_cylinder();
   for (Tap& tap : taps_)
@@ -280,11 +282,12 @@ void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
   this->add_tap(m.inlet.kind == gas::Valve::Kind::two_way ? m.exhaust : m.inlet);
   if (regulates(m.inlet)) taps_.back() = {};
 
-  Line line;
-  line.resists = m.hose.law != gas::Hose::Law::none;
+  AirLine line;
+  line.has_hose = m.hose.law != gas::Hose::Law::none;
   line.hose_flow = gas::hose_constants(m.hose, air_);
   line.leak = gas::leak_constants(m.leak, air_);
-  line.more = line.resists || !line.leak.tight() || regulates(m.inlet) || air_.wall_time > 0;
+  line.has_options =
+      line.has_hose || !line.leak.tight() || regulates(m.inlet) || air_.wall_time > 0;
   lines_.push_back(line);
 }
 
@@ -292,7 +295,7 @@ void BodiesOfAir<Most>::add_muscle(const Muscle& m) {
 template <int Most>
 void BodiesOfAir<Most>::add_memory(int i) {
   const actuator::Actuator& a = muscle(i).actuator;
-  Line& l = lines_[static_cast<std::size_t>(i)];
+  AirLine& l = lines_[static_cast<std::size_t>(i)];
   l.plays = actuator::has_hysteresis(a.hysteresis);
   for (std::size_t k = 0; k < l.late.size(); ++k)
     if (a.creep.share[k] != 0) l.late[k] = others_++;
@@ -311,8 +314,8 @@ void BodiesOfAir<Most>::add_cylinder() {
     slot.mass = others_++;
     if (air_.wall_time > 0) slot.energy = others_++;
     if (cylinder_->mode != Cylinder::Mode::single_acting) continue;
-    held_.push_back(slot.mass);
-    if (slot.energy != none) held_.push_back(slot.energy);
+    imposed_.push_back(slot.mass);
+    if (slot.energy != none) imposed_.push_back(slot.energy);
   }
 }
 
@@ -320,21 +323,23 @@ void BodiesOfAir<Most>::add_cylinder() {
 // have more than valves.
 template <int Most>
 void BodiesOfAir<Most>::classify() {
-  restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
+  active_when_shut_ =
+      air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
   plain_ = !cylinder_ && tank_ == none && in_lanes_;
   for (int i = 0; i < size_; ++i) {
-    const Line& l = line(i);
+    const AirLine& l = line(i);
     const auto inlet = static_cast<std::size_t>(2 * i);
-    restless_ = restless_ || !l.leak.tight() || l.hose != none || regulates(taps_[inlet].valve);
-    restless_ = restless_ || actuator::has_creep(muscle(i).actuator.creep);
-    plain_ = plain_ && !l.more;
-    if (l.more) more_.push_back(i);
+    active_when_shut_ =
+        active_when_shut_ || !l.leak.tight() || l.hose != none || regulates(taps_[inlet].valve);
+    active_when_shut_ = active_when_shut_ || actuator::has_creep(muscle(i).actuator.creep);
+    plain_ = plain_ && !l.has_options;
+    if (l.has_options) with_options_.push_back(i);
     if (l.hose != none && l.energy == none) behind_hoses_ |= std::uint64_t{1} << i;
-    taps_[inlet].listed = taps_[inlet + 1].listed = !l.more;
-    if (in_lanes_ && regulates(taps_[inlet].valve) && !l.resists && l.leak.tight())
-      beside_ |= std::uint64_t{1} << i;
+    taps_[inlet].listed = taps_[inlet + 1].listed = !l.has_options;
+    if (in_lanes_ && regulates(taps_[inlet].valve) && !l.has_hose && l.leak.tight())
+      by_regulators_ |= std::uint64_t{1} << i;
   }
-  if (beside_ != 0) {
+  if (by_regulators_ != 0) {
     std::vector<gas::Valve> inlets;
     for (const Muscle& m : muscles_) inlets.push_back(m.inlet);
     regulators_ = RegulatorLanes(braids_, inlets, air_);
@@ -356,7 +361,7 @@ double BodiesOfAir<Most>::fastest_slope(int inlet) const {
 
 // Returns the slope of the flow through a hose  [kg/(s Pa)].
 template <int Most>
-double BodiesOfAir<Most>::hose_slope(const Line& line) const {
+double BodiesOfAir<Most>::hose_slope(const AirLine& line) const {
   const double p = supply_.pressure, y = gas::y_of(air_, p), y_less = gas::y_of(air_, 0.999 * p);
   return gas::hose_flow_y(line.hose_flow, y, y_less) / (1e-3 * p);
 }
@@ -375,7 +380,7 @@ void BodiesOfAir<Most>::limit_step() {
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
   spring_ = exponent * air_.gas_constant * air_.temperature;
   for (int i = 0; i < size_; ++i) {
-    Line& l = lines_[static_cast<std::size_t>(i)];
+    AirLine& l = lines_[static_cast<std::size_t>(i)];
     double slope = (l.leak.hole.linear_gain + l.leak.slope) / air_.atmosphere;
     if (l.hose != none)
       slope += hose_slope(l);
@@ -383,7 +388,7 @@ void BodiesOfAir<Most>::limit_step() {
       slope += fastest_slope(2 * i);
     l.settling = spring_ * slope;
     settles_ = settles_ || l.settling > 0;
-    if (always_quick(i)) behind_regulators_ |= std::uint64_t{1} << i;
+    if (is_always_quick(i)) behind_regulators_ |= std::uint64_t{1} << i;
     if (l.hose != none)
       faster(spring_ * (fastest_slope(2 * i) + hose_slope(l)) / muscle(i).hose.volume);
   }
@@ -396,9 +401,9 @@ void BodiesOfAir<Most>::limit_step() {
 // Returns whether muscle i, behind a regulator alone, is quick for a step of a millisecond even at
 // its largest volume.
 template <int Most>
-bool BodiesOfAir<Most>::always_quick(int i) const {
+bool BodiesOfAir<Most>::is_always_quick(int i) const {
   const bool regulated = regulates(taps_[static_cast<std::size_t>(2 * i)].valve);
-  if (!regulated || line(i).resists || air_.wall_time > 0) return false;
+  if (!regulated || line(i).has_hose || air_.wall_time > 0) return false;
   const double most = volume(i, actuator::shortest_length(muscle(i).actuator));
   return line(i).settling * 1e-3 > quick::from_rate * most;
 }
@@ -448,7 +453,7 @@ double BodiesOfAir<Most>::longest_step_of_rest(const Ends& ends,
   if (air_.wall_time > 0) return longest_step(ends, valves);
   double fastest = lag_rate_;
   for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
-    const bool held_back = line(i).hose == none && (line(i).resists || blocked(i, valves));
+    const bool held_back = line(i).hose == none && (line(i).has_hose || blocked(i, valves));
     if (!held_back) continue;
     const double slope = line(i).settling + spring_ * slope_of_faults(i, valves.faults);
     fastest = std::max(fastest, slope / volume(i, ends.length[i]));
@@ -457,14 +462,14 @@ double BodiesOfAir<Most>::longest_step_of_rest(const Ends& ends,
 }
 
 template <int Most>
-double BodiesOfAir<Most>::longest_step_of_piston(const Ends& ends, const Answer& look,
+double BodiesOfAir<Most>::longest_step_of_piston(const Ends& ends, const Evaluation& evaluation,
                                                  double lift_per_force) const noexcept {
   double longest = never;
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;
     const double room = air::volume(*cylinder_, side, ends.travel), face = area(*cylinder_, side);
     const double spring =
-        gas::heat_capacity_ratio * look.cylinder_pressure[side] * face * face / room;
+        gas::heat_capacity_ratio * evaluation.cylinder_pressure[side] * face * face / room;
     longest = std::min(longest, 0.5 / std::sqrt(spring * lift_per_force));
     longest = std::min(longest, 0.125 * room / (face * std::abs(ends.travel_rate)));
   }
@@ -485,11 +490,11 @@ void BodiesOfAir<Most>::fill(const Slot& slot, double mass, State& state) const 
 }
 
 template <int Most>
-void BodiesOfAir<Most>::hold(double pressure, const Lanes& length, double travel,
-                             State& state) const noexcept {
+void BodiesOfAir<Most>::impose_pressure(double pressure, const Lanes& length, double travel,
+                                        State& state) const noexcept {
   const double rho = density(pressure);
   for (int i = 0; i < size_; ++i) {
-    const Line& l = line(i);
+    const AirLine& l = line(i);
     state.mass[i] = rho * volume(i, length[i]);
     if (l.energy != none) other(state, l.energy) = gas::energy_at_rest(air_, state.mass[i]);
     if (l.hose != none) fill({l.hose, l.hose_energy}, rho * muscle(i).hose.volume, state);
@@ -500,19 +505,19 @@ void BodiesOfAir<Most>::hold(double pressure, const Lanes& length, double travel
 }
 
 template <int Most>
-void BodiesOfAir<Most>::hold_still(Answer& look) const noexcept {
+void BodiesOfAir<Most>::clear_imposed_rates(Evaluation& evaluation) const noexcept {
   for (int i = 0; i < size_; ++i)
-    look.inflow[i] = look.outflow[i] = look.gain[i] = look.leak[i] = 0;
-  for (const int held : held_) rate_of(look, held) = 0;
-  look.cylinder_inflow = look.cylinder_outflow = {};
+    evaluation.inflow[i] = evaluation.outflow[i] = evaluation.gain[i] = evaluation.leak[i] = 0;
+  for (const int index : imposed_) rate_of(evaluation, index) = 0;
+  evaluation.cylinder_inflow = evaluation.cylinder_outflow = {};
 }
 
 template <int Most>
 auto BodiesOfAir<Most>::initial(double pressure, const Lanes& length, double travel) const
     -> State {
   State state{};
-  hold(pressure, length, travel, state);
-  for (const Line& l : lines_)
+  impose_pressure(pressure, length, travel, state);
+  for (const AirLine& l : lines_)
     for (const int late : l.late)
       if (late != none) other(state, late) = pressure - air_.atmosphere;
   for (const Side side : {up, down}) {
@@ -560,13 +565,13 @@ void BodiesOfAir<Most>::each_line(const Valves& valves, Visit visit) const noexc
   if (valves.broken)
     for (int i = 0; i < size_; ++i) visit(i);
   else
-    for (const int i : more_) visit(i);
+    for (const int i : with_options_) visit(i);
 }
 
 // Returns y of the line to the inlets behind a tank [-].
 template <int Most>
 double BodiesOfAir<Most>::line_of_tank(const State& state, const Memory& memory,
-                                       Answer& out) const noexcept {
+                                       Evaluation& out) const noexcept {
   out.tank_pressure = gas::tank_pressure(supply_, air_, other(state, tank_));
   out.supply_pressure = gas::line_pressure(supply_, out.tank_pressure);
   return out.supply_pressure < supply_.pressure
@@ -576,41 +581,44 @@ double BodiesOfAir<Most>::line_of_tank(const State& state, const Memory& memory,
 
 // Returns the line before the inlets, which depends on tank and faults.
 template <int Most>
-auto BodiesOfAir<Most>::inlets(const State& state, const Valves& valves, const Memory& memory,
-                               Answer& out) const noexcept -> Inlets {
+auto BodiesOfAir<Most>::supply_line(const State& state, const Valves& valves, const Memory& memory,
+                                    Evaluation& out) const noexcept -> SupplyLine {
   out.supply_pressure = out.tank_pressure = supply_.pressure;
   const double y = tank_ != none ? line_of_tank(state, memory, out) : supply_y_;
   const double failed = valves.broken ? failed_line(valves, out) : 0.0;
-  return failed > 0 ? Inlets{failed, true} : Inlets{y, false};
+  return failed > 0 ? SupplyLine{failed, true} : SupplyLine{y, false};
 }
 
 template <int Most>
-Failure BodiesOfAir<Most>::remember(const Answer& look, const State& state,
-                                    Memory& memory) const noexcept {
-  const int failed = braids_.follow(look.drift, memory.reference);
+Failure BodiesOfAir<Most>::update_memory(const Evaluation& evaluation, const State& state,
+                                         Memory& memory) const noexcept {
+  const int failed = braids_.update_references(evaluation.drift, memory.reference);
   if (failed >= 0) return {.of = Failure::Of::air, .muscle = failed};
   if (plain_) return {};
   const double at_one = gas::density_at_atmosphere(air_);
   for (int i = 0; i < size_; ++i) {
-    const Line& l = line(i);
-    if (!is_pressure(look.pressure[i])) return {.of = Failure::Of::air, .muscle = i};
-    if (l.plays) memory.play[i] = look.play[i];
+    const AirLine& l = line(i);
+    if (!is_pressure(evaluation.pressure[i])) return {.of = Failure::Of::air, .muscle = i};
+    if (l.plays) memory.play[i] = evaluation.play[i];
     if (l.hose != none && l.hose_energy == none)
-      gas::follow(braids_.series(), memory.hose[static_cast<std::size_t>(i)],
-                  other(state, l.hose) / muscle(i).hose.volume, at_one);
+      gas::update_base(braids_.series(), memory.hose[static_cast<std::size_t>(i)],
+                       other(state, l.hose) / muscle(i).hose.volume, at_one);
   }
   for (const Side side : {up, down}) {
     if (!cylinder_) break;
-    const double p = look.cylinder_pressure[side];
+    const double p = evaluation.cylinder_pressure[side];
     if (!(p >= 0 && p < most_pressure)) return {.of = Failure::Of::cylinder};
     if (sides_[side].mass != none && sides_[side].energy == none)
-      gas::follow(braids_.series(), memory.side[side], look.cylinder_density[side], at_one);
+      gas::update_base(braids_.series(), memory.side[side], evaluation.cylinder_density[side],
+                       at_one);
   }
   for (const int valve : lagging_) {
     const auto v = static_cast<std::size_t>(valve);
-    gas::follow(of_pressure_, memory.outlet[v], other(state, taps_[v].outlet), air_.atmosphere);
+    gas::update_base(of_pressure_, memory.outlet[v], other(state, taps_[v].outlet),
+                     air_.atmosphere);
   }
-  if (tank_ != none) gas::follow(of_pressure_, memory.line, look.supply_pressure, air_.atmosphere);
+  if (tank_ != none)
+    gas::update_base(of_pressure_, memory.line, evaluation.supply_pressure, air_.atmosphere);
   return {};
 }
 

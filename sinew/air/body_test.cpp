@@ -25,8 +25,8 @@ Muscle real_tube() {
 }
 
 TEST(RealTube, IsNothingThatLanesHold) {
-  EXPECT_TRUE(lanes_hold(bundle(0)));
-  EXPECT_FALSE(lanes_hold(real_tube()));
+  EXPECT_TRUE(lanes_support(bundle(0)));
+  EXPECT_FALSE(lanes_support(real_tube()));
 }
 
 TEST(RealTube, PullsAndHoldsAirByItsLaws) {
@@ -37,7 +37,7 @@ TEST(RealTube, PullsAndHoldsAirByItsLaws) {
     const Motion at = still_at(inches * inch);
     const double p = 5e5, gauge = p - air.atmosphere;
     const Air::State state = network.initial(p, at.length, 0);
-    Air::Answer out{};
+    Air::Evaluation out{};
     network.evaluate(0, at, state, network.valves_at_rest(), network.memory_at_rest(p, at.length),
                      out);
     const double pull =

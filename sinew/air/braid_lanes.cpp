@@ -58,7 +58,8 @@ double BraidLanes::exact_y(double density) const noexcept {
   return table_ ? (*table_)(ratio) : units::power(ratio, air_.polytropic_exponent / 7.0);
 }
 
-int BraidLanes::follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept {
+int BraidLanes::update_references(const double* drift, double* y_ref,
+                                  double* inverse_sigma) const noexcept {
   int failed = -1;
   for (int i = 0; i < size_; ++i) {
     if (drift[i] < PowerSeries::rebase && drift[i] > -PowerSeries::rebase)
@@ -75,7 +76,7 @@ int BraidLanes::follow(const double* drift, double* y_ref, double* inverse_sigma
   return failed;
 }
 
-SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const noexcept {
+SINEW_WIDE void BraidLanes::evaluate(const Inputs& in, const Outputs& out) const noexcept {
   using S = units::Pack<lanes>;
   for (int i = 0; i < padded_; i += lanes) {
     const Constants& k = constants_[static_cast<std::size_t>(i / lanes)];
@@ -99,7 +100,7 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
   }
 
   if (any_sealed_) sealed_mesh(in, out);
-  if (!all_stick_) loose_signs(in, out);
+  if (!all_stick_) apply_sliding_friction(in, out);
 }
 
 // Writes y of the lanes that are outside the series' range. Between two nodes the lanes beyond the
@@ -113,7 +114,7 @@ void BraidLanes::far_roots(const Four& drift, const Four& reach, const double* i
   }
 }
 
-void BraidLanes::sealed_mesh(const Given& in, const Filled& out) const noexcept {
+void BraidLanes::sealed_mesh(const Inputs& in, const Outputs& out) const noexcept {
   for (int i = 0; i < size_; ++i)
     if (bound_by_sealed(i)) out.friction_bound[i] = sealed_bound(i, in.length[i], out.pressure[i]);
 }
@@ -129,13 +130,13 @@ double BraidLanes::sealed_bound(int i, double length, double pressure) const noe
 }
 
 // Applies sign(v) as printed in [33] to actuators that do not stick.
-void BraidLanes::loose_signs(const Given& in, const Filled& out) const noexcept {
+void BraidLanes::apply_sliding_friction(const Inputs& in, const Outputs& out) const noexcept {
   for (int i = 0; i < size_; ++i) {
     if (sticks(i)) continue;
-    const double rub = in.rate[i] >= 0 ? out.friction_bound[i] : -out.friction_bound[i];
-    const double f = out.tension[i] + rub;
+    const double friction = in.rate[i] >= 0 ? out.friction_bound[i] : -out.friction_bound[i];
+    const double f = out.tension[i] + friction;
     out.tension[i] = f > 0 ? f : 0.0;
-    out.clamped[i] += rub;
+    out.clamped[i] += friction;
     out.friction_bound[i] = 0;
   }
 }

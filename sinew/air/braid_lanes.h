@@ -7,11 +7,11 @@
 //   y = (P/P_atm)^(1/7) = y_ref (1 + x)^(n/7)
 //
 // The power is a series (gas/power_series.h) while x is small, else units::power, or a table after
-// go_by_table(). From |x| > 0.02 on the reference is set to the exact value at the next node. The
-// code uses no libm and no branches between lanes: a muscle has the same bits alone and among
+// use_power_table(). From |x| > 0.02 on the reference is set to the exact value at the next node.
+// The code uses no libm and no branches between lanes: a muscle has the same bits alone and among
 // others. The reference belongs to the state and is saved and restored with it.
 //
-// Holds for muscles for which lanes_hold() is true: the thesis's law of a braid with a linear
+// Holds for muscles for which lanes_support() is true: the thesis's law of a braid with a linear
 // bladder. Other muscles use actuator/tension.h, a direct form of the same laws; a test compares
 // both.
 #pragma once
@@ -39,7 +39,7 @@ class BraidLanes {
   const gas::PowerSeries& series() const { return series_; }  // y as a function of the density
 
   // Selects a table for densities outside the series' range, for steps that often leave that range.
-  void go_by_table() { table_.emplace(air_.polytropic_exponent / 7.0); }
+  void use_power_table() { table_.emplace(air_.polytropic_exponent / 7.0); }
 
   // Returns the reference before the first evaluation: the density at the atmosphere.
   template <int Most>
@@ -79,8 +79,9 @@ class BraidLanes {
   // Updates the references whose density has drifted; called at a node after its evaluation.
   // Returns the first muscle whose density is not valid, or -1.
   template <int Most>
-  int follow(const Lanes<Most>& drift, Reference<Most>& reference) const noexcept {
-    return follow(drift.of.data(), reference.y.of.data(), reference.inverse_sigma.of.data());
+  int update_references(const Lanes<Most>& drift, Reference<Most>& reference) const noexcept {
+    return update_references(drift.of.data(), reference.y.of.data(),
+                             reference.inverse_sigma.of.data());
   }
 
  private:
@@ -92,19 +93,19 @@ class BraidLanes {
   };
 
   // Inputs and outputs of evaluate(): whole lanes of each.
-  struct Given {
+  struct Inputs {
     const double *length, *rate, *mass, *y_ref, *inverse_sigma;
   };
-  struct Filled {
+  struct Outputs {
     double *tension, *clamped, *pressure, *friction_bound, *drift, *y;
   };
 
-  void evaluate(const Given& in, const Filled& out) const noexcept;
-  int follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept;
+  void evaluate(const Inputs& in, const Outputs& out) const noexcept;
+  int update_references(const double* drift, double* y_ref, double* inverse_sigma) const noexcept;
   void far_roots(const Four& drift, const Four& reach, const double* inverse_sigma,
                  double* root) const noexcept;
-  void sealed_mesh(const Given& in, const Filled& out) const noexcept;
-  void loose_signs(const Given& in, const Filled& out) const noexcept;
+  void sealed_mesh(const Inputs& in, const Outputs& out) const noexcept;
+  void apply_sliding_friction(const Inputs& in, const Outputs& out) const noexcept;
 
   int size_ = 0, padded_ = 0;
   gas::Air air_;

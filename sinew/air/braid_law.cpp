@@ -8,7 +8,7 @@
 
 namespace sinew::air {
 
-bool lanes_hold(const Muscle& m) {
+bool lanes_support(const Muscle& m) {
   return m.actuator.short_end.law != actuator::ShortEnd::Law::empirical &&
          actuator::is_plain(m.actuator) && !actuator::has_hysteresis(m.actuator.hysteresis) &&
          !actuator::has_creep(m.actuator.creep);

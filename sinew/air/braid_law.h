@@ -5,8 +5,9 @@
 // constant products are multiplied out beforehand and nothing branches. S is a double or a pack
 // (units/pack.h) over the muscles of a machine, or over one muscle of several machines.
 //
-// Holds for muscles for which lanes_hold() is true. The caller completes the dry friction where its
-// bound depends on the sealed stiffness (Loss::Scale::sealed) and where an actuator does not stick.
+// Holds for muscles for which lanes_support() is true. The caller completes the dry friction where
+// its bound depends on the sealed stiffness (Loss::Scale::sealed) and where an actuator does not
+// stick.
 #pragma once
 
 #include "sinew/air/muscle.h"
@@ -17,7 +18,7 @@
 namespace sinew::air {
 
 // Returns whether lanes include every part of this muscle's law.
-bool lanes_hold(const Muscle& muscle);
+bool lanes_support(const Muscle& muscle);
 
 // Constants of a bundle, multiplied with its number of actuators.
 template <class S>
@@ -81,11 +82,11 @@ template <class S>
   const S pull = drive * lever + (passive + squeezed);
   const auto nothing = units::select(squeeze < 0.0, k.short_zero, 0.0) > 0.0;  // [31] as printed
   const S all = units::select(nothing, 0.0, pull);
-  const S rub = units::select(nothing, 0.0, drive * secant + k.mesh_constant);
+  const S friction = units::select(nothing, 0.0, drive * secant + k.mesh_constant);
   return {.pressure = pressure,
           .tension = units::select(all > 0.0, all, 0.0),
           .clamped = all,
-          .friction_bound = units::select(rub > 0.0, rub, 0.0)};
+          .friction_bound = units::select(friction > 0.0, friction, 0.0)};
 }
 
 // Returns the pressure and the tensions of a bundle. Also computes x, the density's deviation from

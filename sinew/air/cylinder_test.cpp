@@ -50,19 +50,19 @@ TEST(Cylinder, SealedItIsAGasSpring) {
   const Cylinder c = thesis_cylinder();
   const gas::Air air{.polytropic_exponent = 1.2};
   Air network({}, air, {}, c);
-  Hand hand(
+  TestIntegrator test(
       network, [](double) { return at(0.02); }, 1e5);
   for (double s : {0.0, 0.01, 0.03, 0.05}) {
-    hand.motion = [s](double) { return at(s); };
-    hand.look(0, hand.state, hand.now);
+    test.motion = [s](double) { return at(s); };
+    test.evaluate(0, test.state, test.now);
     double f = 0;
     for (const Side side : {up, down}) {
       const double p =
           c.initial_pressure[side] * std::pow(volume(c, side, 0.02) / volume(c, side, s), 1.2);
-      EXPECT_NEAR(hand.now.cylinder_pressure[side] / p, 1, 1e-12);
+      EXPECT_NEAR(test.now.cylinder_pressure[side] / p, 1, 1e-12);
       f += (side == up ? 1 : -1) * (p - air.atmosphere) * area(c, side);
     }
-    EXPECT_NEAR(hand.now.cylinder_force, f, 1e-10);
+    EXPECT_NEAR(test.now.cylinder_force, f, 1e-10);
   }
 }
 
@@ -71,12 +71,12 @@ TEST(Cylinder, MovedWithoutHeatItDoesItsWork) {
   const Cylinder c = thesis_cylinder();
   Air network({}, {.polytropic_exponent = 1, .wall_time = 1e7}, {}, c);
   EXPECT_EQ(network.others(), 4);
-  Hand hand(
+  TestIntegrator test(
       network, [](double t) { return at(0.01 + 0.2 * t, 0.2); }, 1e5);
-  hand.go(0.15, 1e-4);
+  test.run_until(0.15, 1e-4);
   for (const Side side : {up, down}) {
     const double ratio = volume(c, side, 0.01) / volume(c, side, 0.04);
-    EXPECT_NEAR(hand.now.cylinder_pressure[side] / c.initial_pressure[side], std::pow(ratio, 1.4),
+    EXPECT_NEAR(test.now.cylinder_pressure[side] / c.initial_pressure[side], std::pow(ratio, 1.4),
                 1e-6);
   }
 }
@@ -87,9 +87,9 @@ TEST(Cylinder, AWeightSwingsOnItAtItsFrequency) {
   const gas::Air air{.polytropic_exponent = 1.4};
   Air network({}, air, {}, c);
   const double rest = 0.02, mass = 2.0;
-  Hand hand(
+  TestIntegrator test(
       network, [&](double) { return at(rest); }, 1e5);
-  const double weight = hand.now.cylinder_force;
+  const double weight = test.now.cylinder_force;
   double k = 0;
   for (const Side side : {up, down})
     k += 1.4 * c.initial_pressure[side] * area(c, side) * area(c, side) / volume(c, side, rest);
@@ -100,9 +100,9 @@ TEST(Cylinder, AWeightSwingsOnItAtItsFrequency) {
   const double h = period / steps;
   double s = rest + 1e-6, v = 0;
   const auto acceleration = [&](double x) {
-    hand.motion = [x](double) { return at(x); };
-    hand.look(0, hand.state, hand.now);
-    return (hand.now.cylinder_force - weight) / mass;
+    test.motion = [x](double) { return at(x); };
+    test.evaluate(0, test.state, test.now);
+    return (test.now.cylinder_force - weight) / mass;
   };
   double a = acceleration(s);
   for (int i = 0; i < steps; ++i) {
@@ -126,14 +126,14 @@ TEST(Cylinder, ARegulatorPushesWithPressureTimesArea) {
   Air network({}, air, {}, c);
   EXPECT_EQ(network.others(), 0);
   const double lift = 0.04, speed = 0.1;
-  Hand hand(
+  TestIntegrator test(
       network, [&](double t) { return at(lift - speed * t, -speed); }, 1e5);
-  EXPECT_NEAR(hand.now.cylinder_force, -(5e5 - air.atmosphere) * area(c, down), 1e-10);
-  const double before = network.total_mass(hand.state, lift);
-  hand.go(0.3, 1e-3);
-  EXPECT_NEAR(hand.entered(), network.total_mass(hand.state, lift - 0.03) - before, 1e-15);
-  EXPECT_EQ(hand.left(), 0);
-  EXPECT_NEAR(hand.entered(), gas::density(air, 5e5) * area(c, down) * 0.03, 1e-15);
+  EXPECT_NEAR(test.now.cylinder_force, -(5e5 - air.atmosphere) * area(c, down), 1e-10);
+  const double before = network.total_mass(test.state, lift);
+  test.run_until(0.3, 1e-3);
+  EXPECT_NEAR(test.entered(), network.total_mass(test.state, lift - 0.03) - before, 1e-15);
+  EXPECT_EQ(test.left(), 0);
+  EXPECT_NEAR(test.entered(), gas::density(air, 5e5) * area(c, down) * 0.03, 1e-15);
 }
 
 // Inlet and exhaust of one chamber open together, B.1: a pressure in between, and air passes
@@ -141,20 +141,20 @@ TEST(Cylinder, ARegulatorPushesWithPressureTimesArea) {
 TEST(Cylinder, BothValvesOpenSettleWhereTheirFlowsAgree) {
   const gas::Air air{.polytropic_exponent = 1};
   Air network({}, air, {}, thesis_cylinder());
-  Hand hand(
+  TestIntegrator test(
       network, [](double) { return at(0.02); }, 1e5);
-  hand.electrical(2, true);
-  hand.electrical(3, true);
-  hand.go(2.0, network.longest_step());
-  EXPECT_NEAR(hand.now.cylinder_inflow[down], hand.now.cylinder_outflow[down],
-              1e-9 * hand.now.cylinder_inflow[down]);
-  EXPECT_GT(hand.now.cylinder_inflow[down], 1e-4);
-  EXPECT_EQ(hand.now.cylinder_inflow[up], 0);
+  test.electrical(2, true);
+  test.electrical(3, true);
+  test.run_until(2.0, network.longest_step());
+  EXPECT_NEAR(test.now.cylinder_inflow[down], test.now.cylinder_outflow[down],
+              1e-9 * test.now.cylinder_inflow[down]);
+  EXPECT_GT(test.now.cylinder_inflow[down], 1e-4);
+  EXPECT_EQ(test.now.cylinder_inflow[up], 0);
   // Exhaust choked and larger: K_in P_s f(r) = K_out P.
   const double in = gas::mass_flow(4e-7, gas::Supply{}.pressure, air.temperature,
-                                   hand.now.cylinder_pressure[down], air);
+                                   test.now.cylinder_pressure[down], air);
   const double out =
-      gas::mass_flow(5e-7, hand.now.cylinder_pressure[down], air.temperature, 0, air);
+      gas::mass_flow(5e-7, test.now.cylinder_pressure[down], air.temperature, 0, air);
   EXPECT_NEAR(in / out, 1, 1e-9);
 }
 

@@ -19,12 +19,12 @@ struct Failure {
 };
 
 // Limits of a valid state [Pa], [rad] or [m], [kg/m^3].
-inline constexpr double most_pressure = 1e12, farthest = 1e6, most_density = 1e6;
+inline constexpr double most_pressure = 1e12, largest_position = 1e6, most_density = 1e6;
 
 // Return whether a number is possible as a pressure [Pa], as a density relative to the reference
 // [-], and as a position [m] or [rad] of a machine. NaN is not.
 constexpr bool is_pressure(double p) { return p > 0 && p < most_pressure; }
 constexpr bool is_density(double sigma) { return sigma > 0 && sigma < most_density; }
-constexpr bool is_place(double at) { return at < farthest && at > -farthest; }
+constexpr bool is_position(double at) { return at < largest_position && at > -largest_position; }
 
 }  // namespace sinew::air

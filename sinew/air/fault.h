@@ -91,14 +91,14 @@ class FaultSchedule {
     return i < instants_.size() ? instants_[i].at : std::numeric_limits<double>::infinity();
   }
 
-  // Passes all instants up to t in order and calls told(fault, begins) for each.
-  template <class Told>
-  void advance(double t, ActingFaults& now, Told told) const noexcept {
+  // Passes all instants up to t in order and calls report(fault, begins) for each.
+  template <class Report>
+  void advance(double t, ActingFaults& now, Report report) const noexcept {
     while (next(now) <= t) {
       const Instant& instant = instants_[static_cast<std::size_t>(now.passed++)];
       const std::uint64_t bit = std::uint64_t{1} << instant.fault;
       now.acting = instant.begins ? now.acting | bit : now.acting & ~bit;
-      told(faults_[instant.fault], instant.begins);
+      report(faults_[instant.fault], instant.begins);
     }
   }
 

@@ -74,21 +74,21 @@ TEST(Faults, AirIsConservedWhateverBreaks) {
       const gas::Air air{.polytropic_exponent = 1.1, .wall_time = wall_time};
       const bool has_tank = supply.kind == gas::Supply::Kind::tank;
       Air network(everything(), air, supply, thesis_cylinder(), any_faults(random));
-      Hand hand(network, motion, 1.5 * bar);
-      const double before = network.total_mass(hand.state, motion(0).travel);
+      TestIntegrator test(network, motion, 1.5 * bar);
+      const double before = network.total_mass(test.state, motion(0).travel);
       for (int k = 0; k < 300; ++k) {
-        hand.electrical(static_cast<int>(random() % 16u), random() % 2 == 0);
-        hand.level(8, hand.t, 0.1 * (k % 10));
-        const Motion m = motion(hand.t);
-        hand.go(hand.t + 2e-3,
-                std::min(network.longest_step(), network.longest_step(m, hand.valves)));
+        test.electrical(static_cast<int>(random() % 16u), random() % 2 == 0);
+        test.level(8, test.t, 0.1 * (k % 10));
+        const Motion m = motion(test.t);
+        test.run_until(test.t + 2e-3,
+                       std::min(network.longest_step(), network.longest_step(m, test.valves)));
       }
-      const double given = network.supply_state(hand.state, hand.now).past_tank;
-      const double entered = has_tank ? given : hand.entered();
-      const double after = network.total_mass(hand.state, motion(hand.t).travel);
+      const double given = network.supply_state(test.state, test.now).past_tank;
+      const double entered = has_tank ? given : test.entered();
+      const double after = network.total_mass(test.state, motion(test.t).travel);
       EXPECT_NE(has_tank, given == 0);
-      EXPECT_GT(hand.left(), 0.1 * before);
-      EXPECT_NEAR((after + hand.left()) / (before + entered), 1, 1e-12) << wall_time;
+      EXPECT_GT(test.left(), 0.1 * before);
+      EXPECT_NEAR((after + test.left()) / (before + entered), 1, 1e-12) << wall_time;
     }
 }
 
@@ -103,12 +103,12 @@ struct Broken {
 TEST(Faults, ARupturedMuscleGoesToTheRoomsPressure) {
   const Broken machine;
   const Air network = machine.network({.what = What::hole, .begin = 0.01, .leak = {.area = 1e-4}});
-  Hand hand(network, at_rest, 5 * bar);
-  hand.go(0.01 - 1e-9, 1e-3);
-  EXPECT_EQ(hand.now.leak[0], 0);
-  EXPECT_NEAR(hand.now.pressure[0], 5 * bar, 1e-6 * bar);
-  hand.go(0.2, 2e-5);
-  EXPECT_NEAR(hand.now.pressure[0], machine.air.atmosphere, 1);
+  TestIntegrator test(network, at_rest, 5 * bar);
+  test.run_until(0.01 - 1e-9, 1e-3);
+  EXPECT_EQ(test.now.leak[0], 0);
+  EXPECT_NEAR(test.now.pressure[0], 5 * bar, 1e-6 * bar);
+  test.run_until(0.2, 2e-5);
+  EXPECT_NEAR(test.now.pressure[0], machine.air.atmosphere, 1);
 }
 
 // A rigid chamber, isothermal and choked, empties by gas/leak.h: P = P_0 exp(-t K R T/V), m' = K P.
@@ -116,44 +116,44 @@ TEST(Faults, AHoleEmptiesAsItsLawSays) {
   const Broken machine;
   const double area = 3e-8, begin = 0.0123456789;
   Air network = machine.network({.what = What::hole, .begin = begin, .leak = {.area = area}});
-  Hand hand(network, at_rest, 6 * bar);
-  hand.go(0.1, 1e-3);
+  TestIntegrator test(network, at_rest, 6 * bar);
+  test.run_until(0.1, 1e-3);
   const gas::Air& air = machine.air;
   const double volume = 2 * actuator::volume(machine.muscles[0].actuator.braid, 3.15 * inch) + 4e-6;
   const double k = area * gas::choked_parameter(air.gas_constant) / std::sqrt(air.temperature);
   const double rate = k * air.gas_constant * air.temperature / volume;
-  EXPECT_NEAR(hand.now.pressure[0] / (6 * bar * std::exp(-rate * (0.1 - begin))), 1, 1e-9);
-  EXPECT_LT(hand.now.pressure[0], 5.9 * bar);
+  EXPECT_NEAR(test.now.pressure[0] / (6 * bar * std::exp(-rate * (0.1 - begin))), 1, 1e-9);
+  EXPECT_LT(test.now.pressure[0], 5.9 * bar);
 }
 
 // Commands continue meanwhile, and at its end the valve opens after the delay of an edge there.
 TEST(Faults, AnInletThatIsStuckShutLetsNoAirIn) {
   const Broken machine;
   const Air network = machine.network({.what = What::stuck_shut, .begin = 0.01, .end = 0.05});
-  Hand hand(network, at_rest, 1.2 * bar);
-  hand.electrical(0, true);
-  hand.go(0.0099, 1e-4);
-  EXPECT_GT(hand.now.inflow[0], 0);
-  hand.go(0.0101, 1e-4);
-  const double held = hand.state.mass[0];
-  hand.electrical(0, false);
-  hand.go(0.02, 1e-4);
-  hand.electrical(0, true);
-  hand.go(0.05 + 0.29e-3, 1e-4);
-  EXPECT_EQ(hand.state.mass[0], held);
-  EXPECT_EQ(hand.now.inflow[0], 0);
-  hand.go(0.05 + 0.31e-3, 1e-4);
-  EXPECT_GT(hand.now.inflow[0], 0);
+  TestIntegrator test(network, at_rest, 1.2 * bar);
+  test.electrical(0, true);
+  test.run_until(0.0099, 1e-4);
+  EXPECT_GT(test.now.inflow[0], 0);
+  test.run_until(0.0101, 1e-4);
+  const double held = test.state.mass[0];
+  test.electrical(0, false);
+  test.run_until(0.02, 1e-4);
+  test.electrical(0, true);
+  test.run_until(0.05 + 0.29e-3, 1e-4);
+  EXPECT_EQ(test.state.mass[0], held);
+  EXPECT_EQ(test.now.inflow[0], 0);
+  test.run_until(0.05 + 0.31e-3, 1e-4);
+  EXPECT_GT(test.now.inflow[0], 0);
 }
 
 TEST(Faults, AValveThatIsStuckOpenShutsAfterItsDelay) {
   const Broken machine;
   const Air network = machine.network({.of = 1, .begin = 0.01, .end = 0.03});
-  Hand hand(network, at_rest, 5 * bar);
-  hand.go(0.03 + 0.49e-3, 1e-4);
-  EXPECT_GT(hand.now.outflow[0], 0);
-  hand.go(0.03 + 0.51e-3, 1e-4);
-  EXPECT_EQ(hand.now.outflow[0], 0);
+  TestIntegrator test(network, at_rest, 5 * bar);
+  test.run_until(0.03 + 0.49e-3, 1e-4);
+  EXPECT_GT(test.now.outflow[0], 0);
+  test.run_until(0.03 + 0.51e-3, 1e-4);
+  EXPECT_EQ(test.now.outflow[0], 0);
 }
 
 TEST(Faults, ABlockedHoseKeepsTheMusclesAir) {
@@ -162,19 +162,19 @@ TEST(Faults, ABlockedHoseKeepsTheMusclesAir) {
     Broken machine;
     machine.muscles[0].hose = hose;
     const Air network = machine.network({.what = What::blocked, .begin = 0.01, .end = 0.3});
-    Hand hand(network, at_rest, 3 * bar);
-    hand.go(0.01, 5e-5);
-    const double held = hand.state.mass[0];
+    TestIntegrator test(network, at_rest, 3 * bar);
+    test.run_until(0.01, 5e-5);
+    const double held = test.state.mass[0];
     for (const int valve : {0, 1}) {
-      hand.electrical(valve, true);
-      hand.go(hand.t + 0.14, 5e-5);
-      EXPECT_EQ(hand.state.mass[0], held);
+      test.electrical(valve, true);
+      test.run_until(test.t + 0.14, 5e-5);
+      EXPECT_EQ(test.state.mass[0], held);
     }
-    EXPECT_NEAR(hand.now.inflow[0], hand.now.outflow[0], 1e-9);  // both open: straight through
-    EXPECT_GT(hand.now.inflow[0], 1e-5);
-    hand.electrical(1, false);
-    hand.go(0.4, 5e-5);
-    EXPECT_GT(hand.state.mass[0], 1.5 * held);
+    EXPECT_NEAR(test.now.inflow[0], test.now.outflow[0], 1e-9);  // both open: straight through
+    EXPECT_GT(test.now.inflow[0], 1e-5);
+    test.electrical(1, false);
+    test.run_until(0.4, 5e-5);
+    EXPECT_GT(test.state.mass[0], 1.5 * held);
   }
 }
 
@@ -189,22 +189,22 @@ TEST(Faults, AFailedSupplyFillsNoFurtherAndTakesBackWhatIsAbove) {
       Broken machine;
       machine.supply = supply;
       const Air network = machine.network({.what = What::supply, .pressure = 3 * bar});
-      Hand hand(network, at_rest, start);
-      hand.node(0);
-      hand.electrical(0, true);
+      TestIntegrator test(network, at_rest, start);
+      test.node(0);
+      test.electrical(0, true);
       double most = 0;
       for (int k = 1; k <= 100; ++k) {
-        hand.go(0.01 * k, 1e-4);
-        most = std::max(most, hand.now.pressure[0]);
+        test.run_until(0.01 * k, 1e-4);
+        most = std::max(most, test.now.pressure[0]);
       }
-      EXPECT_EQ(hand.now.supply_pressure, 3 * bar);
-      EXPECT_NEAR(hand.now.pressure[0], 3 * bar, 1e-5 * bar);
-      EXPECT_EQ(hand.entered() < 0, start > 3 * bar);
+      EXPECT_EQ(test.now.supply_pressure, 3 * bar);
+      EXPECT_NEAR(test.now.pressure[0], 3 * bar, 1e-5 * bar);
+      EXPECT_EQ(test.entered() < 0, start > 3 * bar);
       if (start < 3 * bar) {
         EXPECT_LE(most, 3 * bar * (1 + 1e-9));
       }
       if (supply.kind == gas::Supply::Kind::tank) {
-        EXPECT_NEAR(hand.now.tank_pressure, 8 * bar, 1e-6);
+        EXPECT_NEAR(test.now.tank_pressure, 8 * bar, 1e-6);
       }
     }
 }
@@ -214,12 +214,12 @@ TEST(Faults, ASeatLeaksByItsShareOrByALawOfItsOwn) {
   const gas::Air& air = machine.air;
   const auto inflow = [&](const AirFault& f, bool open) {
     const Air network = machine.network(f);
-    Hand hand(network, at_rest, 2 * bar);
-    hand.node(0);
-    if (open) hand.electrical(0, true);
-    hand.node(1);
-    Air::Answer out{};
-    hand.look(1, hand.state, out);
+    TestIntegrator test(network, at_rest, 2 * bar);
+    test.node(0);
+    if (open) test.electrical(0, true);
+    test.node(1);
+    Air::Evaluation out{};
+    test.evaluate(1, test.state, out);
     return out.inflow[0];
   };
   const double whole = gas::mass_flow(machine.muscles[0].inlet.flow, air, 6 * bar, 2 * bar);
@@ -240,13 +240,13 @@ TEST(Faults, BeforeItsTimeAFaultIsNone) {
   for (AirFault& f : faults) f.begin += 10, f.end += 10;
   Air with(everything(), {}, {.pressure = 6 * bar}, thesis_cylinder(), faults);
   Air without(everything(), {}, {.pressure = 6 * bar}, thesis_cylinder());
-  Hand a(with, at_rest, 1.5 * bar), b(without, at_rest, 1.5 * bar);
+  TestIntegrator a(with, at_rest, 1.5 * bar), b(without, at_rest, 1.5 * bar);
   for (int k = 0; k < 40; ++k) {
     const int valve = static_cast<int>(random() % 16u);
     const bool open = random() % 2 == 0;
-    for (Hand* hand : {&a, &b}) {
-      hand->electrical(valve, open);
-      hand->go(hand->t + 2e-3, 1e-4);
+    for (TestIntegrator* test : {&a, &b}) {
+      test->electrical(valve, open);
+      test->run_until(test->t + 2e-3, 1e-4);
     }
     for (int i = 0; i < 6; ++i) ASSERT_EQ(a.state.mass[i], b.state.mass[i]) << i;
     for (std::size_t i = 0; i < static_cast<std::size_t>(without.others()); ++i)

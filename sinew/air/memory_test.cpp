@@ -30,12 +30,12 @@ double static_tension(const Muscle& m, double length, double gauge) {
 TEST(Memory, IsNothingThatLanesHold) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis.volume_pressure = 5 * bar;  // without a width it has no effect
-  EXPECT_TRUE(lanes_hold(m));
+  EXPECT_TRUE(lanes_support(m));
   m.actuator.hysteresis.half_width = 1;
-  EXPECT_FALSE(lanes_hold(m));
+  EXPECT_FALSE(lanes_support(m));
   m = plain_bundle();
   m.actuator.creep = {.share = {0, 0.01}, .time = {0, 3}};
-  EXPECT_FALSE(lanes_hold(m));
+  EXPECT_FALSE(lanes_support(m));
 }
 
 // After a long rest a muscle starts without friction and with its creep complete.
@@ -45,9 +45,9 @@ TEST(Memory, StartsAtRest) {
   m.actuator.creep = {.share = {0.02, 0.03}, .time = {0.5, 5}};
   Air network(std::vector{m}, {}, {});
   EXPECT_EQ(network.others(), 2);
-  const Hand hand(network, at_rest, 4 * bar);
+  const TestIntegrator test(network, at_rest, 4 * bar);
   const double gauge = 4 * bar - network.atmosphere();
-  EXPECT_NEAR(hand.now.tension[0] / (1.05 * static_tension(m, 3.2 * inch, gauge)), 1, 1e-9);
+  EXPECT_NEAR(test.now.tension[0] / (1.05 * static_tension(m, 3.2 * inch, gauge)), 1, 1e-9);
 }
 
 // Fill and vent at one length: each tension is the static one at the pressure w below and above.
@@ -56,19 +56,19 @@ TEST(Memory, FillAndVentLoop) {
   const double w = 0.06 * bar;
   m.actuator.hysteresis.half_width = w;
   Air network(std::vector{m}, {}, {});
-  Hand hand(network, at_rest, network.atmosphere());
+  TestIntegrator test(network, at_rest, network.atmosphere());
   const auto expect_off = [&](double off) {
-    const double gauge = hand.now.pressure[0] - network.atmosphere();
-    EXPECT_NEAR(hand.now.tension[0], static_tension(m, 3.2 * inch, gauge + off), 1e-6);
+    const double gauge = test.now.pressure[0] - network.atmosphere();
+    EXPECT_NEAR(test.now.tension[0], static_tension(m, 3.2 * inch, gauge + off), 1e-6);
   };
-  hand.electrical(0, true);
-  hand.go(0.03, 1e-3);
-  ASSERT_GT(hand.now.pressure[0], 3 * bar);
+  test.electrical(0, true);
+  test.run_until(0.03, 1e-3);
+  ASSERT_GT(test.now.pressure[0], 3 * bar);
   expect_off(-w);
-  hand.electrical(0, false);
-  hand.electrical(1, true);
-  hand.go(0.035, 1e-4);
-  ASSERT_GT(hand.now.pressure[0], 1.5 * bar);
+  test.electrical(0, false);
+  test.electrical(1, true);
+  test.run_until(0.035, 1e-4);
+  ASSERT_GT(test.now.pressure[0], 1.5 * bar);
   expect_off(w);
 }
 
@@ -80,7 +80,7 @@ TEST(Memory, RatesAreAllSet) {
   Air network(std::vector{m}, {}, {});
   const Motion at = still(3.2 * inch);
   const Air::State state = network.initial(4 * bar, at.length, 0);
-  Air::Answer out{};
+  Air::Evaluation out{};
   out.rate.fill(1e9);
   network.evaluate(0, at, state, network.valves_at_rest(),
                    network.memory_at_rest(4 * bar, at.length), out);
@@ -95,15 +95,15 @@ TEST(Memory, TheStepDoesNotMatterToThePlay) {
   double last[2] = {};
   for (int fine = 0; fine < 2; ++fine) {
     Air network(std::vector{m}, {}, {});
-    Hand hand(network, at_rest, 1.5 * bar);
+    TestIntegrator test(network, at_rest, 1.5 * bar);
     for (int k = 0; k < 6; ++k) {
       const int valve = k % 2;
-      hand.electrical(valve, true);
-      hand.go(hand.t + (valve == 0 ? 0.008 : 0.0015), fine ? 1e-5 : 5e-4);
-      hand.electrical(valve, false);
-      hand.go(hand.t + 0.01, fine ? 1e-4 : 2e-3);
+      test.electrical(valve, true);
+      test.run_until(test.t + (valve == 0 ? 0.008 : 0.0015), fine ? 1e-5 : 5e-4);
+      test.electrical(valve, false);
+      test.run_until(test.t + 0.01, fine ? 1e-4 : 2e-3);
     }
-    last[fine] = hand.now.tension[0];
+    last[fine] = test.now.tension[0];
   }
   EXPECT_NEAR(last[0] / last[1], 1, 1e-6);
 }
@@ -118,20 +118,21 @@ TEST(Memory, CreepIsExponential) {
   without.actuator.creep = {};
   Air network(std::vector{m}, {}, {});
   Air dry(std::vector{without}, {}, {});
-  Hand hand(network, at_rest, network.atmosphere()), quick(dry, at_rest, dry.atmosphere());
-  for (Hand* h : {&hand, &quick}) {
+  TestIntegrator test(network, at_rest, network.atmosphere()),
+      quick(dry, at_rest, dry.atmosphere());
+  for (TestIntegrator* h : {&test, &quick}) {
     h->electrical(0, true);
-    h->go(0.01, 5e-4);
+    h->run_until(0.01, 5e-4);
     h->electrical(0, false);
   }
   // One by a power, the other in lanes by its series.
-  EXPECT_NEAR(hand.now.pressure[0] / quick.now.pressure[0], 1, 1e-11);
+  EXPECT_NEAR(test.now.pressure[0] / quick.now.pressure[0], 1, 1e-11);
   const double start = quick.now.tension[0];
-  const double gap = 1.05 * start - hand.now.tension[0];
+  const double gap = 1.05 * start - test.now.tension[0];
   ASSERT_GT(gap, 0.045 * start);
   for (const double t : {0.2, 0.4, 0.8, 4.0}) {
-    hand.go(0.01 + t, 1e-2);
-    EXPECT_NEAR(1.05 * start - hand.now.tension[0], gap * std::exp(-t / 0.4), 1e-7 * start);
+    test.run_until(0.01 + t, 1e-2);
+    EXPECT_NEAR(1.05 * start - test.now.tension[0], gap * std::exp(-t / 0.4), 1e-7 * start);
   }
 }
 
@@ -158,13 +159,13 @@ TEST(Memory, HysteresisTakesWork) {
     return s;
   };
   Air network(std::vector{m}, {}, {});
-  Hand hand(network, motion, 4 * bar);
-  hand.go(1, 1e-3);
+  TestIntegrator test(network, motion, 4 * bar);
+  test.run_until(1, 1e-3);
   double taken = 0;
   for (int k = 0; k < 2000; ++k) {
-    const double before = hand.now.tension[0], l = motion(hand.t).length[0];
-    hand.go(hand.t + 5e-4, 5e-4);
-    taken += 0.5 * (before + hand.now.tension[0]) * (motion(hand.t).length[0] - l);
+    const double before = test.now.tension[0], l = motion(test.t).length[0];
+    test.run_until(test.t + 5e-4, 5e-4);
+    taken += 0.5 * (before + test.now.tension[0]) * (motion(test.t).length[0] - l);
   }
   const double dv = m.count * (actuator::volume(m.actuator.braid, 2.7 * inch) -
                                actuator::volume(m.actuator.braid, 3.7 * inch));

@@ -5,14 +5,14 @@
 //
 //   lengths, rates, state, valves, memory  ->  tensions, pressures, flows
 //
-//   State    integrated quantities, and the masses that have passed the valves since the start
-//   Valves   constant until the next node: positions of valves, set points and faults
-//   Memory   constant until the next node: bases of the series, states of the hysteresis
-//   Answer   result of one evaluation
+//   State       integrated quantities, and the masses that have passed the valves since the start
+//   Valves      constant until the next node: positions of valves, set points and faults
+//   Memory      constant until the next node: bases of the series, states of the hysteresis
+//   Evaluation  result of one evaluation
 //
 //   order    command() at t, with the evaluation at the last node
 //            move_valves(t) at next_change() and wherever the integrator requires a node, then
-//            evaluate(), and remember() with that evaluation
+//            evaluate(), and update_memory() with that evaluation
 //
 // A network itself is constant; its caller owns the state.
 //
@@ -50,8 +50,8 @@ class AirNetwork : public QuickBodies<Most> {
 
  public:
   using Quick::flowing, Quick::open_share, Quick::volume;
-  using typename Quick::Answer, typename Quick::Course, typename Quick::Ends, typename Quick::Lanes,
-      typename Quick::Memory, typename Quick::State, typename Quick::Valves;
+  using typename Quick::Evaluation, typename Quick::QuickMasses, typename Quick::Ends,
+      typename Quick::Lanes, typename Quick::Memory, typename Quick::State, typename Quick::Valves;
 
   // Throws std::invalid_argument for more than `Most` muscles, and for a cylinder with valves whose
   // chambers vanish at a stop.
@@ -62,14 +62,14 @@ class AirNetwork : public QuickBodies<Most> {
   // Applies an electrical edge of a valve at t, or a regulator's set point from t on; t is not
   // before the last node. `at_node`: the evaluation at that node, for delays and failures that
   // depend on the pressure difference.
-  void command(const signals::Edge& edge, double t, const Answer& at_node,
+  void command(const signals::Edge& edge, double t, const Evaluation& at_node,
                Valves& valves) const noexcept {
     Quick::command(edge, t, difference(edge.valve.index, at_node, valves), valves);
   }
 
   // Moves valves, set points and faults to the node at t. `before`: the evaluation at the last
   // node, for the delay of a shutter that a fault releases.
-  void move_valves(double t, const Answer& before, Valves& valves) const noexcept {
+  void move_valves(double t, const Evaluation& before, Valves& valves) const noexcept {
     if (valves.next_change > t) return;
     Quick::move(
         t, [&](int valve) { return difference(valve, before, valves); }, valves);
@@ -78,78 +78,79 @@ class AirNetwork : public QuickBodies<Most> {
   // Evaluates the laws; t matters only to valves that ramp. `ahead`: a bit for each muscle that is
   // integrated ahead, whose flows are not computed.
   void evaluate(double t, const Ends& ends, const State& state, const Valves& valves,
-                const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
+                const Memory& memory, Evaluation& out, std::uint64_t ahead = 0) const noexcept;
 
   // The stages of RK4. move() writes the state at h along the rates of one evaluation, without the
   // masses passed since the start; `out` must not be `from`. finish() advances the state by the
-  // weighted mean of four evaluations. Bodies in the course take their masses from there.
-  void move(State& out, const State& from, double h, const Answer& look, const Valves& valves,
-            const Course& course) const noexcept;
-  void finish(State& state, double h, const Answer* const (&look)[4], const Valves& valves,
-              const Course& course) const noexcept;
+  // weighted mean of four evaluations. Quick bodies take their masses from `quick_masses`.
+  void move(State& out, const State& from, double h, const Evaluation& evaluation,
+            const Valves& valves, const QuickMasses& quick_masses) const noexcept;
+  void finish(State& state, double h, const Evaluation* const (&evaluations)[4],
+              const Valves& valves, const QuickMasses& quick_masses) const noexcept;
 
   // Writes the second half of Heun's rule, for a preview; move() is the first half.
-  void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
-               const Valves& valves, const Course& course) const noexcept;
+  void correct(State& out, const State& from, double h, const Evaluation& before,
+               const Evaluation& after, const Valves& valves,
+               const QuickMasses& quick_masses) const noexcept;
 
  private:
   using Cell = typename Quick::Cell;
   using Quick::air_, Quick::blocked, Quick::braids_, Quick::cut_, Quick::cylinder_,
-      Quick::each_line, Quick::in_lanes_, Quick::inlets, Quick::lagging_, Quick::line,
+      Quick::each_line, Quick::in_lanes_, Quick::supply_line, Quick::lagging_, Quick::line,
       Quick::muscle, Quick::none, Quick::other, Quick::others_, Quick::plain_, Quick::ramping_,
       Quick::rate_of, Quick::shut, Quick::sides_, Quick::size_, Quick::tank_, Quick::taps_,
-      Quick::through, Quick::through_holes;
-  using typename Quick::Flows, typename Quick::Inlets, typename Quick::Line, typename Quick::Now,
-      typename Quick::Slot, typename Quick::Tap;
+      Quick::flows_through, Quick::hole_flow;
+  using typename Quick::Flows, typename Quick::SupplyLine, typename Quick::AirLine,
+      typename Quick::FlowInputs, typename Quick::Slot, typename Quick::Tap;
 
   struct Chamber {
     double pressure = 0, y = 0, temperature = 0;
   };
 
-  double difference(int valve, const Answer& at_node, const Valves& valves) const noexcept;
-  void one_by_one(const Ends& ends, const State& state, const Memory& memory, Answer& out,
+  double difference(int valve, const Evaluation& at_node, const Valves& valves) const noexcept;
+  void one_by_one(const Ends& ends, const State& state, const Memory& memory, Evaluation& out,
                   Lanes& y) const noexcept;
   double smooth_tension(int i, double length, double rate, double gauge, const State& state,
-                        const Memory& memory, Answer& out) const noexcept;
+                        const Memory& memory, Evaluation& out) const noexcept;
   void pull(int i, double length, double rate, double pressure, const State& state,
-            const Memory& memory, Answer& out) const noexcept;
+            const Memory& memory, Evaluation& out) const noexcept;
   void open_taps(double t, double y_supply, const Lanes& y, const Valves& valves,
-                 Answer& out) const noexcept;
-  Flows series(int i, const Now& now, const Chamber& c, Answer& out) const noexcept;
-  Chamber hose(int i, const Now& now) const noexcept;
-  void run_line(int i, const Now& now, const Ends& ends, const Chamber& c,
-                Answer& out) const noexcept;
-  void run_options(const Now& now, bool cut, const Ends& ends, const Lanes& y,
-                   Answer& out) const noexcept;
-  void run_cylinder(const Now& now, const Ends& ends, Answer& out) const noexcept;
-  void run_supply(const Now& now, bool cut, Answer& out) const noexcept;
+                 Evaluation& out) const noexcept;
+  Flows series(int i, const FlowInputs& now, const Chamber& c, Evaluation& out) const noexcept;
+  Chamber hose(int i, const FlowInputs& now) const noexcept;
+  void run_line(int i, const FlowInputs& now, const Ends& ends, const Chamber& c,
+                Evaluation& out) const noexcept;
+  void run_options(const FlowInputs& now, bool cut, const Ends& ends, const Lanes& y,
+                   Evaluation& out) const noexcept;
+  void run_cylinder(const FlowInputs& now, const Ends& ends, Evaluation& out) const noexcept;
+  void run_supply(const FlowInputs& now, bool cut, Evaluation& out) const noexcept;
   double enthalpy(double flow, double from, double to) const noexcept;
   double warming(int energy, double mass, const State& state, double gained,
                  double work) const noexcept;
   template <class Mean>
   void add(State& out, const State& from, Mean mean, const Valves& valves,
-           const Course& course) const noexcept;
+           const QuickMasses& quick_masses) const noexcept;
   template <class Mean>
-  void add_course(State& out, Mean mean, const Course& course) const noexcept;
+  void add_quick_masses(State& out, Mean mean, const QuickMasses& quick_masses) const noexcept;
 };
 
 // Returns the pressure difference that the valve holds back, positive in its direction of flow
 // [Pa].
 template <int Most>
-double AirNetwork<Most>::difference(int valve, const Answer& at_node,
+double AirNetwork<Most>::difference(int valve, const Evaluation& at_node,
                                     const Valves& valves) const noexcept {
   const int pair = valve / 2;
   const double p = pair >= size_ ? at_node.cylinder_pressure[static_cast<std::size_t>(pair - size_)]
-                   : line(pair).more || valves.broken ? at_node.manifold[pair]
-                                                      : at_node.pressure[pair];
+                   : line(pair).has_options || valves.broken ? at_node.manifold[pair]
+                                                             : at_node.pressure[pair];
   return valve % 2 == 0 ? at_node.supply_pressure - p : p - air_.atmosphere;
 }
 
 template <int Most>
 void AirNetwork<Most>::evaluate(double t, const Ends& ends, const State& state,
-                                const Valves& valves, const Memory& memory, Answer& out,
+                                const Valves& valves, const Memory& memory, Evaluation& out,
                                 std::uint64_t ahead) const noexcept {
-  const Inlets supply = inlets(state, valves, memory, out);
+  const SupplyLine supply = supply_line(state, valves, memory, out);
   Lanes y;
   if (in_lanes_)
     braids_.evaluate(ends.length, ends.rate, state.mass, memory.reference, out, y);
@@ -165,10 +166,10 @@ void AirNetwork<Most>::evaluate(double t, const Ends& ends, const State& state,
 
 // Evaluates all parts of a machine other than muscles between valves.
 template <int Most>
-void AirNetwork<Most>::run_options(const Now& now, bool cut, const Ends& ends, const Lanes& y,
-                                   Answer& out) const noexcept {
+void AirNetwork<Most>::run_options(const FlowInputs& now, bool cut, const Ends& ends,
+                                   const Lanes& y, Evaluation& out) const noexcept {
   each_line(now.valves, [&](int i) {
-    if ((now.ahead >> i & 1) != 0 && line(i).hose == none) {  // flows come from its course
+    if ((now.ahead >> i & 1) != 0 && line(i).hose == none) {  // its flows are in the quick masses
       out.manifold[i] = out.pressure[i];
       out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
       return;
@@ -186,7 +187,7 @@ void AirNetwork<Most>::run_options(const Now& now, bool cut, const Ends& ends, c
 // Computes the flows of the muscles that have only valves, which may be shut.
 template <int Most>
 void AirNetwork<Most>::open_taps(double t, double y_supply, const Lanes& y, const Valves& valves,
-                                 Answer& out) const noexcept {
+                                 Evaluation& out) const noexcept {
   const auto through_one = [&](int valve, double share) {
     const Tap& tap = taps_[static_cast<std::size_t>(valve)];
     if (!tap.listed) return;
@@ -209,7 +210,7 @@ void AirNetwork<Most>::open_taps(double t, double y_supply, const Lanes& y, cons
 // Computes pressures and tensions of muscles that lanes do not support.
 template <int Most>
 void AirNetwork<Most>::one_by_one(const Ends& ends, const State& state, const Memory& memory,
-                                  Answer& out, Lanes& y) const noexcept {
+                                  Evaluation& out, Lanes& y) const noexcept {
   for (int i = 0; i < size_; ++i) {
     const double v = volume(i, ends.length[i]), density = state.mass[i] / v;
     double p = 0;
@@ -232,23 +233,25 @@ void AirNetwork<Most>::one_by_one(const Ends& ends, const State& state, const Me
 template <int Most>
 double AirNetwork<Most>::smooth_tension(int i, double length, double rate, double gauge,
                                         const State& state, const Memory& memory,
-                                        Answer& out) const noexcept {
+                                        Evaluation& out) const noexcept {
   const Muscle& m = muscle(i);
-  const Line& l = line(i);
-  double feels = gauge;
+  const AirLine& l = line(i);
+  double effective_gauge = gauge;
   if (l.plays) {
-    const actuator::Felt felt = actuator::felt(m.actuator, length, gauge, memory.play[i]);
-    feels = felt.gauge_pressure;
-    out.play[i] = felt.play;  // applied by remember() alone
+    const actuator::EffectivePressure effective =
+        actuator::effective_pressure(m.actuator, length, gauge, memory.play[i]);
+    effective_gauge = effective.gauge_pressure;
+    out.play[i] = effective.play;  // applied by update_memory() alone
   }
-  double one = actuator::clamped_tension(m.actuator, length, rate, feels, air_.atmosphere);
+  double one =
+      actuator::clamped_tension(m.actuator, length, rate, effective_gauge, air_.atmosphere);
   for (std::size_t k = 0; k < l.late.size(); ++k) {
     const int late = l.late[k];
     if (late == none) continue;
     const actuator::Creep& creep = m.actuator.creep;
     one += actuator::creep_tension(m.actuator, creep.share[k], length, other(state, late),
                                    air_.atmosphere);
-    rate_of(out, late) = actuator::creep_rate(creep.time[k], feels, other(state, late));
+    rate_of(out, late) = actuator::creep_rate(creep.time[k], effective_gauge, other(state, late));
   }
   return m.count * one;
 }
@@ -256,7 +259,7 @@ double AirNetwork<Most>::smooth_tension(int i, double length, double rate, doubl
 // Computes [31]-[35] of the bundle.
 template <int Most>
 void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, const State& state,
-                            const Memory& memory, Answer& out) const noexcept {
+                            const Memory& memory, Evaluation& out) const noexcept {
   const Muscle& m = muscle(i);
   const double gauge = pressure - air_.atmosphere;
   const double smooth = smooth_tension(i, length, rate, gauge, state, memory, out);
@@ -271,8 +274,9 @@ void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, 
 
   // A tendon cannot push; without stick [33] has sign(v), as printed.
   const bool stick = m.actuator.loss.stick;
-  const double cord = std::max(smooth, 0.0);
-  out.tension[i] = stick ? cord : std::max(cord + (rate >= 0 ? bound : -bound), 0.0);
+  const double tendon_tension = std::max(smooth, 0.0);
+  out.tension[i] =
+      stick ? tendon_tension : std::max(tendon_tension + (rate >= 0 ? bound : -bound), 0.0);
   out.clamped[i] = stick ? smooth : smooth + (rate >= 0 ? bound : -bound);
   out.friction_bound[i] = stick ? bound : 0.0;
   out.pressure[i] = pressure;
@@ -294,25 +298,25 @@ double AirNetwork<Most>::warming(int energy, double mass, const State& state, do
 
 // Returns the flows of the valves where the hose holds no air: both flows in series are equal.
 template <int Most>
-auto AirNetwork<Most>::series(int i, const Now& now, const Chamber& c, Answer& out) const noexcept
-    -> Flows {
+auto AirNetwork<Most>::series(int i, const FlowInputs& now, const Chamber& c,
+                              Evaluation& out) const noexcept -> Flows {
   const gas::HoseConstants& hose = line(i).hose_flow;
   if (shut(2 * i, now)) return {};
   const bool passes = !blocked(i, now.valves);
   const auto surplus = [&](double y) {
-    const Flows f = through(2 * i, now, y);
+    const Flows f = flows_through(2 * i, now, y);
     return f.in - f.out - (passes ? gas::hose_flow_y(hose, y, c.y) : 0.0);
   };
   const double low = std::min({1.0, now.y_supply, c.y}), high = std::max({1.0, now.y_supply, c.y});
   const double y = gas::balance(surplus, low, high);
   out.manifold[i] = gas::pressure_of_y(air_, y);
-  return through(2 * i, now, y);
+  return flows_through(2 * i, now, y);
 }
 
 // Returns the air of a hose that is a chamber.
 template <int Most>
-auto AirNetwork<Most>::hose(int i, const Now& now) const noexcept -> Chamber {
-  const Line& l = line(i);
+auto AirNetwork<Most>::hose(int i, const FlowInputs& now) const noexcept -> Chamber {
+  const AirLine& l = line(i);
   const double mass = other(now.state, l.hose), in_hose = muscle(i).hose.volume;
   if (l.hose_energy != none) {
     const double energy = other(now.state, l.hose_energy);
@@ -326,9 +330,9 @@ auto AirNetwork<Most>::hose(int i, const Now& now) const noexcept -> Chamber {
 
 // Computes the flows of muscle i: valves, hose, leak.
 template <int Most>
-void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const Chamber& c,
-                                Answer& out) const noexcept {
-  const Line& l = line(i);
+void AirNetwork<Most>::run_line(int i, const FlowInputs& now, const Ends& ends, const Chamber& c,
+                                Evaluation& out) const noexcept {
+  const AirLine& l = line(i);
   out.manifold[i] = c.pressure;
   out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
   if (!flowing(now.valves)) return;
@@ -345,7 +349,7 @@ void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const C
     const Chamber h = hose(i, now);
     arrives = passes ? gas::hose_flow_y(l.hose_flow, h.y, c.y) : 0.0;
     there = h.temperature;
-    valves = through(2 * i, now, h.y);
+    valves = flows_through(2 * i, now, h.y);
     out.manifold[i] = h.pressure;
     rate_of(out, l.hose) = valves.in - valves.out - arrives;
     if (l.hose_energy != none)
@@ -355,11 +359,11 @@ void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const C
                       enthalpy(arrives, there, c.temperature),
                   0.0);
   } else {
-    valves = l.resists || !passes ? series(i, now, c, out) : through(2 * i, now, c.y);
+    valves = l.has_hose || !passes ? series(i, now, c, out) : flows_through(2 * i, now, c.y);
     arrives = passes ? valves.in - valves.out : 0.0;
   }
   double leak = l.leak.tight() ? 0.0 : gas::leak_flow_y(l.leak, c.y);
-  if (now.valves.leaking) leak += through_holes(i, now, c.y);
+  if (now.valves.leaking) leak += hole_flow(i, now, c.y);
   out.inflow[i] = valves.in;
   out.outflow[i] = valves.out;
   out.leak[i] = leak;
@@ -375,7 +379,8 @@ void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const C
 }
 
 template <int Most>
-void AirNetwork<Most>::run_cylinder(const Now& now, const Ends& ends, Answer& out) const noexcept {
+void AirNetwork<Most>::run_cylinder(const FlowInputs& now, const Ends& ends,
+                                    Evaluation& out) const noexcept {
   const Cylinder& c = *cylinder_;
   if (c.mode == Cylinder::Mode::regulator) {
     // Held pressure: the regulator admits or relieves the air for the change of volume.
@@ -404,7 +409,7 @@ void AirNetwork<Most>::run_cylinder(const Now& now, const Ends& ends, Answer& ou
                           gas::density_at_atmosphere(air_));
         air.pressure = gas::pressure_of_y(air_, air.y);
       }
-      const Flows f = through(2 * (size_ + side), now, air.y);
+      const Flows f = flows_through(2 * (size_ + side), now, air.y);
       out.cylinder_pressure[side] = air.pressure;
       out.cylinder_density[side] = density;
       out.cylinder_inflow[side] = f.in;
@@ -423,7 +428,7 @@ void AirNetwork<Most>::run_cylinder(const Now& now, const Ends& ends, Answer& ou
 
 // Computes the rates of the regulators' outlets and of the tank, which loses the inlets' flow.
 template <int Most>
-void AirNetwork<Most>::run_supply(const Now& now, bool cut, Answer& out) const noexcept {
+void AirNetwork<Most>::run_supply(const FlowInputs& now, bool cut, Evaluation& out) const noexcept {
   for (const int valve : lagging_) {
     const auto v = static_cast<std::size_t>(valve);
     const int outlet = taps_[v].outlet;
@@ -439,22 +444,22 @@ void AirNetwork<Most>::run_supply(const Now& now, bool cut, Answer& out) const n
 
 // Advances only the masses; what has passed is summed at the end of the step.
 template <int Most>
-void AirNetwork<Most>::move(State& out, const State& from, double h, const Answer& look,
-                            const Valves& valves, const Course& course) const noexcept {
+void AirNetwork<Most>::move(State& out, const State& from, double h, const Evaluation& evaluation,
+                            const Valves& valves, const QuickMasses& quick_masses) const noexcept {
   const bool flows = flowing(valves);
   for (int i = 0; i < braids_.padded(); i += lanes) {
     Four mass = from.mass.four(i);
-    if (flows) mass += h * (look.inflow.four(i) - look.outflow.four(i));
+    if (flows) mass += h * (evaluation.inflow.four(i) - evaluation.outflow.four(i));
     out.mass.four(i) = mass;
   }
   if (plain_ && !valves.broken) return;
-  each_line(valves, [&](int i) { out.mass[i] = from.mass[i] + h * look.gain[i]; });
+  each_line(valves, [&](int i) { out.mass[i] = from.mass[i] + h * evaluation.gain[i]; });
   for (std::size_t k = 0; k < static_cast<std::size_t>(others_); ++k)
-    out.other[k] = from.other[k] + h * look.rate[k];
+    out.other[k] = from.other[k] + h * evaluation.rate[k];
 
-  const bool end = !(h < course.step);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(course.count); ++k) {
-    const Cell& cell = course.cells[k];
+  const bool end = !(h < quick_masses.step);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(quick_masses.count); ++k) {
+    const Cell& cell = quick_masses.cells[k];
     const double mass = end ? cell.full : cell.half;
     if (cell.of >= size_) {
       other(out, sides_[static_cast<std::size_t>(cell.of - size_)].mass) = mass;
@@ -466,20 +471,21 @@ void AirNetwork<Most>::move(State& out, const State& from, double h, const Answe
 }
 
 template <int Most>
-void AirNetwork<Most>::finish(State& state, double h, const Answer* const (&look)[4],
-                              const Valves& valves, const Course& course) const noexcept {
+void AirNetwork<Most>::finish(State& state, double h, const Evaluation* const (&evaluations)[4],
+                              const Valves& valves,
+                              const QuickMasses& quick_masses) const noexcept {
   const units::StageMean stages(h);
-  const auto mean = [&](auto&& of) { return stages([&](int s) { return of(*look[s]); }); };
-  add(state, state, mean, valves, course);
+  const auto mean = [&](auto&& of) { return stages([&](int s) { return of(*evaluations[s]); }); };
+  add(state, state, mean, valves, quick_masses);
 }
 
 template <int Most>
-void AirNetwork<Most>::correct(State& out, const State& from, double h, const Answer& before,
-                               const Answer& after, const Valves& valves,
-                               const Course& course) const noexcept {
+void AirNetwork<Most>::correct(State& out, const State& from, double h, const Evaluation& before,
+                               const Evaluation& after, const Valves& valves,
+                               const QuickMasses& quick_masses) const noexcept {
   const double half = 0.5 * h;
   add(
-      out, from, [&](auto&& of) { return half * (of(before) + of(after)); }, valves, course);
+      out, from, [&](auto&& of) { return half * (of(before) + of(after)); }, valves, quick_masses);
 }
 
 // Adds the mean of every rate: mean(of) is the step's length times the mean of of(evaluation).
@@ -487,56 +493,58 @@ void AirNetwork<Most>::correct(State& out, const State& from, double h, const An
 template <int Most>
 template <class Mean>
 void AirNetwork<Most>::add(State& out, const State& from, Mean mean, const Valves& valves,
-                           const Course& course) const noexcept {
+                           const QuickMasses& quick_masses) const noexcept {
   const bool options = !plain_ || valves.broken;
   const int moved = flowing(valves) ? size_ : 0;
   for (int i = 0; i < moved; ++i) {
-    const double in = mean([&](const Answer& a) { return a.inflow[i]; });
-    const double gone = mean([&](const Answer& a) { return a.outflow[i]; });
+    const double in = mean([&](const Evaluation& a) { return a.inflow[i]; });
+    const double mass_out = mean([&](const Evaluation& a) { return a.outflow[i]; });
     out.in[i] = from.in[i] + in;
-    out.out[i] = from.out[i] + gone;
-    if (options && (line(i).more || valves.broken)) {
-      out.mass[i] = from.mass[i] + mean([&](const Answer& a) { return a.gain[i]; });
-      out.leak[i] = from.leak[i] + mean([&](const Answer& a) { return a.leak[i]; });
+    out.out[i] = from.out[i] + mass_out;
+    if (options && (line(i).has_options || valves.broken)) {
+      out.mass[i] = from.mass[i] + mean([&](const Evaluation& a) { return a.gain[i]; });
+      out.leak[i] = from.leak[i] + mean([&](const Evaluation& a) { return a.leak[i]; });
     } else {
-      out.mass[i] = from.mass[i] + (in - gone);
+      out.mass[i] = from.mass[i] + (in - mass_out);
     }
   }
   if (!options) return;
   for (std::size_t k = 0; k < static_cast<std::size_t>(others_); ++k)
-    out.other[k] = from.other[k] + mean([&](const Answer& a) { return a.rate[k]; });
+    out.other[k] = from.other[k] + mean([&](const Evaluation& a) { return a.rate[k]; });
   for (std::size_t c = 0; c < 2 && cylinder_; ++c) {
     out.piston_in[c] =
-        from.piston_in[c] + mean([&](const Answer& a) { return a.cylinder_inflow[c]; });
+        from.piston_in[c] + mean([&](const Evaluation& a) { return a.cylinder_inflow[c]; });
     out.piston_out[c] =
-        from.piston_out[c] + mean([&](const Answer& a) { return a.cylinder_outflow[c]; });
+        from.piston_out[c] + mean([&](const Evaluation& a) { return a.cylinder_outflow[c]; });
   }
-  if (course.count > 0) add_course(out, mean, course);
+  if (quick_masses.count > 0) add_quick_masses(out, mean, quick_masses);
 }
 
-// Replaces the flows and masses of each body that was integrated ahead by those of its course, and
+// Replaces the flows and masses of each body that was integrated ahead by its own, and
 // corrects the mass that the supply has delivered.
 template <int Most>
 template <class Mean>
-void AirNetwork<Most>::add_course(State& out, Mean mean, const Course& course) const noexcept {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(course.count); ++k) {
-    const Cell& cell = course.cells[k];
+void AirNetwork<Most>::add_quick_masses(State& out, Mean mean,
+                                        const QuickMasses& quick_masses) const noexcept {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(quick_masses.count); ++k) {
+    const Cell& cell = quick_masses.cells[k];
     const bool of_a_muscle = cell.of < size_;
     const auto c = static_cast<std::size_t>(of_a_muscle ? 0 : cell.of - size_);
-    const auto said = [&](auto&& of_muscle, auto&& of_cylinder) {
-      return mean(
-          [&](const Answer& a) { return of_a_muscle ? of_muscle(a)[cell.of] : of_cylinder(a)[c]; });
+    const auto mean_flow = [&](auto&& of_muscle, auto&& of_cylinder) {
+      return mean([&](const Evaluation& a) {
+        return of_a_muscle ? of_muscle(a)[cell.of] : of_cylinder(a)[c];
+      });
     };
     const double in =
-        cell.in - said([](const Answer& a) -> const Lanes& { return a.inflow; },
-                       [](const Answer& a) -> const auto& { return a.cylinder_inflow; });
-    const double gone =
-        cell.out - said([](const Answer& a) -> const Lanes& { return a.outflow; },
-                        [](const Answer& a) -> const auto& { return a.cylinder_outflow; });
+        cell.in - mean_flow([](const Evaluation& a) -> const Lanes& { return a.inflow; },
+                            [](const Evaluation& a) -> const auto& { return a.cylinder_inflow; });
+    const double mass_out =
+        cell.out - mean_flow([](const Evaluation& a) -> const Lanes& { return a.outflow; },
+                             [](const Evaluation& a) -> const auto& { return a.cylinder_outflow; });
     (of_a_muscle ? out.in[cell.of] : out.piston_in[c]) += in;
-    (of_a_muscle ? out.out[cell.of] : out.piston_out[c]) += gone;
+    (of_a_muscle ? out.out[cell.of] : out.piston_out[c]) += mass_out;
     if (of_a_muscle) {
-      out.leak[cell.of] += cell.leak - mean([&](const Answer& a) { return a.leak[cell.of]; });
+      out.leak[cell.of] += cell.leak - mean([&](const Evaluation& a) { return a.leak[cell.of]; });
       out.mass[cell.of] = cell.full;
       if (const int hose = line(cell.of).hose; hose != none) other(out, hose) = cell.hose;
     } else {
@@ -544,7 +552,7 @@ void AirNetwork<Most>::add_course(State& out, Mean mean, const Course& course) c
     }
     if (tank_ == none) continue;
     // Tank and cut line sum the flows of all inlets; the line in use takes the correction.
-    const bool cut = course.cut;
+    const bool cut = quick_masses.cut;
     other(out, cut ? cut_ : tank_) += cut ? in : -in;
   }
 }

@@ -17,17 +17,18 @@ namespace sinew::air::network_lanes_test {
 namespace {
 
 // A network with its valves and memory, evaluated at any lengths and masses.
-class ByHand : public Air {
+class TestNetwork : public Air {
  public:
-  ByHand(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply)
+  TestNetwork(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply)
       : Air(muscles, air, supply), valves_(valves_at_rest()), memory_(memory_at_rest(1e5, {})) {}
 
   void electrical(int valve, double t, bool open) {
     command({.valve = {static_cast<std::uint8_t>(valve)}, .open = open}, t, last_, valves_);
   }
   void node(double t) { move_valves(t, last_, valves_); }
-  void follow(const Answer& look) { remember(look, {}, memory_); }
-  void evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass, Answer& out) {
+  void evaluate_node(const Evaluation& evaluation) { update_memory(evaluation, {}, memory_); }
+  void evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,
+                Evaluation& out) {
     State state{};
     state.mass = mass;
     Air::evaluate(t, {length, rate}, state, valves_, memory_, out);
@@ -40,7 +41,7 @@ class ByHand : public Air {
  private:
   Valves valves_;
   Memory memory_;
-  Answer last_{};
+  Evaluation last_{};
 };
 
 struct Machine {
@@ -52,7 +53,7 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
   const Machine k;
   std::vector<Muscle> muscles;
   for (int i = 0; i < 6; ++i) muscles.push_back(bundle(0.15 * i));
-  ByHand network(muscles, k.air, k.supply);
+  TestNetwork network(muscles, k.air, k.supply);
 
   std::mt19937 random(1);
   std::uniform_real_distribution<double> lengths(2.3 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -65,9 +66,9 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
       rate[i] = rates(random);
       mass[i] = densities(random) * network.volume(m, length[i]);
     }
-    Air::Answer pull;
+    Air::Evaluation pull;
     network.evaluate(0, length, rate, mass, pull);
-    network.follow(pull);  // from here on the series has this state as its base
+    network.evaluate_node(pull);  // from here on the series has this state as its base
     network.evaluate(0, length, rate, mass, pull);
     for (int i = 0; i < 6; ++i) {
       const Muscle& m = muscles[static_cast<std::size_t>(i)];
@@ -89,8 +90,8 @@ TEST(AirInLanes, ATableAnswersAsThePowerDoes) {
   const Machine k;
   std::vector<Muscle> muscles;
   for (int i = 0; i < 5; ++i) muscles.push_back(bundle(0.1 * i));
-  ByHand power(muscles, k.air, k.supply), table(muscles, k.air, k.supply);
-  table.take_long_steps();
+  TestNetwork power(muscles, k.air, k.supply), table(muscles, k.air, k.supply);
+  table.use_power_table();
 
   std::mt19937 random(6);
   std::uniform_real_distribution<double> lengths(2.3 * inch, 4.0 * inch), densities(0.8, 8.0);
@@ -100,15 +101,15 @@ TEST(AirInLanes, ATableAnswersAsThePowerDoes) {
       length[i] = lengths(random);
       mass[i] = densities(random) * power.volume(i, length[i]);
     }
-    Air::Answer one, other;
-    for (int look = 0; look < 2; ++look) {
+    Air::Evaluation one, other;
+    for (int pass = 0; pass < 2; ++pass) {
       power.evaluate(0, length, {}, mass, one);
       table.evaluate(0, length, {}, mass, other);
       for (int i = 0; i < 5; ++i)  // seven times what y is off
-        EXPECT_NEAR(other.pressure[i], one.pressure[i], 2e-14 * one.pressure[i]) << look;
+        EXPECT_NEAR(other.pressure[i], one.pressure[i], 2e-14 * one.pressure[i]) << pass;
       if (trial % 10 != 0) continue;
-      power.follow(one);
-      table.follow(other);
+      power.evaluate_node(one);
+      table.evaluate_node(other);
     }
   }
 }
@@ -128,7 +129,7 @@ TEST(AirInLanes, SwitchesAreTheLawsInWords) {
       m.actuator.short_end.law = law;
       muscles.push_back(m);
     }
-  ByHand network(muscles, k.air, k.supply);
+  TestNetwork network(muscles, k.air, k.supply);
 
   std::mt19937 random(4);
   std::uniform_real_distribution<double> lengths(2.2 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -139,7 +140,7 @@ TEST(AirInLanes, SwitchesAreTheLawsInWords) {
       rate[i] = rates(random);
       mass[i] = 4.0 * network.volume(std::min(i, 5), length[i]);
     }
-    Air::Answer pull;
+    Air::Evaluation pull;
     network.evaluate(0, length, rate, mass, pull);
     for (int i = 0; i < 6; ++i) {
       const Muscle& m = muscles[static_cast<std::size_t>(i)];
@@ -167,13 +168,13 @@ TEST(AirInLanes, PressureBySeriesIsThePower) {
   for (int trial = 0; trial < 2000; ++trial) {
     const gas::Air air{.polytropic_exponent = exponents(random)};
     const std::vector<Muscle> one{bundle(0)};
-    ByHand network(one, air, {});
+    TestNetwork network(one, air, {});
     Air::Lanes length{}, rate{}, mass{};
     for (int i = 0; i < lanes; ++i)
       length[i] = 3.1 * inch, mass[i] = 4.0 * network.volume(0, length[i]);
-    Air::Answer pull;
+    Air::Evaluation pull;
     network.evaluate(0, length, rate, mass, pull);
-    network.follow(pull);
+    network.evaluate_node(pull);
     const double x = drift(random);
     for (int i = 0; i < lanes; ++i) mass[i] *= 1 + x;
     network.evaluate(0, length, rate, mass, pull);
@@ -186,7 +187,7 @@ TEST(AirInLanes, AMuscleHasTheSameBitsAloneAndAmongOthers) {
   const Machine k;
   std::vector<Muscle> many;
   for (int i = 0; i < 8; ++i) many.push_back(bundle(0.1 * i));
-  ByHand together(many, k.air, k.supply);
+  TestNetwork together(many, k.air, k.supply);
 
   std::mt19937 random(3);
   std::uniform_real_distribution<double> lengths(2.3 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -198,14 +199,14 @@ TEST(AirInLanes, AMuscleHasTheSameBitsAloneAndAmongOthers) {
       rate[i] = rates(random);
       mass[i] = densities(random) * together.volume(i, length[i]);
     }
-    Air::Answer all;
+    Air::Evaluation all;
     together.evaluate(0, length, rate, mass, all);
     for (int i = 0; i < 8; ++i) {
       const std::vector<Muscle> one{many[static_cast<std::size_t>(i)]};
-      ByHand alone(one, k.air, k.supply);
+      TestNetwork alone(one, k.air, k.supply);
       Air::Lanes l{}, v{}, m{};
       for (int j = 0; j < lanes; ++j) l[j] = length[i], v[j] = rate[i], m[j] = mass[i];
-      Air::Answer pull;
+      Air::Evaluation pull;
       alone.evaluate(0, l, v, m, pull);
       EXPECT_EQ(pull.tension[0], all.tension[i]);
       EXPECT_EQ(pull.pressure[0], all.pressure[i]);
@@ -218,13 +219,13 @@ TEST(AirInLanes, AMuscleHasTheSameBitsAloneAndAmongOthers) {
 TEST(AirInLanes, FlowsFollowTheValvesAndTheirDelays) {
   const Machine k;
   const std::vector<Muscle> one{bundle(0)};
-  ByHand network(one, k.air, k.supply);
+  TestNetwork network(one, k.air, k.supply);
   Air::Lanes length{}, rate{}, mass{};
   for (int i = 0; i < lanes; ++i) {
     length[i] = 3.15 * inch;
     mass[i] = network.mass_at(0, k.air.atmosphere, length[i]);
   }
-  Air::Answer pull;  // reused, to show that no old value stays in it
+  Air::Evaluation pull;  // reused, to show that no old value stays in it
   pull.inflow[0] = pull.outflow[0] = 7;
   const auto flows = [&](double t) {
     network.node(t);
@@ -255,7 +256,7 @@ TEST(AirInLanes, AThreeWayValveIsNeverSealed) {
   std::vector<Muscle> one{bundle(0)};
   one[0].inlet.kind = gas::Valve::Kind::three_way;
   one[0].exhaust = {};
-  ByHand network(one, k.air, k.supply);
+  TestNetwork network(one, k.air, k.supply);
   EXPECT_EQ(network.open_share(0, 0), 0.0);
   EXPECT_EQ(network.open_share(1, 0), 1.0);
   network.electrical(0, 0.01, true);
@@ -269,7 +270,7 @@ TEST(AirInLanes, ARampOpensLinearly) {
   std::vector<Muscle> one{bundle(0)};
   one[0].inlet.profile = gas::Valve::Profile::ramp;
   one[0].inlet.opening_ramp = 2e-3;
-  ByHand network(one, k.air, k.supply);
+  TestNetwork network(one, k.air, k.supply);
   network.electrical(0, 0.01, true);
   network.node(0.0103);
   EXPECT_NEAR(network.open_share(0, 0.0113), 0.5, 1e-9);

@@ -57,21 +57,21 @@ TEST(AirNetwork, MusclesAreTheSameWhateverStandsBeside) {
     }
     const double t = instants(random);
     const unsigned opened = random();
-    const auto answer = [&](const Air& network) {
+    const auto evaluated = [&](const Air& network) {
       Air::Valves valves = network.valves_at_rest();
       Air::Memory memory = network.memory_at_rest(air.atmosphere, ends.length);
-      Air::Answer out{};
+      Air::Evaluation out{};
       network.evaluate(0, ends, state, valves, memory, out);
       for (int valve = 0; valve < 16; ++valve)
         network.command(
             {.valve = {static_cast<std::uint8_t>(valve)}, .open = (opened >> valve & 1) != 0}, 0,
             out, valves);
       network.move_valves(t, out, valves);
-      network.remember(out, state, memory);
+      network.update_memory(out, state, memory);
       network.evaluate(t, ends, state, valves, memory, out);
       return out;
     };
-    const Air::Answer a = answer(plain), b = answer(beside), c = answer(in_words);
+    const Air::Evaluation a = evaluated(plain), b = evaluated(beside), c = evaluated(in_words);
     for (int i = 0; i < 8; ++i) {
       EXPECT_EQ(a.pressure[i], b.pressure[i]);
       EXPECT_EQ(a.tension[i], b.tension[i]);

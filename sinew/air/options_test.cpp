@@ -37,18 +37,18 @@ TEST(AirNetwork, AirIsConserved) {
                              .initial_pressure = 7 * bar};
     Air network(everything(), air, supply, thesis_cylinder());
     const auto motion = [](double t) { return swaying(3.15 * inch, t); };
-    Hand hand(network, motion, 1.5 * bar);
-    const double before = network.total_mass(hand.state, motion(0).travel);
+    TestIntegrator test(network, motion, 1.5 * bar);
+    const double before = network.total_mass(test.state, motion(0).travel);
     std::mt19937 random(1);
     for (int k = 0; k < 300; ++k) {
-      hand.electrical(static_cast<int>(random() % 16u), random() % 2 == 0);
-      hand.level(8, hand.t, 0.1 * (k % 10));
-      hand.go(hand.t + 2e-3, network.longest_step());
+      test.electrical(static_cast<int>(random() % 16u), random() % 2 == 0);
+      test.level(8, test.t, 0.1 * (k % 10));
+      test.run_until(test.t + 2e-3, network.longest_step());
     }
-    EXPECT_GT(hand.left(), 0.1 * before);
-    const double after = network.total_mass(hand.state, motion(hand.t).travel);
-    EXPECT_NEAR((after + hand.left()) / before, 1, 1e-12) << wall_time;
-    EXPECT_LT(hand.now.tank_pressure, 5 * bar);
+    EXPECT_GT(test.left(), 0.1 * before);
+    const double after = network.total_mass(test.state, motion(test.t).travel);
+    EXPECT_NEAR((after + test.left()) / before, 1, 1e-12) << wall_time;
+    EXPECT_LT(test.now.tank_pressure, 5 * bar);
   }
 }
 
@@ -60,10 +60,10 @@ TEST(AirNetwork, AnInfiniteTankIsAConstantSupply) {
                          .volume = 1e6,
                          .initial_pressure = 6 * bar};
   Air a(one, {}, constant), b(one, {}, tank);
-  Hand with(a, at_rest, 1.2 * bar), without(b, at_rest, 1.2 * bar);
-  for (Hand* hand : {&with, &without}) {
-    hand->electrical(0, true);
-    hand->go(0.05, 1e-4);
+  TestIntegrator with(a, at_rest, 1.2 * bar), without(b, at_rest, 1.2 * bar);
+  for (TestIntegrator* test : {&with, &without}) {
+    test->electrical(0, true);
+    test->run_until(0.05, 1e-4);
   }
   EXPECT_GT(with.now.pressure[0], 4 * bar);
   EXPECT_NEAR(without.now.pressure[0] / with.now.pressure[0], 1, 1e-9);
@@ -77,21 +77,21 @@ TEST(AirNetwork, ATankSharesItsAirWithTheMuscles) {
                          .volume = 5e-5,
                          .initial_pressure = 6 * bar};
   Air network(one, isothermal(), tank);
-  Hand hand(network, at_rest, 1.5 * bar);
-  hand.electrical(0, true);
-  hand.go(1.0, 2e-4);
+  TestIntegrator test(network, at_rest, 1.5 * bar);
+  test.electrical(0, true);
+  test.run_until(1.0, 2e-4);
   const double v = volume_of(one[0], 3.15 * inch);
   const double shared = (6 * bar * tank.volume + 1.5 * bar * v) / (tank.volume + v);
-  EXPECT_NEAR(hand.now.pressure[0] / shared, 1, 1e-9);
-  EXPECT_NEAR(hand.now.tank_pressure / shared, 1, 1e-9);
+  EXPECT_NEAR(test.now.pressure[0] / shared, 1, 1e-9);
+  EXPECT_NEAR(test.now.tank_pressure / shared, 1, 1e-9);
 
   // The regulator holds the line down while the tank is above it.
   gas::Supply regulated = tank;
   regulated.pressure = 3 * bar;
   Air behind(one, isothermal(), regulated);
-  Hand held(behind, at_rest, 1.5 * bar);
+  TestIntegrator held(behind, at_rest, 1.5 * bar);
   held.electrical(0, true);
-  held.go(0.5, 2e-4);
+  held.run_until(0.5, 2e-4);
   EXPECT_NEAR(held.now.pressure[0], 3 * bar, 1e-4 * bar);
   EXPECT_NEAR(held.now.tank_pressure, 6 * bar - 1.5 * bar * v / tank.volume, 1e-4 * bar);
 }
@@ -107,15 +107,15 @@ TEST(AirNetwork, ValveAndHoseInSeriesCarryTheSameFlow) {
                                    .inner_diameter = 2e-3 * size(random)};
     const gas::Air air;
     Air network(std::vector{m}, air, {});
-    Hand hand(network, at_rest, pressures(random));
+    TestIntegrator test(network, at_rest, pressures(random));
     const int which = trial % 3;
-    if (which != 1) hand.electrical(0, true);
-    if (which != 0) hand.electrical(1, true);
-    const double node = gas::y_of(air, hand.now.manifold[0]);
-    const double y = gas::y_of(air, hand.now.pressure[0]);
+    if (which != 1) test.electrical(0, true);
+    if (which != 0) test.electrical(1, true);
+    const double node = gas::y_of(air, test.now.manifold[0]);
+    const double y = gas::y_of(air, test.now.pressure[0]);
     const gas::HoseConstants constants = gas::hose_constants(m.hose, air);
     const double hose = gas::hose_flow_y(constants, node, y);
-    const double net = hand.now.inflow[0] - hand.now.outflow[0];
+    const double net = test.now.inflow[0] - test.now.outflow[0];
     // A wide hose turns roundings of y into flow.
     const double rounding = std::abs(gas::hose_flow_y(constants, node * (1 + 3e-15), y) -
                                      gas::hose_flow_y(constants, node * (1 - 3e-15), y));
@@ -137,20 +137,20 @@ TEST(AirNetwork, LinearRestrictionsInSeriesAddTheirResistances) {
   const gas::Supply supply;
   Air network(std::vector{m}, air, supply);
   const double dp = 50;
-  Hand hand(network, at_rest, supply.pressure - dp);
-  hand.electrical(0, true);
+  TestIntegrator test(network, at_rest, supply.pressure - dp);
+  test.electrical(0, true);
   const double g1 = gas::flow_constants(m.inlet.flow, air).linear_gain / air.atmosphere;
   const double g2 = gas::hose_constants(m.hose, air).iso.linear_gain / air.atmosphere;
-  EXPECT_NEAR(hand.now.inflow[0] / (dp * g1 * g2 / (g1 + g2)), 1, 1e-9);
+  EXPECT_NEAR(test.now.inflow[0] / (dp * g1 * g2 / (g1 + g2)), 1, 1e-9);
 }
 
 // Starts where the inlet is no longer choked, so that the downstream pressure matters.
 double pressure_after_filling(const Muscle& m, double step) {
   Air network(std::vector{m}, isothermal(), {});
-  Hand hand(network, at_rest, 5 * bar);
-  hand.electrical(0, true);
-  hand.go(0.01, step);
-  return hand.now.pressure[0];
+  TestIntegrator test(network, at_rest, 5 * bar);
+  test.electrical(0, true);
+  test.run_until(0.01, step);
+  return test.now.pressure[0];
 }
 
 TEST(AirNetwork, AHoseWithoutResistanceIsNone) {
@@ -194,8 +194,8 @@ TEST(AirNetwork, LeaksDecayInClosedForm) {
   hole.leak.area = 2e-8;
   Air a(std::vector{hole}, air, {});
   EXPECT_TRUE(a.flowing(a.valves_at_rest()));
-  Hand choked(a, at_rest, 7 * bar);
-  choked.go(0.5, 1e-3);
+  TestIntegrator choked(a, at_rest, 7 * bar);
+  choked.run_until(0.5, 1e-3);
   ASSERT_GT(choked.now.pressure[0], 2 * bar);
   const double k =
       hole.leak.area * gas::choked_parameter(air.gas_constant) / std::sqrt(air.temperature);
@@ -204,8 +204,8 @@ TEST(AirNetwork, LeaksDecayInClosedForm) {
   Muscle porous = bundle(0);
   porous.leak.conductance = 1e-10;
   Air b(std::vector{porous}, air, {});
-  Hand linear(b, at_rest, 7 * bar);
-  linear.go(1.0, 1e-3);
+  TestIntegrator linear(b, at_rest, 7 * bar);
+  linear.run_until(1.0, 1e-3);
   const double start = 7 * bar - air.atmosphere;
   EXPECT_NEAR((linear.now.pressure[0] - air.atmosphere) / (start * std::exp(-1e-10 * rt / v)), 1,
               1e-9);
@@ -226,9 +226,9 @@ TEST(AirNetwork, WallsBracketThePolytrope) {
   for (const auto& [wall_time, exponent, tolerance] :
        {std::tuple{1e6, 1.4, 1e-6}, std::tuple{2e-3, 1.0, 2e-2}, std::tuple{2e-4, 1.0, 2e-3}}) {
     Air network(std::vector{m}, gas::Air{.wall_time = wall_time}, {});
-    Hand hand(network, motion, 3 * bar);
-    hand.go(0.15, std::min(1e-3, network.longest_step()));
-    EXPECT_NEAR(hand.now.pressure[0] / (3 * bar * std::pow(ratio, exponent)), 1, tolerance);
+    TestIntegrator test(network, motion, 3 * bar);
+    test.run_until(0.15, std::min(1e-3, network.longest_step()));
+    EXPECT_NEAR(test.now.pressure[0] / (3 * bar * std::pow(ratio, exponent)), 1, tolerance);
   }
 }
 
@@ -240,28 +240,28 @@ TEST(AirNetwork, FillingWarmsAndStandingCools) {
   gas::Air air{.wall_time = 1e7};
   const double rt = air.gas_constant * air.temperature;
   Air quick(std::vector{m}, air, {});
-  Hand fill(quick, at_rest, 1.5 * bar);
+  TestIntegrator fill(quick, at_rest, 1.5 * bar);
   fill.electrical(0, true);
-  fill.go(0.03, 1e-4);
+  fill.run_until(0.03, 1e-4);
   EXPECT_NEAR(fill.now.pressure[0] / (1.5 * bar + 1.4 * rt * fill.entered() / v), 1, 1e-8);
 
   // Letting out leaves the rest on the adiabat: P ~ m^1.4.
   const double mass = fill.state.mass[0], p = fill.now.pressure[0];
   fill.electrical(0, false);
   fill.electrical(1, true);
-  fill.go(0.04, 1e-5);
+  fill.run_until(0.04, 1e-5);
   ASSERT_LT(fill.state.mass[0], 0.8 * mass);
   EXPECT_NEAR(fill.now.pressure[0] / (p * std::pow(fill.state.mass[0] / mass, 1.4)), 1, 1e-8);
 
   air.wall_time = 0.1;
   Air slow(std::vector{m}, air, {});
-  Hand stand(slow, at_rest, 1.5 * bar);
+  TestIntegrator stand(slow, at_rest, 1.5 * bar);
   stand.electrical(0, true);
-  stand.go(0.03, 1e-4);
+  stand.run_until(0.03, 1e-4);
   stand.electrical(0, false);
   const double warm = stand.now.pressure[0], cold = stand.state.mass[0] * rt / v;
   ASSERT_GT(warm, 1.1 * cold);
-  stand.go(0.13, 1e-3);
+  stand.run_until(0.13, 1e-3);
   EXPECT_NEAR((stand.now.pressure[0] - cold) / (warm - cold), std::exp(-1.0), 1e-6);
 }
 
@@ -273,29 +273,29 @@ TEST(AirNetwork, ARegulatorLagsAndItsFlowIsLimited) {
   m.inlet.flow.area = 1e-4;
   const gas::Air air;
   Air ample(std::vector{m}, air, {});
-  Hand hand(ample, at_rest, air.atmosphere);
-  hand.level(0, 0.01, 0.8);
-  EXPECT_EQ(hand.valves.next_change, 0.01);
-  hand.go(0.06, 1e-5);
+  TestIntegrator test(ample, at_rest, air.atmosphere);
+  test.level(0, 0.01, 0.8);
+  EXPECT_EQ(test.valves.next_change, 0.01);
+  test.run_until(0.06, 1e-5);
   const double expected = air.atmosphere + 4 * bar * (1 - std::exp(-1.0));
-  EXPECT_NEAR(hand.state.other[0], expected, 1e-6 * bar);
-  EXPECT_NEAR(hand.now.pressure[0], expected, 5e-3 * bar);
+  EXPECT_NEAR(test.state.other[0], expected, 1e-6 * bar);
+  EXPECT_NEAR(test.now.pressure[0], expected, 5e-3 * bar);
 
   m.inlet.flow.area = 1e-7;  // small: choked from the outlet all the way
   m.inlet.regulator.time_constant = 0;
   Air small(std::vector{m}, air, {});
   EXPECT_EQ(small.others(), 0);
-  Hand fill(small, at_rest, air.atmosphere);
+  TestIntegrator fill(small, at_rest, air.atmosphere);
   fill.level(0, 0, 1.0);
   fill.node(0);
-  fill.go(0.05, 1e-3);
+  fill.run_until(0.05, 1e-3);
   const double outlet = air.atmosphere + 5 * bar;
   EXPECT_NEAR(fill.entered() / (0.05 * gas::mass_flow(1e-7, outlet, air.temperature, 0, air)), 1,
               1e-9);
   // Air that flows back is relieved into the room.
   fill.level(0, 0.05, 0.0);
   fill.node(0.05);
-  fill.go(0.06, 1e-3);
+  fill.run_until(0.06, 1e-3);
   EXPECT_GT(fill.left(), 0);
   EXPECT_EQ(fill.now.inflow[0], 0);
 }
@@ -305,11 +305,11 @@ TEST(AirNetwork, ARegulatorCannotGiveMoreThanTheLine) {
   m.inlet.kind = gas::Valve::Kind::regulator;
   m.inlet.regulator = {.range = 9 * bar};
   Air network(std::vector{m}, isothermal(), {.pressure = 4 * bar});
-  Hand hand(network, at_rest, 1.5 * bar);
-  hand.level(0, 0, 1.0);
-  hand.node(0);
-  hand.go(0.5, 5e-4);
-  EXPECT_NEAR(hand.now.pressure[0], 4 * bar, 10);
+  TestIntegrator test(network, at_rest, 1.5 * bar);
+  test.level(0, 0, 1.0);
+  test.node(0);
+  test.run_until(0.5, 5e-4);
+  EXPECT_NEAR(test.now.pressure[0], 4 * bar, 10);
 }
 
 // 4.3: the delay depends on the pressure difference at the edge, and the coil has its limit.
@@ -322,35 +322,35 @@ TEST(AirNetwork, EdgesFeelThePressureOverTheirValve) {
   const gas::Supply supply;
   for (const double p : {2 * bar, 4.9 * bar, 5.2 * bar}) {
     Air network(std::vector{m}, air, supply);
-    Hand hand(network, at_rest, p);
-    const double over = hand.now.pressure[0] - air.atmosphere;
-    hand.edge(1, 0.1, true);
+    TestIntegrator test(network, at_rest, p);
+    const double over = test.now.pressure[0] - air.atmosphere;
+    test.edge(1, 0.1, true);
     if (over > 4 * bar) {
-      EXPECT_EQ(hand.valves.next_change, std::numeric_limits<double>::infinity());
-      hand.edge(1, 0.2, false);  // has no effect either
-      EXPECT_EQ(hand.valves.next_change, std::numeric_limits<double>::infinity());
+      EXPECT_EQ(test.valves.next_change, std::numeric_limits<double>::infinity());
+      test.edge(1, 0.2, false);  // has no effect either
+      EXPECT_EQ(test.valves.next_change, std::numeric_limits<double>::infinity());
     } else {
-      EXPECT_NEAR(hand.valves.next_change, 0.1 + 0.3e-3 + 2e-9 * over, 1e-15);
+      EXPECT_NEAR(test.valves.next_change, 0.1 + 0.3e-3 + 2e-9 * over, 1e-15);
     }
-    hand.edge(0, 0.05, true);
-    const double below = supply.pressure - hand.now.pressure[0];
-    EXPECT_NEAR(hand.valves.next_change, 0.05 + 0.3e-3 + 1e-9 * below, 1e-15);
+    test.edge(0, 0.05, true);
+    const double below = supply.pressure - test.now.pressure[0];
+    EXPECT_NEAR(test.valves.next_change, 0.05 + 0.3e-3 + 1e-9 * below, 1e-15);
   }
 }
 
 TEST(AirNetwork, QuietMeansThatNothingMoves) {
   Air network(std::vector{bundle(0), bundle(0.2)}, {}, {}, thesis_cylinder());
-  Hand hand(network, at_rest, 3 * bar);
-  EXPECT_FALSE(network.flowing(hand.valves));
-  const Air::State before = hand.state;
-  hand.go(0.01, 1e-3);
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(hand.state.mass[i], before.mass[i]);
+  TestIntegrator test(network, at_rest, 3 * bar);
+  EXPECT_FALSE(network.flowing(test.valves));
+  const Air::State before = test.state;
+  test.run_until(0.01, 1e-3);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(test.state.mass[i], before.mass[i]);
   for (int i = 0; i < network.others(); ++i)
-    EXPECT_EQ(hand.state.other[static_cast<std::size_t>(i)],
+    EXPECT_EQ(test.state.other[static_cast<std::size_t>(i)],
               before.other[static_cast<std::size_t>(i)]);
-  hand.electrical(5, true);
-  hand.go(0.011, 1e-3);
-  EXPECT_TRUE(network.flowing(hand.valves));
+  test.electrical(5, true);
+  test.run_until(0.011, 1e-3);
+  EXPECT_TRUE(network.flowing(test.valves));
 }
 
 }  // namespace

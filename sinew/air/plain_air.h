@@ -39,14 +39,14 @@ class PlainAir {
   using Valves = Shares;
   using Memory = Reference<Most, S>;
   // No muscle is integrated ahead of a step.
-  struct Course {
+  struct QuickMasses {
     static constexpr std::uint64_t muscles = 0;
   };
-  struct Answer : Pull<Most, S> {
+  struct Evaluation : Pull<Most, S> {
     Lanes inflow, outflow;  // supply to muscle, muscle to atmosphere [kg/s]
   };
 
-  // All networks must be plain (AirNetwork::plain_for_good), have the same number of muscles and
+  // All networks must be plain (AirNetwork::stays_plain), have the same number of muscles and
   // outlive this object.
   explicit PlainAir(const std::array<const Network*, W>& each);
 
@@ -54,33 +54,35 @@ class PlainAir {
   int muscles() const noexcept { return size_; }
 
   // State of one muscle of one machine shortly after its node.
-  struct Glimpse {
+  struct MusclePreview {
     double pressure, tension;  // [Pa], [N]
   };
   // Returns muscle i of the machine in a lane at h after its node by Heun's rule, as the preview of
   // world.h but for this muscle alone. Length and rate are those at that time.
-  Glimpse ahead(int lane, int i, double length, double rate, double h, const State& state,
-                const Shares& shares, const Memory& memory, const Answer& at_node) const noexcept;
+  MusclePreview preview(int lane, int i, double length, double rate, double h, const State& state,
+                        const Shares& shares, const Memory& memory,
+                        const Evaluation& at_node) const noexcept;
 
   // Copies the open shares of one machine's valves.
   void set_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
 
   // Evaluates the laws of all machines.
   void evaluate(const S& t, const Ends& ends, const State& state, const Shares& shares,
-                const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
+                const Memory& memory, Evaluation& out, std::uint64_t ahead = 0) const noexcept;
 
   // Updates the references of the machines in `where` at their nodes, from the evaluation there.
   // Returns for each the first muscle whose density is not valid, or -1.
-  std::array<int, W> remember(const Mask& where, const Answer& look, Memory& memory) const noexcept;
+  std::array<int, W> update_memory(const Mask& where, const Evaluation& evaluation,
+                                   Memory& memory) const noexcept;
 
   // The stages of RK4, as in AirNetwork: the masses at h along the rates of one evaluation, and the
   // state by the weighted mean of four. `h` is 0 in lanes that wait.
   void plan(const S&, const S&, const Ends&, const State&, const Shares&, const Memory&,
-            Course&) const noexcept {}
-  void move(State& out, const State& from, const S& h, const Answer& look, const Shares& shares,
-            const Course& course) const noexcept;
-  void finish(State& state, const S& h, const Answer* const (&look)[4], const Shares& shares,
-              const Course& course) const noexcept;
+            QuickMasses&) const noexcept {}
+  void move(State& out, const State& from, const S& h, const Evaluation& evaluation,
+            const Shares& shares, const QuickMasses& quick_masses) const noexcept;
+  void finish(State& state, const S& h, const Evaluation* const (&evaluations)[4],
+              const Shares& shares, const QuickMasses& quick_masses) const noexcept;
 
  private:
   // A muscle and its two valves.
@@ -91,17 +93,17 @@ class PlainAir {
   };
   // Values of one machine, or of all, that its muscles have in common.
   template <class T>
-  struct Room {
+  struct SharedValues {
     gas::PowerSeriesOf<T> series;
     T atmosphere = 0, supply_y = 0;
   };
   // Inputs of a muscle's evaluation, and its results.
   template <class T>
-  struct Asked : BraidState<T> {
+  struct MuscleInput : BraidState<T> {
     T inlet, exhaust;
   };
   template <class T>
-  struct Told {
+  struct MuscleOutput {
     BraidPull<T> pull;
     T drift, inflow, outflow;
   };
@@ -109,35 +111,39 @@ class PlainAir {
   // Evaluates one muscle. far(x, y) writes y of a density outside the series' range; finish(pull)
   // adds the friction that the lanes do not have.
   template <class T, class Far, class Finish>
-  [[gnu::always_inline]] static Told<T> look(const Room<T>& room, const Cell<T>& cell,
-                                             const Asked<T>& at, const Far& far,
-                                             const Finish& finish) {
+  [[gnu::always_inline]] static MuscleOutput<T> evaluate_muscle(const SharedValues<T>& shared,
+                                                                const Cell<T>& cell,
+                                                                const MuscleInput<T>& at,
+                                                                const Far& far,
+                                                                const Finish& finish) {
     T x, y;
-    const BraidPull<T> pull = braid_at<T>(cell.braid, at, room.atmosphere, room.series,
+    const BraidPull<T> pull = braid_at<T>(cell.braid, at, shared.atmosphere, shared.series,
                                           gas::PowerSeries::reach, far, x, y);
-    Told<T> out{pull, x, 0, 0};
+    MuscleOutput<T> out{pull, x, 0, 0};
     finish(out.pull);
-    flow(room, cell, at, y, out);
+    flow(shared, cell, at, y, out);
     return out;
   }
 
   // If no machine both fills and empties this muscle, one flow evaluation serves all.
   template <class T>
-  [[gnu::always_inline]] static void flow(const Room<T>& room, const Cell<T>& cell,
-                                          const Asked<T>& at, const T& y, Told<T>& out) {
+  [[gnu::always_inline]] static void flow(const SharedValues<T>& shared, const Cell<T>& cell,
+                                          const MuscleInput<T>& at, const T& y,
+                                          MuscleOutput<T>& out) {
     const auto fills = at.inlet > 0.0, empties = at.exhaust > 0.0;
     const bool some_fill = units::any(fills), some_empty = units::any(empties);
     if (some_fill && some_empty && !units::any(fills & empties)) {
       const T size =
           units::select(fills, at.inlet, at.exhaust) *
           gas::flow_y(gas::select(fills, cell.inlet, cell.exhaust),
-                      units::select(fills, room.supply_y, y), units::select(fills, y, 1.0));
+                      units::select(fills, shared.supply_y, y), units::select(fills, y, 1.0));
       out.inflow = units::select(fills, size, 0.0);
       out.outflow = units::select(empties, size, 0.0);
       return;
     }
     if (some_fill)
-      out.inflow = units::select(fills, at.inlet * gas::flow_y(cell.inlet, room.supply_y, y), 0.0);
+      out.inflow =
+          units::select(fills, at.inlet * gas::flow_y(cell.inlet, shared.supply_y, y), 0.0);
     if (some_empty)
       out.outflow = units::select(empties, at.exhaust * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
   }
@@ -145,18 +151,18 @@ class PlainAir {
   void far_roots(int i, const Mask& outside, const S& drift, const Memory& memory,
                  S& y) const noexcept;
   template <class T, class M>
-  static void rub(const M& loose, const T& rate, BraidPull<T>& pull);
+  static void apply_sliding_friction(const M& loose, const T& rate, BraidPull<T>& pull);
   void finish_friction(int i, const Ends& ends, BraidPull<S>& pull) const noexcept;
-  void finish_friction(int lane, int i, const Asked<double>& at,
+  void finish_friction(int lane, int i, const MuscleInput<double>& at,
                        BraidPull<double>& pull) const noexcept;
 
   int size_ = 0;
   std::array<const Network*, W> each_;
-  Room<S> room_;
+  SharedValues<S> shared_;
   std::array<Cell<S>, Most> cells_;
   std::array<Mask, Most> sealed_, loose_;  // bounded by the sealed stiffness; does not stick
   // Values of each machine alone.
-  std::array<Room<double>, W> rooms_;
+  std::array<SharedValues<double>, W> shared_of_each_;
   std::array<std::array<Cell<double>, Most>, W> alone_;
 };
 
@@ -167,12 +173,12 @@ PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
   S exponent;
   for (std::size_t k = 0; k < W; ++k) {
     const int lane = static_cast<int>(k);
-    rooms_[k] = {each[k]->braids().series(), each[k]->atmosphere(), each[k]->supply_y()};
-    exponent.set(lane, rooms_[k].series.exponent());
-    room_.atmosphere.set(lane, rooms_[k].atmosphere);
-    room_.supply_y.set(lane, rooms_[k].supply_y);
+    shared_of_each_[k] = {each[k]->braids().series(), each[k]->atmosphere(), each[k]->supply_y()};
+    exponent.set(lane, shared_of_each_[k].series.exponent());
+    shared_.atmosphere.set(lane, shared_of_each_[k].atmosphere);
+    shared_.supply_y.set(lane, shared_of_each_[k].supply_y);
   }
-  room_.series = gas::PowerSeriesOf<S>(exponent);
+  shared_.series = gas::PowerSeriesOf<S>(exponent);
 
   for (int i = 0; i < size_; ++i) {
     const auto m = static_cast<std::size_t>(i);
@@ -200,11 +206,11 @@ void PlainAir<Most, W>::set_shares(int lane, const AirValves<Most>& valves,
 
 template <int Most, int W>
 void PlainAir<Most, W>::evaluate(const S&, const Ends& ends, const State& state,
-                                 const Shares& shares, const Memory& memory, Answer& out,
+                                 const Shares& shares, const Memory& memory, Evaluation& out,
                                  std::uint64_t) const noexcept {
   for (int i = 0; i < size_; ++i) {
     const auto m = static_cast<std::size_t>(i);
-    const Asked<S> at{
+    const MuscleInput<S> at{
         {ends.length[i], ends.rate[i], state.mass[i], memory.y[i], memory.inverse_sigma[i]},
         shares.inlet[i],
         shares.exhaust[i]};
@@ -214,39 +220,41 @@ void PlainAir<Most, W>::evaluate(const S&, const Ends& ends, const State& state,
     const auto finish = [&](BraidPull<S>& pull) {
       if (units::any(sealed_[m] | loose_[m])) finish_friction(i, ends, pull);
     };
-    const Told<S> told = look<S>(room_, cells_[m], at, far, finish);
-    out.drift[i] = told.drift;
-    out.pressure[i] = told.pull.pressure;
-    out.tension[i] = told.pull.tension;
-    out.clamped[i] = told.pull.clamped;
-    out.friction_bound[i] = told.pull.friction_bound;
-    out.inflow[i] = told.inflow;
-    out.outflow[i] = told.outflow;
+    const MuscleOutput<S> result = evaluate_muscle<S>(shared_, cells_[m], at, far, finish);
+    out.drift[i] = result.drift;
+    out.pressure[i] = result.pull.pressure;
+    out.tension[i] = result.pull.tension;
+    out.clamped[i] = result.pull.clamped;
+    out.friction_bound[i] = result.pull.friction_bound;
+    out.inflow[i] = result.inflow;
+    out.outflow[i] = result.outflow;
   }
 }
 
 template <int Most, int W>
-auto PlainAir<Most, W>::ahead(int lane, int i, double length, double rate, double h,
-                              const State& state, const Shares& shares, const Memory& memory,
-                              const Answer& at_node) const noexcept -> Glimpse {
+auto PlainAir<Most, W>::preview(int lane, int i, double length, double rate, double h,
+                                const State& state, const Shares& shares, const Memory& memory,
+                                const Evaluation& at_node) const noexcept -> MusclePreview {
   const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
   const double mass = state.mass[i][lane];
-  Asked<double> at{{length, rate, mass, memory.y[i][lane], memory.inverse_sigma[i][lane]},
-                   shares.inlet[i][lane],
-                   shares.exhaust[i][lane]};
+  MuscleInput<double> at{{length, rate, mass, memory.y[i][lane], memory.inverse_sigma[i][lane]},
+                         shares.inlet[i][lane],
+                         shares.exhaust[i][lane]};
   const auto far = [&](bool, double x, double& y) {
     y = each_[k]->braids().exact_y((x + 1.0) / at.inverse_sigma);
   };
   const auto finish = [&](BraidPull<double>& pull) { finish_friction(lane, i, at, pull); };
-  const auto seen = [&] { return look<double>(rooms_[k], alone_[k][m], at, far, finish); };
+  const auto evaluate_now = [&] {
+    return evaluate_muscle<double>(shared_of_each_[k], alone_[k][m], at, far, finish);
+  };
   if (at.inlet > 0 || at.exhaust > 0) {
-    const double in = at_node.inflow[i][lane], gone = at_node.outflow[i][lane], half = 0.5 * h;
-    at.mass = mass + h * (in - gone);
-    const Told<double> then = seen();
-    at.mass = mass + (half * (in + then.inflow) - half * (gone + then.outflow));
+    const double in = at_node.inflow[i][lane], out = at_node.outflow[i][lane], half = 0.5 * h;
+    at.mass = mass + h * (in - out);
+    const MuscleOutput<double> then = evaluate_now();
+    at.mass = mass + (half * (in + then.inflow) - half * (out + then.outflow));
   }
-  const Told<double> told = seen();
-  return {told.pull.pressure, told.pull.tension};
+  const MuscleOutput<double> result = evaluate_now();
+  return {result.pull.pressure, result.pull.tension};
 }
 
 // Writes y of the machines whose density is outside the series' range.
@@ -268,36 +276,36 @@ void PlainAir<Most, W>::finish_friction(int i, const Ends& ends,
     if (sealed_[m][k])
       pull.friction_bound.set(k, each_[static_cast<std::size_t>(k)]->braids().sealed_bound(
                                      i, ends.length[i][k], pull.pressure[k]));
-  rub(loose_[m], ends.rate[i], pull);
+  apply_sliding_friction(loose_[m], ends.rate[i], pull);
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::finish_friction(int lane, int i, const Asked<double>& at,
+void PlainAir<Most, W>::finish_friction(int lane, int i, const MuscleInput<double>& at,
                                         BraidPull<double>& pull) const noexcept {
   const auto m = static_cast<std::size_t>(i);
   if (sealed_[m][lane])
     pull.friction_bound =
         each_[static_cast<std::size_t>(lane)]->braids().sealed_bound(i, at.length, pull.pressure);
-  rub(loose_[m][lane], at.rate, pull);
+  apply_sliding_friction(loose_[m][lane], at.rate, pull);
 }
 
 template <int Most, int W>
 template <class T, class M>
-void PlainAir<Most, W>::rub(const M& loose, const T& rate, BraidPull<T>& pull) {
-  const T rub = units::select(rate >= 0.0, pull.friction_bound, -pull.friction_bound);
-  const T f = pull.tension + rub;
+void PlainAir<Most, W>::apply_sliding_friction(const M& loose, const T& rate, BraidPull<T>& pull) {
+  const T friction = units::select(rate >= 0.0, pull.friction_bound, -pull.friction_bound);
+  const T f = pull.tension + friction;
   pull.tension = units::select(loose, units::select(f > 0.0, f, 0.0), pull.tension);
-  pull.clamped = units::select(loose, pull.clamped + rub, pull.clamped);
+  pull.clamped = units::select(loose, pull.clamped + friction, pull.clamped);
   pull.friction_bound = units::select(loose, 0.0, pull.friction_bound);
 }
 
 template <int Most, int W>
-std::array<int, W> PlainAir<Most, W>::remember(const Mask& where, const Answer& look,
-                                               Memory& memory) const noexcept {
+std::array<int, W> PlainAir<Most, W>::update_memory(const Mask& where, const Evaluation& evaluation,
+                                                    Memory& memory) const noexcept {
   std::array<int, W> failed;
   failed.fill(-1);
   for (int i = 0; i < size_; ++i) {
-    const S x = look.drift[i];
+    const S x = evaluation.drift[i];
     // A NaN is not near: it fails below.
     const Mask near = (x < gas::PowerSeries::rebase) & (x > -gas::PowerSeries::rebase);
     const Mask follows = where & !near;
@@ -315,22 +323,23 @@ std::array<int, W> PlainAir<Most, W>::remember(const Mask& where, const Answer& 
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::move(State& out, const State& from, const S& h, const Answer& look,
-                             const Shares&, const Course&) const noexcept {
+void PlainAir<Most, W>::move(State& out, const State& from, const S& h,
+                             const Evaluation& evaluation, const Shares&,
+                             const QuickMasses&) const noexcept {
   for (int i = 0; i < size_; ++i)
-    out.mass[i] = from.mass[i] + h * (look.inflow[i] - look.outflow[i]);
+    out.mass[i] = from.mass[i] + h * (evaluation.inflow[i] - evaluation.outflow[i]);
 }
 
 template <int Most, int W>
-void PlainAir<Most, W>::finish(State& state, const S& h, const Answer* const (&look)[4],
-                               const Shares&, const Course&) const noexcept {
+void PlainAir<Most, W>::finish(State& state, const S& h, const Evaluation* const (&evaluations)[4],
+                               const Shares&, const QuickMasses&) const noexcept {
   const units::StageMean mean(h);
   for (int i = 0; i < size_; ++i) {
-    const S in = mean([&](int s) { return look[s]->inflow[i]; });
-    const S gone = mean([&](int s) { return look[s]->outflow[i]; });
+    const S in = mean([&](int s) { return evaluations[s]->inflow[i]; });
+    const S out = mean([&](int s) { return evaluations[s]->outflow[i]; });
     state.in[i] += in;
-    state.out[i] += gone;
-    state.mass[i] += in - gone;
+    state.out[i] += out;
+    state.mass[i] += in - out;
   }
 }
 

@@ -45,7 +45,7 @@ struct Alone {
   Network::State state;
   Network::Valves valves;
   Network::Memory memory;
-  Network::Answer look;
+  Network::Evaluation evaluation;
   Network::Ends ends;
   double t = 0;
 };
@@ -59,15 +59,15 @@ Ends further(const Ends& ends, double by) {
 }
 
 void step_alone(const Network& network, double h, Alone& a) {
-  Network::Answer later[3];
+  Network::Evaluation later[3];
   Network::State stage = a.state;
-  Network::Course course{};
-  const Network::Answer* looks[4] = {&a.look, &later[0], &later[1], &later[2]};
+  Network::QuickMasses quick_masses{};
+  const Network::Evaluation* evaluations[4] = {&a.evaluation, &later[0], &later[1], &later[2]};
   for (int s = 0; s < 3; ++s) {
-    network.move(stage, a.state, s == 2 ? h : 0.5 * h, *looks[s], a.valves, course);
+    network.move(stage, a.state, s == 2 ? h : 0.5 * h, *evaluations[s], a.valves, quick_masses);
     network.evaluate(a.t, further(a.ends, 1e-4 * (s + 1)), stage, a.valves, a.memory, later[s]);
   }
-  network.finish(a.state, h, looks, a.valves, course);
+  network.finish(a.state, h, evaluations, a.valves, quick_masses);
 }
 
 template <int W>
@@ -76,20 +76,21 @@ struct Together {
   typename Air::State state{};
   typename Air::Shares shares{};
   typename Air::Memory memory{};
-  typename Air::Answer look{};
+  typename Air::Evaluation evaluation{};
   typename Air::Ends ends{};
 };
 
 template <int W>
 void step_together(const PlainAir<most, W>& air, const units::Pack<W>& h, Together<W>& t) {
-  typename PlainAir<most, W>::Answer later[3];
+  typename PlainAir<most, W>::Evaluation later[3];
   typename PlainAir<most, W>::State stage;
-  const typename PlainAir<most, W>::Answer* looks[4] = {&t.look, &later[0], &later[1], &later[2]};
+  const typename PlainAir<most, W>::Evaluation* evaluations[4] = {&t.evaluation, &later[0],
+                                                                  &later[1], &later[2]};
   for (int s = 0; s < 3; ++s) {
-    air.move(stage, t.state, s == 2 ? h : 0.5 * h, *looks[s], t.shares, {});
+    air.move(stage, t.state, s == 2 ? h : 0.5 * h, *evaluations[s], t.shares, {});
     air.evaluate(0, further(t.ends, 1e-4 * (s + 1)), stage, t.shares, t.memory, later[s]);
   }
-  air.finish(t.state, h, looks, t.shares, {});
+  air.finish(t.state, h, evaluations, t.shares, {});
 }
 
 template <class One, class Packed>
@@ -102,13 +103,13 @@ void expect_lane(const char* what, const Packed& packed, int lane, const One& on
 
 template <int W>
 void expect_alone(const Together<W>& t, int lane, const Alone& a, int muscles) {
-  expect_lane("tension", t.look.tension, lane, a.look.tension, muscles);
-  expect_lane("clamped", t.look.clamped, lane, a.look.clamped, muscles);
-  expect_lane("pressure", t.look.pressure, lane, a.look.pressure, muscles);
-  expect_lane("friction", t.look.friction_bound, lane, a.look.friction_bound, muscles);
-  expect_lane("drift", t.look.drift, lane, a.look.drift, muscles);
-  expect_lane("inflow", t.look.inflow, lane, a.look.inflow, muscles);
-  expect_lane("outflow", t.look.outflow, lane, a.look.outflow, muscles);
+  expect_lane("tension", t.evaluation.tension, lane, a.evaluation.tension, muscles);
+  expect_lane("clamped", t.evaluation.clamped, lane, a.evaluation.clamped, muscles);
+  expect_lane("pressure", t.evaluation.pressure, lane, a.evaluation.pressure, muscles);
+  expect_lane("friction", t.evaluation.friction_bound, lane, a.evaluation.friction_bound, muscles);
+  expect_lane("drift", t.evaluation.drift, lane, a.evaluation.drift, muscles);
+  expect_lane("inflow", t.evaluation.inflow, lane, a.evaluation.inflow, muscles);
+  expect_lane("outflow", t.evaluation.outflow, lane, a.evaluation.outflow, muscles);
   expect_lane("mass", t.state.mass, lane, a.state.mass, muscles);
   expect_lane("in", t.state.in, lane, a.state.in, muscles);
   expect_lane("out", t.state.out, lane, a.state.out, muscles);
@@ -135,7 +136,7 @@ void expect_machines_alone(std::mt19937& random, int& open, int& far) {
   networks.reserve(W);
   for (std::size_t k = 0; k < W; ++k) {
     each[k] = &networks.emplace_back(random_machine(random, muscles));
-    ASSERT_TRUE(each[k]->plain_for_good());
+    ASSERT_TRUE(each[k]->stays_plain());
     Alone& a = alone[k];
     a.ends = {};
     for (int i = 0; i < most; ++i) a.ends.length[i] = between(random, 2.4, 3.8) * inch;
@@ -165,33 +166,34 @@ void expect_machines_alone(std::mt19937& random, int& open, int& far) {
         a.ends.length[i] = std::clamp(a.ends.length[i], 2.3 * inch, 4.0 * inch);
         a.ends.rate[i] = between(random, -0.3, 0.3);
       }
-      each[k]->move_valves(a.t, a.look, a.valves);
-      each[k]->evaluate(a.t, a.ends, a.state, a.valves, a.memory, a.look);
+      each[k]->move_valves(a.t, a.evaluation, a.valves);
+      each[k]->evaluate(a.t, a.ends, a.state, a.valves, a.memory, a.evaluation);
       put(lane, a, t, air);
       goes.set(lane, random() % 4 != 0);
       for (int i = 0; i < muscles; ++i) {
-        open += a.look.inflow[i] != 0 || a.look.outflow[i] != 0;
-        far += std::abs(a.look.drift[i]) > gas::PowerSeries::reach;
+        open += a.evaluation.inflow[i] != 0 || a.evaluation.outflow[i] != 0;
+        far += std::abs(a.evaluation.drift[i]) > gas::PowerSeries::reach;
       }
     }
-    air.evaluate(0, t.ends, t.state, t.shares, t.memory, t.look);
+    air.evaluate(0, t.ends, t.state, t.shares, t.memory, t.evaluation);
     for (int k = 0; k < W; ++k)
       ASSERT_NO_FATAL_FAILURE(expect_alone(t, k, alone[static_cast<std::size_t>(k)], muscles));
 
     // Lanes that wait neither update their memory nor step.
-    const std::array<int, W> failed = air.remember(goes, t.look, t.memory);
+    const std::array<int, W> failed = air.update_memory(goes, t.evaluation, t.memory);
     for (std::size_t k = 0; k < W; ++k) {
       EXPECT_EQ(failed[k], -1);
       if (!goes[static_cast<int>(k)]) continue;
       Alone& a = alone[k];
-      each[k]->remember(a.look, a.state, a.memory);
+      each[k]->update_memory(a.evaluation, a.state, a.memory);
       const double step = between(random, 1e-6, 1e-3);
       h.set(static_cast<int>(k), step);
       step_alone(*each[k], step, a);
       a.t += step;
       const auto valve = static_cast<std::uint8_t>(random() % static_cast<unsigned>(2 * muscles));
       if (random() % 4 == 0)
-        each[k]->command({.valve = {valve}, .open = random() % 2 == 0}, a.t, a.look, a.valves);
+        each[k]->command({.valve = {valve}, .open = random() % 2 == 0}, a.t, a.evaluation,
+                         a.valves);
     }
     step_together(air, h, t);
   }
@@ -220,11 +222,11 @@ TEST(PlainAir, ADensityThatIsNoneIsTold) {
   Together<2> t;
   for (int i = 0; i < 2; ++i) {
     t.memory.y[i] = t.memory.inverse_sigma[i] = 1;
-    t.look.drift[i] = 0;
+    t.evaluation.drift[i] = 0;
   }
-  t.look.drift[1].set(1, -1.5);
-  const auto both = t.look.drift[0] == 0.0;
-  EXPECT_EQ(air.remember(both, t.look, t.memory), (std::array<int, 2>{-1, 1}));
+  t.evaluation.drift[1].set(1, -1.5);
+  const auto both = t.evaluation.drift[0] == 0.0;
+  EXPECT_EQ(air.update_memory(both, t.evaluation, t.memory), (std::array<int, 2>{-1, 1}));
 }
 
 // A machine whose air is not plain cannot be simulated side by side with others.
@@ -232,14 +234,14 @@ TEST(PlainAir, OnlyPlainNetworksAreFit) {
   std::vector<Muscle> muscles{bundle(0.1)};
   const gas::Air air;
   const gas::Supply supply;
-  EXPECT_TRUE(Network(muscles, air, supply).plain_for_good());
+  EXPECT_TRUE(Network(muscles, air, supply).stays_plain());
   const AirFault fault{.what = AirFault::What::stuck_open, .begin = 1, .end = 2};
-  EXPECT_FALSE(Network(muscles, air, supply, {}, std::array{fault}).plain_for_good());
+  EXPECT_FALSE(Network(muscles, air, supply, {}, std::array{fault}).stays_plain());
   std::vector<Muscle> ramps = muscles, leaks = muscles;
   ramps[0].inlet.profile = gas::Valve::Profile::ramp;
   leaks[0].leak = {.area = 1e-8};
-  EXPECT_FALSE(Network(ramps, air, supply).plain_for_good());
-  EXPECT_FALSE(Network(leaks, air, supply).plain_for_good());
+  EXPECT_FALSE(Network(ramps, air, supply).stays_plain());
+  EXPECT_FALSE(Network(leaks, air, supply).stays_plain());
 }
 
 }  // namespace

@@ -27,45 +27,49 @@ namespace sinew::air {
 template <int Most>
 class QuickBodies : public BodiesOfAir<Most> {
  public:
-  using Course = AirCourse<Most>;
-  using typename BodiesOfAir<Most>::Answer, typename BodiesOfAir<Most>::Ends,
+  using QuickMasses = AirQuickMasses<Most>;
+  using typename BodiesOfAir<Most>::Evaluation, typename BodiesOfAir<Most>::Ends,
       typename BodiesOfAir<Most>::Lanes, typename BodiesOfAir<Most>::Memory,
       typename BodiesOfAir<Most>::State, typename BodiesOfAir<Most>::Valves;
-  using BodiesOfAir<Most>::flowing, BodiesOfAir<Most>::volume, BodiesOfAir<Most>::always_ahead;
+  using BodiesOfAir<Most>::flowing, BodiesOfAir<Most>::volume,
+      BodiesOfAir<Most>::always_quick_muscles;
 
   // Integrates ahead at the beginning of a step of length h, or of a preview of that length.
   void plan(double t, double h, const Ends& ends, const State& state, const Valves& valves,
-            const Memory& memory, Course& course) const noexcept;
+            const Memory& memory, QuickMasses& quick_masses) const noexcept;
 
  protected:
   using Bodies = BodiesOfAir<Most>;
   using Bodies::Bodies;
-  using Cell = typename Course::Cell;
+  using Cell = typename QuickMasses::Cell;
   // These members of the slower bodies are used without their class's name.
-  using Bodies::air_, Bodies::beside_, Bodies::blocked, Bodies::braids_, Bodies::broken_,
-      Bodies::cylinder_, Bodies::each_line, Bodies::faults_, Bodies::inlets, Bodies::line,
-      Bodies::muscle, Bodies::none, Bodies::other, Bodies::plain_, Bodies::ramping_,
-      Bodies::regulators_, Bodies::shut, Bodies::side_settling_, Bodies::sides_, Bodies::size_,
-      Bodies::slope_of_faults, Bodies::sloped_through, Bodies::spring_, Bodies::taps_,
-      Bodies::through;
-  using typename Bodies::Flowing, typename Bodies::Inlets, typename Bodies::Line,
-      typename Bodies::Now, typename Bodies::Room, typename Bodies::Tap;
+  using Bodies::air_, Bodies::by_regulators_, Bodies::blocked, Bodies::braids_,
+      Bodies::fault_constants_, Bodies::cylinder_, Bodies::each_line, Bodies::faults_,
+      Bodies::supply_line, Bodies::line, Bodies::muscle, Bodies::none, Bodies::other,
+      Bodies::plain_, Bodies::ramping_, Bodies::regulators_, Bodies::shut, Bodies::side_settling_,
+      Bodies::sides_, Bodies::size_, Bodies::slope_of_faults, Bodies::sloped_flows_through,
+      Bodies::spring_, Bodies::taps_, Bodies::flows_through;
+  using typename Bodies::SlopedFlows, typename Bodies::SupplyLine, typename Bodies::AirLine,
+      typename Bodies::FlowInputs, typename Bodies::LinearVolume, typename Bodies::Tap;
 
  private:
-  gas::SlopedFlow sloped_leak(int i, const Now& now, double y) const noexcept;
-  bool goes_ahead(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
+  gas::SlopedFlow sloped_leak(int i, const FlowInputs& now, double y) const noexcept;
+  bool is_quick(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
   template <int Openings>
-  void run_ahead(const Now& node, double h, const Room& room, const gas::Base& base, double mass,
-                 Cell& cell) const noexcept;
-  void run_hose_ahead(const Now& node, double h, const Room& room, Cell& cell) const noexcept;
-  void run_muscle_ahead(const Now& node, double h, const Ends& ends, Cell& cell) const noexcept;
-  void go_beside(int first, const Now& node, double h, const Ends& ends,
-                 RegulatorLanes::Ahead& ahead) const noexcept;
+  void run_ahead(const FlowInputs& node, double h, const LinearVolume& chamber,
+                 const gas::Base& base, double mass, Cell& cell) const noexcept;
+  void run_hose_ahead(const FlowInputs& node, double h, const LinearVolume& chamber,
+                      Cell& cell) const noexcept;
+  void run_muscle_ahead(const FlowInputs& node, double h, const Ends& ends,
+                        Cell& cell) const noexcept;
+  void run_regulators_ahead(int first, const FlowInputs& node, double h, const Ends& ends,
+                            RegulatorLanes::Outputs& ahead) const noexcept;
 };
 
 // Returns the flow from muscle i to the room by leaks and holes [kg/s].
 template <int Most>
-gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const Now& now, double y) const noexcept {
+gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const FlowInputs& now,
+                                               double y) const noexcept {
   gas::SlopedFlow leak;
   const auto add = [&](const gas::LeakConstants& c) {
     const gas::SlopedFlow one = gas::sloped_leak_flow_y(c, y, 1.0);
@@ -75,7 +79,7 @@ gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const Now& now, double y) 
   if (!line(i).leak.tight()) add(line(i).leak);
   if (now.valves.leaking)
     faults_.each(now.valves.faults, [&](std::size_t k, const AirFault& f) {
-      if (f.what == AirFault::What::hole && f.of == i) add(broken_[k].leak);
+      if (f.what == AirFault::What::hole && f.of == i) add(fault_constants_[k].leak);
     });
   return leak;
 }
@@ -83,42 +87,43 @@ gas::SlopedFlow QuickBodies<Most>::sloped_leak(int i, const Now& now, double y) 
 // Returns whether the air of muscle i, or of a cylinder's chamber, is integrated ahead in a step of
 // h.
 template <int Most>
-bool QuickBodies<Most>::goes_ahead(int cell, double h, const Ends& ends,
-                                   const Valves& valves) const noexcept {
+bool QuickBodies<Most>::is_quick(int cell, double h, const Ends& ends,
+                                 const Valves& valves) const noexcept {
   if (air_.wall_time > 0) return false;
-  if (cell < size_ && (always_ahead(valves) >> cell & 1) != 0) return true;
-  double slope = valves.leaking ? spring_ * slope_of_faults(cell, valves.faults) : 0.0, room = 0;
+  if (cell < size_ && (always_quick_muscles(valves) >> cell & 1) != 0) return true;
+  double slope = valves.leaking ? spring_ * slope_of_faults(cell, valves.faults) : 0.0,
+         capacity = 0;
   if (cell < size_) {
-    if (line(cell).resists || (valves.broken && blocked(cell, valves))) return false;
+    if (line(cell).has_hose || (valves.broken && blocked(cell, valves))) return false;
     slope += line(cell).settling;
     if (!(slope > 0)) return false;
-    room = volume(cell, ends.length[cell]);
+    capacity = volume(cell, ends.length[cell]);
   } else {
     const Side side = static_cast<Side>(cell - size_);
     if (sides_[side].mass == none) return false;
     const auto inlet = static_cast<std::size_t>(2 * cell);
     const bool open = ramping_ || valves[inlet].share > 0 || valves[inlet + 1].share > 0;
     slope += open ? side_settling_[side] : 0.0;
-    room = air::volume(*cylinder_, side, ends.travel);
+    capacity = air::volume(*cylinder_, side, ends.travel);
   }
-  return slope * h > quick::from_rate * room;
+  return slope * h > quick::from_rate * capacity;
 }
 
 // Integrates one body of air at its valves: a muscle without a hose, or a chamber of the cylinder;
 // the third opening is its leak.
 template <int Most>
 template <int Openings>
-void QuickBodies<Most>::run_ahead(const Now& node, double h, const Room& room,
+void QuickBodies<Most>::run_ahead(const FlowInputs& node, double h, const LinearVolume& chamber,
                                   const gas::Base& base, double mass, Cell& cell) const noexcept {
   constexpr bool leaks = Openings == 3;
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
   const auto rates = [&](double t, const std::array<double, 1>& x, bool sloped) {
-    Now now = node;
+    FlowInputs now = node;
     now.t = t;
-    const double v = room.volume + room.rate * (t - node.t);
+    const double v = chamber.volume + chamber.rate * (t - node.t);
     const double y = gas::root(braids_.series(), base, x[0] / v, at_one);
-    const Flowing o = sloped_through(2 * cell.of, now, t - node.t, y, sloped);
-    const double by_mass = n7 * y / x[0], by_time = -n7 * y * room.rate / v;
+    const SlopedFlows o = sloped_flows_through(2 * cell.of, now, t - node.t, y, sloped);
+    const double by_mass = n7 * y / x[0], by_time = -n7 * y * chamber.rate / v;
     QuickRates<1, Openings> r;
     r.passed[0] = o.in, r.passed[1] = o.out;
     r.passed_by[0][0] = o.in_by * by_mass, r.passed_by[1][0] = o.out_by * by_mass;
@@ -138,15 +143,16 @@ void QuickBodies<Most>::run_ahead(const Now& node, double h, const Room& room,
     }
     return r;
   };
-  quick::fill(quick::through<1>(rates, node.t, h, {quick::muscle_error}, {mass}), cell);
+  quick::write_result(quick::integrate_step<1>(rates, node.t, h, {quick::muscle_error}, {mass}),
+                      cell);
 }
 
 // Integrates a hose and its muscle through the step.
 template <int Most>
-void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& room,
-                                       Cell& cell) const noexcept {
+void QuickBodies<Most>::run_hose_ahead(const FlowInputs& node, double h,
+                                       const LinearVolume& chamber, Cell& cell) const noexcept {
   const int i = cell.of;
-  const Line& l = line(i);
+  const AirLine& l = line(i);
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
   const double in_hose = muscle(i).hose.volume;
   const bool passes = !blocked(i, node.valves);
@@ -154,11 +160,12 @@ void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& ro
   const std::array<double, 2> x{other(node.state, l.hose), node.state.mass[i]};
   const double sum = x[0] + x[1];
 
-  const double apart = (x[0] / in_hose) / (x[1] / room.volume) - 1.0;
-  const double evens = l.settling * (1.0 / in_hose + 1.0 / room.volume);  // [1/s]
-  if (passes && l.leak.tight() && shut(2 * i, node) && std::abs(apart) < quick::equal &&
-      std::abs(room.rate) < quick::equal * evens * room.volume) {
-    const double half = room.volume + 0.5 * h * room.rate, full = room.volume + h * room.rate;
+  const double apart = (x[0] / in_hose) / (x[1] / chamber.volume) - 1.0;
+  const double evens = l.settling * (1.0 / in_hose + 1.0 / chamber.volume);  // [1/s]
+  if (passes && l.leak.tight() && shut(2 * i, node) && std::abs(apart) < quick::equal_density &&
+      std::abs(chamber.rate) < quick::equal_density * evens * chamber.volume) {
+    const double half = chamber.volume + 0.5 * h * chamber.rate,
+                 full = chamber.volume + h * chamber.rate;
     cell.half = sum * half / (half + in_hose);
     cell.full = sum * full / (full + in_hose);
     cell.hose = sum - cell.full;
@@ -169,19 +176,19 @@ void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& ro
   const gas::Base base{node.memory.reference.y[i], node.memory.reference.inverse_sigma[i]};
   const gas::Base& of_hose = node.memory.hose[static_cast<std::size_t>(i)];
   const auto rates = [&](double t, const std::array<double, 2>& m, bool sloped) {
-    Now now = node;
+    FlowInputs now = node;
     now.t = t;
-    const double v = room.volume + room.rate * (t - node.t);
+    const double v = chamber.volume + chamber.rate * (t - node.t);
     const double y_hose = gas::root(braids_.series(), of_hose, m[0] / in_hose, at_one);
     const double y = gas::root(braids_.series(), base, m[1] / v, at_one);
-    const Flowing o = sloped_through(2 * i, now, t - node.t, y_hose, sloped);
+    const SlopedFlows o = sloped_flows_through(2 * i, now, t - node.t, y_hose, sloped);
     const gas::SlopedFlow pass = !passes ? gas::SlopedFlow{}
                                  : sloped
                                      ? gas::sloped_hose_flow_y(l.hose_flow, y_hose, y)
                                      : gas::SlopedFlow{gas::hose_flow_y(l.hose_flow, y_hose, y)};
     const gas::SlopedFlow leak = leaks ? sloped_leak(i, now, y) : gas::SlopedFlow{};
     const double hose_by = n7 * y_hose / m[0], by_mass = n7 * y / m[1];
-    const double by_time = -n7 * y * room.rate / v;
+    const double by_time = -n7 * y * chamber.rate / v;
     QuickRates<2> r;
     r.passed = {o.in, o.out, leak.flow};
     r.passed_by = {
@@ -194,39 +201,42 @@ void QuickBodies<Most>::run_hose_ahead(const Now& node, double h, const Room& ro
                       (pass.by_b - leak.by_a) * by_time};
     return r;
   };
-  quick::fill(quick::through<2>(rates, node.t, h, {quick::hose_error, quick::muscle_error}, x),
-              cell);
+  quick::write_result(
+      quick::integrate_step<2>(rates, node.t, h, {quick::hose_error, quick::muscle_error}, x),
+      cell);
 }
 
 // Integrates muscle `cell.of` through the step on its own.
 template <int Most>
-void QuickBodies<Most>::run_muscle_ahead(const Now& node, double h, const Ends& ends,
+void QuickBodies<Most>::run_muscle_ahead(const FlowInputs& node, double h, const Ends& ends,
                                          Cell& cell) const noexcept {
   const int i = cell.of;
   const Muscle& m = muscle(i);
-  const Room room{volume(i, ends.length[i]),
-                  m.count * actuator::volume_slope(m.actuator, ends.length[i]) * ends.rate[i]};
-  if (line(i).hose != none) return run_hose_ahead(node, h, room, cell);
+  const LinearVolume chamber{
+      volume(i, ends.length[i]),
+      m.count * actuator::volume_slope(m.actuator, ends.length[i]) * ends.rate[i]};
+  if (line(i).hose != none) return run_hose_ahead(node, h, chamber, cell);
   const gas::Base base{node.memory.reference.y[i], node.memory.reference.inverse_sigma[i]};
   const double mass = node.state.mass[i];
   if (line(i).leak.tight() && !node.valves.leaking)
-    run_ahead<2>(node, h, room, base, mass, cell);
+    run_ahead<2>(node, h, chamber, base, mass, cell);
   else
-    run_ahead<3>(node, h, room, base, mass, cell);
+    run_ahead<3>(node, h, chamber, base, mass, cell);
 }
 
 // Integrates four muscles from `first` on as if all were behind regulators; lanes without a
 // regulator return values that the caller ignores.
 template <int Most>
-void QuickBodies<Most>::go_beside(int first, const Now& node, double h, const Ends& ends,
-                                  RegulatorLanes::Ahead& ahead) const noexcept {
+void QuickBodies<Most>::run_regulators_ahead(int first, const FlowInputs& node, double h,
+                                             const Ends& ends,
+                                             RegulatorLanes::Outputs& ahead) const noexcept {
   const auto lane = [first](const Lanes& of) { return of.of.data() + first; };
   const Reference<Most>& reference = node.memory.reference;
-  RegulatorLanes::Given in{.length = lane(ends.length),
-                           .rate = lane(ends.rate),
-                           .mass = lane(node.state.mass),
-                           .y_ref = lane(reference.y),
-                           .inverse_sigma = lane(reference.inverse_sigma)};
+  RegulatorLanes::Inputs in{.length = lane(ends.length),
+                            .rate = lane(ends.rate),
+                            .mass = lane(node.state.mass),
+                            .y_ref = lane(reference.y),
+                            .inverse_sigma = lane(reference.inverse_sigma)};
   for (int at = 0; at < lanes; ++at) {
     const auto v = static_cast<std::size_t>(2 * std::min(first + at, size_ - 1));
     const int outlet = taps_[v].outlet;
@@ -238,42 +248,42 @@ void QuickBodies<Most>::go_beside(int first, const Now& node, double h, const En
     in.outlet_y[at] = lags ? base.y : node.valves[v].set_y;
     in.outlet_inverse[at] = lags ? base.inverse : 1.0;
   }
-  regulators_.go(first, h, node.y_supply, in, ahead);
+  regulators_.integrate(first, h, node.y_supply, in, ahead);
 }
 
 template <int Most>
 void QuickBodies<Most>::plan(double t, double h, const Ends& ends, const State& state,
                              const Valves& valves, const Memory& memory,
-                             Course& course) const noexcept {
-  course.count = 0;
-  course.step = h;
-  course.muscles = 0;
+                             QuickMasses& quick_masses) const noexcept {
+  quick_masses.count = 0;
+  quick_masses.step = h;
+  quick_masses.muscles = 0;
   if ((plain_ && !valves.broken) || !flowing(valves)) return;
-  Answer scratch;
-  const Inlets before = inlets(state, valves, memory, scratch);
-  course.cut = before.cut;
-  const Now now{t, before.y, state, valves, memory};
+  Evaluation scratch;
+  const SupplyLine before = supply_line(state, valves, memory, scratch);
+  quick_masses.cut = before.cut;
+  const FlowInputs now{t, before.y, state, valves, memory};
   const auto add = [&](int of) -> Cell& {
-    Cell& cell = course.cells[static_cast<std::size_t>(course.count++)];
+    Cell& cell = quick_masses.cells[static_cast<std::size_t>(quick_masses.count++)];
     cell.of = of;
-    if (of < size_) course.muscles |= std::uint64_t{1} << of;
+    if (of < size_) quick_masses.muscles |= std::uint64_t{1} << of;
     cell.hose = 0;
     return cell;
   };
-  std::uint64_t beside = 0;
+  std::uint64_t by_regulators = 0;
   each_line(valves, [&](int i) {
-    if (!goes_ahead(i, h, ends, valves)) return;
-    if (!valves.leaking && (beside_ >> i & 1) != 0)
-      beside |= std::uint64_t{1} << i;
+    if (!is_quick(i, h, ends, valves)) return;
+    if (!valves.leaking && (by_regulators_ >> i & 1) != 0)
+      by_regulators |= std::uint64_t{1} << i;
     else
       run_muscle_ahead(now, h, ends, add(i));
   });
-  for (int first = 0; beside >> first != 0; first += lanes) {
-    if ((beside >> first & 0xf) == 0) continue;
-    RegulatorLanes::Ahead ahead;
-    go_beside(first, now, h, ends, ahead);
+  for (int first = 0; by_regulators >> first != 0; first += lanes) {
+    if ((by_regulators >> first & 0xf) == 0) continue;
+    RegulatorLanes::Outputs ahead;
+    run_regulators_ahead(first, now, h, ends, ahead);
     for (int at = 0; at < lanes; ++at) {
-      if ((beside >> (first + at) & 1) == 0) continue;
+      if ((by_regulators >> (first + at) & 1) == 0) continue;
       Cell& cell = add(first + at);
       if ((ahead.calm >> at & 1) == 0)
         run_muscle_ahead(now, h, ends, cell);
@@ -283,10 +293,10 @@ void QuickBodies<Most>::plan(double t, double h, const Ends& ends, const State& 
     }
   }
   for (const Side side : {up, down}) {
-    if (!cylinder_ || !goes_ahead(size_ + side, h, ends, valves)) continue;
-    const Room room{air::volume(*cylinder_, side, ends.travel),
-                    volume_slope(*cylinder_, side) * ends.travel_rate};
-    run_ahead<2>(now, h, room, memory.side[side], other(state, sides_[side].mass),
+    if (!cylinder_ || !is_quick(size_ + side, h, ends, valves)) continue;
+    const LinearVolume chamber{air::volume(*cylinder_, side, ends.travel),
+                               volume_slope(*cylinder_, side) * ends.travel_rate};
+    run_ahead<2>(now, h, chamber, memory.side[side], other(state, sides_[side].mass),
                  add(size_ + side));
   }
 }

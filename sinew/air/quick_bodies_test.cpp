@@ -88,25 +88,25 @@ TEST_P(Quick, AgreesWithShortSteps) {
   c.change(muscles);
   const gas::Air air{.polytropic_exponent = 1.2};
   const Air network(muscles, air, {.pressure = 7 * bar}, c.cylinder, c.faults);
-  Hand fine(network, swinging, 2 * bar), ahead(network, swinging, 2 * bar);
+  TestIntegrator fine(network, swinging, 2 * bar), ahead(network, swinging, 2 * bar);
   const double before = network.total_mass(ahead.state, swinging(0).travel);
   double worst = 0;
   const auto compare = [&](double a, double b) { worst = std::max(worst, std::abs(a / b - 1)); };
   const auto go = [&](double until) {
     const double quickest = std::min(network.longest_step(swinging(fine.t), fine.valves), 5e-6);
-    fine.go(until, quickest);
-    ahead.go(until, 1e-3, true);
+    fine.run_until(until, quickest);
+    ahead.run_until(until, 1e-3, true);
     for (int i = 0; i < 2; ++i) compare(ahead.now.pressure[i], fine.now.pressure[i]);
     for (std::size_t s = 0; s < 2 && c.cylinder; ++s)
       compare(ahead.now.cylinder_pressure[s], fine.now.cylinder_pressure[s]);
   };
   const auto command = [&](int valve, bool open, double share) {
-    for (Hand* hand : {&fine, &ahead})
+    for (TestIntegrator* test : {&fine, &ahead})
       if (valve < 4 &&
           muscles[static_cast<std::size_t>(valve / 2)].inlet.kind == gas::Valve::Kind::regulator)
-        hand->level(valve / 2 * 2, hand->t, share), hand->node(hand->t);
+        test->level(valve / 2 * 2, test->t, share), test->node(test->t);
       else
-        hand->electrical(valve, open);
+        test->electrical(valve, open);
   };
   drive(go, command);
   EXPECT_LT(worst, c.limit);

@@ -54,8 +54,8 @@ RegulatorLanes::RegulatorLanes(const BraidLanes& braids, std::span<const gas::Va
   }
 }
 
-SINEW_WIDE void RegulatorLanes::go(int first, double h, double y_supply, const Given& in,
-                                   Ahead& out) const noexcept {
+SINEW_WIDE void RegulatorLanes::integrate(int first, double h, double y_supply, const Inputs& in,
+                                          Outputs& out) const noexcept {
   const Constants& k = constants_[static_cast<std::size_t>(first / lanes)];
   const gas::PowerSeries of_pressure(1.0 / 7.0);
   const double n7 = of_density_.exponent(), inverse_h = 1.0 / h;
@@ -97,7 +97,7 @@ SINEW_WIDE void RegulatorLanes::go(int first, double h, double y_supply, const G
   const S there_too = there + k2;
   const S last = rate_at_end(there_too);
   const S k3 = solve * (last + inverse_h * (k0 - k1 - (8.0 / 3.0) * k2));
-  const S full = there_too + k3, bend = (0.125 * h) * (f.flow - last);
+  const S full = there_too + k3, curvature = (0.125 * h) * (f.flow - last);
 
   // Mass that came in; the mass that left follows from the gain.
   const S gain = full - start;
@@ -115,11 +115,11 @@ SINEW_WIDE void RegulatorLanes::go(int first, double h, double y_supply, const G
   const S came =
       units::select(always, gain, units::select(closed_for_good, 0.0, 2.0 * q0 + q2 + q3));
 
-  store(out.half, 0.5 * (start + full) + bend);
+  store(out.half, 0.5 * (start + full) + curvature);
   store(out.full, full);
   store(out.in, came);
   store(out.out, came - gain);
-  good = good & (units::abs(bend) < quick::little * start) &
+  good = good & (units::abs(curvature) < quick::calm_curvature * start) &
          (units::abs(k3) < quick::muscle_error * start);
   out.calm = 0;
   for (int lane = 0; lane < lanes; ++lane)

@@ -25,14 +25,14 @@ namespace sinew::air {
 class RegulatorLanes {
  public:
   // Four muscles at the node, a lane each, and the outlets of their regulators.
-  struct Given {
+  struct Inputs {
     const double *length, *rate, *mass, *y_ref, *inverse_sigma;
     alignas(64) double set[lanes];             // set point of the outlet [Pa]
     alignas(64) double off[lanes];             // deviation of the outlet from it at the node [Pa]
     alignas(64) double outlet_y[lanes];        // base of the outlet's series
     alignas(64) double outlet_inverse[lanes];  // [1/Pa]
   };
-  struct Ahead {
+  struct Outputs {
     alignas(64) double half[lanes], full[lanes];  // masses at the half and at the end [kg]
     alignas(64) double in[lanes], out[lanes];     // through the regulators within the step [kg]
     std::uint64_t calm;                           // a bit for each lane whose step is valid
@@ -43,7 +43,8 @@ class RegulatorLanes {
   RegulatorLanes(const BraidLanes& braids, std::span<const gas::Valve> valves, const gas::Air& air);
 
   // Integrates through a step of length h, with the supply at y; `first` is the first of the four.
-  void go(int first, double h, double y_supply, const Given& in, Ahead& out) const noexcept;
+  void integrate(int first, double h, double y_supply, const Inputs& in,
+                 Outputs& out) const noexcept;
 
  private:
   struct alignas(64) Constants {

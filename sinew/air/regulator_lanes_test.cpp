@@ -55,7 +55,7 @@ class FourRegulated : public ::testing::Test {
   }
 
   // Integrates all through a step; lane i has muscle `of[i]`.
-  RegulatorLanes::Ahead ahead(const std::array<std::size_t, lanes>& of) const {
+  RegulatorLanes::Outputs ahead(const std::array<std::size_t, lanes>& of) const {
     std::vector<Muscle> muscles;
     std::vector<gas::Valve> valves;
     for (const std::size_t i : of) {
@@ -65,11 +65,11 @@ class FourRegulated : public ::testing::Test {
     const BraidLanes braids(muscles, air_);
     const RegulatorLanes regulators(braids, valves, air_);
     Lanes<lanes> length, rate, mass, y_ref, inverse_sigma;
-    RegulatorLanes::Given in{.length = length.of.data(),
-                             .rate = rate.of.data(),
-                             .mass = mass.of.data(),
-                             .y_ref = y_ref.of.data(),
-                             .inverse_sigma = inverse_sigma.of.data()};
+    RegulatorLanes::Inputs in{.length = length.of.data(),
+                              .rate = rate.of.data(),
+                              .mass = mass.of.data(),
+                              .y_ref = y_ref.of.data(),
+                              .inverse_sigma = inverse_sigma.of.data()};
     for (std::size_t at = 0; at < lanes; ++at) {
       const State& s = state_[of[at]];
       const int k = static_cast<int>(at);
@@ -84,8 +84,8 @@ class FourRegulated : public ::testing::Test {
       in.outlet_y[at] = gas::y_of(air_, s.outlet);
       in.outlet_inverse[at] = 1 / s.outlet;
     }
-    RegulatorLanes::Ahead out;
-    regulators.go(0, step, supply_y_, in, out);
+    RegulatorLanes::Outputs out;
+    regulators.integrate(0, step, supply_y_, in, out);
     return out;
   }
 
@@ -133,11 +133,11 @@ TEST_F(FourRegulated, GoAsEachGoesByTheLawsInWords) {
   int calm = 0, restless = 0, both_ways = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     draw();
-    const RegulatorLanes::Ahead out = ahead({0, 1, 2, 3});
+    const RegulatorLanes::Outputs out = ahead({0, 1, 2, 3});
     for (std::size_t i = 0; i < lanes; ++i) {
       const QuickStep<1> one = alone(i);
       const double start = state_[i].mass;
-      const bool suits = std::abs(one.bend[0]) < quick::little * start &&
+      const bool suits = std::abs(one.curvature[0]) < quick::calm_curvature * start &&
                          one.error[0] < quick::muscle_error * start;
       if ((out.calm >> i & 1) == 0) {
         ++restless;
@@ -146,7 +146,7 @@ TEST_F(FourRegulated, GoAsEachGoesByTheLawsInWords) {
       ++calm;
       EXPECT_TRUE(suits) << i;
       EXPECT_NEAR(out.full[i], one.mass[0], 1e-9 * start) << i;
-      EXPECT_NEAR(out.half[i], 0.5 * (start + one.mass[0]) + one.bend[0], 1e-9 * start) << i;
+      EXPECT_NEAR(out.half[i], 0.5 * (start + one.mass[0]) + one.curvature[0], 1e-9 * start) << i;
       EXPECT_NEAR(out.in[i], one.passed[0], 1e-9 * start) << i;
       EXPECT_NEAR(out.out[i], one.passed[1], 1e-9 * start) << i;
       EXPECT_NEAR(out.in[i] - out.out[i], out.full[i] - start, 1e-15 * start) << i;
@@ -162,10 +162,10 @@ TEST_F(FourRegulated, HaveTheSameBitsInAnyLane) {
   std::array<std::size_t, lanes> of{0, 1, 2, 3};
   for (int trial = 0; trial < 500; ++trial) {
     draw();
-    const RegulatorLanes::Ahead in_order = ahead({0, 1, 2, 3});
+    const RegulatorLanes::Outputs in_order = ahead({0, 1, 2, 3});
     std::shuffle(of.begin(), of.end(), random_);
     of[0] = of[1];  // twice the same, and one of them left out
-    const RegulatorLanes::Ahead mixed = ahead(of);
+    const RegulatorLanes::Outputs mixed = ahead(of);
     for (std::size_t at = 0; at < lanes; ++at) {
       const std::size_t i = of[at];
       ASSERT_EQ(mixed.calm >> at & 1, in_order.calm >> i & 1);

@@ -77,7 +77,7 @@ struct AirMemory {
 // Pairs of the cylinder: up, down. Values of lines with more than valves are set only for those
 // lines.
 template <int Most>
-struct AirAnswer : Pull<Most> {
+struct AirEvaluation : Pull<Most> {
   Lanes<Most> inflow;    // supply to muscle [kg/s]
   Lanes<Most> outflow;   // muscle to atmosphere [kg/s]
   Lanes<Most> gain;      // d(mass)/dt of a line with more than valves [kg/s]
@@ -96,7 +96,7 @@ struct AirAnswer : Pull<Most> {
 
 // Bodies of air that are quicker than a step, integrated ahead of the body: quick_bodies.h.
 template <int Most>
-struct AirCourse {
+struct AirQuickMasses {
   struct Cell {
     int of;                // a muscle, or muscles() + side of the cylinder
     double half, full;     // its mass at the half and at the end of the step [kg]

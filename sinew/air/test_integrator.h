@@ -32,26 +32,26 @@ inline Motion swaying(double length, double t) {
   return m;
 }
 
-struct Hand {
+struct TestIntegrator {
   const Air& network;
   std::function<Motion(double)> motion;
   Air::State state{};
   double t = 0;
-  Air::Answer now{};
+  Air::Evaluation now{};
   Air::Valves valves;
   Air::Memory memory{};
 
-  Hand(const Air& n, std::function<Motion(double)> m, double pressure)
+  TestIntegrator(const Air& n, std::function<Motion(double)> m, double pressure)
       : network(n), motion(std::move(m)), valves(n.valves_at_rest()) {
     const Motion start = motion(0);
     memory = n.memory_at_rest(pressure, start.length);
     state = n.initial(pressure, start.length, start.travel);
-    look(0, state, now);
-    network.remember(now, state, memory);
-    look(0, state, now);
+    evaluate(0, state, now);
+    network.update_memory(now, state, memory);
+    evaluate(0, state, now);
   }
 
-  void look(double at, const Air::State& s, Air::Answer& out) const {
+  void evaluate(double at, const Air::State& s, Air::Evaluation& out) const {
     network.evaluate(at, motion(at), s, valves, memory, out);
   }
 
@@ -69,24 +69,24 @@ struct Hand {
 
   // Takes a step of RK4; `ahead`: quick bodies are integrated ahead of it.
   void step(double h, bool ahead = false) {
-    Air::Answer later[3];
-    const Air::Answer* looks[4] = {&now, &later[0], &later[1], &later[2]};
+    Air::Evaluation later[3];
+    const Air::Evaluation* evaluations[4] = {&now, &later[0], &later[1], &later[2]};
     Air::State stage = state;
-    Air::Course course{};
-    if (ahead) network.plan(t, h, motion(t), state, valves, memory, course);
+    Air::QuickMasses quick_masses{};
+    if (ahead) network.plan(t, h, motion(t), state, valves, memory, quick_masses);
     for (int s = 0; s < 3; ++s) {
       const double part = s == 2 ? h : 0.5 * h;
-      network.move(stage, state, part, *looks[s], valves, course);
-      look(t + part, stage, later[s]);
+      network.move(stage, state, part, *evaluations[s], valves, quick_masses);
+      evaluate(t + part, stage, later[s]);
     }
-    network.finish(state, h, looks, valves, course);
+    network.finish(state, h, evaluations, valves, quick_masses);
     t += h;
-    look(t, state, now);
-    network.remember(now, state, memory);
+    evaluate(t, state, now);
+    network.update_memory(now, state, memory);
   }
 
   // Steps to `until` with nodes at multiples of h and where a valve changes, as a world does.
-  void go(double until, double h, bool ahead = false) {
+  void run_until(double until, double h, bool ahead = false) {
     while (t < until - 1e-12) {
       double next = t + h < until ? t + h : until;
       if (valves.next_change < next) next = valves.next_change;
@@ -94,13 +94,13 @@ struct Hand {
       t = next;
       node(next);
     }
-    look(t, state, now);
+    evaluate(t, state, now);
   }
 
   // Makes a node: moves valves, set points and faults there.
   void node(double at) {
     network.move_valves(at, now, valves);
-    look(at, state, now);
+    evaluate(at, state, now);
   }
 
   void edge(int valve, double at, bool open) {

@@ -36,7 +36,7 @@ class ValveBank {
   using State = AirState<Most>;
   using Valves = AirValves<Most>;
   using Memory = AirMemory<Most>;
-  using Answer = AirAnswer<Most>;
+  using Evaluation = AirEvaluation<Most>;
 
   // Returns the number of valves. Their order: 2 x muscle + (0 inlet | 1 exhaust), then the
   // cylinder's: up inlet, up exhaust, down inlet, down exhaust.
@@ -69,7 +69,7 @@ class ValveBank {
     double in = 0, out = 0;  // supply to muscle, muscle to room [kg/s]
   };
   // Inputs of the flows of one evaluation, together with the chambers.
-  struct Now {
+  struct FlowInputs {
     double t;         // [s]
     double y_supply;  // y of the line to the inlets
     const State& state;
@@ -78,12 +78,12 @@ class ValveBank {
     std::uint64_t ahead = 0;  // muscles whose flows are not needed, a bit each
   };
   // The flows through a pair of valves, their slopes over y and their drift at constant y.
-  struct Flowing {
+  struct SlopedFlows {
     double in = 0, out = 0;                  // [kg/s]
     double in_by = 0, out_by = 0;            // [kg/s]
     double in_by_time = 0, out_by_time = 0;  // [kg/s^2]
   };
-  struct Broken {
+  struct FaultConstants {
     gas::LeakConstants leak;
     double y = 1;  // y of the supply's line
   };
@@ -91,9 +91,9 @@ class ValveBank {
   // Takes the list of faults; the valves are added one by one.
   ValveBank(const gas::Air& air, std::span<const AirFault> faults) : air_(air), faults_(faults) {
     for (const AirFault& f : faults_.all()) {
-      Broken broken{.leak = gas::leak_constants(f.leak, air_)};
+      FaultConstants broken{.leak = gas::leak_constants(f.leak, air_)};
       if (f.what == AirFault::What::supply) broken.y = gas::y_of(air_, f.pressure);
-      broken_.push_back(broken);
+      fault_constants_.push_back(broken);
     }
   }
 
@@ -102,7 +102,9 @@ class ValveBank {
     return s.other[static_cast<std::size_t>(i)];
   }
   static double& other(State& s, int i) noexcept { return s.other[static_cast<std::size_t>(i)]; }
-  static double& rate_of(Answer& a, int i) noexcept { return a.rate[static_cast<std::size_t>(i)]; }
+  static double& rate_of(Evaluation& a, int i) noexcept {
+    return a.rate[static_cast<std::size_t>(i)];
+  }
   const Tap& tap(int valve) const noexcept { return taps_[static_cast<std::size_t>(valve)]; }
 
   // Appends a valve.
@@ -118,34 +120,35 @@ class ValveBank {
 
   // Return the flows through a pair of valves (`inlet` and the next one) that ends at y; the flows
   // with their slopes; and whether both valves are shut.
-  Flows through(int inlet, const Now& now, double y) const noexcept;
-  Flowing sloped_through(int inlet, const Now& now, double since_node, double y,
-                         bool sloped) const noexcept;
-  bool shut(int inlet, const Now& now) const noexcept;
+  Flows flows_through(int inlet, const FlowInputs& now, double y) const noexcept;
+  SlopedFlows sloped_flows_through(int inlet, const FlowInputs& now, double since_node, double y,
+                                   bool sloped) const noexcept;
+  bool shut(int inlet, const FlowInputs& now) const noexcept;
 
-  double through_holes(int i, const Now& now, double y) const noexcept;
+  double hole_flow(int i, const FlowInputs& now, double y) const noexcept;
   // Returns whether a fault closes the line of a muscle.
   bool blocked(int i, const Valves& valves) const noexcept;
-  double failed_line(const Valves& valves, Answer& out) const noexcept;
+  double failed_line(const Valves& valves, Evaluation& out) const noexcept;
   double slope_of_faults(int pair, const ActingFaults& faults) const noexcept;
 
   gas::Air air_;
   gas::PowerSeries of_pressure_{1.0 / 7.0};  // y of a pressure
   std::vector<Tap> taps_;
   FaultSchedule faults_;
-  std::vector<Broken> broken_;  // one for each fault
+  std::vector<FaultConstants> fault_constants_;  // one for each fault
   bool ramping_ = false;
 
  private:
   double fraction(std::size_t valve, double t, const Valves& valves) const noexcept;
-  void look_ahead(Valves& valves) const noexcept;
+  void find_next_change(Valves& valves) const noexcept;
   void refresh(double t, Valves& valves) const noexcept;
   template <class Difference>
   void change(const AirFault& fault, bool begins, double t, const Difference& difference,
               Valves& valves) const noexcept;
   bool let_through(const ActingFaults& faults) const noexcept;
   bool is_broken(const ActingFaults& faults) const noexcept;
-  double past_seat(int valve, const Now& now, double y_from, double y_to) const noexcept;
+  double seat_leak_flow(int valve, const FlowInputs& now, double y_from,
+                        double y_to) const noexcept;
 };
 
 template <int Most>
@@ -184,12 +187,12 @@ void ValveBank<Most>::command(const signals::Edge& edge, double t, double differ
       return;  // its end will then have no effect
     valves[i].shutter.electrical(t, edge.open, gas::delay_at(v, edge.open, difference));
   }
-  look_ahead(valves);
+  find_next_change(valves);
 }
 
 // A command can also cancel a pending change, so all valves are searched.
 template <int Most>
-void ValveBank<Most>::look_ahead(Valves& valves) const noexcept {
+void ValveBank<Most>::find_next_change(Valves& valves) const noexcept {
   double next = faults_.next(valves.faults);
   for (std::size_t v = 0; v < taps_.size(); ++v) {
     next = std::min(next, valves[v].shutter.next());
@@ -238,7 +241,7 @@ void ValveBank<Most>::refresh(double t, Valves& valves) const noexcept {
   }
   valves.leaking = let_through(valves.faults);
   valves.broken = is_broken(valves.faults);
-  look_ahead(valves);
+  find_next_change(valves);
 }
 
 template <int Most>
@@ -274,8 +277,9 @@ template <int Most>
 bool ValveBank<Most>::let_through(const ActingFaults& faults) const noexcept {
   bool any = false;
   if (faults.any())
-    faults_.each(faults,
-                 [&](std::size_t k, const AirFault&) { any = any || !broken_[k].leak.tight(); });
+    faults_.each(faults, [&](std::size_t k, const AirFault&) {
+      any = any || !fault_constants_[k].leak.tight();
+    });
   return any;
 }
 
@@ -290,22 +294,23 @@ bool ValveBank<Most>::is_broken(const ActingFaults& faults) const noexcept {
 
 // Returns the flow that bypasses a valve's shutter [kg/s].
 template <int Most>
-double ValveBank<Most>::past_seat(int valve, const Now& now, double y_from,
-                                  double y_to) const noexcept {
+double ValveBank<Most>::seat_leak_flow(int valve, const FlowInputs& now, double y_from,
+                                       double y_to) const noexcept {
   double flow = 0;
   faults_.each(now.valves.faults, [&](std::size_t k, const AirFault& f) {
     if (f.what == AirFault::What::seat_leak && f.of == valve)
-      flow += gas::leak_flow_y(broken_[k].leak, y_from, y_to);
+      flow += gas::leak_flow_y(fault_constants_[k].leak, y_from, y_to);
   });
   return flow;
 }
 
 // Returns the flow from muscle i to the room through holes by faults [kg/s].
 template <int Most>
-double ValveBank<Most>::through_holes(int i, const Now& now, double y) const noexcept {
+double ValveBank<Most>::hole_flow(int i, const FlowInputs& now, double y) const noexcept {
   double flow = 0;
   faults_.each(now.valves.faults, [&](std::size_t k, const AirFault& f) {
-    if (f.what == AirFault::What::hole && f.of == i) flow += gas::leak_flow_y(broken_[k].leak, y);
+    if (f.what == AirFault::What::hole && f.of == i)
+      flow += gas::leak_flow_y(fault_constants_[k].leak, y);
   });
   return flow;
 }
@@ -323,11 +328,11 @@ bool ValveBank<Most>::blocked(int i, const Valves& valves) const noexcept {
 // Returns y of the line to the inlets if the supply has failed, and writes the line's pressure to
 // `out`; else returns 0 [-].
 template <int Most>
-double ValveBank<Most>::failed_line(const Valves& valves, Answer& out) const noexcept {
+double ValveBank<Most>::failed_line(const Valves& valves, Evaluation& out) const noexcept {
   double y = 0;
   faults_.each(valves.faults, [&](std::size_t k, const AirFault& f) {
     if (f.what != AirFault::What::supply) return;
-    y = broken_[k].y;
+    y = fault_constants_[k].y;
     out.supply_pressure = f.pressure;
   });
   return y;
@@ -341,20 +346,22 @@ double ValveBank<Most>::slope_of_faults(int pair, const ActingFaults& faults) co
   faults_.each(faults, [&](std::size_t k, const AirFault& f) {
     const bool seat = f.what == AirFault::What::seat_leak && f.of / 2 == pair;
     if (seat || (f.what == AirFault::What::hole && f.of == pair))
-      slope += (broken_[k].leak.hole.linear_gain + broken_[k].leak.slope) / air_.atmosphere;
+      slope += (fault_constants_[k].leak.hole.linear_gain + fault_constants_[k].leak.slope) /
+               air_.atmosphere;
   });
   return slope;
 }
 
 template <int Most>
-bool ValveBank<Most>::shut(int inlet, const Now& now) const noexcept {
+bool ValveBank<Most>::shut(int inlet, const FlowInputs& now) const noexcept {
   const Valves& valves = now.valves;
   return !valves.leaking && !(open_share(inlet, now.t, valves) > 0) &&
          !(open_share(inlet + 1, now.t, valves) > 0);
 }
 
 template <int Most>
-auto ValveBank<Most>::through(int inlet, const Now& now, double y) const noexcept -> Flows {
+auto ValveBank<Most>::flows_through(int inlet, const FlowInputs& now, double y) const noexcept
+    -> Flows {
   const auto v = static_cast<std::size_t>(inlet);
   const Tap& tap = taps_[v];
   const Valves& valves = now.valves;
@@ -371,20 +378,20 @@ auto ValveBank<Most>::through(int inlet, const Now& now, double y) const noexcep
   if (in > 0) flows.in = in * gas::flow_y(tap.flow, now.y_supply, y);
   if (out > 0) flows.out = out * gas::flow_y(taps_[v + 1].flow, y, 1.0);
   if (valves.leaking) {
-    flows.in += past_seat(inlet, now, now.y_supply, y);
-    flows.out += past_seat(inlet + 1, now, y, 1.0);
+    flows.in += seat_leak_flow(inlet, now, now.y_supply, y);
+    flows.out += seat_leak_flow(inlet + 1, now, y, 1.0);
   }
   return flows;
 }
 
 // Regulators follow their lag since the node.
 template <int Most>
-auto ValveBank<Most>::sloped_through(int inlet, const Now& now, double since_node, double y,
-                                     bool sloped) const noexcept -> Flowing {
+auto ValveBank<Most>::sloped_flows_through(int inlet, const FlowInputs& now, double since_node,
+                                           double y, bool sloped) const noexcept -> SlopedFlows {
   const auto v = static_cast<std::size_t>(inlet);
   const Tap& tap = taps_[v];
   const Valves& valves = now.valves;
-  Flowing o;
+  SlopedFlows o;
   if (regulates(tap.valve)) {
     double outlet = valves[v].set_y, outlet_rate = 0;
     if (tap.outlet != none) {
@@ -415,9 +422,9 @@ auto ValveBank<Most>::sloped_through(int inlet, const Now& now, double since_nod
     faults_.each(valves.faults, [&](std::size_t k, const AirFault& f) {
       if (f.what != AirFault::What::seat_leak || f.of / 2 != inlet / 2) return;
       if (f.of == inlet)
-        add(gas::sloped_leak_flow_y(broken_[k].leak, now.y_supply, y), 1, {}, 0);
+        add(gas::sloped_leak_flow_y(fault_constants_[k].leak, now.y_supply, y), 1, {}, 0);
       else
-        add({}, 0, gas::sloped_leak_flow_y(broken_[k].leak, y, 1.0), 1);
+        add({}, 0, gas::sloped_leak_flow_y(fault_constants_[k].leak, y, 1.0), 1);
     });
   return o;
 }

@@ -31,7 +31,7 @@ Recorded every(std::int64_t period, std::int64_t offset, int samples, const test
 }
 
 Difference of(const Recorded& a, const Recorded& b) {
-  return difference(a.view(), b.view(), meet(a.view(), b.view()));
+  return difference(a.view(), b.view(), pair_samples(a.view(), b.view()));
 }
 
 const auto wave = [](double t) { return 3 + std::sin(5 * t); };
@@ -100,7 +100,7 @@ TEST(Compare, GapsAreCountedAndNeverCrossed) {
   Recorded dense = every(1 * ms, 500'000, 1000, test::constant(1));
   dense.values.set(19, gap);  // 19.5 ms, just before the sample at 20 ms
   const Difference between = of(a, dense);
-  EXPECT_EQ(between.how, Meeting::between);
+  EXPECT_EQ(between.how, Pairing::between);
   EXPECT_EQ(between.gaps, 1u);
 }
 
@@ -116,21 +116,23 @@ TEST(Compare, AGapInEverySampleLeavesNothingToCompare) {
 TEST(Compare, OtherPeriodsMeetAtCommonTimes) {
   const Recorded slow = every(10 * ms, 0, 100, wave), fast = every(1 * ms, 0, 1000, wave);
   const Difference d = of(slow, fast);
-  EXPECT_EQ(d.how, Meeting::together);
+  EXPECT_EQ(d.how, Pairing::together);
   EXPECT_EQ(d.samples, 100u);
   EXPECT_TRUE(d.equal());
   EXPECT_FALSE(d.same) << "the other has more";
 
   // Samples half a tick apart are simultaneous, those a little further apart are not.
-  EXPECT_EQ(meet(slow.view(), every(10 * ms, 50'000, 100, wave).view()).how, Meeting::together);
-  EXPECT_EQ(meet(slow.view(), every(10 * ms, 50'001, 100, wave).view()).how, Meeting::between);
+  EXPECT_EQ(pair_samples(slow.view(), every(10 * ms, 50'000, 100, wave).view()).how,
+            Pairing::together);
+  EXPECT_EQ(pair_samples(slow.view(), every(10 * ms, 50'001, 100, wave).view()).how,
+            Pairing::between);
 }
 
 TEST(Compare, ClocksThatNeverMeetAreJoinedByStraightLines) {
   const auto ramp = [](double t) { return 7 * t; };
   const Recorded a = every(10 * ms, 1'300'000, 50, ramp), b = every(4 * ms, 0, 100, ramp);
-  const Meetings met = meet(a.view(), b.view());
-  EXPECT_EQ(met.how, Meeting::between);
+  const PairedSamples met = pair_samples(a.view(), b.view());
+  EXPECT_EQ(met.how, Pairing::between);
   ASSERT_EQ(met.time_ns.size(), 40u) << "as far as both go";
   EXPECT_EQ(met.time_ns.front(), 1'300'000);
   for (const double d : met.difference) EXPECT_NEAR(d, 0, 1e-15);
@@ -138,8 +140,8 @@ TEST(Compare, ClocksThatNeverMeetAreJoinedByStraightLines) {
 
 TEST(Compare, WhatDoesNotOverlapNeverMeets) {
   const Recorded a = every(10 * ms, 0, 10, wave), b = every(10 * ms, 1000 * ms, 10, wave);
-  EXPECT_EQ(meet(a.view(), b.view()).how, Meeting::never);
-  EXPECT_EQ(meet(a.view(), Recorded{}.view()).how, Meeting::never);
+  EXPECT_EQ(pair_samples(a.view(), b.view()).how, Pairing::never);
+  EXPECT_EQ(pair_samples(a.view(), Recorded{}.view()).how, Pairing::never);
   EXPECT_FALSE(of(a, b).equal());
 }
 
@@ -151,7 +153,7 @@ TEST(Compare, EdgesDifferByTheShareOfTimeInWhichTheyDo) {
     return Recording{&t.series[0].time_ns, &t.series[0].columns[0]};
   };
   const Difference d = difference_of_edges(view(a), view(b), 0, 1000 * ms);
-  EXPECT_EQ(d.how, Meeting::held);
+  EXPECT_EQ(d.how, Pairing::held);
   EXPECT_NEAR(d.rms, std::sqrt(0.1), 1e-12);
   EXPECT_EQ(d.largest, 1);
   EXPECT_NEAR(d.at, 0.002, 1e-12);
@@ -199,7 +201,7 @@ Summary summary(std::vector<Entry> entries) {
 
 TEST(Compare, FiguresStandBesideEachOtherInTheFirstOnesOrder) {
   const Summary a = summary({{"x", 1}, {"y_m", 2}}), b = summary({{"z", 5}, {"y_m", 3}});
-  const auto rows = figures_beside({&a, &b});
+  const auto rows = compare_figures({&a, &b});
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].key, "x");
   EXPECT_FALSE(rows[0].values[1]);

@@ -124,7 +124,7 @@ Turns turns_of(const Record& record, int phase, const Column& error) {
   Turns out;
   for (const Stretch& s : record.stretches()) {
     if (s.phase != phase) continue;
-    const auto points = turning_points(error.slice(s.first, s.last), turn_back);
+    const auto points = turning_points(error.slice(s.first, s.last), least_return);
     const int n = static_cast<int>(points.size());
     out.sum += n;
     out.fewest = out.times > 0 ? std::min(out.fewest, n) : n;

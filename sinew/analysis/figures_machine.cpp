@@ -218,7 +218,7 @@ std::vector<Switching> all_switching(const Figures& f) {
 }
 
 // Computes the share of the sequence in which the valve is really open [-].
-double delivered_duty_anew(const Figures& f, const robot::Muscle& m, const char* which) {
+double compute_delivered_duty(const Figures& f, const robot::Muscle& m, const char* which) {
   if (!f.record.has_sequence()) return no_figure;
   const Switching s = switching(f, m, which);
   if (!s.logged) return no_figure;
@@ -229,7 +229,7 @@ double delivered_duty_anew(const Figures& f, const robot::Muscle& m, const char*
 // Returns the same from the cache, because several figures need it.
 double delivered_duty(const Figures& f, const robot::Muscle& m, const char* which) {
   const auto [at, is_new] = f.delivered_duties.try_emplace(m.name + "/" + which);
-  if (is_new) at->second = delivered_duty_anew(f, m, which);
+  if (is_new) at->second = compute_delivered_duty(f, m, which);
   return at->second;
 }
 
@@ -265,7 +265,7 @@ double clipped(const Figures& f, const Reading& r) {
 }
 
 // Returns the largest tension by the controller's assumed scale of the transducer  [N].
-double believed_peak(const Figures& f, const Reading& r) {
+double measured_peak(const Figures& f, const Reading& r) {
   if (!r.sensor || !(r.sensor->assumed_scale > 0)) return no_figure;
   return robot::assumed_tension(*r.sensor, f.machine.robot.converter)
       .value(largest(r.counts, f.record.sequence()));
@@ -310,7 +310,7 @@ void add_muscles(Figures& f) {
     const std::string key = "muscles." + m.name + ".";
     f.add(key + "peak_tension_N", largest, f.record.column("/true" + topic(m, "tension")),
           sequence);
-    f.summary.add(key + "measured_peak_tension_N", believed_peak(f, reading(f, i)));
+    f.summary.add(key + "measured_peak_tension_N", measured_peak(f, reading(f, i)));
     f.add(key + "own_scale_peak_tension_N", largest, f.record.column(topic(m, "tension")),
           sequence);
     f.summary.add(key + "clipped_share", clipped(f, reading(f, i)));

@@ -123,7 +123,7 @@ TEST(EndedTracks, AreToldWithTheInstantThatTheSummaryHas) {
 std::vector<Warning> turned(const test::Of& angle) {
   Log log = walk(2);
   log.scalar("/true/joint/hip/angle", angle);
-  return overturned_joints(log.table, machine());
+  return joints_beyond_range(log.table, machine());
 }
 
 TEST(OverturnedJoints, GoRoundByMoreThanATurn) {

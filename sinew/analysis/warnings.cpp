@@ -135,7 +135,7 @@ std::vector<Warning> overruns(const signals::Table& table) {
 }
 
 // Sensors with a frozen reading share one warning: a machine that does not move has many.
-std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robot::Robot& robot) {
+std::vector<Warning> implausible_sensors(const signals::Table& table, const robot::Robot& robot) {
   std::vector<Warning> out;
   Warning frozen;
   std::size_t others = 0;
@@ -195,10 +195,10 @@ std::vector<Warning> warnings(const signals::Table& table, const Machine& machin
   std::vector<Warning> all = unused_air(table, machine);
   append(all, unopened_valves(table, machine));
   append(all, ended_tracks(table, machine));
-  append(all, overturned_joints(table, machine));
+  append(all, joints_beyond_range(table, machine));
   append(all, unreachable_targets(table, machine.robot));
   append(all, overruns(table));
-  append(all, disbelieved_sensors(table, machine.robot));
+  append(all, implausible_sensors(table, machine.robot));
   append(all, rejected_commands(table));
   append(all, saturated_duties(table, machine.robot));
   append(all, clipped_sensors(table, machine.robot));
@@ -275,8 +275,8 @@ struct Unopened {
   MachineValve valve;
 };
 
-constexpr double hardly = 0.1;       // largest delivered share of the commanded time [-]
-constexpr double commanded = 0.005;  // smallest share of the log's time that is checked [-]
+constexpr double least_delivered = 0.1;  // largest delivered share of the commanded time [-]
+constexpr double commanded = 0.005;      // smallest share of the log's time that is checked [-]
 
 void add_unopened(const signals::Table& table, const Machine& machine, const robot::Muscle& muscle,
                   bool inlet, Unopened& out) {
@@ -291,7 +291,7 @@ void add_unopened(const signals::Table& table, const Machine& machine, const rob
   if (!(log.to > log.from)) return;
   Pulses pulses = pulses_of(*edges, valve, log.from, log.to);
   if (pulses.lasts.empty() || pulses.commanded < commanded) return;
-  if (pulses.delivered > hardly * pulses.commanded) return;
+  if (pulses.delivered > least_delivered * pulses.commanded) return;
   // If air passed although no pulse was long enough, the log was made with other delays.
   const std::string moved =
       logged("/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out"));
@@ -442,7 +442,7 @@ Column turned_from_rest(const robot::Joint& joint, const Column& angle) {
 
 }  // namespace
 
-std::vector<Warning> overturned_joints(const signals::Table& table, const Machine& machine) {
+std::vector<Warning> joints_beyond_range(const signals::Table& table, const Machine& machine) {
   std::vector<Warning> out;
   for (const robot::Joint& joint : machine.robot.joints) {
     const signals::Series* series = angles_of(table, machine.robot, joint);

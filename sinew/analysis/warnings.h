@@ -46,7 +46,7 @@ std::vector<Warning> overruns(const signals::Table&);
 
 // Warns of readings that the low level rejected, and of sensors whose reading did not change while
 // their muscles were driven.
-std::vector<Warning> disbelieved_sensors(const signals::Table&, const robot::Robot&);
+std::vector<Warning> implausible_sensors(const signals::Table&, const robot::Robot&);
 
 // Warns of commands that the supervisor rejected, and of ticks that came later than announced.
 std::vector<Warning> rejected_commands(const signals::Table&);
@@ -68,7 +68,7 @@ std::vector<Warning> ended_tracks(const signals::Table&, const Machine&);
 
 // Warns of joints that turned by more than a whole turn, or until a muscle would be shorter than
 // its caps or longer than its thread by a tenth, which no tendon allows.
-std::vector<Warning> overturned_joints(const signals::Table&, const Machine&);
+std::vector<Warning> joints_beyond_range(const signals::Table&, const Machine&);
 
 // ---
 

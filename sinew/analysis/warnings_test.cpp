@@ -99,7 +99,7 @@ TEST(Warnings, SpeakOfOneAndOfMany) {
   const Machine m = machine();
   Log log(10);
   log.scalar("/sensor/hip_angle/rejected", constant(1)).scalar("/low_level/gaps", constant(2));
-  EXPECT_EQ(disbelieved_sensors(log.table, m.robot)[0].text,
+  EXPECT_EQ(implausible_sensors(log.table, m.robot)[0].text,
             "hip_angle: 1 reading was not believed; the last good ones stood");
   EXPECT_EQ(rejected_commands(log.table)[0].text, "2 ticks came later than announced");
 }

@@ -105,7 +105,7 @@ bool matches(std::string_view path, std::string_view pattern) {
                             });
 }
 
-const KeyChange* taken_away(std::string_view path, const Changes& changes) {
+const KeyChange* removed_key(std::string_view path, const Changes& changes) {
   for (const KeyChange& change : changes.keys) {
     // The keys of an actuator's file are below its name.
     const bool below = change.kind == "actuator";

@@ -58,7 +58,7 @@ Node parse_file(const std::string& path, const Changes& changes);
 
 // Returns the change that removed a key, given by its path in the resolved namespace
 // ("actuator.bpa.braid.turns", "reported[0].value"); nullptr if none did.
-const KeyChange* taken_away(std::string_view path, const Changes& changes);
+const KeyChange* removed_key(std::string_view path, const Changes& changes);
 
 // Returns "opening_delay, in its place since sinew.robot/2", for Problem::try_this.
 std::string in_words(const KeyChange& change);

@@ -272,9 +272,9 @@ void set_element(Node& table, std::string_view segment, std::string_view text,
 std::string_view format_kind(const Node& root) {
   const Node* node = root.find("format");
   if (!node) return {};
-  const std::string_view said = format_of(node->text).kind;
-  const Kind* kind = changes().find(said);
-  return kind && !kind->now.empty() ? kind->now : said;
+  const std::string_view stated = format_of(node->text).kind;
+  const Kind* kind = changes().find(stated);
+  return kind && !kind->now.empty() ? kind->now : stated;
 }
 
 bool is_on_stand(const Node& root) {

@@ -218,13 +218,13 @@ std::vector<const KeyChange*> changes_to(int number, std::string_view kind, cons
 }
 
 // Returns the path with its last segment replaced by `to`.
-std::string beside(const std::vector<std::string>& path, std::string_view to) {
+std::string sibling_path(const std::vector<std::string>& path, std::string_view to) {
   const std::string table = dotted({path.begin(), path.end() - 1});
   return fmt::format("{}{}{}", table, table.empty() ? "" : ".", to);
 }
 
-void complain(const KeyPlace& place, std::string_view text, const std::string& name,
-              std::string expected, std::string try_this, Problems& problems) {
+void report_conflict(const KeyPlace& place, std::string_view text, const std::string& name,
+                     std::string expected, std::string try_this, Problems& problems) {
   const std::size_t line = text.rfind('\n', place.begin);
   const std::size_t column = line == text.npos ? place.begin : place.begin - line - 1;
   problems.push_back({{name, place.line, static_cast<int>(column) + 1},
@@ -246,13 +246,13 @@ void apply(const KeyChange& change, const std::string& name, Migrated& out, Prob
     const std::string was = dotted(place.path);
     if (!matches(was, change.from)) continue;
     if (change.to.empty()) {
-      complain(place, out.text, name, std::string(change.why), "", problems);
+      report_conflict(place, out.text, name, std::string(change.why), "", problems);
       continue;
     }
-    const std::string is = beside(place.path, change.to);
+    const std::string is = sibling_path(place.path, change.to);
     if (mentioned.contains(is)) {
-      complain(place, out.text, name, fmt::format("{} alone, which the file has too", is),
-               "to take one of them away", problems);
+      report_conflict(place, out.text, name, fmt::format("{} alone, which the file has too", is),
+                      "to take one of them away", problems);
       continue;
     }
     out.text.replace(place.begin, place.end - place.begin, change.to);

@@ -162,9 +162,9 @@ TEST(Migrate, AReaderNamesTheKeyInPlaceOfOneThatIsGone) {
       << what;
   EXPECT_NE(what.find("air.gravity of the experiment; it is gone since sinew.robot/3"), what.npos)
       << what;
-  EXPECT_TRUE(taken_away("actuator.bpa.braid.angle", history()));
-  EXPECT_TRUE(taken_away("reported[4].worth", history()));
-  EXPECT_FALSE(taken_away("reported[4].value", history()));
+  EXPECT_TRUE(removed_key("actuator.bpa.braid.angle", history()));
+  EXPECT_TRUE(removed_key("reported[4].worth", history()));
+  EXPECT_FALSE(removed_key("reported[4].value", history()));
 }
 
 TEST(Migrate, SaysWhatItCannotDo) {

@@ -21,13 +21,13 @@ namespace sinew::config {
 
 namespace {
 
-constexpr int people_digits = 15;  // precision that a double keeps of any decimal number
+constexpr int exact_digits = 15;  // precision that a double keeps of any decimal number
 
 // Any double has a text of 14 digits in one of a hundred units; a text that a user wrote has fewer.
-constexpr int digits_somebody_wrote = 10;
+constexpr int most_written_digits = 10;
 
 // SI unit and its usual alternatives.
-struct Words {
+struct UnitAlternatives {
   std::string_view si;
   std::initializer_list<std::string_view> others;
 };
@@ -58,20 +58,20 @@ std::vector<std::string> other_units(std::string_view unit) {
 
 // Returns alternatives for one word of a unit: for "m2" itself first, then "mm2", "cm2" and so on.
 std::vector<std::string> words_for(std::string_view word) {
-  static const std::initializer_list<Words> all = {{"m", {"mm", "cm", "in", "ft"}},
-                                                   {"kg", {"g", "mg", "lb"}},
-                                                   {"N", {"kN", "lbf"}},
-                                                   {"Pa", {"kPa", "MPa", "bar", "psi"}},
-                                                   {"s", {"ms", "min"}},
-                                                   {"rad", {"deg"}},
-                                                   {"V", {"mV"}},
-                                                   {"A", {"mA"}},
-                                                   {"1", {"%"}}};
+  static const std::initializer_list<UnitAlternatives> all = {{"m", {"mm", "cm", "in", "ft"}},
+                                                              {"kg", {"g", "mg", "lb"}},
+                                                              {"N", {"kN", "lbf"}},
+                                                              {"Pa", {"kPa", "MPa", "bar", "psi"}},
+                                                              {"s", {"ms", "min"}},
+                                                              {"rad", {"deg"}},
+                                                              {"V", {"mV"}},
+                                                              {"A", {"mA"}},
+                                                              {"1", {"%"}}};
   std::vector<std::string> out{std::string(word)};
   if (word == "m3") out.insert(out.end(), {"mL", "L"});
   const std::size_t letters =
       word == "1" ? 1 : std::min(word.find_first_of("0123456789"), word.size());
-  for (const Words& w : all)
+  for (const UnitAlternatives& w : all)
     if (w.si == word.substr(0, letters))
       for (const std::string_view other : w.others)
         out.push_back(std::string(other) + std::string(word.substr(letters)));
@@ -104,7 +104,7 @@ struct Shortest {
 
 // Takes the text in another unit if it is shorter and reads back to the same bits.
 void try_unit(double si, std::string_view unit, const std::string& other, Shortest& best) {
-  const std::string number = fmt::format("{:.{}g}", convert(si, unit, other), people_digits);
+  const std::string number = fmt::format("{:.{}g}", convert(si, unit, other), exact_digits);
   const int digits = digits_of_text(number);
   if (digits >= best.digits) return;
   std::string text = fmt::format("{} {}", number, other);
@@ -116,18 +116,18 @@ void try_unit(double si, std::string_view unit, const std::string& other, Shorte
 
 std::string short_quantity(double si, std::string_view unit) {
   Shortest best{format_quantity(si, unit), digits_of_text(format_number(si))};
-  if (best.digits <= digits_somebody_wrote || !std::isfinite(si)) return best.text;
-  const bool nobody_wrote_it = best.digits > people_digits;
-  Shortest written{best.text, nobody_wrote_it ? best.digits : digits_somebody_wrote + 1};
+  if (best.digits <= most_written_digits || !std::isfinite(si)) return best.text;
+  const bool is_computed = best.digits > exact_digits;
+  Shortest written{best.text, is_computed ? best.digits : most_written_digits + 1};
   for (const std::string& other : other_units(unit)) try_unit(si, unit, other, written);
-  if (written.digits <= digits_somebody_wrote) return written.text;
-  Shortest mixed{written.text, digits_somebody_wrote + 1};
+  if (written.digits <= most_written_digits) return written.text;
+  Shortest mixed{written.text, most_written_digits + 1};
   for (const std::string& other : mixed_units(unit)) try_unit(si, unit, other, mixed);
   return mixed.text;
 }
 
 std::string rounded_quantity(double si, std::string_view unit) {
-  std::string text = fmt::format("{:.{}g}", si, people_digits);
+  std::string text = fmt::format("{:.{}g}", si, exact_digits);
   double rounded = si;
   if (const Parsed read = parse_quantity(text, "1"); !read.mistake) rounded = read.si;
   return format_quantity(rounded, unit);
@@ -145,8 +145,8 @@ std::string quantity_like(std::string_view written, double si, std::string_view 
 std::string quantity_like(const Origins& origins, std::string_view path, double si,
                           std::string_view unit, std::string_view otherwise, double room) {
   const Origin* origin = find_origin(origins, path);
-  const bool said = origin && !origin->is_default;
-  return quantity_like(said ? std::string_view(origin->text) : std::string_view{}, si, unit,
+  const bool is_given = origin && !origin->is_default;
+  return quantity_like(is_given ? std::string_view(origin->text) : std::string_view{}, si, unit,
                        otherwise, room);
 }
 

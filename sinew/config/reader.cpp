@@ -283,9 +283,9 @@ std::string Reader::path_of(std::string_view key) const {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-const Node* Reader::ask(const Field& field) {
+const Node* Reader::find_field(const Field& field) {
   const Node* table = scopes_.back().table;
-  asked_[table].emplace_back(field.name);
+  requested_[table].emplace_back(field.name);
   const Node* node = table->find(field.name);
   if (node) node->used = true;
   return node;
@@ -293,7 +293,7 @@ const Node* Reader::ask(const Field& field) {
 
 std::optional<Reader::Entry> Reader::open(const Field& field, std::string default_text,
                                           std::string_view unit, const std::string& expected) {
-  const Node* node = ask(field);
+  const Node* node = find_field(field);
   Entry entry{node, {}, scopes_.back().range, false};
   entry.origin.path = path_of(field.name);
   entry.origin.unit = unit;
@@ -318,7 +318,7 @@ std::optional<Reader::Entry> Reader::open(const Field& field, std::string defaul
 // --- tables ---
 
 const Node* Reader::open_container(const Field& field, Node::Kind kind) {
-  const Node* node = ask(field);
+  const Node* node = find_field(field);
   const std::string path = path_of(field.name);
   if (!node) {
     if (!field.optional && !options_.of_a_log) {
@@ -361,17 +361,18 @@ void Reader::refuse_unused(const Node& child, const std::string& path,
                            const std::vector<std::string_view>& known) {
   const std::string expected =
       known.empty() || known.size() > 12 ? "a key that is read here" : either(known);
-  if (const KeyChange* gone = taken_away(path, *options_.changes))
-    return add_problem(child, path, "a key that is gone", expected, in_words(*gone));
+  if (const KeyChange* removed = removed_key(path, *options_.changes))
+    return add_problem(child, path, "a key that is gone", expected, in_words(*removed));
   const std::string_view near = closest(child.key, known);
   add_problem(child, path, "an unknown key", expected,
               near.empty() ? "" : fmt::format("{}; did you mean that?", near));
 }
 
 void Reader::find_unused(const Node& table, const std::string& path) {
-  const auto asked = asked_.find(&table);
+  const auto requested = requested_.find(&table);
   std::vector<std::string_view> known;
-  if (asked != asked_.end()) known.assign(asked->second.begin(), asked->second.end());
+  if (requested != requested_.end())
+    known.assign(requested->second.begin(), requested->second.end());
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
 
@@ -401,8 +402,8 @@ void Reader::finish_part() {
   if (!problems_.empty()) throw Error(problems_);
 }
 
-void Reader::complain(std::string_view key, std::string found, std::string expected,
-                      std::string try_this) {
+void Reader::report_conflict(std::string_view key, std::string found, std::string expected,
+                             std::string try_this) {
   if (options_.of_a_log) return;
   const Node& table = *scopes_.back().table;
   const Node* node = table.find(key);
@@ -437,7 +438,7 @@ const Node* Reader::described(const Node& table, std::string_view key) {
 
 void Reader::read_value_table(const Node& table, Entry& entry) {
   for (const char* key : {"value", "source", "fit", "guess", "range", "uncertainty"}) {
-    asked_[&table].emplace_back(key);
+    requested_[&table].emplace_back(key);
     const Node* node = table.find(key);
     if (node && (node->key == "value" || node->key == "uncertainty" || describes_values(*node))) {
       node->used = true;

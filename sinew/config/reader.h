@@ -69,8 +69,8 @@ class Reader {
 
   // Adds a problem that a visitor finds itself, such as "these two differ". The key is in the
   // current table.
-  void complain(std::string_view key, std::string found, std::string expected,
-                std::string try_this = "");
+  void report_conflict(std::string_view key, std::string found, std::string expected,
+                       std::string try_this = "");
 
   // Adds a problem for every key that was not read. Throws Error if there is any problem.
   void finish();
@@ -107,7 +107,7 @@ class Reader {
   static const Node* described(const Node& table, std::string_view key);
 
   std::string path_of(std::string_view key) const;
-  const Node* ask(const Field& field);
+  const Node* find_field(const Field& field);
   // `expected` describes a missing key in a message, before the field's own description.
   std::optional<Entry> open(const Field& field, std::string default_text, std::string_view unit,
                             const std::string& expected);
@@ -138,7 +138,7 @@ class Reader {
   ReaderOptions options_;
   const Node* root_;
   std::vector<Scope> scopes_;
-  std::map<const Node*, std::vector<std::string>> asked_;  // keyed by table
+  std::map<const Node*, std::vector<std::string>> requested_;  // keyed by table
   Origins origins_;
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;

@@ -390,7 +390,7 @@ TEST(Reader, AVisitorMayComplainAndAPartMayBeRead) {
   Spring spring;
   fields(reader, spring);
   EXPECT_NO_THROW(reader.finish_part());
-  reader.complain("length", "1 m", "less than the other one");
+  reader.report_conflict("length", "1 m", "less than the other one");
   EXPECT_THROW(reader.finish_part(), Error);
   EXPECT_EQ(to_text(reader.problems()),
             "a.toml:1:1: length: found 1 m; expected less than the other one");

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::config {
 
@@ -118,15 +118,16 @@ void check_class(Visitor& v, const Reported& r) {
     std::string words;
     for (const auto& choice : statement_classes)
       words += (words.empty() ? "\"" : ", \"") + std::string(choice.word) + '"';
-    units::complain(v, "class", "nothing", "what agreement with " + r.key + " is worth: " + words,
-                    "docs/evidence/evidence.md");
+    units::report_conflict(v, "class", "nothing",
+                           "what agreement with " + r.key + " is worth: " + words,
+                           "docs/evidence/evidence.md");
   }
   if (!r.accept.empty() && r.wording != Wording::another)
-    units::complain(v, "accept", "both a band and a wording, which has a band of its own",
-                    "one of the two");
+    units::report_conflict(v, "accept", "both a band and a wording, which has a band of its own",
+                           "one of the two");
   if (!r.accept.empty() && r.band_reason.empty())
-    units::complain(v, "band_reason", "nothing", "why the band of " + r.key + " is as it is",
-                    "a wording in place of accept");
+    units::report_conflict(v, "band_reason", "nothing", "why the band of " + r.key + " is as it is",
+                           "a wording in place of accept");
 }
 
 }  // namespace sinew::config

@@ -15,7 +15,7 @@ units::ShownUnits parse_shown_units(std::string_view text, const Location& where
   return std::move(read.units);
 }
 
-UnitsToShow units_to_show(const UnitsAsked& asked, const units::ShownUnits& otherwise) {
+UnitsToShow units_to_show(const UnitsRequest& request, const units::ShownUnits& otherwise) {
   UnitsToShow out{otherwise, false};
   const auto say = [&](std::string_view text, const Location& where, const std::string& key) {
     if (trimmed(text).empty()) return;
@@ -23,13 +23,13 @@ UnitsToShow units_to_show(const UnitsAsked& asked, const units::ShownUnits& othe
   };
   const UserSettings own = user_settings();
   say(own.units, own.units_at, "units");
-  if (asked.run)
-    if (const Node* node = value_at(*asked.run, "page.units")) {
+  if (request.run)
+    if (const Node* node = value_at(*request.run, "page.units")) {
       const Node* value = node->is_value_table() ? node->find("value") : node;
       say(value->text, value->where, "page.units");
     }
   if (const char* variable = std::getenv(units_variable)) say(variable, {units_variable, 0, 0}, "");
-  say(asked.now, {asked.now_is, 0, 0}, "");
+  say(request.now, {request.now_is, 0, 0}, "");
   return out;
 }
 

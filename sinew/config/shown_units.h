@@ -15,8 +15,8 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 #include "sinew/units/shown.h"
 
 namespace sinew::config {
@@ -25,7 +25,7 @@ namespace sinew::config {
 inline constexpr const char* units_variable = "SINEW_UNITS";
 
 // Requested units besides the environment and the user's settings.
-struct UnitsAsked {
+struct UnitsRequest {
   std::string now;               // strongest level; empty: not given
   std::string now_is = "units";  // its name in messages
   const Node* run = nullptr;     // an experiment's tree, or a run's resolved.toml; null: none
@@ -34,11 +34,11 @@ struct UnitsAsked {
 // Resulting units.
 struct UnitsToShow {
   units::ShownUnits units;
-  bool asked = false;  // whether any level gave units, so that `units` is not the default
+  bool is_requested = false;  // whether any level gave units, so that `units` is not the default
 };
 
 // Returns the units in which to show numbers. Throws Error with the place of an invalid text.
-UnitsToShow units_to_show(const UnitsAsked& asked, const units::ShownUnits& otherwise = {});
+UnitsToShow units_to_show(const UnitsRequest& request, const units::ShownUnits& otherwise = {});
 
 // Reads a text as units::read_shown_units does; throws Error that begins with `where` and `key`.
 units::ShownUnits parse_shown_units(std::string_view text, const Location& where,
@@ -51,10 +51,10 @@ struct PageTable {
 
 // Adds a problem to the visitor if `text`, the key `units` of its table, is invalid.
 template <class Visitor>
-void complain_of_units(Visitor& v, const std::string& text) {
+void report_wrong_units(Visitor& v, const std::string& text) {
   if (text.empty()) return;
   const units::ShownUnitsReading read = units::read_shown_units(text);
-  if (!read.ok()) units::complain(v, "units", read.found, read.expected, read.try_this);
+  if (!read.ok()) units::report_conflict(v, "units", read.found, read.expected, read.try_this);
 }
 
 // Visits the keys of [page].
@@ -65,7 +65,7 @@ void fields(Visitor& v, PageTable& page) {
           .doc = "in which its numbers are shown: si, thesis, metric, or metric,length=cm; the log "
                  "is in SI"},
          page.units);
-  complain_of_units(v, page.units);
+  report_wrong_units(v, page.units);
 }
 
 }  // namespace sinew::config

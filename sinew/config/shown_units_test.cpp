@@ -35,13 +35,13 @@ class UnitsAskedOf : public testing::Test {
   void settings(const std::string& text) const {
     std::ofstream(file()) << "format = \"sinew.settings/1\"\n" << text;
   }
-  static std::string shown(const UnitsAsked& asked) {
-    return units_to_show(asked, UnitSet::thesis).units.text();
+  static std::string shown(const UnitsRequest& request) {
+    return units_to_show(request, UnitSet::thesis).units.text();
   }
   // Returns the faults as one text.
-  static std::string wrong(const UnitsAsked& asked) {
+  static std::string wrong(const UnitsRequest& request) {
     try {
-      units_to_show(asked);
+      units_to_show(request);
     } catch (const Error& e) {
       return e.what();
     }
@@ -57,10 +57,10 @@ Node run_in(const std::string& units) {
 
 TEST_F(UnitsAskedOf, NobodyTheCallersAreShown) {
   EXPECT_EQ(shown({}), "thesis");
-  EXPECT_FALSE(units_to_show({}, UnitSet::thesis).asked);
+  EXPECT_FALSE(units_to_show({}, UnitSet::thesis).is_requested);
   setenv(units_variable, "", 1);
-  EXPECT_FALSE(units_to_show({}).asked) << "an empty variable says nothing";
-  EXPECT_FALSE(units_to_show({.now = " "}).asked);
+  EXPECT_FALSE(units_to_show({}).is_requested) << "an empty variable says nothing";
+  EXPECT_FALSE(units_to_show({.now = " "}).is_requested);
 }
 
 TEST_F(UnitsAskedOf, TheStrongerOneWins) {
@@ -116,7 +116,7 @@ TEST_F(UnitsAskedOf, SettingsStandWhereTheFreedesktopRulesPutThem) {
   EXPECT_EQ(user_settings_path(), (folder_ / ".config" / "sinew" / "settings.toml").string());
   unsetenv("HOME");
   EXPECT_EQ(user_settings_path(), "");
-  EXPECT_FALSE(units_to_show({}).asked);
+  EXPECT_FALSE(units_to_show({}).is_requested);
   if (before) setenv("HOME", home.c_str(), 1);
 }
 

@@ -121,8 +121,8 @@ Node parse_text(std::string_view text, const std::string& name) {
 Node parse_file(const std::string& path, const Changes& changes) {
   const std::string text = read_text_file(path, "a TOML file");
   Node root = parse_text(text, path);
-  const Node* said = root.find("format");
-  const Format format = said ? format_of(said->text) : Format{};
+  const Node* stated = root.find("format");
+  const Format format = stated ? format_of(stated->text) : Format{};
   const Kind* kind = changes.find(format.kind);
   if (!kind || format.number < 1 || format.number >= kind->newest) return root;
   return parse_text(migrated(text, path, changes).text, path);

@@ -25,7 +25,7 @@ void fields(Visitor& v, UserSettings& settings) {
           .optional = true,
           .doc = "in which numbers are shown: si, thesis, metric, or metric,length=cm"},
          settings.units);
-  complain_of_units(v, settings.units);
+  report_wrong_units(v, settings.units);
 }
 
 // Returns the path of the file, in XDG_CONFIG_HOME or else in .config of the home folder. Empty if

@@ -13,8 +13,8 @@
 #include "sinew/gas/valve.fields.h"
 #include "sinew/robot/robot.fields.h"
 #include "sinew/robot/wiring/wiring.fields.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::experiment {
 
@@ -66,8 +66,9 @@ void leak_fields(Visitor& v, Fault& fault) {
             .doc = "leaking: of a valve's area, that stays open"},
            fault.share);
   if (!(fault.area > 0 || fault.conductance > 0 || fault.share > 0))
-    units::complain(v, "area", "no leak", "an area, a conductance, or the share of a valve's area",
-                    "area = \"0.1 mm2\"");
+    units::report_conflict(v, "area", "no leak",
+                           "an area, a conductance, or the share of a valve's area",
+                           "area = \"0.1 mm2\"");
 }
 
 // Visits the keys of a fault of the air, except its part and its times.
@@ -119,8 +120,8 @@ void fields(Visitor& v, Fault& fault) {
   amount_field(v, fault);
   air_fields(v, fault);
   if (fault.what == What::slip && fault.lasts > 0)
-    units::complain(v, "for", "a slip that ends", "a slip, which stays, or an offset",
-                    "what = \"offset\"");
+    units::report_conflict(v, "for", "a slip that ends", "a slip, which stays, or an offset",
+                           "what = \"offset\"");
 }
 
 // Keys of [log].

@@ -17,18 +17,18 @@ namespace {
 
 using What = Fault::What;
 
-constexpr std::array sensor_words = {
-    FaultWord{What::open, "open"},      FaultWord{What::shorted, "short"},
-    FaultWord{What::stuck, "stuck"},    FaultWord{What::offset, "offset"},
-    FaultWord{What::slip, "slip"},      FaultWord{What::noise, "noise"},
-    FaultWord{What::dropout, "dropout"}};
-constexpr std::array valve_words = {FaultWord{What::stuck_open, "stuck open"},
-                                    FaultWord{What::stuck_shut, "stuck shut"},
-                                    FaultWord{What::leaking, "leaking"}};
-constexpr std::array muscle_words = {FaultWord{What::leaking, "leaking"},
-                                     FaultWord{What::ruptured, "ruptured"},
-                                     FaultWord{What::blocked, "blocked"}};
-constexpr std::array supply_words = {FaultWord{What::failed, "failed"}};
+constexpr std::array sensor_faults = {
+    FaultName{What::open, "open"},      FaultName{What::shorted, "short"},
+    FaultName{What::stuck, "stuck"},    FaultName{What::offset, "offset"},
+    FaultName{What::slip, "slip"},      FaultName{What::noise, "noise"},
+    FaultName{What::dropout, "dropout"}};
+constexpr std::array valve_faults = {FaultName{What::stuck_open, "stuck open"},
+                                     FaultName{What::stuck_shut, "stuck shut"},
+                                     FaultName{What::leaking, "leaking"}};
+constexpr std::array muscle_faults = {FaultName{What::leaking, "leaking"},
+                                      FaultName{What::ruptured, "ruptured"},
+                                      FaultName{What::blocked, "blocked"}};
+constexpr std::array supply_faults = {FaultName{What::failed, "failed"}};
 
 }  // namespace
 
@@ -38,23 +38,23 @@ FaultPart::Kind kind_of_valve(std::span<const gas::Valve> valves, const std::str
   return FaultPart::Kind::valve;
 }
 
-std::span<const FaultWord> words_of(FaultPart::Kind kind) {
+std::span<const FaultName> faults_of(FaultPart::Kind kind) {
   using enum FaultPart::Kind;
-  if (kind == sensor) return sensor_words;
-  if (kind == valve) return valve_words;
-  if (kind == muscle) return muscle_words;
-  return kind == supply ? std::span<const FaultWord>(supply_words) : std::span<const FaultWord>();
+  if (kind == sensor) return sensor_faults;
+  if (kind == valve) return valve_faults;
+  if (kind == muscle) return muscle_faults;
+  return kind == supply ? std::span<const FaultName>(supply_faults) : std::span<const FaultName>();
 }
 
-bool has_word(FaultPart::Kind kind, What what) {
-  return std::ranges::any_of(words_of(kind), [&](const FaultWord& w) { return w.what == what; });
+bool can_have(FaultPart::Kind kind, What what) {
+  return std::ranges::any_of(faults_of(kind), [&](const FaultName& w) { return w.what == what; });
 }
 
-std::string_view word_of(What what) {
+std::string_view name_of(What what) {
   for (const auto kind : {FaultPart::Kind::sensor, FaultPart::Kind::valve, FaultPart::Kind::muscle})
-    for (const FaultWord& w : words_of(kind))
+    for (const FaultName& w : faults_of(kind))
       if (w.what == what) return w.text;
-  return supply_words.front().text;
+  return supply_faults.front().text;
 }
 
 namespace {
@@ -114,7 +114,7 @@ std::vector<FaultPart> fault_parts(const Experiment& e) {
 std::optional<FaultPart> part_of(const Fault& fault, const std::vector<FaultPart>& parts) {
   std::optional<FaultPart> out;
   for (const FaultPart& p : parts)
-    if (p.name == fault.of && (!out || has_word(p.kind, fault.what))) out = p;
+    if (p.name == fault.of && (!out || can_have(p.kind, fault.what))) out = p;
   return out;
 }
 
@@ -129,14 +129,15 @@ robot::Contradiction no_such_part(const std::string& key, const Fault& fault,
                                   const std::vector<FaultPart>& parts) {
   std::vector<std::string_view> names;
   for (const FaultPart& p : parts)
-    if (has_word(p.kind, fault.what)) names.push_back(p.name);
+    if (can_have(p.kind, fault.what)) names.push_back(p.name);
   return {key + ".of", config::in_quotes(fault.of),
-          names.empty() ? "a part that can be " + std::string(word_of(fault.what))
+          names.empty() ? "a part that can be " + std::string(name_of(fault.what))
                         : config::either(names),
           config::closest_in_quotes(fault.of, names)};
 }
 
-robot::Contradiction wrong_word(const std::string& key, const Fault& fault, const FaultPart& part) {
+robot::Contradiction impossible_fault(const std::string& key, const Fault& fault,
+                                      const FaultPart& part) {
   if (part.kind == FaultPart::Kind::regulator)
     return {key + ".of", config::in_quotes(fault.of) + ", a regulator",
             "a valve with a shutter, which can stick or leak", "a leak of its muscle"};
@@ -145,9 +146,9 @@ robot::Contradiction wrong_word(const std::string& key, const Fault& fault, cons
             "a part of its air: only that breaks on a test stand",
             "sensor." + fault.of + ".offset, .scale or .noise"};
   std::vector<std::string_view> words;
-  for (const FaultWord& w : words_of(part.kind)) words.push_back(w.text);
+  for (const FaultName& w : faults_of(part.kind)) words.push_back(w.text);
   const char* const names[] = {"a sensor", "a valve", "a regulator", "a muscle", "the supply"};
-  return {key + ".what", config::in_quotes(word_of(fault.what)),
+  return {key + ".what", config::in_quotes(name_of(fault.what)),
           config::either(words) + ", as " + fault.of + " is " +
               names[static_cast<std::size_t>(part.kind)],
           ""};
@@ -169,7 +170,7 @@ void check_overlaps(std::span<const Fault> faults, List& out) {
       const bool ends = std::isfinite(a.lasts) && a.at <= b.at;
       out.push_back({fmt::format("fault[{}].at", i), seconds(b.at),
                      fmt::format("a time at which no other fault of {} acts: fault[{}] is {} ",
-                                 b.of, k, in_words(a)),
+                                 b.of, k, to_text(a)),
                      ends ? fmt::format("at = \"{}\"", seconds(end_of(a))) : ""});
     }
 }
@@ -194,8 +195,8 @@ void check_faults(std::span<const Fault> faults, const std::vector<FaultPart>& p
     const std::optional<FaultPart> part = part_of(f, parts);
     if (!part) {
       out.push_back(no_such_part(key, f, parts));
-    } else if (!has_word(part->kind, f.what)) {
-      out.push_back(wrong_word(key, f, *part));
+    } else if (!can_have(part->kind, f.what)) {
+      out.push_back(impossible_fault(key, f, *part));
     } else if (part->kind == FaultPart::Kind::muscle && f.share > 0) {
       out.push_back({key + ".share", config::format_number(f.share),
                      "no share, as " + f.of + " is a muscle and has no seat",
@@ -246,7 +247,7 @@ std::vector<FaultsOfPart> by_part(std::span<const Fault> faults) {
   return out;
 }
 
-std::string in_words(const Fault& f) {
+std::string to_text(const Fault& f) {
   std::vector<std::string> how;
   if (std::isfinite(f.amount))
     how.push_back(unit_of_amount(f.what) == "count" ? config::format_number(f.amount) + " count"
@@ -255,7 +256,7 @@ std::string in_words(const Fault& f) {
   if (f.conductance > 0) how.push_back(config::format_quantity(f.conductance, "kg/(s Pa)"));
   if (f.share > 0) how.push_back(config::format_number(100 * f.share) + " % of its area");
   if (std::isfinite(f.pressure)) how.push_back(config::format_quantity(f.pressure, "Pa abs"));
-  std::string out = f.of + " " + std::string(word_of(f.what));
+  std::string out = f.of + " " + std::string(name_of(f.what));
   if (!how.empty()) out += fmt::format(" ({})", fmt::join(how, ", "));
   out += fmt::format(" from {:.10g} s", f.at);
   return out + (std::isfinite(f.lasts) ? fmt::format(" to {:.10g} s", end_of(f)) : " on");

@@ -33,15 +33,15 @@ FaultPart::Kind kind_of_valve(std::span<const gas::Valve> valves, const std::str
 std::optional<FaultPart> part_of(const Fault& fault, const std::vector<FaultPart>& parts);
 
 // A word of the list [[fault]] and the kind of fault that it names.
-struct FaultWord {
+struct FaultName {
   Fault::What what;
   std::string_view text;
 };
 
 // Returns the faults that a part of that kind can have.
-std::span<const FaultWord> words_of(FaultPart::Kind kind);
-bool has_word(FaultPart::Kind kind, Fault::What what);
-std::string_view word_of(Fault::What what);
+std::span<const FaultName> faults_of(FaultPart::Kind kind);
+bool can_have(FaultPart::Kind kind, Fault::What what);
+std::string_view name_of(Fault::What what);
 
 // Adds errors of the list: unknown parts, faults that a part cannot have, two faults of one part of
 // the air at the same time.
@@ -74,7 +74,7 @@ std::vector<FaultsOfPart> by_part(std::span<const Fault> faults);
 
 // Returns a text such as "hip_flexor.inlet stuck open from 3 s to 3.2 s" or "hip_flexor leaking
 // (0.1 mm2) from 1 s on".
-std::string in_words(const Fault& fault);
+std::string to_text(const Fault& fault);
 
 // Returns the reason why a fault has no effect on a run that ends at tick `end`: it begins too
 // late, its amount is 0, or it falls between two readings of its sensor. Empty: it acts.

@@ -159,8 +159,8 @@ Tick last_tick(const Experiment& e) {
   // One tick is added to the run of a stand, so that its last instant is sampled too.
   if (e.stand) return std::llround(e.stand->duration / signals::tick_seconds) + 1;
   const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
-  const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
-  const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
+  const auto gait_period_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
+  const Tick plan = gait::periods(e.robot, e.plan) * gait_period_ticks;
   // One period is added for the last valves to shut and for a sample at the plan's end.
   const Tick last = e.robot.low_level.pwm_ticks;
   return plan + std::llround(vent / signals::tick_seconds) + last;

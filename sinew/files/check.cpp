@@ -53,7 +53,7 @@ void check_run(const std::filesystem::path& folder, Finding& out) {
 }
 
 // Adds a warning per file, and the values as rows of the table.
-void tell_of_sources(const Problems& unsourced, Finding& out) {
+void add_source_warnings(const Problems& unsourced, Finding& out) {
   std::map<std::string, int> counts;
   for (const config::Problem& p : unsourced) {
     ++counts[p.where.file];
@@ -66,15 +66,15 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
 }
 
 // Returns the values in columns, " key value file:line".
-std::string table_of(const std::vector<Unsourced>& values) {
+std::string table_of(const std::vector<UnsourcedValue>& values) {
   if (values.empty()) return "";
   std::size_t key = std::string_view("key").size(), value = std::string_view("value").size();
-  for (const Unsourced& one : values) {
+  for (const UnsourcedValue& one : values) {
     key = std::max(key, one.key.size());
     value = std::max(value, one.value.size());
   }
   std::string out = fmt::format("  {:<{}}  {:<{}}  where\n", "key", key, "value", value);
-  for (const Unsourced& one : values)
+  for (const UnsourcedValue& one : values)
     out += fmt::format("  {:<{}}  {:<{}}  {}:{}\n", one.key, key, one.value, value, one.file,
                        one.line);
   return out;
@@ -83,10 +83,10 @@ std::string table_of(const std::vector<Unsourced>& values) {
 // Reports each fault and its time, and warns of faults without effect; why(fault) returns the
 // reason.
 template <class Why>
-void tell_of_faults(const std::string& path, const std::vector<experiment::Fault>& faults, Why why,
-                    Finding& out) {
+void add_faults(const std::string& path, const std::vector<experiment::Fault>& faults, Why why,
+                Finding& out) {
   for (std::size_t i = 0; i < faults.size(); ++i) {
-    out.faults.push_back(experiment::in_words(faults[i]));
+    out.faults.push_back(experiment::to_text(faults[i]));
     if (const std::string idle = why(faults[i]); !idle.empty())
       out.warnings.push_back(fmt::format("{}: fault[{}] never acts: {}", path, i, idle));
   }
@@ -122,7 +122,7 @@ void check_machine(const std::string& path, Finding& out) {
   }
   const experiment::Experiment& e = file.experiment;
   add(e.warnings, out.warnings);
-  tell_of_sources(e.unsourced, out);
+  add_source_warnings(e.unsourced, out);
   warn_of_slow_valves(e, out);
   if (!runs) return;
   for (const robot::Contradiction& c : run::beyond_reach(e))
@@ -131,7 +131,7 @@ void check_machine(const std::string& path, Finding& out) {
   const auto why = [&](const experiment::Fault& f) {
     return why_idle(e, f, experiment::last_tick(e));
   };
-  tell_of_faults(e.path, e.faults, why, out);
+  add_faults(e.path, e.faults, why, out);
 }
 
 }  // namespace
@@ -193,7 +193,7 @@ std::string json_of(const std::vector<Finding>& findings) {
     out.push_back(
         {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
     if (!finding.faults.empty()) out.back()["faults"] = finding.faults;
-    for (const Unsourced& one : finding.unsourced)
+    for (const UnsourcedValue& one : finding.unsourced)
       out.back()["unsourced"].push_back(
           {{"key", one.key}, {"value", one.value}, {"file", one.file}, {"line", one.line}});
   }

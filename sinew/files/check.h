@@ -8,7 +8,7 @@
 namespace sinew::files {
 
 // Value without a source.
-struct Unsourced {
+struct UnsourcedValue {
   std::string key, value, file;
   int line = 0;
 };
@@ -17,8 +17,8 @@ struct Unsourced {
 struct Finding {
   std::string file;
   std::vector<std::string> problems, warnings;
-  std::vector<std::string> faults;   // effects of the experiment's faults, with their times
-  std::vector<Unsourced> unsourced;  // a warning gives their number, text_of() lists them
+  std::vector<std::string> faults;        // effects of the experiment's faults, with their times
+  std::vector<UnsourcedValue> unsourced;  // a warning gives their number, text_of() lists them
 };
 
 // Checks an experiment, rig, plan, tuning, robot, actuator, valves or wiring file, predict.dat,

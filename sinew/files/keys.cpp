@@ -161,22 +161,22 @@ namespace {
 // --- keys that depend on other values ---
 
 // Path whose value affects other keys: each value, and its description for the user.
-struct Deciding {
+struct DecidingPath {
   struct Value {
-    std::string text, said;
+    std::string text, condition;
   };
   std::string path;
   std::vector<Value> values;
 };
 
-using Seen = std::map<std::string, Key>;  // keyed by path
-Seen by_path(const std::vector<Key>& keys) {
-  Seen out;
+using KeysByPath = std::map<std::string, Key>;  // keyed by path
+KeysByPath by_path(const std::vector<Key>& keys) {
+  KeysByPath out;
   for (const Key& key : keys) out.emplace(key.path, key);
   return out;
 }
 
-std::vector<Key> look(std::string_view kind, const Found& found) {
+std::vector<Key> keys_with(std::string_view kind, const Found& found) {
   KeyLister lister(kind, found);
   visit_tables(lister, kind);
   return std::move(lister.keys);
@@ -187,30 +187,31 @@ std::string last_of(std::string_view path) {
 }
 
 // Returns paths with free values that affect a unit or whether a key is required.
-std::vector<Deciding> other_deciding(std::string_view kind) {
+std::vector<DecidingPath> other_deciding(std::string_view kind) {
   if (kind == "robot")
     return {{"joint.<name>.spring", {{"0", "without a spring"}, {"1", "with a spring"}}}};
   if (kind != "experiment") return {};
-  const auto said = [](std::string_view key, const std::string& word) -> Deciding::Value {
+  const auto condition = [](std::string_view key, const std::string& word) -> DecidingPath::Value {
     return {word, fmt::format("{} = \"{}\"", key, word)};
   };
   return {
       {"phase.<name>.until.measure",
-       {said("measure", "foot.normal_force"), said("measure", "foot.friction_force"),
-        said("measure", "joint.<name>.angle"), said("measure", "joint.<name>.stiffness"),
-        said("measure", "muscle.<name>.tension")}},
+       {condition("measure", "foot.normal_force"), condition("measure", "foot.friction_force"),
+        condition("measure", "joint.<name>.angle"), condition("measure", "joint.<name>.stiffness"),
+        condition("measure", "muscle.<name>.tension")}},
       {"change[].key",
-       {said("key", "control.angle.<name>"), said("key", "control.stiffness.<name>"),
-        said("key", "control.gains.<name>.angle"), said("key", "control.gains.<name>.stiffness"),
-        said("key", "control.gains.<name>.velocity")}}};
+       {condition("key", "control.angle.<name>"), condition("key", "control.stiffness.<name>"),
+        condition("key", "control.gains.<name>.angle"),
+        condition("key", "control.gains.<name>.stiffness"),
+        condition("key", "control.gains.<name>.velocity")}}};
 }
 
 // Returns every choice; the default of its struct comes first.
-std::vector<Deciding> choices_among(const std::vector<Key>& keys, std::string_view kind) {
-  std::vector<Deciding> out = other_deciding(kind);
+std::vector<DecidingPath> choices_among(const std::vector<Key>& keys, std::string_view kind) {
+  std::vector<DecidingPath> out = other_deciding(kind);
   for (const Key& key : keys) {
     if (key.type != KeyType::choice) continue;
-    Deciding one{.path = key.path};
+    DecidingPath one{.path = key.path};
     for (const std::string& word : key.choices)
       one.values.push_back({word, fmt::format("{} = \"{}\"", last_of(key.path), word)});
     out.push_back(std::move(one));
@@ -227,41 +228,41 @@ bool same(const Key* a, const Key* b) {
 }
 
 // Keys listed with each value of a deciding path.
-struct Looks {
-  Deciding of;
-  std::vector<Seen> seen;
+struct KeyVariants {
+  DecidingPath of;
+  std::vector<KeysByPath> listings;
 
   const Key* at(std::size_t value, const std::string& path) const {
-    const auto found = seen[value].find(path);
-    return found == seen[value].end() ? nullptr : &found->second;
+    const auto found = listings[value].find(path);
+    return found == listings[value].end() ? nullptr : &found->second;
   }
   bool decides(const std::string& path) const {
-    for (std::size_t k = 1; k < seen.size(); ++k)
+    for (std::size_t k = 1; k < listings.size(); ++k)
       if (!same(at(k, path), at(0, path))) return true;
     return false;
   }
   // Returns the values with which the path has this key: `kind = "angle" or "velocity"`.
-  std::string said_of(const std::string& path, const Key* key) const {
+  std::string condition_of(const std::string& path, const Key* key) const {
     std::string out;
-    for (std::size_t k = 0; k < seen.size(); ++k) {
+    for (std::size_t k = 0; k < listings.size(); ++k) {
       if (!same(at(k, path), key)) continue;
-      const std::string& said = of.values[k].said;
-      const std::size_t word = said.find('"');
-      out += out.empty() || word == said.npos ? said : " or " + said.substr(word);
+      const std::string& condition = of.values[k].condition;
+      const std::size_t word = condition.find('"');
+      out += out.empty() || word == condition.npos ? condition : " or " + condition.substr(word);
     }
     return out;
   }
   // Returns the values with which the path exists; empty: all of them.
-  std::string said_where_it_is(const std::string& path) const {
+  std::string presence_condition(const std::string& path) const {
     std::string out;
     bool always = true;
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-      const std::string& said = of.values[k].said;
-      const std::size_t word = said.find('"');
+    for (std::size_t k = 0; k < listings.size(); ++k) {
+      const std::string& condition = of.values[k].condition;
+      const std::size_t word = condition.find('"');
       if (!at(k, path)) {
         always = false;
       } else {
-        out += out.empty() || word == said.npos ? said : " or " + said.substr(word);
+        out += out.empty() || word == condition.npos ? condition : " or " + condition.substr(word);
       }
     }
     return always ? "" : out;
@@ -273,29 +274,31 @@ std::string joined(const std::string& a, const std::string& b) {
 }
 
 // Adds the rows of a path: one for each variant of the key.
-void add_rows(const std::string& path, const std::vector<Looks>& looks, std::vector<Key>& out) {
-  std::vector<const Looks*> deciding;
-  for (const Looks& one : looks)
+void add_rows(const std::string& path, const std::vector<KeyVariants>& variants,
+              std::vector<Key>& out) {
+  std::vector<const KeyVariants*> deciding;
+  for (const KeyVariants& one : variants)
     if (one.decides(path)) deciding.push_back(&one);
   const auto add = [&](const Key& key, std::string when) {
     out.push_back(key);
     out.back().when = std::move(when);
   };
-  if (const Key* first = looks.front().at(0, path)) {
+  if (const Key* first = variants.front().at(0, path)) {
     std::string when;
-    for (const Looks* one : deciding) when = joined(when, one->said_of(path, first));
+    for (const KeyVariants* one : deciding) when = joined(when, one->condition_of(path, first));
     add(*first, when);
   }
-  for (const Looks* one : deciding) {
-    std::vector<const Key*> told = {looks.front().at(0, path)};
-    for (std::size_t k = 0; k < one->seen.size(); ++k) {
+  for (const KeyVariants* one : deciding) {
+    std::vector<const Key*> listed = {variants.front().at(0, path)};
+    for (std::size_t k = 0; k < one->listings.size(); ++k) {
       const Key* key = one->at(k, path);
       const auto is_it = [&](const Key* other) { return same(other, key); };
-      if (!key || std::ranges::any_of(told, is_it)) continue;
-      told.push_back(key);
+      if (!key || std::ranges::any_of(listed, is_it)) continue;
+      listed.push_back(key);
       std::string when;
-      for (const Looks* other : deciding)
-        when = joined(when, other == one ? one->said_of(path, key) : other->said_where_it_is(path));
+      for (const KeyVariants* other : deciding)
+        when = joined(
+            when, other == one ? one->condition_of(path, key) : other->presence_condition(path));
       add(*key, when);
     }
   }
@@ -319,25 +322,25 @@ struct Order {
 };
 
 std::vector<Key> list_tables(std::string_view kind) {
-  const std::vector<Deciding> places = choices_among(look(kind, {}), kind);
+  const std::vector<DecidingPath> places = choices_among(keys_with(kind, {}), kind);
   Found first;
-  for (const Deciding& one : other_deciding(kind)) first[one.path] = one.values.front().text;
+  for (const DecidingPath& one : other_deciding(kind)) first[one.path] = one.values.front().text;
   Order order;
-  order.merge(look(kind, first));
-  std::vector<Looks> looks = {{.of = {}, .seen = {by_path(look(kind, first))}}};
-  for (const Deciding& place : places) {
-    Looks one{.of = place};
-    for (const Deciding::Value& value : place.values) {
+  order.merge(keys_with(kind, first));
+  std::vector<KeyVariants> variants = {{.of = {}, .listings = {by_path(keys_with(kind, first))}}};
+  for (const DecidingPath& place : places) {
+    KeyVariants one{.of = place};
+    for (const DecidingPath::Value& value : place.values) {
       Found found = first;
       found[place.path] = value.text;
-      const std::vector<Key> seen = look(kind, found);
+      const std::vector<Key> seen = keys_with(kind, found);
       order.merge(seen);
-      one.seen.push_back(by_path(seen));
+      one.listings.push_back(by_path(seen));
     }
-    looks.push_back(std::move(one));
+    variants.push_back(std::move(one));
   }
   std::vector<Key> out;
-  for (const std::string& path : order.paths) add_rows(path, looks, out);
+  for (const std::string& path : order.paths) add_rows(path, variants, out);
   return out;
 }
 

@@ -139,12 +139,12 @@ Filming::Filming(const fs::path& run, const std::string& machine, const FilmOpti
   prepare();
 }
 
-Filming::Filming(const std::vector<std::string>& runs, const report::AlignWish& wish,
+Filming::Filming(const std::vector<std::string>& runs, const report::AlignOptions& align_options,
                  const FilmOptions& options, const std::atomic<bool>& stop,
                  const run::Notices& notices)
     : options_(options), stop_(stop) {
   report::require_page("the film");
-  open(report::page(run::compare_runs(runs, wish, {}, notices)));
+  open(report::page(run::compare_runs(runs, align_options, {}, notices)));
   const Json drawn = Json::parse(browser_->evaluate("window.sinew.page.machines.drawn"));
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (std::ranges::find(drawn, Json(i)) == drawn.end()) without_drawing(runs[i]);

@@ -55,10 +55,10 @@ class Filming {
           const std::atomic<bool>& stop, const run::Notices& notices = {});
 
   // Opens the page of runs beside each other (run/folder/compared.h): the first one's machine as it
-  // is, the others as ghosts over it in their colors, as `wish` aligns them with it. Times are the
-  // first one's; the film shows all that any of them has. Throws as above, also where one of them
-  // cannot be drawn, and what the comparison throws.
-  Filming(const std::vector<std::string>& runs, const report::AlignWish& wish,
+  // is, the others as ghosts over it in their colors, as `align_options` aligns them with it. Times
+  // are the first one's; the film shows all that any of them has. Throws as above, also where one
+  // of them cannot be drawn, and what the comparison throws.
+  Filming(const std::vector<std::string>& runs, const report::AlignOptions& align_options,
           const FilmOptions& options, const std::atomic<bool>& stop,
           const run::Notices& notices = {});
 

@@ -3,8 +3,8 @@
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::gas {
 
@@ -40,8 +40,8 @@ void fields(Visitor& v, Air& air) {
             .doc = "time constant of heat exchange with the walls, in place of n; 0: none"},
            air.wall_time);
   if (air.wall_time > 0 && air.wall_time < 1e-4)
-    units::complain(v, "wall_time", "less than 0.1 ms", "at least that, or 0",
-                    "polytropic_exponent = 1 for isothermal air");
+    units::report_conflict(v, "wall_time", "less than 0.1 ms", "at least that, or 0",
+                           "polytropic_exponent = 1 for isothermal air");
 }
 
 template <class Visitor>
@@ -66,8 +66,8 @@ void fields(Visitor& v, Supply& supply) {
             .doc = "tank: before the run"},
            supply.initial_pressure);
   if (!tank && (supply.volume > 0 || supply.initial_pressure > 0))
-    units::complain(v, supply.volume > 0 ? "volume" : "initial_pressure",
-                    "a key of kind = \"tank\"", "pressure alone");
+    units::report_conflict(v, supply.volume > 0 ? "volume" : "initial_pressure",
+                           "a key of kind = \"tank\"", "pressure alone");
 }
 
 // Visits the whole table: air and supply.

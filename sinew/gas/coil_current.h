@@ -47,7 +47,8 @@ inline double current(const std::vector<CurrentPiece>& pieces, double t) {
 
 namespace detail {
 
-inline void go_on(std::vector<CurrentPiece>& pieces, const Circuit& c, double t, double voltage) {
+inline void add_piece(std::vector<CurrentPiece>& pieces, const Circuit& c, double t,
+                      double voltage) {
   const double start = current(pieces, t);
   pieces.push_back({t, start, voltage / c.resistance, c.resistance / c.inductance});
 }
@@ -62,7 +63,7 @@ inline void pulse(std::vector<CurrentPiece>& pieces, const Valve& v, double dela
   while (t < off) {
     const double u = t < boosted ? c.boost_voltage : c.hold_voltage;
     const double e = t >= begins && t < open ? c.motion_voltage : 0.0;
-    go_on(pieces, c, t, u - e);
+    add_piece(pieces, c, t, u - e);
     double next = off;
     for (const double corner : {boosted, begins, open})
       if (corner > t && corner < next) next = corner;
@@ -72,11 +73,11 @@ inline void pulse(std::vector<CurrentPiece>& pieces, const Valve& v, double dela
 
 // Adds the pieces after a pulse, until the next: a current that has ended stays zero.
 inline void release(std::vector<CurrentPiece>& pieces, const Circuit& c, double off, double next) {
-  go_on(pieces, c, off, -c.release_voltage);
+  add_piece(pieces, c, off, -c.release_voltage);
   if (!(c.release_voltage > 0)) return;
   const CurrentPiece& p = pieces.back();
-  const double gone = off + std::log(1.0 - p.start / p.end) / p.rate;
-  if (gone < next) pieces.push_back({gone, 0, 0, p.rate});
+  const double ended = off + std::log(1.0 - p.start / p.end) / p.rate;
+  if (ended < next) pieces.push_back({ended, 0, 0, p.rate});
 }
 
 }  // namespace detail

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sinew/gas/hose.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::gas {
 
@@ -23,8 +23,8 @@ void fields(Visitor& v, Hose& hose) {
               .doc = doc},
              value);
     if (!needed && value > 0)
-      units::complain(v, name, "a key of another law",
-                      law == Hose::Law::pipe ? "law = \"pipe\"" : "law = \"iso6358\"");
+      units::report_conflict(v, name, "a key of another law",
+                             law == Hose::Law::pipe ? "law = \"pipe\"" : "law = \"iso6358\"");
   };
   using Law = Hose::Law;
   number("sonic_conductance", "m3/(s Pa)", Law::iso6358, 1e-15, 1, "iso6358: C, with its fittings",
@@ -42,8 +42,8 @@ void fields(Visitor& v, Hose& hose) {
             .doc = "of its air, as a chamber between valves and muscle; 0: none"},
            hose.volume);
   if (hose.law == Law::none && hose.volume > 0)
-    units::complain(v, "volume", "a hose that resists nothing", "a law",
-                    "external_volume for air that is one with the muscle's");
+    units::report_conflict(v, "volume", "a hose that resists nothing", "a law",
+                           "external_volume for air that is one with the muscle's");
 }
 
 }  // namespace sinew::gas

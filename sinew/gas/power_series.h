@@ -68,7 +68,7 @@ inline double root(const PowerSeries& series, const Base& base, double quantity,
 }
 
 // Takes a new base if the quantity has drifted from the old one.
-inline void follow(const PowerSeries& series, Base& base, double quantity, double at_one) {
+inline void update_base(const PowerSeries& series, Base& base, double quantity, double at_one) {
   const double x = quantity * base.inverse - 1.0;
   if (x < PowerSeries::rebase && x > -PowerSeries::rebase) return;
   base = {units::power(quantity / at_one, series.exponent()), 1.0 / quantity};

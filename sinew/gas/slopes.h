@@ -25,7 +25,7 @@ namespace slopes {
 
 // Applies a law that requires the higher port first to ports in any order.
 template <class Law>
-SlopedFlow both_ways(double y_a, double y_b, const Law& law) {
+SlopedFlow with_higher_port_first(double y_a, double y_b, const Law& law) {
   if (y_a >= y_b) return law(y_a, y_b);
   const SlopedFlow back = law(y_b, y_a);
   return {-back.flow, -back.by_b, -back.by_a};
@@ -38,7 +38,7 @@ inline double seventh(double y) {
 }
 
 // Returns the flow through a valve from the higher port `up` to the lower port `down`.
-inline SlopedFlow downhill(const FlowConstants& c, double up, double down) {
+inline SlopedFlow forward_flow(const FlowConstants& c, double up, double down) {
   const double up6 = up * up * up * up * up * up, down6 = down * down * down * down * down * down;
   const double p_up = up6 * up, p_down = down6 * down;
   if (down > c.linear_from * up)
@@ -62,7 +62,7 @@ inline SlopedFlow downhill(const FlowConstants& c, double up, double down) {
 }
 
 // Returns the flow through a pipe from the higher port `up` to the lower port `down`.
-inline SlopedFlow downhill_pipe(const HoseConstants& c, double up, double down) {
+inline SlopedFlow forward_pipe_flow(const HoseConstants& c, double up, double down) {
   const double p_up = seventh(up), p_down = seventh(down);
   const double squares = (p_up - p_down) * (p_up + p_down);
   const double of_up = 7 * p_up / up, of_down = 7 * p_down / down;  // dP/dy [-]
@@ -80,8 +80,8 @@ inline SlopedFlow downhill_pipe(const HoseConstants& c, double up, double down) 
 
 // Returns flow_y with its slopes.
 inline SlopedFlow sloped_flow_y(const FlowConstants& c, double y_a, double y_b) {
-  return slopes::both_ways(y_a, y_b,
-                           [&](double up, double down) { return slopes::downhill(c, up, down); });
+  return slopes::with_higher_port_first(
+      y_a, y_b, [&](double up, double down) { return slopes::forward_flow(c, up, down); });
 }
 
 // Returns flow_y with its slopes for lanes. Branches that no lane needs are skipped.
@@ -125,8 +125,8 @@ template <class S>
 // Returns hose_flow_y with its slopes.
 inline SlopedFlow sloped_hose_flow_y(const HoseConstants& c, double y_a, double y_b) {
   if (!c.pipe) return sloped_flow_y(c.iso, y_a, y_b);
-  return slopes::both_ways(
-      y_a, y_b, [&](double up, double down) { return slopes::downhill_pipe(c, up, down); });
+  return slopes::with_higher_port_first(
+      y_a, y_b, [&](double up, double down) { return slopes::forward_pipe_flow(c, up, down); });
 }
 
 // Returns leak_flow_y with its slopes.

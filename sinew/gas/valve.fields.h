@@ -1,14 +1,14 @@
 // gas/valve.fields.h - the keys of [valve.*] in robots/*/valves.toml: name, unit, range, meaning.
 //
-// units/field.h describes the visitor, units/complain.h the messages for keys that exclude each
-// other.
+// units/field.h describes the visitor, units/report_conflict.h the messages for keys that exclude
+// each other.
 #pragma once
 
 #include <vector>
 
 #include "sinew/gas/valve.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::gas {
 
@@ -53,11 +53,12 @@ void fields(Visitor& v, Flow& flow) {
            flow.critical_pressure_ratio);
 
   if (orifice && flow.sonic_conductance > 0) {
-    units::complain(v, "sonic_conductance", "a key of law = \"iso6358\"", "area and efficiency");
+    units::report_conflict(v, "sonic_conductance", "a key of law = \"iso6358\"",
+                           "area and efficiency");
   }
   if (!orifice && flow.area > 0) {
-    units::complain(v, "area", "a key of law = \"orifice\" or \"appendix-a\"",
-                    "sonic_conductance and critical_pressure_ratio");
+    units::report_conflict(v, "area", "a key of law = \"orifice\" or \"appendix-a\"",
+                           "sonic_conductance and critical_pressure_ratio");
   }
 }
 
@@ -100,7 +101,7 @@ void shutter_fields(Visitor& v, Valve& valve) {
             .doc = "profile ramp: from open to shut"},
            valve.closing_ramp);
   if (valve.profile != Valve::Profile::ramp && (valve.opening_ramp > 0 || valve.closing_ramp > 0)) {
-    units::complain(v, "profile", "a ramp's time with another profile", "\"ramp\"");
+    units::report_conflict(v, "profile", "a ramp's time with another profile", "\"ramp\"");
   }
 }
 
@@ -120,8 +121,8 @@ void fields(Visitor& v, Circuit& c) {
   number("motion_time", "s", true, "how long the shutter moves, until the valve is open",
          c.motion_time);
   if ((c.resistance > 0) != (c.inductance > 0))
-    units::complain(v, "resistance", "a resistance or an inductance without the other",
-                    "both above zero", R"(resistance = "12 ohm", inductance = "6 mH")");
+    units::report_conflict(v, "resistance", "a resistance or an inductance without the other",
+                           "both above zero", R"(resistance = "12 ohm", inductance = "6 mH")");
 }
 
 // Visits the keys of a valve's limits and its coil: delay.h, coil_current.h.
@@ -149,12 +150,13 @@ void drive_fields(Visitor& v, Valve& valve) {
           [&](auto& g) { fields(g, valve.circuit); });
   if (valve.drive == Valve::Drive::speed_up && valve.profile != Valve::Profile::ideal &&
       !(valve.speed_up.opening > 0 && valve.speed_up.closing > 0))
-    units::complain(v, "speed_up", "not both delays of the drive", "what this valve has with it",
-                    "speed_up = { opening_delay = \"0.5 ms\", closing_delay = \"0.5 ms\" }");
+    units::report_conflict(v, "speed_up", "not both delays of the drive",
+                           "what this valve has with it",
+                           "speed_up = { opening_delay = \"0.5 ms\", closing_delay = \"0.5 ms\" }");
   if (valve.drive == Valve::Drive::standard && valve.coil.boost_time > 0 &&
       !(valve.speed_up.opening > 0 || valve.speed_up.closing > 0))
-    units::complain(v, "coil", "a boost without the drive or the delays of speed-up",
-                    "drive = \"speed-up\"");
+    units::report_conflict(v, "coil", "a boost without the drive or the delays of speed-up",
+                           "drive = \"speed-up\"");
 }
 
 template <class Visitor>
@@ -205,10 +207,10 @@ void regulator_fields(Visitor& v, Valve& valve) {
   });
   const bool regulates = valve.kind == Valve::Kind::regulator;
   if (regulates && !(r.range > 0))
-    units::complain(v, "regulator", "no range", "the gauge pressure at its full set point",
-                    "regulator = { range = \"100 psi diff\" }");
+    units::report_conflict(v, "regulator", "no range", "the gauge pressure at its full set point",
+                           "regulator = { range = \"100 psi diff\" }");
   if (!regulates && (r.range > 0 || r.time_constant > 0))
-    units::complain(v, "regulator", "another kind of valve", "kind = \"regulator\"");
+    units::report_conflict(v, "regulator", "another kind of valve", "kind = \"regulator\"");
 }
 
 template <class Visitor>

@@ -51,7 +51,7 @@ User user_of(const fs::path& root) {
   return out;
 }
 
-bool may_use(const fs::path& file, const User& user) {
+bool has_access(const fs::path& file, const User& user) {
   struct stat is {};
   if (::stat(file.c_str(), &is) != 0) return false;
   if (user.id == 0) return true;
@@ -112,12 +112,12 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) {
-  const User user = user_of(asked.root);
+void check_devices(const Kind& kind, const DoctorOptions& options, Findings& out) {
+  const User user = user_of(options.root);
   const std::string why = kind.place == "serial"
                               ? "a board is connected by one"
                               : "a card reads the sensors and switches the valves";
-  std::vector<fs::path> devices = named(asked.root / "dev", kind.names);
+  std::vector<fs::path> devices = named(options.root / "dev", kind.names);
   // A card's device is named comedi and a number; comedi0_subd1 is a part of it.
   std::erase_if(devices, [](const fs::path& d) {
     return d.filename().string().find("_subd") != std::string::npos;
@@ -129,11 +129,11 @@ void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) 
                    why, kind.if_none});
   for (const fs::path& device : devices) {
     const std::string name = "/dev/" + device.filename().string();
-    if (may_use(device, user)) {
+    if (has_access(device, user)) {
       out.push_back({kind.subject, kind.place, Verdict::good, name + " may be used", why, ""});
       continue;
     }
-    const std::string group = group_of(device, asked.root);
+    const std::string group = group_of(device, options.root);
     const bool usual = group == kind.group;
     out.push_back(
         {kind.subject, kind.place, Verdict::missing,
@@ -146,8 +146,8 @@ void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) 
 // --- USB adapters ---
 
 // FTDI's driver collects bytes for this time before it passes them on [ms].
-void look_at_adapters(const DoctorAsked& asked, Findings& out) {
-  const fs::path folder = asked.root / "sys/bus/usb-serial/devices";
+void check_adapters(const DoctorOptions& options, Findings& out) {
+  const fs::path folder = options.root / "sys/bus/usb-serial/devices";
   for (const fs::path& device : named(folder, {"tty"})) {
     const std::string text = text_of(device / "latency_timer");
     if (text.empty()) continue;
@@ -165,10 +165,10 @@ void look_at_adapters(const DoctorAsked& asked, Findings& out) {
 
 // --- real time ---
 
-void look_at_limits(const DoctorAsked& asked, Findings& out) {
-  const bool first_user = user_of(asked.root).id == 0;
-  const double most = limit_of(asked.root, "Max realtime priority");
-  const double memory = limit_of(asked.root, "Max locked memory");
+void check_limits(const DoctorOptions& options, Findings& out) {
+  const bool first_user = user_of(options.root).id == 0;
+  const double most = limit_of(options.root, "Max realtime priority");
+  const double memory = limit_of(options.root, "Max locked memory");
   const bool first = first_user || most < 0 || most >= priority;
   // A run's memory is mostly its log; a gigabyte exceeds the largest so far.
   const bool locked = first_user || memory < 0 || memory >= 1e9;
@@ -188,16 +188,16 @@ void look_at_limits(const DoctorAsked& asked, Findings& out) {
        locked ? "" : fmt::format("echo '@iocard - memlock unlimited' | sudo tee -a {}", file)});
 }
 
-void look_at_kernel(const DoctorAsked& asked, Findings& out) {
-  const std::string version = text_of(asked.root / "proc/sys/kernel/version");
-  const bool real_time = text_of(asked.root / "sys/kernel/realtime") == "1" ||
+void check_kernel(const DoctorOptions& options, Findings& out) {
+  const std::string version = text_of(options.root / "proc/sys/kernel/version");
+  const bool real_time = text_of(options.root / "sys/kernel/realtime") == "1" ||
                          version.find("PREEMPT_RT") != std::string::npos;
   out.push_back({"kernel", "", real_time ? Verdict::good : Verdict::advice,
                  version.empty() ? "its version is unknown" : version,
                  "one with PREEMPT_RT wakes a program within a bound, any other as a rule",
                  real_time ? "" : "sudo apt-get install linux-image-rt-amd64   # then start it"});
 
-  const fs::path clock = asked.root / "sys/devices/system/clocksource/clocksource0";
+  const fs::path clock = options.root / "sys/devices/system/clocksource/clocksource0";
   const std::string source = text_of(clock / "current_clocksource");
   const bool slow = source == "hpet" || source == "acpi_pm" || source == "jiffies";
   out.push_back({"clock source", "", slow ? Verdict::advice : Verdict::good,
@@ -207,7 +207,7 @@ void look_at_kernel(const DoctorAsked& asked, Findings& out) {
 
   // Each processor has its own governor; the loop may run on the slowest.
   std::string slowest;
-  for (const fs::path& cpu : named(asked.root / "sys/devices/system/cpu", {"cpu"})) {
+  for (const fs::path& cpu : named(options.root / "sys/devices/system/cpu", {"cpu"})) {
     const std::string governor = text_of(cpu / "cpufreq/scaling_governor");
     if (!governor.empty() && governor != "performance") slowest = governor;
   }
@@ -217,9 +217,9 @@ void look_at_kernel(const DoctorAsked& asked, Findings& out) {
                  slowest.empty() ? "" : "sudo cpupower frequency-set -g performance"});
 }
 
-void look_at_latency(const DoctorAsked& asked, Findings& out) {
-  if (!asked.latency) return;
-  const Latency latency = asked.latency();
+void check_latency(const DoctorOptions& options, Findings& out) {
+  if (!options.latency) return;
+  const Latency latency = options.latency();
   const LatencyClass c = class_of(latency);
   out.push_back(
       {"timer latency", "", c == LatencyClass::real_time ? Verdict::good : Verdict::advice,
@@ -230,15 +230,15 @@ void look_at_latency(const DoctorAsked& asked, Findings& out) {
 
 // --- programs and libraries ---
 
-bool has_program(const DoctorAsked& asked, const std::string& name) {
-  return std::ranges::any_of(asked.programs, [&](const std::string& folder) {
-    return fs::exists(asked.root / fs::path(folder).relative_path() / name);
+bool has_program(const DoctorOptions& options, const std::string& name) {
+  return std::ranges::any_of(options.programs, [&](const std::string& folder) {
+    return fs::exists(options.root / fs::path(folder).relative_path() / name);
   });
 }
 
-bool has_library(const DoctorAsked& asked, const std::string& name) {
+bool has_library(const DoctorOptions& options, const std::string& name) {
   for (const char* folder : {"usr/lib", "usr/local/lib", "lib"}) {
-    const fs::path here = asked.root / folder;
+    const fs::path here = options.root / folder;
     if (!named(here, {name}).empty()) return true;
     for (const fs::path& below : named(here, {"x86_64-linux", "aarch64-linux", "arm-linux"}))
       if (!named(below, {name}).empty()) return true;
@@ -246,31 +246,31 @@ bool has_library(const DoctorAsked& asked, const std::string& name) {
   return false;
 }
 
-void look_for_parts(const DoctorAsked& asked, Findings& out) {
+void check_parts(const DoctorOptions& options, Findings& out) {
   const auto add = [&](bool there, const char* name, const char* place, const char* why,
                        const char* package) {
     out.push_back({name, place, there ? Verdict::good : Verdict::missing,
                    there ? "there" : "not found", why,
                    there ? "" : fmt::format("sudo apt-get install {}", package)});
   };
-  add(has_program(asked, "qemu-system-arm"), "qemu-system-arm", "emulated",
+  add(has_program(options, "qemu-system-arm"), "qemu-system-arm", "emulated",
       "runs a board's program without a board", "qemu-system-arm");
-  add(has_program(asked, "arm-none-eabi-gcc"), "arm-none-eabi-gcc", "emulated",
+  add(has_program(options, "arm-none-eabi-gcc"), "arm-none-eabi-gcc", "emulated",
       "compiles the board's program", "gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib");
-  add(has_library(asked, "libcomedi.so"), "libcomedi", "comedi", "reads and writes the card",
+  add(has_library(options, "libcomedi.so"), "libcomedi", "comedi", "reads and writes the card",
       "libcomedi-dev   # then cmake --preset release && cmake --build --preset all");
 }
 
 }  // namespace
 
-std::vector<Finding> examine(const DoctorAsked& asked) {
+std::vector<Finding> examine(const DoctorOptions& options) {
   Findings out;
-  for (const Kind& kind : kinds()) look_at_devices(kind, asked, out);
-  look_at_adapters(asked, out);
-  look_for_parts(asked, out);
-  look_at_limits(asked, out);
-  look_at_kernel(asked, out);
-  look_at_latency(asked, out);
+  for (const Kind& kind : kinds()) check_devices(kind, options, out);
+  check_adapters(options, out);
+  check_parts(options, out);
+  check_limits(options, out);
+  check_kernel(options, out);
+  check_latency(options, out);
   return out;
 }
 

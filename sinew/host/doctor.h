@@ -31,14 +31,14 @@ struct Finding {
 };
 
 // Input of the checks.
-struct DoctorAsked {
+struct DoctorOptions {
   std::filesystem::path root = "/";
   std::vector<std::string> programs = {"/usr/local/bin", "/usr/bin", "/bin"};  // their folders
   std::function<Latency()> latency;  // empty: not measured
 };
 
 // Runs all checks and changes nothing. The findings are in the order in which they should be read.
-std::vector<Finding> examine(const DoctorAsked& asked);
+std::vector<Finding> examine(const DoctorOptions& options);
 
 // Returns whether everything that this kind of place needs is available. `simulated` needs nothing.
 bool is_ready(const std::vector<Finding>& findings, const std::string& place);
@@ -61,7 +61,7 @@ User user_of(const std::filesystem::path& root);
 
 // Returns whether the user may read and write the file, by owner, group and mode. User 0 always
 // may.
-bool may_use(const std::filesystem::path& file, const User& user);
+bool has_access(const std::filesystem::path& file, const User& user);
 
 // Returns the name of a file's group from etc/group, or its number if it has no name.
 std::string group_of(const std::filesystem::path& file, const std::filesystem::path& root);

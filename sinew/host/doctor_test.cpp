@@ -110,7 +110,7 @@ TEST_F(Doctor, MembersOfTheGroupAndTheOwnerMayUseADevice) {
   const auto as = [&](long user, long group) {
     put("proc/self/status", "Uid:\t1\t" + std::to_string(user) + "\nGid:\t1\t1\nGroups:\t7 " +
                                 std::to_string(group) + "\n");
-    return may_use(root_ / "dev/comedi0", user_of(root_));
+    return has_access(root_ / "dev/comedi0", user_of(root_));
   };
   const auto owner = static_cast<long>(is.st_uid), group = static_cast<long>(is.st_gid);
   mode("dev/comedi0", 0660);

@@ -35,8 +35,8 @@ TEST(Latency, AClassIsAPromiseOfATick) {
 }
 
 // Independent of the load: no thread wakes early.
-TEST(Beat, NoTickComesBeforeItsTime) {
-  Beat beat;
+TEST(TickTimer, NoTickComesBeforeItsTime) {
+  TickTimer beat;
   beat.start();
   const std::int64_t start = now_ns();
   for (signals::Tick t = 0; t <= 20; t += 5) {
@@ -46,8 +46,8 @@ TEST(Beat, NoTickComesBeforeItsTime) {
   }
 }
 
-TEST(Beat, WhatHasPassedIsToldAsTicksBehind) {
-  Beat beat;
+TEST(TickTimer, WhatHasPassedIsToldAsTicksBehind) {
+  TickTimer beat;
   beat.start();
   sleep_until_ns(now_ns() + 3'000'000);
   EXPECT_FALSE(beat.wait_until(10));

@@ -35,9 +35,9 @@ void sleep_until_ns(std::int64_t instant) noexcept {
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
 }
 
-void Beat::start() noexcept { start_ = now_ns(); }
+void TickTimer::start() noexcept { start_ = now_ns(); }
 
-bool Beat::wait_until(signals::Tick tick) noexcept {
+bool TickTimer::wait_until(signals::Tick tick) noexcept {
   if (start_ < 0) start();
   const std::int64_t due = start_ + tick * tick_ns();
   sleep_until_ns(due);
@@ -96,16 +96,16 @@ bool schedule(int policy, int with) noexcept {
 // Pages allocated later are not locked: locked in advance, they would count against a limit that a
 // run's log may exceed.
 RealTime::RealTime() noexcept
-    : first_(schedule(SCHED_FIFO, priority)), locked_(::mlockall(MCL_CURRENT) == 0) {}
+    : has_priority_(schedule(SCHED_FIFO, priority)), locked_(::mlockall(MCL_CURRENT) == 0) {}
 
 RealTime::~RealTime() {
   if (locked_) (void)::munlockall();
-  if (first_) (void)schedule(SCHED_OTHER, 0);
+  if (has_priority_) (void)schedule(SCHED_OTHER, 0);
 }
 
 std::vector<std::string> problems(const RealTime& real_time) {
   std::vector<std::string> out;
-  if (!real_time.first())
+  if (!real_time.has_priority())
     out.emplace_back(
         "SCHED_FIFO is not permitted: other programs may come before the loop; for the group "
         "iocard: echo '@iocard - rtprio 90' | sudo tee /etc/security/limits.d/sinew.conf, then log "

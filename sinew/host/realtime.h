@@ -26,11 +26,11 @@ class RealTime {
   RealTime(const RealTime&) = delete;
   RealTime& operator=(const RealTime&) = delete;
 
-  bool first() const noexcept { return first_; }    // SCHED_FIFO
-  bool locked() const noexcept { return locked_; }  // present memory is locked
+  bool has_priority() const noexcept { return has_priority_; }  // SCHED_FIFO
+  bool locked() const noexcept { return locked_; }              // present memory is locked
 
  private:
-  bool first_ = false, locked_ = false;
+  bool has_priority_ = false, locked_ = false;
 };
 
 // Returns what was not permitted, with advice; empty if everything was.
@@ -74,7 +74,7 @@ std::int64_t now_ns() noexcept;
 void sleep_until_ns(std::int64_t instant) noexcept;
 
 // Waits for the ticks of a machine by this computer's clock.
-class Beat {
+class TickTimer {
  public:
   // Sets tick 0 to now; without a call it is at the first wait_until().
   void start() noexcept;

@@ -9,8 +9,9 @@
 
 namespace sinew::host {
 
-int threads_of(int asked) {
-  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+int threads_of(int requested) {
+  return requested > 0 ? requested
+                       : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work, Tally* done,

@@ -11,8 +11,8 @@ namespace sinew::host {
 // Counter of finished tasks, for a progress bar; null: not counted.
 using Tally = std::atomic<std::int64_t>;
 
-// Returns the number of threads: `asked`, or the number of cores if it is 0.
-int threads_of(int asked);
+// Returns the number of threads: `requested`, or the number of cores if it is 0.
+int threads_of(int requested);
 
 // Calls `work` with each number below `count` on `threads` threads including the caller's; 0: one
 // per core. The last number begins first, as lists are ordered from simple to expensive. A task may

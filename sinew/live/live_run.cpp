@@ -10,9 +10,9 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/live/live_view.h"
 #include "sinew/live/request.h"
 #include "sinew/live/server.h"
-#include "sinew/live/show.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/page.h"
@@ -23,13 +23,13 @@ namespace sinew::live {
 namespace {
 
 // Topics that pages show. A machine has no true values, so topics under /true are left out.
-struct Shown {
+struct ShownTopics {
   std::vector<signals::Topic> topics;
   std::vector<std::uint16_t> of_topic;  // index in `topics` by topic of the run, or not_tapped
 };
 
-Shown shown_of(const experiment::Experiment& e, bool simulated) {
-  Shown out;
+ShownTopics shown_topics_of(const experiment::Experiment& e, bool simulated) {
+  ShownTopics out;
   for (signals::Topic& topic : run::topics(e)) {
     const bool there = simulated || !topic.name.starts_with("/true/");
     out.of_topic.push_back(there ? static_cast<std::uint16_t>(out.topics.size()) : run::not_tapped);
@@ -63,9 +63,9 @@ class LiveRun::Impl {
         notices_(std::move(notices)),
         kept_(request, notices_),
         values_(kept_.values()),
-        shown_(shown_of(kept_.experiment(), !run::is_elsewhere(request.port))),
+        shown_(shown_topics_of(kept_.experiment(), !run::is_outside_simulation(request.port))),
         feed_(shown_.topics),
-        show_(kept_.experiment(), values_, steering_, feed_, tick_, machine() ? &stop_ : nullptr,
+        view_(kept_.experiment(), values_, steering_, feed_, tick_, machine() ? &stop_ : nullptr,
               request.units),
         server_(
             options_.port,
@@ -73,12 +73,12 @@ class LiveRun::Impl {
              .tick =
                  [this] {
                    feed_.collect();
-                   if (!over()) show_.notice();
+                   if (!over()) view_.record_changes();
                  },
-             .frame = [this](Server::Watcher w) { return frame(w); },
-             .message = [this](Server::Watcher,
-                               std::string_view text) { return over() ? "" : show_.answer(text); },
-             .left = [this](Server::Watcher w) { positions_.erase(w); },
+             .frame = [this](Server::SocketId w) { return frame(w); },
+             .message = [this](Server::SocketId,
+                               std::string_view text) { return over() ? "" : view_.handle(text); },
+             .left = [this](Server::SocketId w) { positions_.erase(w); },
              .interrupted = [this] { interrupted(); },
              .signals = machine() ? std::vector{SIGQUIT, SIGTSTP} : std::vector<int>{}}) {
     steering_.pace(options_.pace);
@@ -112,7 +112,7 @@ class LiveRun::Impl {
       o.tapped.clear();
       for (std::size_t i = 0; i < shown_.of_topic.size(); ++i)
         o.tapped.push_back(static_cast<std::uint16_t>(i));
-      const auto kept = kept_.keep(run::run(kept_.experiment(), o));
+      const auto kept = kept_.store(run::run(kept_.experiment(), o));
       if (options_.kept) options_.kept(kept);
       page_ = file_text(kept_.folder() / run::report_name);
     } catch (const std::exception& e) {
@@ -130,17 +130,17 @@ class LiveRun::Impl {
     if (path != "/")
       return {404, "Nothing is here; the run is at the address that was printed.\n", "text/plain"};
     if (!over())
-      return {200, show_.page(fmt::format("127.0.0.1:{0} ws://localhost:{0}", server_.port()))};
+      return {200, view_.page(fmt::format("127.0.0.1:{0} ws://localhost:{0}", server_.port()))};
     if (!page_.empty()) return {200, page_};
     return {200, failure_ ? words_ : "The run is over; it was to leave no page.\n",
             "text/plain; charset=utf-8"};
   }
 
-  std::string frame(Server::Watcher watcher) {
-    Watching& w = positions_[watcher];
-    if (!over()) return show_.frame(w.position);
-    if (w.told) return "";
-    w.told = true;
+  std::string frame(Server::SocketId socket) {
+    PageState& w = positions_[socket];
+    if (!over()) return view_.frame(w.position);
+    if (w.is_end_sent) return "";
+    w.is_end_sent = true;
     return "{\"over\":true}";
   }
 
@@ -150,9 +150,9 @@ class LiveRun::Impl {
     if (over()) return server_.stop();
     const auto now = std::chrono::steady_clock::now();
     const bool first = !ending_.exchange(true);
-    if (first) asked_at_ = now;
+    if (first) interrupted_at_ = now;
     // A window that closes sends several signals, so a machine is given 10 s to come to rest.
-    if (!first && machine() && now - asked_at_ < std::chrono::seconds(10)) return;
+    if (!first && machine() && now - interrupted_at_ < std::chrono::seconds(10)) return;
     if (!first) {
       std::signal(SIGINT, SIG_DFL);
       std::raise(SIGINT);
@@ -166,23 +166,23 @@ class LiveRun::Impl {
     steering_.pause(false);
   }
 
-  struct Watching {
-    Show::Position position;
-    bool told = false;
+  struct PageState {
+    LiveView::Position position;
+    bool is_end_sent = false;
   };
 
   const LiveOptions options_;
   const run::Notices notices_;
-  run::KeptRun kept_;
+  run::RunStorage kept_;
   const config::Node values_;
   run::Steering steering_;
-  const Shown shown_;
+  const ShownTopics shown_;
   Feed feed_;
   std::atomic<std::int64_t> tick_{0};
   std::atomic<bool> stop_{false};
-  Show show_;
-  std::map<Server::Watcher, Watching> positions_;
-  std::chrono::steady_clock::time_point asked_at_;
+  LiveView view_;
+  std::map<Server::SocketId, PageState> positions_;
+  std::chrono::steady_clock::time_point interrupted_at_;
   std::atomic<bool> over_{false}, ending_{false};
 
   // Written by the run's thread until `over_`.
@@ -207,7 +207,7 @@ void require_live(Port port) {
 
 LiveRun::LiveRun(const run::RunRequest& request, LiveOptions options, run::Notices notices) {
   require_live(options.port);
-  if (run::keeps_its_own_time(request.port) && (options.paused || options.pace != 1))
+  if (run::has_own_clock(request.port) && (options.paused || options.pace != 1))
     config::fail({request.experiment, 0, 0}, options.paused ? "paused" : "pace",
                  options.paused ? "true" : fmt::format("{}", options.pace),
                  "neither pause nor pace: the machine keeps its own time");

@@ -10,7 +10,7 @@
 
 #include "sinew/analysis/record/machine.h"
 #include "sinew/live/port.h"
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 
 namespace sinew::live {
 
@@ -21,7 +21,7 @@ struct LiveOptions {
   bool once = false;    // end with the run; otherwise the page is served until Ctrl-C
 
   // Called on the run's thread with the stored run, before the page of the finished run is served.
-  std::function<void(const run::Kept&)> kept = {};
+  std::function<void(const run::StoredRun&)> kept = {};
 };
 
 class LiveRun {

@@ -7,8 +7,8 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/json/json.h"
+#include "sinew/live/live_view.h"
 #include "sinew/live/request.h"
-#include "sinew/live/show.h"
 #include "sinew/run/controllers/columns.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
@@ -194,21 +194,21 @@ struct Stage {
   Steering steering;
   Feed feed;
   std::atomic<std::int64_t> tick{0};
-  Show show;
+  LiveView show;
 };
 
-TEST(Show, SendsNothingBeforeThereIsSomething) {
+TEST(LiveView, SendsNothingBeforeThereIsSomething) {
   Stage stage(in_air());
-  Show::Position position;
+  LiveView::Position position;
   EXPECT_EQ(stage.show.frame(position), "");
 }
 
-TEST(Show, EachPageGetsEverythingOnce) {
+TEST(LiveView, EachPageGetsEverythingOnce) {
   Stage stage(in_air());
   const Outcome o = stage.run();
   const std::size_t rows = o.table.find("/plan/phase")->time_ns.size();
-  Show::Position early, late;
-  for (Show::Position* page : {&early, &late}) {
+  LiveView::Position early, late;
+  for (LiveView::Position* page : {&early, &late}) {
     const Json first = Json::parse(stage.show.frame(*page));
     EXPECT_EQ(first["piece"]["samples"]["clocks"][0], rows);
     EXPECT_EQ(first["state"]["values"].size(), 10u);
@@ -219,12 +219,12 @@ TEST(Show, EachPageGetsEverythingOnce) {
 }
 
 // A stand is drawn during the run, and has no settings.
-TEST(Show, OfAStandHasItsDrawing) {
+TEST(LiveView, OfAStandHasItsDrawing) {
   Experiment e = experiment::load(sinew::test::source_dir() + "/experiments/rig/feedback.toml");
   e.stand->duration = 1;
   Stage stage(e);
   run::expect_same(run::run(e).table, stage.run().table);
-  Show::Position page;
+  LiveView::Position page;
   const Json first = Json::parse(stage.show.frame(page));
   EXPECT_EQ(first["piece"]["samples"]["clocks"][0], 1001u);
   EXPECT_EQ(first["state"]["values"].size(), 0u);
@@ -234,14 +234,14 @@ TEST(Show, OfAStandHasItsDrawing) {
   EXPECT_NE(text.find("\"scene\":null"), text.npos);
 }
 
-TEST(Show, WhatIsSetIsToldToEachPageOnce) {
+TEST(LiveView, WhatIsSetIsToldToEachPageOnce) {
   Stage stage(in_air());
-  EXPECT_EQ(stage.show.answer(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
+  EXPECT_EQ(stage.show.handle(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
   stage.run();
-  stage.show.notice();
-  stage.show.notice();  // nothing is new
-  Show::Position early, late;
-  for (Show::Position* page : {&early, &late}) {
+  stage.show.record_changes();
+  stage.show.record_changes();  // nothing is new
+  LiveView::Position early, late;
+  for (LiveView::Position* page : {&early, &late}) {
     const Json first = Json::parse(stage.show.frame(*page));
     ASSERT_EQ(first["changes"].size(), 1u);
     const Json& change = first["changes"][0];
@@ -253,25 +253,25 @@ TEST(Show, WhatIsSetIsToldToEachPageOnce) {
   const auto knee = static_cast<std::size_t>(
       gait::find_setting(gait::settings(stage.e.plan), "control.stiffness.knee"));
   stage.steering.show(knee, 2, false);
-  stage.show.notice();
+  stage.show.record_changes();
   const Json last = Json::parse(stage.show.frame(early))["changes"];
   ASSERT_EQ(last.size(), 1u);
   EXPECT_TRUE(last[0]["value"].is_null());
 }
 
-TEST(Show, WhatAPageAsksIsDoneAndKept) {
+TEST(LiveView, WhatAPageAsksIsDoneAndKept) {
   Stage stage(in_air());
-  EXPECT_EQ(stage.show.answer(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
-  EXPECT_EQ(stage.show.answer(R"({"do":"pause"})"), "");
+  EXPECT_EQ(stage.show.handle(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
+  EXPECT_EQ(stage.show.handle(R"({"do":"pause"})"), "");
   EXPECT_TRUE(stage.steering.paused());
-  EXPECT_EQ(stage.show.answer(R"({"do":"resume"})"), "");
-  EXPECT_EQ(stage.show.answer(R"({"do":"pace","value":0})"), "");
+  EXPECT_EQ(stage.show.handle(R"({"do":"resume"})"), "");
+  EXPECT_EQ(stage.show.handle(R"({"do":"pace","value":0})"), "");
   const Outcome o = stage.run();
   ASSERT_EQ(o.changes.size(), 1u);
   EXPECT_EQ(o.changes[0].key, "control.stiffness.knee");
   EXPECT_EQ(o.changes[0].value, 1.5);
 
-  Show::Position position;
+  LiveView::Position position;
   const Json state = Json::parse(stage.show.frame(position))["state"];
   const auto knee = static_cast<std::size_t>(
       gait::find_setting(gait::settings(stage.e.plan), "control.stiffness.knee"));
@@ -280,33 +280,33 @@ TEST(Show, WhatAPageAsksIsDoneAndKept) {
   EXPECT_EQ(state["paused"], false);
 }
 
-TEST(Show, AMachineIsStoppedAndNotPaused) {
+TEST(LiveView, AMachineIsStoppedAndNotPaused) {
   const Experiment e = in_air();
   const config::Node resolved = config::parse_text(experiment::resolved(e, "0"), "resolved.toml");
   Steering steering;
   Feed feed(run::topics(e));
   std::atomic<std::int64_t> tick{0};
   std::atomic<bool> stop{false};
-  Show machine(e, resolved, steering, feed, tick, &stop),
+  LiveView machine(e, resolved, steering, feed, tick, &stop),
       simulation(e, resolved, steering, feed, tick);
   for (const char* of_time :
        {R"({"do":"pause"})", R"({"do":"resume"})", R"({"do":"pace","value":2})"})
-    EXPECT_NE(machine.answer(of_time).find("expected stop"), std::string::npos) << of_time;
+    EXPECT_NE(machine.handle(of_time).find("expected stop"), std::string::npos) << of_time;
   EXPECT_FALSE(steering.paused());
-  EXPECT_NE(simulation.answer(R"({"do":"stop"})").find("expected pause"), std::string::npos);
+  EXPECT_NE(simulation.handle(R"({"do":"stop"})").find("expected pause"), std::string::npos);
   EXPECT_FALSE(stop.load());
-  EXPECT_EQ(machine.answer(R"({"do":"stop"})"), "");
+  EXPECT_EQ(machine.handle(R"({"do":"stop"})"), "");
   EXPECT_TRUE(stop.load());
 }
 
-TEST(Show, WhatIsWrongIsAnsweredAndChangesNothing) {
+TEST(LiveView, WhatIsWrongIsAnsweredAndChangesNothing) {
   Stage stage(in_air());
-  const Json answer = Json::parse(stage.show.answer(R"({"do":"set","key":"seed","value":1})"));
+  const Json answer = Json::parse(stage.show.handle(R"({"do":"set","key":"seed","value":1})"));
   EXPECT_NE(answer["error"].string().find("unknown key"), std::string::npos);
   EXPECT_TRUE(stage.run().changes.empty());
 }
 
-TEST(Show, ItsPageMayConnectToItsServerAlone) {
+TEST(LiveView, ItsPageMayConnectToItsServerAlone) {
   Stage stage(in_air());
   if (!report::has_page()) GTEST_SKIP() << "built without npm";
   const std::string page = stage.show.page("127.0.0.1:1234");

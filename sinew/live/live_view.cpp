@@ -1,4 +1,4 @@
-#include "sinew/live/show.h"
+#include "sinew/live/live_view.h"
 
 #include <algorithm>
 #include <numbers>
@@ -152,23 +152,23 @@ double largest(const gait::Plan& plan, const gait::Setting& s) {
   return out;
 }
 
-Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::Steering& steering,
-           Feed& feed, const std::atomic<std::int64_t>& tick, std::atomic<bool>* stop,
-           const std::string& units)
+LiveView::LiveView(const experiment::Experiment& e, const config::Node& resolved,
+                   run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick,
+                   std::atomic<bool>* stop, const std::string& units)
     : experiment_(e),
       steering_(steering),
       feed_(feed),
       tick_(tick),
       stop_(stop),
       settings_(gait::settings(e.plan)),
-      growing_(feed.topics(), {.resolved = resolved,
-                               .name = e.name,
-                               .duration = end_of(e),
-                               .foot_path = has_foot_path(e.plan),
-                               .units = units}),
+      page_(feed.topics(), {.resolved = resolved,
+                            .name = e.name,
+                            .duration = end_of(e),
+                            .foot_path = has_foot_path(e.plan),
+                            .units = units}),
       set_(settings_.size()) {}
 
-std::string Show::controls() const {
+std::string LiveView::controls() const {
   Json out = Json::array();
   for (const gait::Setting& s : settings_) {
     const double most = largest(experiment_.plan, s);
@@ -181,13 +181,13 @@ std::string Show::controls() const {
   return Json{{"controls", std::move(out)}}.text();
 }
 
-std::string Show::page(std::string_view server) const {
-  report::Content content = growing_.content(controls());
+std::string LiveView::page(std::string_view server) const {
+  report::Content content = page_.content(controls());
   content.connect = "; connect-src ws://" + std::string(server);
   return report::fill(report::page_template(), content);
 }
 
-std::string Show::state() const {
+std::string LiveView::state() const {
   Json values = Json::array(), overridden = Json::array();
   for (std::size_t i = 0; i < settings_.size(); ++i) {
     values.push_back(steering_.value(i));
@@ -206,12 +206,12 @@ std::string Show::state() const {
       .text();
 }
 
-std::string Show::frame(Position& position) {
+std::string LiveView::frame(Position& position) {
   feed_.collect();
   if (feed_.rows() == 0) return "";
   std::string out = "{\"state\":" + state();
   if (feed_.rows() > position.samples.rows)
-    out += ",\"piece\":" + growing_.piece(feed_.since(position.samples));
+    out += ",\"piece\":" + page_.piece(feed_.since(position.samples));
   if (changes_.size() > position.changes) {
     const auto from = changes_.begin() + static_cast<std::ptrdiff_t>(position.changes);
     out += ",\"changes\":" + report::to_json(std::vector(from, changes_.end()));
@@ -220,7 +220,7 @@ std::string Show::frame(Position& position) {
   return out + "}";
 }
 
-void Show::notice() {
+void LiveView::record_changes() {
   const double time =
       static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds;
   for (std::size_t i = 0; i < settings_.size(); ++i) {
@@ -238,7 +238,7 @@ void Show::notice() {
 
 // Returns the reason why a request is refused, or "": a machine has its own clock and cannot be
 // paused, a simulation cannot be stopped.
-std::string Show::refusal(Request::Kind kind) const {
+std::string LiveView::refusal(Request::Kind kind) const {
   using enum Request::Kind;
   const bool of_time = kind == pause || kind == resume || kind == pace;
   if (stop_ != nullptr && of_time)
@@ -247,7 +247,7 @@ std::string Show::refusal(Request::Kind kind) const {
   return "";
 }
 
-std::string Show::answer(std::string_view text) {
+std::string LiveView::handle(std::string_view text) {
   using Kind = Request::Kind;
   const auto error = [](std::string_view what) { return Json{{"error", what}}.text(); };
   Request r;

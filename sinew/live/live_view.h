@@ -1,5 +1,5 @@
-// live/show.h - pages of a run in progress: their initial text, updates and requests. All of this
-// is used by the server's thread; the control loop uses only feed and steering.
+// live/live_view.h - pages of a run in progress: their initial text, updates and requests. All of
+// this is used by the server's thread; the control loop uses only feed and steering.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 #include "sinew/live/request.h"
 #include "sinew/log/writer.h"
 #include "sinew/report/page/changes.h"
-#include "sinew/report/page/growing.h"
+#include "sinew/report/page/live_page.h"
 #include "sinew/run/controllers/steering.h"
 #include "sinew/signals/table.h"
 
@@ -72,7 +72,7 @@ class Feed {
   std::size_t filled_ = 0, rows_ = 0;
 };
 
-class Show {
+class LiveView {
  public:
   // Samples and changes that a page has received.
   struct Position {
@@ -83,9 +83,9 @@ class Show {
   // All arguments but `units` must outlive this. `resolved` is the experiment that runs. `stop` is
   // set by a page's button to stop a machine that keeps its own time; nullptr for a simulation, as
   // it can be paused. `units` are the initial units of the page (config/shown_units.h).
-  Show(const experiment::Experiment& experiment, const config::Node& resolved,
-       run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick,
-       std::atomic<bool>* stop = nullptr, const std::string& units = "");
+  LiveView(const experiment::Experiment& experiment, const config::Node& resolved,
+           run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick,
+           std::atomic<bool>* stop = nullptr, const std::string& units = "");
 
   // Returns the page without samples. `server` is the address that it may connect to,
   // "127.0.0.1:8080".
@@ -94,14 +94,14 @@ class Show {
   // Records changes of settings since the last call, by a page or by the plan's list. It has to be
   // called at every tick of the server: a change is marked at the time of the call, at most a few
   // rows late; the page of the finished run marks it at the time of its effect.
-  void notice();
+  void record_changes();
 
-  // Returns an update for a page: JSON with `piece` (report/page/growing.h) and `changes`
+  // Returns an update for a page: JSON with `piece` (report/page/live_page.h) and `changes`
   // (report/page/changes.h), if there are any, and `state`. Returns "" before the first row.
   std::string frame(Position& position);
 
   // Handles a request of a page. Returns {"error": …} for this page if it fails, else "".
-  std::string answer(std::string_view request);
+  std::string handle(std::string_view request);
 
  private:
   std::string state() const;
@@ -114,7 +114,7 @@ class Show {
   const std::atomic<std::int64_t>& tick_;
   std::atomic<bool>* stop_;
   std::vector<gait::Setting> settings_;
-  report::Growing growing_;
+  report::LivePage page_;
   std::vector<std::optional<double>> set_;   // one per setting; empty: the plan's value
   std::vector<report::PageChange> changes_;  // since the run began
 };

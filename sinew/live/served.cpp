@@ -99,18 +99,18 @@ Reply RunsPages::get(std::string_view path) try {
   return {500, std::string(wrong.what()) + "\n", plain};
 }
 
-void RunsPages::look_again() {
+void RunsPages::find_new_runs() {
   if (folder_.empty()) return;
   for (fs::path& found : runs_below(folder_))
     if (std::ranges::find(runs_, found) == runs_.end()) runs_.push_back(std::move(found));
 }
 
-std::string RunsPages::told_of(std::size_t run) {
+std::string RunsPages::entry_of(std::size_t run) {
   const fs::path folder = folder_of(runs_[run]);
   std::error_code gone;
   const fs::file_time_type written = fs::last_write_time(run::recorded_run(runs_[run]).log, gone);
-  Told& told = told_[run];
-  if (told.written == written && !told.json.empty()) return told.json;
+  ListEntry& entry = entries_[run];
+  if (entry.written == written && !entry.json.empty()) return entry.json;
   const Json summary = summary_in(folder);
   config::Node top;
   try {
@@ -124,17 +124,17 @@ std::string RunsPages::told_of(std::size_t run) {
   out["robot"] = text_at(top, "robot_name");
   out["seed"] = text_at(top, "seed");
   if (summary.contains("duration_s")) out["duration_s"] = summary["duration_s"];
-  told = {written, out.text()};
-  return told.json;
+  entry = {written, out.text()};
+  return entry.json;
 }
 
 Reply RunsPages::list() {
   report::require_page("the list of runs");
-  look_again();
+  find_new_runs();
   std::string runs;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (!fs::exists(runs_[i])) continue;  // was removed
-    runs += (runs.empty() ? "" : ",") + told_of(i);
+    runs += (runs.empty() ? "" : ",") + entry_of(i);
   }
   report::Content content;
   content.title = "Runs";
@@ -179,7 +179,7 @@ Served of_studies(const std::vector<fs::path>& files, run::Notices notices) {
   std::string names = files.front().string();
   if (files.size() > 1) names += " and " + files[1].string();
   return {.get = [pages](std::string_view path) { return pages->get(path); },
-          .in_words = [names](const std::string&) { return names + "; Ctrl-C ends"; }};
+          .description = [names](const std::string&) { return names + "; Ctrl-C ends"; }};
 }
 
 }  // namespace
@@ -188,7 +188,7 @@ namespace {
 
 Served of_runs(std::shared_ptr<RunsPages> pages) {
   return {.get = [pages](std::string_view path) { return pages->get(path); },
-          .in_words =
+          .description =
               [pages](const std::string& url) {
                 const std::size_t runs = pages->runs().size();
                 return fmt::format("{}; Ctrl-C ends{}", pages->runs().front().string(),

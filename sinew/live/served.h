@@ -14,8 +14,8 @@
 namespace sinew::live {
 
 struct Served {
-  std::function<Reply(std::string_view path)> get;              // for a server
-  std::function<std::string(const std::string& url)> in_words;  // description of the pages
+  std::function<Reply(std::string_view path)> get;                 // for a server
+  std::function<std::string(const std::string& url)> description;  // description of the pages
 };
 
 // Returns the pages of `what`: the folder of a run, a log, or a study's file; empty: the runs below
@@ -53,13 +53,13 @@ class RunsPages {
 
  private:
   // Entry of the list for a run, as JSON; cached until its files change.
-  struct Told {
+  struct ListEntry {
     std::filesystem::file_time_type written;
     std::string json;
   };
 
-  void look_again();
-  std::string told_of(std::size_t run);
+  void find_new_runs();
+  std::string entry_of(std::size_t run);
   Reply list();
   Reply page_of_run(std::size_t run) const;
   Reply picture_of(std::size_t run) const;
@@ -69,7 +69,7 @@ class RunsPages {
   std::vector<std::filesystem::path> runs_;
   const std::string machine_;
   bool list_first_ = false;
-  std::map<std::size_t, Told> told_;  // key: number of the run
+  std::map<std::size_t, ListEntry> entries_;  // key: number of the run
 };
 
 }  // namespace sinew::live

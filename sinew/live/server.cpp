@@ -84,7 +84,7 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   void accept();
   void tick();
   bool make_room();
-  bool is_ours(const HttpRequest& request, http::field field, std::string_view before) const;
+  bool is_own_host(const HttpRequest& request, http::field field, std::string_view before) const;
   bool has_token(std::string_view target) const;
 
   asio::io_context io{1};
@@ -92,10 +92,10 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   asio::steady_timer timer{io}, end{io}, pause{io};
   asio::signal_set signals{io};
   Handlers handlers;
-  std::map<Watcher, std::weak_ptr<Socket>> sockets;
+  std::map<SocketId, std::weak_ptr<Socket>> sockets;
   std::list<Connection*> unauthorized;  // connections without the token, the oldest first
   const std::string token = random_token();
-  Watcher last = 0;
+  SocketId last = 0;
   std::size_t connections = 0;
   std::uint16_t port = 0;
 };
@@ -107,7 +107,7 @@ namespace {
 namespace websocket = beast::websocket;
 
 constexpr std::string_view ready = "ready";
-constexpr std::size_t most_answers = 32;
+constexpr std::size_t most_replies = 32;
 constexpr bool compression = false;  // avoids the compilation of Beast's deflate
 
 }  // namespace
@@ -145,8 +145,8 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
         return self->read();
       }
       if (std::string answer = self->server->handlers.message(self->id, text); !answer.empty()) {
-        if (self->answers.size() == most_answers) return self->leave();
-        self->answers.push_back(std::move(answer));
+        if (self->replies.size() == most_replies) return self->leave();
+        self->replies.push_back(std::move(answer));
         self->send();
       }
       self->read();
@@ -156,9 +156,9 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
   // Sends pending answers first, then the current frame if the browser is ready.
   void send() {
     if (!open || sending) return;
-    if (!answers.empty()) {
-      out = std::move(answers.front());
-      answers.pop_front();
+    if (!replies.empty()) {
+      out = std::move(replies.front());
+      replies.pop_front();
     } else if (waits) {
       out = server->handlers.frame(id);
       waits = out.empty();
@@ -171,7 +171,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
     ws.async_write(asio::buffer(out), [self = shared_from_this()](Error error, std::size_t) {
       self->sending = false;
       if (error) return self->leave();
-      if (!self->answers.empty()) self->send();
+      if (!self->replies.empty()) self->send();
     });
   }
 
@@ -181,11 +181,11 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
   }
 
   std::shared_ptr<Impl> server;
-  Watcher id;
+  SocketId id;
   websocket::stream<beast::tcp_stream, compression> ws;
   beast::flat_buffer in;
   std::string out;
-  std::deque<std::string> answers;
+  std::deque<std::string> replies;
   bool open = false, sending = false;
   bool waits = true;  // ready for a frame
 };
@@ -225,11 +225,11 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   }
   ~Connection() {
     --server->connections;
-    is_known();
+    authorize();
   }
 
   // Removes this from the unauthorized connections.
-  void is_known() {
+  void authorize() {
     if (place) server->unauthorized.erase(*place);
     place.reset();
   }
@@ -246,7 +246,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   }
 
   void handle(HttpRequest request) {
-    if (!server->is_ours(request, http::field::host, ""))
+    if (!server->is_own_host(request, http::field::host, ""))
       return write(request, {403, "This server accepts its own host name only.\n", "text/plain"});
     const std::string_view target(request.target().data(), request.target().size());
     if (!server->has_token(target))
@@ -254,11 +254,11 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
                              "This address lacks its token; open the whole one that sinew view "
                              "printed.\n",
                              "text/plain"});
-    is_known();
+    authorize();
     const std::string_view path = target.substr(1 + server->token.size());
     if (beast::websocket::is_upgrade(request)) {
       if (!server->handlers.frame || path != "/live" ||
-          !server->is_ours(request, http::field::origin, "http://"))
+          !server->is_own_host(request, http::field::origin, "http://"))
         return write(request, {403, "Only this server's own page may watch.\n", "text/plain"});
       return server->upgrade(std::move(stream), request);
     }
@@ -304,8 +304,8 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
 // --- the server ---
 
 // Returns whether a header field occurs once and has this server's name, after `before`.
-bool Server::Impl::is_ours(const HttpRequest& request, http::field field,
-                           std::string_view before) const {
+bool Server::Impl::is_own_host(const HttpRequest& request, http::field field,
+                               std::string_view before) const {
   if (request.count(field) != 1) return false;
   const auto value = request[field];
   for (const std::string_view host : {"127.0.0.1", "localhost"})
@@ -363,7 +363,7 @@ bool Server::Impl::make_room() {
   if (connections < most_connections) return true;
   if (unauthorized.empty()) return false;
   Connection& oldest = *unauthorized.front();
-  oldest.is_known();  // still counted until it is destroyed
+  oldest.authorize();  // still counted until it is destroyed
   oldest.stream.close();
   return true;
 }

@@ -32,15 +32,15 @@ struct Reply {
 
 class Server {
  public:
-  using Watcher = std::uint64_t;  // number of a WebSocket, never reused
+  using SocketId = std::uint64_t;  // number of a WebSocket, never reused
 
   struct Handlers {
     std::function<Reply(std::string_view path)> get;  // path after the token: "/", "/runs"
     std::function<void()> tick = {};                  // every 40 ms, also without connections
     // For WebSockets, which are refused without `frame`. Both return "" to send nothing.
-    std::function<std::string(Watcher)> frame = {};  // called after each tick
-    std::function<std::string(Watcher, std::string_view message)> message = {};
-    std::function<void(Watcher)> left = {};
+    std::function<std::string(SocketId)> frame = {};  // called after each tick
+    std::function<std::string(SocketId, std::string_view message)> message = {};
+    std::function<void(SocketId)> left = {};
     std::function<void()> interrupted = {};  // called on Ctrl-C; without it the server stops
     std::vector<int> signals = {};           // handled like Ctrl-C, SIGTERM and SIGHUP
   };

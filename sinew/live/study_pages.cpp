@@ -9,8 +9,8 @@
 #include "sinew/json/json.h"
 #include "sinew/live/request.h"
 #include "sinew/report/page/page.h"
-#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/page.h"
+#include "sinew/run/folder/run_storage.h"
 
 namespace sinew::live {
 
@@ -37,7 +37,7 @@ StudyFeed::Stamp StudyFeed::stamp() const {
   return out;
 }
 
-void StudyFeed::look() {
+void StudyFeed::refresh() {
   const Stamp now = stamp();
   if (now == seen_) return;
   tune::StudyView next = tune::study_view(file_);
@@ -55,10 +55,10 @@ void StudyFeed::look() {
 
 std::vector<tune::StudyRow> StudyFeed::since(std::size_t known) const {
   std::vector<tune::StudyRow> out;
-  std::set<std::size_t> told;
+  std::set<std::size_t> added;
   for (std::size_t i = known; i < changes_.size(); ++i) {
     const auto found = at_.find(changes_[i]);
-    if (found != at_.end() && told.insert(changes_[i]).second)
+    if (found != at_.end() && added.insert(changes_[i]).second)
       out.push_back(study_.rows[found->second]);
   }
   return out;
@@ -69,15 +69,15 @@ namespace {
 constexpr auto moment = std::chrono::milliseconds(1500);
 constexpr std::ptrdiff_t most_at_once = 4;
 
-std::filesystem::path run_and_keep(const tune::StudyRun& run, const std::atomic<bool>& stop) {
+std::filesystem::path run_and_store(const tune::StudyRun& run, const std::atomic<bool>& stop) {
   const run::RunRequest request{.experiment = run.experiment,
                                 .folder = "",
                                 .sets = run.sets,
                                 .allow_unreachable = run.allow_unreachable};
-  run::KeptRun kept(request);
+  run::RunStorage kept(request);
   run::RunOptions options{.stop = &stop};
   kept.apply(options);
-  return kept.keep(run::run(kept.experiment(), options)).folder;
+  return kept.store(run::run(kept.experiment(), options)).folder;
 }
 
 bool goes(const std::shared_future<std::filesystem::path>& run) {
@@ -94,7 +94,7 @@ bool RowRuns::is_busy() {
 
 void RowRuns::begin(std::size_t row, const tune::StudyRun& run) {
   runs_[row] =
-      std::async(std::launch::async, [this, run] { return run_and_keep(run, stop_); }).share();
+      std::async(std::launch::async, [this, run] { return run_and_store(run, stop_); }).share();
 }
 
 std::optional<std::filesystem::path> RowRuns::folder(std::size_t row) {
@@ -106,7 +106,7 @@ std::optional<std::filesystem::path> RowRuns::folder(std::size_t row) {
 namespace {
 
 // Returns a page that reloads itself.
-Reply it_goes(std::size_t row) {
+Reply in_progress(std::size_t row) {
   return {
       200,
       fmt::format(
@@ -143,7 +143,7 @@ Reply StudyPages::page() {
   std::vector<tune::StudyView> views;
   tune::StudyServer server;
   for (Study& study : studies_) {
-    study.feed.look();
+    study.feed.refresh();
     views.push_back(study.feed.study());
     server.known.push_back(study.feed.changes());
   }
@@ -154,7 +154,7 @@ Reply StudyPages::page() {
 Reply StudyPages::rows(Study& study, std::size_t known) {
   std::string error;
   try {
-    study.feed.look();
+    study.feed.refresh();
   } catch (const std::exception& wrong) {
     error = fmt::format(",\"error\":{}", Json(wrong.what()).text());
   }
@@ -167,12 +167,12 @@ Reply StudyPages::rows(Study& study, std::size_t known) {
 Reply StudyPages::run_of(Study& study, std::size_t row) {
   if (!study.runs.has(row)) {
     const tune::StudyRun run = tune::run_of(study.feed.study(), row);
-    if (study.runs.is_busy()) return it_goes(row);
+    if (study.runs.is_busy()) return in_progress(row);
     study.runs.begin(row, run);
   }
   const auto folder = study.runs.folder(row);
-  if (!folder) return it_goes(row);
-  if (study.told.insert(row).second)
+  if (!folder) return in_progress(row);
+  if (study.reported.insert(row).second)
     notices_.note(fmt::format("row {}: kept in {}", row, folder->string()));
   return {200, file_text(*folder / run::report_name)};
 }

@@ -29,7 +29,7 @@ class StudyFeed {
 
   // Reads the file if it has changed. Throws as tune::study_view() does; the last content then
   // stays.
-  void look();
+  void refresh();
 
   // Return the study as last read, and the number of changes so far.
   const tune::StudyView& study() const { return study_; }
@@ -94,7 +94,7 @@ class StudyPages {
 
     StudyFeed feed;
     RowRuns runs;
-    std::set<std::size_t> told;  // rows whose folder was reported
+    std::set<std::size_t> reported;  // rows whose folder was reported
   };
 
   Reply page();

@@ -54,25 +54,25 @@ class StudyPagesTest : public ::testing::Test {
 
 // Rows come in any order while the file is written.
 TEST_F(StudyPagesTest, TellsEachRowOnceAsItComes) {
-  tune::Results results(file_, asked_of(a_sweep()));
+  tune::Results results(file_, request_of(a_sweep()));
   results.add(row(4));
   StudyFeed feed(file_);
   EXPECT_EQ(feed.changes(), 1u);
   results.add(row(2));
   results.add(row(7));
-  feed.look();
+  feed.refresh();
   EXPECT_EQ(feed.changes(), 3u);
   EXPECT_EQ(numbers(feed.since(1)), (std::vector<std::size_t>{2, 7}));
   EXPECT_EQ(numbers(feed.since(0)), (std::vector<std::size_t>{4, 2, 7}));
   EXPECT_TRUE(feed.since(3).empty());
   EXPECT_TRUE(feed.since(99).empty());
-  feed.look();
+  feed.refresh();
   EXPECT_EQ(feed.changes(), 3u) << "nothing was written";
 }
 
 TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
-  tune::Results results(file_, asked_of(a_sweep()));
+  tune::Results results(file_, request_of(a_sweep()));
   results.add(row(0));
   StudyPages pages({file_}, {});
   EXPECT_EQ(pages.get("/").status, 200);
@@ -92,7 +92,7 @@ TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
 // The open page reports that the file was removed.
 TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
-  { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
+  { tune::Results(file_, request_of(a_sweep())).add(row(0)); }
   StudyPages pages({file_}, {});
   fs::remove(file_);
   const Json json = Json::parse(pages.get("/rows/1").body);
@@ -102,7 +102,7 @@ TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
 
 TEST_F(StudyPagesTest, RunsARowOnceAndShowsIt) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
-  { tune::Results(file_, asked_of(a_sweep())).add(row(2, "3")); }
+  { tune::Results(file_, request_of(a_sweep())).add(row(2, "3")); }
   std::vector<std::string> notes;
   StudyPages pages({file_}, {.on_note = [&](std::string_view n) { notes.emplace_back(n); }});
   Reply reply;
@@ -124,9 +124,9 @@ TEST_F(StudyPagesTest, RunsARowOnceAndShowsIt) {
 // A row that cannot be run gives the reason instead of a page.
 TEST_F(StudyPagesTest, SaysWhyARowCannotRun) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
-  tune::Asked asked = asked_of(a_sweep());
-  asked.experiment = "gone.toml";
-  { tune::Results(file_, asked).add(row(2)); }
+  tune::StudyRequest request = request_of(a_sweep());
+  request.experiment = "gone.toml";
+  { tune::Results(file_, request).add(row(2)); }
   StudyPages pages({file_}, {});
   const Reply reply = pages.get("/run/2");
   EXPECT_EQ(reply.status, 500);
@@ -135,10 +135,10 @@ TEST_F(StudyPagesTest, SaysWhyARowCannotRun) {
 
 TEST_F(StudyPagesTest, IsServedByItsFile) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
-  { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
+  { tune::Results(file_, request_of(a_sweep())).add(row(0)); }
   const Served study = served(file_.string(), "");
   EXPECT_EQ(study.get("/rows/0").status, 200);
-  EXPECT_EQ(study.in_words(""), file_.string() + "; Ctrl-C ends");
+  EXPECT_EQ(study.description(""), file_.string() + "; Ctrl-C ends");
   EXPECT_THROW((void)served("nowhere.db", ""), std::exception);
   EXPECT_THROW((void)served("", ""), std::exception) << "there is no run here";
 }
@@ -147,11 +147,11 @@ TEST_F(StudyPagesTest, IsServedByItsFile) {
 TEST_F(StudyPagesTest, TwoStudiesStandBesideEachOther) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   const fs::path other = folder_ / "other.db";
-  tune::Results first(file_, asked_of(a_sweep())), second(other, asked_of(a_sweep()));
+  tune::Results first(file_, request_of(a_sweep())), second(other, request_of(a_sweep()));
   first.add(row(0));
   second.add(row(4));
   const Served both = served(std::vector{file_.string(), other.string()}, "");
-  EXPECT_EQ(both.in_words(""), file_.string() + " and " + other.string() + "; Ctrl-C ends");
+  EXPECT_EQ(both.description(""), file_.string() + " and " + other.string() + "; Ctrl-C ends");
   const std::string page = both.get("/").body;
   EXPECT_NE(page.find("\"known\":[1,1]"), page.npos);
   second.add(row(7));
@@ -165,7 +165,7 @@ TEST_F(StudyPagesTest, TwoStudiesStandBesideEachOther) {
 }
 
 TEST_F(StudyPagesTest, OtherThingsDoNotStandBesideEachOther) {
-  { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
+  { tune::Results(file_, request_of(a_sweep())).add(row(0)); }
   const auto said = [](const std::vector<std::string>& what) -> std::string {
     try {
       (void)served(what, "");

@@ -20,7 +20,7 @@ const char* const kWhereToLook = "check the name, and that `sinew run` wrote a l
 
 // Unlinks an old file instead of truncating it, as it may be mapped by a reader; keeps one that is
 // being written.
-void make_way(const std::filesystem::path& path) {
+void unlink_old_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return;
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -36,7 +36,7 @@ void make_way(const std::filesystem::path& path) {
 
 Mapping::Mapping(const std::filesystem::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) throw Error(path, "cannot open the log: " + system_words(errno), kWhereToLook);
+  if (fd < 0) throw Error(path, "cannot open the log: " + system_error_text(errno), kWhereToLook);
   try {
     map(fd, path);
   } catch (...) {
@@ -57,24 +57,25 @@ void Mapping::map(int fd, const std::filesystem::path& path) {
   if (!regular) throw Error(path, "not a file", "name the log itself, for instance log.mcap");
   if (size_ == 0) throw Error(path, "the file is empty", "run the experiment again");
   if (at == MAP_FAILED)
-    throw Error(path, "cannot read the log: " + system_words(error), "copy it to a local disk");
+    throw Error(path, "cannot read the log: " + system_error_text(error),
+                "copy it to a local disk");
   data_ = static_cast<const char*>(at);
 }
 
-void Mapping::forget(std::size_t from, std::size_t count) const noexcept {
+void Mapping::release(std::size_t from, std::size_t count) const noexcept {
   (void)::madvise(const_cast<char*>(data_) + from, count, MADV_DONTNEED);
 }
 
-void Mapping::forget_before(const char* here) const noexcept {
+void Mapping::release_before(const char* here) const noexcept {
   const auto read = static_cast<std::size_t>(here - data_);
-  for (; forgotten_ + stride <= read; forgotten_ += stride) forget(forgotten_, stride);
+  for (; released_ + stride <= read; released_ += stride) release(released_, stride);
 }
 
 std::uint32_t Mapping::crc(std::size_t bytes) const {
   std::uint32_t out = 0;
   for (std::size_t at = 0; at < bytes; at += stride) {
     out = crc32(this->bytes().substr(at, std::min(stride, bytes - at)), out);
-    if (bytes - at > stride) forget(at, stride);
+    if (bytes - at > stride) release(at, stride);
   }
   return out;
 }
@@ -82,10 +83,10 @@ std::uint32_t Mapping::crc(std::size_t bytes) const {
 Mapping::~Mapping() { ::munmap(const_cast<char*>(data_), size_); }
 
 Output::Output(const std::filesystem::path& path) {
-  make_way(path);
+  unlink_old_file(path);
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0)
-    throw Error(path, "cannot create the log: " + system_words(errno),
+    throw Error(path, "cannot create the log: " + system_error_text(errno),
                 "choose a folder that exists and that you may write to");
   (void)lock(fd_);  // the file is new, so the lock is free
 }
@@ -113,7 +114,7 @@ bool Output::sync() noexcept {
   return error_ == 0;
 }
 
-bool Output::stands_at(const std::filesystem::path& path) const noexcept {
+bool Output::is_file_at(const std::filesystem::path& path) const noexcept {
   struct stat mine {
   }, named{};
   return fd_ >= 0 && ::fstat(fd_, &mine) == 0 && ::lstat(path.c_str(), &named) == 0 &&
@@ -131,6 +132,6 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
       ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-std::string system_words(int error) { return std::generic_category().message(error); }
+std::string system_error_text(int error) { return std::generic_category().message(error); }
 
 }  // namespace sinew::log

@@ -28,17 +28,17 @@ class Mapping {
 
   // Releases the memory of the part before `here`, which was read, so that a long log does not fill
   // memory. It is loaded from the file again if it is read again.
-  void forget_before(const char* here) const noexcept;
+  void release_before(const char* here) const noexcept;
 
  private:
   static constexpr std::size_t stride = 1 << 22;  // released at a time [B]
 
   void map(int descriptor, const std::filesystem::path& path);
-  void forget(std::size_t from, std::size_t count) const noexcept;
+  void release(std::size_t from, std::size_t count) const noexcept;
 
   const char* data_ = nullptr;
   std::size_t size_ = 0;
-  mutable std::size_t forgotten_ = 0;  // end of the released part, a multiple of the stride
+  mutable std::size_t released_ = 0;  // end of the released part, a multiple of the stride
 };
 
 // New file that is only appended to. The first failure is final: its error is kept and nothing more
@@ -58,7 +58,7 @@ class Output {
   bool close() noexcept;
 
   // Returns whether this same file is still at that path.
-  bool stands_at(const std::filesystem::path& path) const noexcept;
+  bool is_file_at(const std::filesystem::path& path) const noexcept;
 
   int descriptor() const { return fd_; }  // -1: closed
 
@@ -77,7 +77,7 @@ class Output {
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 // Returns the system's text for an errno: "No space left on device".
-std::string system_words(int error);
+std::string system_error_text(int error);
 
 // Names in Sinew's logs that the writer and the reader share.
 

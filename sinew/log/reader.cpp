@@ -80,7 +80,7 @@ signals::Table Collector::table() {
       break;
     }
     if (!take(*record)) break;
-    mapping_.forget_before(record->whole.data());
+    mapping_.release_before(record->whole.data());
   }
   if (records.torn()) take_cut_chunk(records.rest());
   repeat_steady();

@@ -177,7 +177,7 @@ void Replacement::commit() {
 }
 
 void Replacement::fail(int error) const {
-  throw Error(file_, "cannot be written: " + system_words(error), advice);
+  throw Error(file_, "cannot be written: " + system_error_text(error), advice);
 }
 
 bool is_written_directly(const fs::path& file) {

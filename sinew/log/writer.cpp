@@ -81,7 +81,7 @@ bool Indexer::copy(const Mapping& source) {
   while (const auto record = records.next()) {
     if (record->op == Op::data_end) break;
     copy(*record);
-    source.forget_before(record->whole.data());
+    source.release_before(record->whole.data());
   }
   end_chunk();
   Bytes end;
@@ -263,28 +263,28 @@ void Indexer::put_summary() {
 
 void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run,
                   const SteadyTopics& steady) {
-  const std::filesystem::path beside = file.string() + ".tmp";
+  const std::filesystem::path temporary = file.string() + ".tmp";
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
+    std::filesystem::remove(temporary, ignored);
     throw Error(file, "cannot index the log: " + why,
                 "the log is whole and can be read, only its index is missing");
   };
   const Mapping source(row.descriptor(), file);
-  Output output(beside);
+  Output output(temporary);
   if (!Indexer(output, run, steady).copy(source) || !output.sync())
-    fail(output.error() ? system_words(output.error()) : "the file is damaged");
+    fail(output.error() ? system_error_text(output.error()) : "the file is damaged");
 
   // Both names may belong to another program's files by now.
   std::error_code error;
-  if (!row.stands_at(file) || !output.stands_at(beside)) {
-    if (output.stands_at(beside)) std::filesystem::remove(beside, error);
+  if (!row.is_file_at(file) || !output.is_file_at(temporary)) {
+    if (output.is_file_at(temporary)) std::filesystem::remove(temporary, error);
     throw Error(file, "another log has taken its place while it was written",
                 "one run at a time in a folder");
   }
-  std::filesystem::rename(beside, file, error);
+  std::filesystem::rename(temporary, file, error);
   if (error) fail(error.message());
-  if (const int unsynced = sync_folder(file.parent_path())) fail(system_words(unsynced));
+  if (const int unsynced = sync_folder(file.parent_path())) fail(system_error_text(unsynced));
 }
 
 namespace {
@@ -484,7 +484,7 @@ void Writer::Impl::finish(const Pairs& metadata) {
 
 void Writer::Impl::fail_unless_written() const {
   if (output_.error() == 0 && !failed_.load()) return;
-  const std::string why = output_.error() ? system_words(output_.error()) : "out of memory";
+  const std::string why = output_.error() ? system_error_text(output_.error()) : "out of memory";
   throw Error(file_,
               fmt::format("cannot write the log: {}; it ends after {} bytes, and all later samples "
                           "are lost",

@@ -442,7 +442,7 @@ constexpr double nanoseconds = 1e9;                // in a second
 constexpr std::int64_t own_start = 1'000'000'000;  // a run's clock begins before this [ns]
 
 // Conversion of a file's times to the table's: (t - zero) scale + shift [ns].
-struct Times {
+struct TimeConversion {
   std::int64_t zero = 0, shift = 0;
   double scale = 1;
 
@@ -470,22 +470,22 @@ class Assembler {
             Matches matches)
       : files_(files), mapping_(mapping), joining_(joining), matches_(std::move(matches)) {}
 
-  Assembled take() {
+  AssembledRecording take() {
     out_.used = matches_.used;
     for (std::size_t f = 0; f < files_.size(); ++f) {
       const Recorded& file = files_[f];
-      Taken taken{.file = file.file, .kind = file.kind, .started = file.started};
-      taken.unused = matches_.unused[f];
+      ImportSummary summary{.file = file.file, .kind = file.kind, .started = file.started};
+      summary.unused = matches_.unused[f];
       for (const Clock& clock : file.clocks)
-        taken.rows = std::max(taken.rows, clock.time_ns.size());
-      out_.files.push_back(std::move(taken));
+        summary.rows = std::max(summary.rows, clock.time_ns.size());
+      out_.files.push_back(std::move(summary));
       for (const std::string& note : file.notes) out_.notes.push_back(file.file + ": " + note);
       out_.table.complete = out_.table.complete && file.complete;
     }
     set_clocks();
     for (std::size_t t = 0; t < matches_.topics.size(); ++t) topic(t);
     report_gaps();
-    tell();
+    add_notes();
     return std::move(out_);
   }
 
@@ -524,7 +524,7 @@ class Assembler {
     std::int64_t end = 0;
     for (std::size_t f = 0; f < files_.size(); ++f) {
       const Span span = span_of(f);
-      Times& t = times_[f];
+      TimeConversion& t = times_[f];
       t.scale = mapping_.clock.scale;
       const auto shift = joining_.shifts.find(files_[f].file);
       if (shift != joining_.shifts.end()) t.shift = nanoseconds_of(shift->second, "shift");
@@ -536,7 +536,7 @@ class Assembler {
       }
       end = t(span.last) + std::llround(t.scale * static_cast<double>(span.period));
     }
-    tell_start(wall);
+    note_start(wall);
   }
 
   // Returns the wall-clock time of the earliest sample. Absent if a file has no wall-clock time, or
@@ -598,7 +598,7 @@ class Assembler {
     return span.first >= 0 && span.first < own_start ? 0 : span.first;
   }
 
-  void tell_start(std::optional<std::int64_t> wall) {
+  void note_start(std::optional<std::int64_t> wall) {
     const std::optional<std::int64_t> origin = origin_of(0);
     const Clock& clock = clock_of_file(0);
     if (wall || origin) {
@@ -732,9 +732,9 @@ class Assembler {
                  "times that do not run backwards", "a cut where a new recording begins");
   }
 
-  void tell() {
+  void add_notes() {
     for (const std::string& guess : matches_.guessed) out_.notes.push_back(guess + ", by its name");
-    for (const Taken& file : out_.files) {
+    for (const ImportSummary& file : out_.files) {
       if (!file.unused.empty())
         out_.notes.push_back(
             fmt::format("{}: {} not a channel of this machine, left out: {}", file.file,
@@ -765,8 +765,8 @@ class Assembler {
   const Mapping& mapping_;
   const Joining& joining_;
   Matches matches_;
-  Assembled out_;
-  std::vector<Times> times_;                          // one per file
+  AssembledRecording out_;
+  std::vector<TimeConversion> times_;                 // one per file
   std::vector<std::optional<std::int64_t>> origins_;  // one per file, on one clock [ns]
   signals::PageFile pages_ = signals::PageFile::make();
   bool sampled_edges_ = false;
@@ -789,8 +789,8 @@ void check_files(const std::vector<Recorded>& files, const Joining& joining) {
 
 }  // namespace
 
-Assembled assemble(const std::vector<Recorded>& files, const Mapping& mapping,
-                   std::span<const signals::Topic> topics, const Joining& joining) {
+AssembledRecording assemble(const std::vector<Recorded>& files, const Mapping& mapping,
+                            std::span<const signals::Topic> topics, const Joining& joining) {
   check_files(files, joining);
   return Assembler(files, mapping, joining,
                    match(files, mapping, topics, joining.atmosphere, joining.at_end))

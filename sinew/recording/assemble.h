@@ -28,7 +28,7 @@ struct Joining {
 };
 
 // Summarizes the import of one file.
-struct Taken {
+struct ImportSummary {
   std::string file, kind;
   std::string started;              // wall-clock time of its start; empty: unknown
   std::size_t rows = 0;             // rows of its longest clock
@@ -38,10 +38,10 @@ struct Taken {
 };
 
 // Holds the assembled table, the mapping that was used and notes for the user.
-struct Assembled {
+struct AssembledRecording {
   signals::Table table;  // in the order of the machine's channels, then /recorded/…
   Mapping used;          // has every column with a channel, also those that need no row
-  std::vector<Taken> files;
+  std::vector<ImportSummary> files;
   std::string started;  // wall-clock time of the table's time 0; empty: unknown
   std::vector<std::string> notes;
 };
@@ -49,8 +49,8 @@ struct Assembled {
 // Assembles the recordings; `topics` are the machine's. Throws config::Error with all faults: an
 // unknown column or channel, a unit that is missing or of another dimension, a channel found in two
 // files.
-Assembled assemble(const std::vector<Recorded>& files, const Mapping& mapping,
-                   std::span<const signals::Topic> topics, const Joining& joining = {});
+AssembledRecording assemble(const std::vector<Recorded>& files, const Mapping& mapping,
+                            std::span<const signals::Topic> topics, const Joining& joining = {});
 
 // Finds a machine's channels by the names that other loggers give them.
 

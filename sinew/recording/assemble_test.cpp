@@ -40,8 +40,8 @@ class AssembleTest : public ::testing::Test {
     return (folder_ / name).string();
   }
 
-  Assembled take(const std::vector<std::string>& files, const Mapping& mapping = {},
-                 const Joining& joining = {}) const {
+  AssembledRecording take(const std::vector<std::string>& files, const Mapping& mapping = {},
+                          const Joining& joining = {}) const {
     std::vector<Recorded> read;
     for (const std::string& file : files) read.push_back(read_recording(file, mapping));
     return assemble(read, mapping, one_joint(), joining);
@@ -67,13 +67,13 @@ Mapping angle_is(const std::string& column, const std::string& unit = "") {
   return out;
 }
 
-const signals::Series& series(const Assembled& of, const std::string& topic) {
+const signals::Series& series(const AssembledRecording& of, const std::string& topic) {
   const signals::Series* found = of.table.find(topic);
   if (!found) throw std::runtime_error("no " + topic);
   return *found;
 }
 
-bool has_note(const Assembled& of, const std::string& part) {
+bool has_note(const AssembledRecording& of, const std::string& part) {
   for (const std::string& note : of.notes)
     if (note.find(part) != note.npos) return true;
   return false;
@@ -85,7 +85,7 @@ TEST_F(AssembleTest, ValueIsScaleTimesNumberInItsUnitPlusOffset) {
   Mapping m = angle_is("Winkel", "deg");
   map_scale(m, "Winkel", -1);
   map_offset(m, "Winkel", "90 deg");
-  const Assembled a = take({put("a.csv", "time [s],Winkel\n0,0\n0.01,30\n0.02,90\n")}, m);
+  const AssembledRecording a = take({put("a.csv", "time [s],Winkel\n0,0\n0.01,30\n0.02,90\n")}, m);
   const signals::Series& s = series(a, "/joint/elbow/angle");
   ASSERT_EQ(s.time_ns.size(), 3u);
   for (const auto& [i, degrees] : {std::pair{0, 90.0}, {1, 60.0}, {2, 0.0}})
@@ -93,8 +93,8 @@ TEST_F(AssembleTest, ValueIsScaleTimesNumberInItsUnitPlusOffset) {
 }
 
 TEST_F(AssembleTest, AGaugePressureBecomesAnAbsoluteOne) {
-  const Assembled a = take({put("a.csv", "time [s],flexor_pressure [bar gauge]\n0,0\n1,2\n")}, {},
-                           {.atmosphere = 1e5});
+  const AssembledRecording a = take(
+      {put("a.csv", "time [s],flexor_pressure [bar gauge]\n0,0\n1,2\n")}, {}, {.atmosphere = 1e5});
   const signals::Series& s = series(a, "/muscle/flexor/pressure");
   EXPECT_DOUBLE_EQ(s.columns[0][0], 1e5);
   EXPECT_DOUBLE_EQ(s.columns[0][1], 3e5);
@@ -104,18 +104,19 @@ TEST_F(AssembleTest, UnitsAreReadAsOthersWriteThem) {
   Mapping m;
   map_channel(m, "/muscle/flexor/pressure", "p");
   map_unit(m, "p", "psig");
-  const Assembled a = take({put("a.csv", "time [s],p\n0,0\n1,10\n")}, m, {.atmosphere = 1e5});
+  const AssembledRecording a =
+      take({put("a.csv", "time [s],p\n0,0\n1,10\n")}, m, {.atmosphere = 1e5});
   const signals::Series& s = series(a, "/muscle/flexor/pressure");
   EXPECT_DOUBLE_EQ(s.columns[0][0], 1e5);
   EXPECT_NEAR(s.columns[0][1], 1e5 + 68947.57, 0.1);
 }
 
 TEST_F(AssembleTest, AChannelsOwnNameAndUnitKeepEveryBit) {
-  const Assembled a = take({put("a.csv",
-                                "time [s],/joint/elbow/angle [rad],/foot/position.x [m],"
-                                "/foot/position.y [m],/muscle/flexor/pressure [Pa]\n"
-                                "0.0013,0.1,-0,1e-300,101325.00000000001\n"
-                                "0.0113,0.30000000000000004,,2,3\n")});
+  const AssembledRecording a = take({put("a.csv",
+                                         "time [s],/joint/elbow/angle [rad],/foot/position.x [m],"
+                                         "/foot/position.y [m],/muscle/flexor/pressure [Pa]\n"
+                                         "0.0013,0.1,-0,1e-300,101325.00000000001\n"
+                                         "0.0113,0.30000000000000004,,2,3\n")});
   EXPECT_EQ(series(a, "/joint/elbow/angle").columns[0][1], 0.1 + 0.2);
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[0], 1'300'000);
   const signals::Series& foot = series(a, "/foot/position");
@@ -128,9 +129,9 @@ TEST_F(AssembleTest, AChannelsOwnNameAndUnitKeepEveryBit) {
 }
 
 TEST_F(AssembleTest, ValvesHaveTheEdgesWhereTheyChange) {
-  const Assembled a = take({put("a.csv",
-                                "time [s],/valve/flexor/inlet/open [1]\n"
-                                "0,0\n0.01,1\n0.02,1\n0.03,0\n0.04,0\n")});
+  const AssembledRecording a = take({put("a.csv",
+                                         "time [s],/valve/flexor/inlet/open [1]\n"
+                                         "0,0\n0.01,1\n0.02,1\n0.03,0\n0.04,0\n")});
   const signals::Series& s = series(a, "/valve/flexor/inlet/open");
   ASSERT_EQ(s.time_ns.size(), 2u);
   EXPECT_EQ(s.time_ns[0], 10'000'000);
@@ -140,7 +141,7 @@ TEST_F(AssembleTest, ValvesHaveTheEdgesWhereTheyChange) {
 }
 
 TEST_F(AssembleTest, WhatIsNoNumberIsLeftOutAndCounted) {
-  const Assembled a =
+  const AssembledRecording a =
       take({put("a.csv", "time [s],elbow_angle [rad]\n0,1\n0.01,\n0.02,NaN\n0.03,4\n")});
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns.size(), 2u);
   EXPECT_EQ(a.files[0].left_out, 2u);
@@ -152,12 +153,13 @@ TEST_F(AssembleTest, WhatIsNoNumberIsLeftOutAndCounted) {
 TEST_F(AssembleTest, NamesThatSayTheChannelNeedNoMapping) {
   for (const char* name : {"elbow_angle", "Elbow angle", "joint.elbow.angle", "/joint/elbow/angle",
                            "angle", "log/elbow_angle"}) {
-    const Assembled a =
+    const AssembledRecording a =
         take({put("a.csv", "time [s]," + std::string(name) + " [deg]\n0,0\n0.01,180\n")});
     EXPECT_DOUBLE_EQ(series(a, "/joint/elbow/angle").columns[0][1], M_PI) << name;
   }
   // Counts of a sensor with the same name are distinguished by their unit.
-  const Assembled counts = take({put("a.csv", "time [s],elbow_angle [count]\n0,5\n0.01,6\n")});
+  const AssembledRecording counts =
+      take({put("a.csv", "time [s],elbow_angle [count]\n0,5\n0.01,6\n")});
   EXPECT_EQ(series(counts, "/sensor/elbow_angle/count").columns[0][0], 5);
   // Two pressures: the name is ambiguous.
   EXPECT_NE(
@@ -170,7 +172,7 @@ TEST_F(AssembleTest, ColumnsWithoutAChannelAreToldOrKept) {
       put("a.csv", "time [s],elbow_angle [rad],Raum T [degC]\n0,1,20\n1,2,21\n");
   EXPECT_TRUE(
       has_note(take({file}), "1 column is not a channel of this machine, left out: Raum T"));
-  const Assembled all = take({file}, {.keep_others = true});
+  const AssembledRecording all = take({file}, {.keep_others = true});
   EXPECT_EQ(series(all, "/recorded/Raum_T").columns[0][1], 21);
 }
 
@@ -187,7 +189,7 @@ TEST_F(AssembleTest, TimeBeginsAtTheFirstSampleUnlessItIsARuns) {
       1'300'000);
   Mapping from = m;
   from.clock.start = "123.405 s";
-  const Assembled later = take({put("a.csv", "time [s],w\n123.4,1\n123.41,2\n")}, from);
+  const AssembledRecording later = take({put("a.csv", "time [s],w\n123.4,1\n123.41,2\n")}, from);
   EXPECT_EQ(series(later, "/joint/elbow/angle").time_ns[0], 5'000'000);
   EXPECT_EQ(later.files[0].left_out, 1u);
 }
@@ -195,14 +197,14 @@ TEST_F(AssembleTest, TimeBeginsAtTheFirstSampleUnlessItIsARuns) {
 TEST_F(AssembleTest, AClockThatRunsFastIsScaled) {
   Mapping m = angle_is("w", "rad");
   m.clock.scale = 0.997;
-  const Assembled a = take({put("a.csv", "time [s],w\n0,1\n10,2\n20,3\n")}, m);
+  const AssembledRecording a = take({put("a.csv", "time [s],w\n0,1\n10,2\n20,3\n")}, m);
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[2], 19'940'000'000);
 }
 
 TEST_F(AssembleTest, TwoLoggersKeepTheirOwnTimes) {
   const std::string fast = put("fast.csv", "time [s],elbow_angle [rad]\n0,1\n0.001,2\n0.002,3\n");
   const std::string slow = put("slow.csv", "time [s],tension [N]\n0,5\n0.01,6\n");
-  const Assembled a = take({fast, slow}, {}, {.shifts = {{slow, "0.12 s"}}});
+  const AssembledRecording a = take({fast, slow}, {}, {.shifts = {{slow, "0.12 s"}}});
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns.size(), 3u);
   EXPECT_EQ(series(a, "/muscle/flexor/tension").time_ns[1], 130'000'000);
 }
@@ -212,7 +214,7 @@ TEST_F(AssembleTest, ClocksOnTheWallLieBesideEachOther) {
       "a.csv", "time,elbow_angle [rad]\n2026-11-24T10:15:30.000,1\n2026-11-24T10:15:30.010,2\n");
   const std::string b =
       put("b.csv", "time,tension [N]\n2026-11-24T10:15:31.500,1\n2026-11-24T10:15:31.600,2\n");
-  const Assembled both = take({a, b});
+  const AssembledRecording both = take({a, b});
   EXPECT_EQ(series(both, "/joint/elbow/angle").time_ns[0], 0);
   EXPECT_EQ(series(both, "/muscle/flexor/tension").time_ns[0], 1'500'000'000);
   EXPECT_NE(both.started.find("2026-11-24T10:15:30"), std::string::npos) << both.started;
@@ -224,7 +226,7 @@ TEST_F(AssembleTest, ZonesPlaceFilesSideBySide) {
   const std::string b =
       put("b.csv", "time,tension [N]\n2026-11-24T11:15:30+01:00,1\n2026-11-24T11:15:31+01:00,2\n");
   for (const auto& files : {std::vector{a, b}, {b, a}}) {
-    const Assembled both = take(files);
+    const AssembledRecording both = take(files);
     for (const char* topic : {"/joint/elbow/angle", "/muscle/flexor/tension"})
       EXPECT_EQ(series(both, topic).time_ns.in_memory(),
                 (std::vector<std::int64_t>{0, 1'000'000'000}));
@@ -249,7 +251,7 @@ TEST_F(AssembleTest, ASecondClockIsThatOfTheColumnsToItsRight) {
     if (same_name) text.replace(text.find("Time.1"), 6, "Time");
     Mapping m = angle_is("Angle");
     map_channel(m, "/muscle/flexor/pressure", "Pressure");
-    const Assembled a = take({put("a.csv", text)}, m);
+    const AssembledRecording a = take({put("a.csv", text)}, m);
     const signals::Series &angle = series(a, "/joint/elbow/angle"),
                           &pressure = series(a, "/muscle/flexor/pressure");
     ASSERT_EQ(angle.time_ns.size(), 100u);
@@ -264,7 +266,7 @@ TEST_F(AssembleTest, SecondsAndTheirRestAreOneStamp) {
   std::string text = "header.stamp.sec,header.stamp.nanosec,w [rad]\n";
   for (int i = 95; i < 205; ++i)
     text += fmt::format("{},{},{}\n", 1732340000 + i / 100, i % 100 * 10'000'000, i);
-  const Assembled a = take({put("a.csv", text)}, angle_is("w"));
+  const AssembledRecording a = take({put("a.csv", text)}, angle_is("w"));
   const signals::Series& s = series(a, "/joint/elbow/angle");
   for (std::size_t i = 0; i < s.time_ns.size(); ++i)
     EXPECT_EQ(s.time_ns[i], static_cast<std::int64_t>(i) * 10'000'000);
@@ -278,7 +280,7 @@ TEST_F(AssembleTest, ACoarseClockIsSpreadWithinItsDigits) {
   for (int i = 95; i < 330; ++i) text += fmt::format("{},{}\n", 1732340000 + i / 100, i);
   Mapping m = angle_is("w");
   m.table.spread_times = true;
-  const Assembled a = take({put("a.csv", text)}, m);
+  const AssembledRecording a = take({put("a.csv", text)}, m);
   const signals::Series& s = series(a, "/joint/elbow/angle");
   ASSERT_EQ(s.time_ns.size(), 235u);
   for (std::size_t i = 0; i < s.time_ns.size(); ++i)
@@ -308,7 +310,7 @@ TEST_F(AssembleTest, ACounterThatBeginsAgainIsContinued) {
     for (int i = 0; i < 400; ++i)
       text += fmt::format("{:.3f},{}\n",
                           c.begin + std::fmod(c.range - 199.5 * c.step + i * c.step, c.range), i);
-    const Assembled a = take({put("a.csv", text)}, angle_is("w"));
+    const AssembledRecording a = take({put("a.csv", text)}, angle_is("w"));
     const signals::Series& s = series(a, "/joint/elbow/angle");
     ASSERT_EQ(s.time_ns.size(), 400u) << c.name;
     for (std::size_t i = 1; i < 400; ++i)
@@ -322,7 +324,7 @@ TEST_F(AssembleTest, ACounterThatBeginsAgainIsContinued) {
 }
 
 TEST_F(AssembleTest, RowsOfOneTimeWithoutACommonCellAreOneRow) {
-  const Assembled a = take(
+  const AssembledRecording a = take(
       {put("a.csv", "time [s],elbow_angle [rad],tension [N]\n0,1,\n0,,5\n0.01,2,\n0.01,,6\n")});
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns.in_memory(),
             (std::vector<std::int64_t>{0, 10'000'000}));
@@ -333,14 +335,14 @@ TEST_F(AssembleTest, RowsOfOneTimeWithoutACommonCellAreOneRow) {
 TEST_F(AssembleTest, AUnitOfTheClockIsGivenAsThatOfAnyColumn) {
   Mapping m = angle_is("w", "rad");
   map_unit(m, "t", "ms");
-  const Assembled a = take({put("a.csv", "t,w\n0,1\n10,2\n")}, m);
+  const AssembledRecording a = take({put("a.csv", "t,w\n0,1\n10,2\n")}, m);
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[1], 10'000'000);
 }
 
 TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {
   const std::string a = put("a.csv", "time [s],elbow_angle [rad]\n0,1\n0.01,2\n");
   const std::string b = put("b.csv", "time [s],elbow_angle [rad]\n7,3\n7.01,4\n");
-  const Assembled both = take({a, b}, {}, {.at_end = true});
+  const AssembledRecording both = take({a, b}, {}, {.at_end = true});
   const signals::Series& s = series(both, "/joint/elbow/angle");
   ASSERT_EQ(s.time_ns.size(), 4u);
   EXPECT_EQ(s.time_ns[2], 20'000'000);
@@ -351,7 +353,7 @@ TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {
 TEST_F(AssembleTest, ARateStandsInPlaceOfAColumn) {
   Mapping m = angle_is("w", "rad");
   m.clock.rate = "200 Hz";
-  const Assembled a = take({put("a.csv", "w\n1\n2\n3\n")}, m);
+  const AssembledRecording a = take({put("a.csv", "w\n1\n2\n3\n")}, m);
   EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[2], 10'000'000);
 }
 

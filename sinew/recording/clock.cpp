@@ -37,7 +37,7 @@ std::string_view without_count(std::string_view name) {
 
 }  // namespace
 
-bool tells_time(ColumnKind kind) {
+bool holds_time(ColumnKind kind) {
   return kind == ColumnKind::stamps || kind == ColumnKind::dates ||
          kind == ColumnKind::times_of_day;
 }

@@ -14,7 +14,7 @@
 namespace sinew::recording {
 
 // Returns whether a column of this kind holds instants, dates or times of day.
-bool tells_time(ColumnKind kind);
+bool holds_time(ColumnKind kind);
 
 // Columns of dates and times of day, read row by row.
 class StampClock {

@@ -163,18 +163,18 @@ constexpr std::size_t most_rows = 400, most_bytes = 1 << 20;
 constexpr std::array separators{'\t', ';', ',', ' '};
 
 // Separator given in the first line for spreadsheets, and the offset of the table after it.
-struct SaidSeparator {
+struct StatedSeparator {
   char separator = '\0';
   std::size_t at = 0;
 };
-SaidSeparator said_separator(std::string_view text) {
+StatedSeparator stated_separator(std::string_view text) {
   const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
   std::string_view line = text.substr(0, end);
   if (line.size() > 2 && line.front() == '"' && line.back() == '"')
     line = line.substr(1, line.size() - 2);
-  const bool said = line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP=") ||
-                                         line.starts_with("Sep="));
-  if (!said) return {};
+  const bool stated = line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP=") ||
+                                           line.starts_with("Sep="));
+  if (!stated) return {};
   std::size_t next = end;
   if (next < text.size()) next += text.substr(next).starts_with("\r\n") ? 2 : 1;
   return {line[4], next};
@@ -234,7 +234,7 @@ void find_width(Sample& sample) {
 // Returns the kind of a cell; nothing if its value is missing.
 std::optional<ColumnKind> kind_of(std::string_view cell) {
   if (is_missing(cell)) return std::nullopt;
-  if (marks_in(cell).number) return ColumnKind::numbers;
+  if (separator_evidence_in(cell).number) return ColumnKind::numbers;
   const std::optional<Stamp> stamp = stamp_in(cell);
   if (!stamp) return ColumnKind::words;
   if (!stamp->has_date) return ColumnKind::times_of_day;
@@ -313,12 +313,13 @@ bool Sample::fits(const Row& row) const {
 // Returns the sample with the separator given by a line `sep=;`, or else with the one that makes
 // most cells values. `decimal_comma`: the comma is known to be the decimal mark.
 Sample sample_of(std::string_view text, bool decimal_comma) {
-  const SaidSeparator said = said_separator(text);
+  const StatedSeparator stated = stated_separator(text);
   Sample best;
   double most = -1;
   for (const char separator : separators) {
-    if (said.separator != '\0' && separator != separators.front()) break;
-    Sample sample = read_sample(text, said.separator != '\0' ? said.separator : separator, said.at);
+    if (stated.separator != '\0' && separator != separators.front()) break;
+    Sample sample =
+        read_sample(text, stated.separator != '\0' ? stated.separator : separator, stated.at);
     find_width(sample);
     double sense = sense_of(sample);
     if (decimal_comma && sample.separator == ',') sense *= 0.2;  // below one column's
@@ -326,7 +327,7 @@ Sample sample_of(std::string_view text, bool decimal_comma) {
     most = sense;
     best = std::move(sample);
   }
-  if (most == 0 && said.separator == '\0' && !best.rows.empty()) {
+  if (most == 0 && stated.separator == '\0' && !best.rows.empty()) {
     const std::size_t begin = best.rows.front().at;
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
     best = read_sample(text, most_frequent(text.substr(begin, end - begin)), 0);
@@ -342,11 +343,11 @@ bool all_missing(const Row& row) {
 
 // Returns whether a row has only units, at least one of them not a number: "s;bar;mm".
 bool is_units_row(const Row& row) {
-  const auto says_something = [](const Cell& c) {
+  const auto has_unit_text = [](const Cell& c) {
     return !is_missing(c.text) && !number_in(c.text);
   };
   return std::ranges::all_of(row.cells, [](const Cell& c) { return is_unit_cell(c.text); }) &&
-         std::ranges::any_of(row.cells, says_something);
+         std::ranges::any_of(row.cells, has_unit_text);
 }
 
 // Returns the index of the first row of values; the number of rows if no row has values.
@@ -524,10 +525,10 @@ char decimal_of(const Sample& sample, const Dialect& dialect, const Source& sour
     if (row.at < dialect.body) continue;
     for (std::size_t i = 0; i < std::min(row.cells.size(), sample.width); ++i) {
       if (sample.kinds[i] != ColumnKind::numbers || is_missing(row.cells[i].text)) continue;
-      const Marks marks = marks_in(row.cells[i].text);
-      commas += marks.comma ? 1 : 0;
-      points += marks.point ? 1 : 0;
-      if (!marks.either || doubtful) continue;
+      const SeparatorEvidence evidence = separator_evidence_in(row.cells[i].text);
+      commas += evidence.comma ? 1 : 0;
+      points += evidence.point ? 1 : 0;
+      if (!evidence.either || doubtful) continue;
       doubtful_row = &row;
       doubtful = &row.cells[i];
     }

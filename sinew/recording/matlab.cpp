@@ -185,7 +185,7 @@ bool is_within(std::string_view name, std::string_view scope) {
 
 // Returns a readable name: a Simulink signal "log.signals(2).values" has its label or else
 // "log(2)"; "elbow.Data" is elbow.
-std::string people_name(std::string_view name, const Variables& in) {
+std::string readable_name(std::string_view name, const Variables& in) {
   const std::string_view part = last_part(name);
   const std::string scope(scope_of(name));
   const bool values = part == "values" || part == "Values" || part == "data" || part == "Data";
@@ -207,13 +207,13 @@ class Columns {
     for (const Matrix& m : in_.matrices)
       if (settings_.rate.empty() && is_clock(m, settings_.column)) put_clock(m);
     for (const Matrix& m : in_.matrices) {
-      if (is_a_clock_of_ours(m)) continue;
+      if (is_used_clock(m)) continue;
       if (m.rows == 1 && m.columns == 1)
         single_.push_back(m.name);
       else
         put_matrix(m);
     }
-    tell();
+    check_and_add_notes();
   }
 
  private:
@@ -229,7 +229,7 @@ class Columns {
     out_.clocks.push_back(std::move(clock));
   }
 
-  bool is_a_clock_of_ours(const Matrix& m) const {
+  bool is_used_clock(const Matrix& m) const {
     return std::ranges::find(out_.clocks, m.name, &Clock::column) != out_.clocks.end();
   }
 
@@ -240,7 +240,7 @@ class Columns {
       other_length_.push_back(fmt::format("{} ({} x {})", m.name, m.rows, m.columns));
       return;
     }
-    const std::string name = people_name(m.name, in_);
+    const std::string name = readable_name(m.name, in_);
     const std::size_t count = down ? m.columns : m.rows;
     for (std::size_t k = 0; k < count; ++k) {
       RecordedColumn column{.name = count == 1 ? name : fmt::format("{}({})", name, k + 1),
@@ -277,7 +277,7 @@ class Columns {
     return out_.clocks.size() - 1;
   }
 
-  void tell() {
+  void check_and_add_notes() {
     if (out_.clocks.empty())
       config::fail({out_.file, 0, 0}, "time",
                    fmt::format("no vector of times among {}", names_of_all()),

@@ -43,9 +43,9 @@ struct ToSi {
   double back(double si) const { return (si - offset) / slope; }
 };
 
-// Wanted column that was found in the file.
-struct Found {
-  const Wanted* wanted = nullptr;
+// Specified column that was found in the file.
+struct FoundColumn {
+  const ColumnSpec* spec = nullptr;
   std::size_t index = 0;  // index of the file's column; the first if there are several
   bool is_at = false;     // whether it is the condition of the columns with an @
   ToSi conversion;
@@ -62,23 +62,23 @@ class ColumnFinder {
       : grid_(grid), source_(source), problems_(problems) {}
 
   // Returns the columns found; an optional column that is missing is left out.
-  std::vector<Found> find(std::span<const Wanted> wanted);
+  std::vector<FoundColumn> find(std::span<const ColumnSpec> specs);
 
   // Returns the columns of `where`, and the values that a row must have in them.
   std::vector<std::pair<std::size_t, std::string>> conditions();
 
  private:
-  bool find_stated(const Wanted& w, std::vector<Found>& out);
-  void add_offset(const Wanted& w, Found& f);
-  void refuse_beside_stated(const Wanted& w, const std::vector<Found>& found);
-  void find_one(const Wanted& w, std::vector<Found>& out);
+  bool find_stated(const ColumnSpec& w, std::vector<FoundColumn>& out);
+  void add_offset(const ColumnSpec& w, FoundColumn& f);
+  void refuse_ignored_column(const ColumnSpec& w, const std::vector<FoundColumn>& found);
+  void find_one(const ColumnSpec& w, std::vector<FoundColumn>& out);
   std::vector<std::string_view> names() const;
   std::string all_names() const;
   std::string near_name(const std::string& name) const;
-  void refuse_twice(const std::string& name, std::size_t first);
-  void check_names(std::span<const Wanted> wanted);
-  void convert(const Heading& h, const Wanted& w, Found& f);
-  void refuse_unit(const Heading& h, const Wanted& w, const std::string& unit,
+  void refuse_duplicate(const std::string& name, std::size_t first);
+  void check_names(std::span<const ColumnSpec> specs);
+  void convert(const Heading& h, const ColumnSpec& w, FoundColumn& f);
+  void refuse_unit(const Heading& h, const ColumnSpec& w, const std::string& unit,
                    const std::string& try_this);
 
   const Grid& grid_;
@@ -102,18 +102,18 @@ std::string unit_in(const Heading& h) {
   return h.name.ends_with("/gauge_pressure") ? "Pa gauge" : "Pa abs";
 }
 
-std::vector<Found> ColumnFinder::find(std::span<const Wanted> wanted) {
-  std::vector<Found> out;
+std::vector<FoundColumn> ColumnFinder::find(std::span<const ColumnSpec> specs) {
+  std::vector<FoundColumn> out;
   const auto is_found = [&](std::string_view name) {
-    return std::ranges::any_of(out, [&](const Found& f) { return f.wanted->name == name; });
+    return std::ranges::any_of(out, [&](const FoundColumn& f) { return f.spec->name == name; });
   };
-  for (const Wanted& w : wanted) {
+  for (const ColumnSpec& w : specs) {
     if (w.replaces.empty() || !is_found(w.replaces))
       find_one(w, out);
     else
-      refuse_beside_stated(w, out);
+      refuse_ignored_column(w, out);
   }
-  check_names(wanted);
+  check_names(specs);
   return out;
 }
 
@@ -127,9 +127,10 @@ std::vector<std::string_view> ColumnFinder::names() const {
 }
 
 // Refuses a column that would be ignored because a value is stated for the column it replaces.
-void ColumnFinder::refuse_beside_stated(const Wanted& w, const std::vector<Found>& found) {
+void ColumnFinder::refuse_ignored_column(const ColumnSpec& w,
+                                         const std::vector<FoundColumn>& found) {
   const auto at =
-      std::ranges::find_if(found, [&](const Found& f) { return f.wanted->name == w.replaces; });
+      std::ranges::find_if(found, [&](const FoundColumn& f) { return f.spec->name == w.replaces; });
   const bool has_column =
       std::ranges::any_of(grid_.headings(), [&](const Heading& h) { return h.is_called(w.name); });
   if (at->index < grid_.headings().size() || !has_column) return;
@@ -138,28 +139,28 @@ void ColumnFinder::refuse_beside_stated(const Wanted& w, const std::vector<Found
                 "one of the two");
 }
 
-void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
+void ColumnFinder::find_one(const ColumnSpec& w, std::vector<FoundColumn>& out) {
   const auto mapped = source_.names.find(std::string(w.name));
-  const bool said = mapped != source_.names.end();
-  const std::string name = said ? mapped->second : std::string(w.name);
-  const bool header_rate = grid_.dialect.period > 0 && (!said || name == grid_.headings()[0].name);
+  const bool given = mapped != source_.names.end();
+  const std::string name = given ? mapped->second : std::string(w.name);
+  const bool header_rate = grid_.dialect.period > 0 && (!given || name == grid_.headings()[0].name);
   if (find_stated(w, out)) return;
   if (w.name == "time" && (!source_.rate.empty() || header_rate)) {
-    out.push_back({.wanted = &w, .index = grid_.headings().size()});  // no column has its values
+    out.push_back({.spec = &w, .index = grid_.headings().size()});  // no column has its values
     return;
   }
   for (std::size_t i = 0; i < grid_.headings().size(); ++i) {
     const Heading& h = grid_.headings()[i];
     const bool at = h.at_name == name;
     if (!at && !h.is_called(name)) continue;
-    Found f{.wanted = &w, .index = i, .is_at = at};
+    FoundColumn f{.spec = &w, .index = i, .is_at = at};
     if (!at) convert(h, w, f);
     add_offset(w, f);
-    refuse_twice(h.name, i);
+    refuse_duplicate(h.name, i);
     out.push_back(std::move(f));
     return;
   }
-  if (w.optional && !said) return;
+  if (w.optional && !given) return;
   const std::string near = near_name(name);
   problems_.add(grid_.header_line(), 1, std::string(w.name),
                 fmt::format("no column {} among {}", config::in_quotes(name), all_names()),
@@ -169,7 +170,7 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
 }
 
 // Finds a value that is stated for the whole file; returns false if it is missing.
-bool ColumnFinder::find_stated(const Wanted& w, std::vector<Found>& out) {
+bool ColumnFinder::find_stated(const ColumnSpec& w, std::vector<FoundColumn>& out) {
   // The value with the longest matching part of the file's name is used.
   std::optional<std::string> text;
   std::size_t longest = 0;
@@ -191,7 +192,7 @@ bool ColumnFinder::find_stated(const Wanted& w, std::vector<Found>& out) {
         grid_.header_line(), 1, std::string(w.name),
         fmt::format("a column, and the value {} for the whole file", config::in_quotes(*text)),
         "one of the two");
-  Found f{.wanted = &w, .index = grid_.headings().size()};
+  FoundColumn f{.spec = &w, .index = grid_.headings().size()};
   for (const auto& [word, meant] : w.words)
     if (*text == word) f.constant = meant;
   if (w.words.empty()) {
@@ -208,11 +209,11 @@ bool ColumnFinder::find_stated(const Wanted& w, std::vector<Found>& out) {
   return true;
 }
 
-void ColumnFinder::add_offset(const Wanted& w, Found& f) {
-  const auto said = source_.offsets.find(std::string(w.name));
-  if (said == source_.offsets.end()) return;
+void ColumnFinder::add_offset(const ColumnSpec& w, FoundColumn& f) {
+  const auto given = source_.offsets.find(std::string(w.name));
+  if (given == source_.offsets.end()) return;
   const config::Parsed added = config::parse_quantity(
-      said->second, std::string(config::difference_unit(w.unit)), source_.atmosphere);
+      given->second, std::string(config::difference_unit(w.unit)), source_.atmosphere);
   if (added.mistake)
     problems_.add(0, 0, fmt::format("offsets.{}", w.name), added.mistake->found,
                   added.mistake->expected, added.mistake->try_this);
@@ -220,7 +221,7 @@ void ColumnFinder::add_offset(const Wanted& w, Found& f) {
 }
 
 // Refuses two columns of one name, as either may be meant. Columns with an @ belong together.
-void ColumnFinder::refuse_twice(const std::string& name, std::size_t first) {
+void ColumnFinder::refuse_duplicate(const std::string& name, std::size_t first) {
   for (std::size_t i = first + 1; i < grid_.headings().size(); ++i) {
     const Heading& h = grid_.headings()[i];
     if (h.name == name && h.at_name.empty())
@@ -249,8 +250,8 @@ std::string ColumnFinder::all_names() const {
 }
 
 // Requires that the names in `names`, `units` and the like exist.
-void ColumnFinder::check_names(std::span<const Wanted> wanted) {
-  const auto known = config::names_of(wanted);
+void ColumnFinder::check_names(std::span<const ColumnSpec> specs) {
+  const auto known = config::names_of(specs);
   for (const auto& [name, file_name] : source_.names)
     if (std::ranges::find(known, name) == known.end())
       problems_.add(0, 0, "names", config::in_quotes(name), config::either(known),
@@ -281,7 +282,7 @@ std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
   std::vector<std::pair<std::size_t, std::string>> out;
   for (const auto& [name, values] : source_.where) {
     const auto at = std::ranges::find_if(
-        grid_.headings(), [&wanted = name](const Heading& h) { return h.is_called(wanted); });
+        grid_.headings(), [&called = name](const Heading& h) { return h.is_called(called); });
     if (at == grid_.headings().end()) {
       problems_.add(0, 0, "where", config::in_quotes(name), "a column of the file: " + all_names(),
                     config::closest_in_quotes(name, names()));
@@ -293,13 +294,13 @@ std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
 }
 
 // Uses the first meaning of the unit's text that has the wanted dimension.
-void ColumnFinder::convert(const Heading& h, const Wanted& w, Found& f) {
-  const bool stamps = tells_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel" ||
+void ColumnFinder::convert(const Heading& h, const ColumnSpec& w, FoundColumn& f) {
+  const bool stamps = holds_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel" ||
                       (w.name == "time" && split_seconds(grid_, f.index));
   if (!w.words.empty() || (w.name == "time" && stamps)) return;
-  auto said = source_.units.find(h.name);
-  if (said == source_.units.end()) said = source_.units.find(h.written);
-  f.unit = said != source_.units.end() ? said->second : unit_in(h);
+  auto given = source_.units.find(h.name);
+  if (given == source_.units.end()) given = source_.units.find(h.written);
+  f.unit = given != source_.units.end() ? given->second : unit_in(h);
   std::vector<config::Spelling> meanings = config::spellings(f.unit);
   if (meanings.empty()) meanings.push_back({f.unit});
   std::string try_this;
@@ -322,7 +323,7 @@ void ColumnFinder::convert(const Heading& h, const Wanted& w, Found& f) {
   refuse_unit(h, w, f.unit, try_this);
 }
 
-void ColumnFinder::refuse_unit(const Heading& h, const Wanted& w, const std::string& unit,
+void ColumnFinder::refuse_unit(const Heading& h, const ColumnSpec& w, const std::string& unit,
                                const std::string& try_this) {
   if (unit.empty()) {
     problems_.add(grid_.header_line(), h.column, std::string(w.name),
@@ -337,8 +338,8 @@ void ColumnFinder::refuse_unit(const Heading& h, const Wanted& w, const std::str
 }
 
 // Returns units of the wanted dimension with which the file's number would be in range: "mm or in".
-std::string possible_units(const Wanted& wanted, double number) {
-  std::string_view unit = wanted.unit, reference;
+std::string possible_units(const ColumnSpec& spec, double number) {
+  std::string_view unit = spec.unit, reference;
   for (const std::string_view word : {" gauge", " abs", " diff"}) {
     if (!unit.ends_with(word)) continue;
     reference = word;
@@ -348,7 +349,7 @@ std::string possible_units(const Wanted& wanted, double number) {
   const units::Dimension dimension = units::read_unit(unit).unit.dimension;
   for (const units::Unit& u : units::known_units) {
     const double size = std::abs(number) * u.numerator / u.denominator;
-    if (!(u.dimension == dimension) || size < wanted.least || size > wanted.most) continue;
+    if (!(u.dimension == dimension) || size < spec.least || size > spec.most) continue;
     if (!out.empty()) out += " or ";
     out += fmt::format("{}{}", u.name, reference);
   }
@@ -357,15 +358,15 @@ std::string possible_units(const Wanted& wanted, double number) {
 
 // Returns the column with the times, if the file has one.
 std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
-  const auto said = source.names.find("time");
-  const std::string name = said != source.names.end() ? said->second : "time";
+  const auto given = source.names.find("time");
+  const std::string name = given != source.names.end() ? given->second : "time";
   for (std::size_t i = 0; i < grid.headings().size(); ++i)
     if (grid.headings()[i].is_called(name)) return i;
   return std::nullopt;
 }
 
-bool wants_time(std::span<const Wanted> wanted) {
-  return std::ranges::find(wanted, "time", &Wanted::name) != wanted.end();
+bool needs_time(std::span<const ColumnSpec> specs) {
+  return std::ranges::find(specs, "time", &ColumnSpec::name) != specs.end();
 }
 
 // Reads the wanted columns of a grid.
@@ -374,19 +375,19 @@ class Table {
   Table(const Grid& grid, const Source& source)
       : grid_(grid), source_(source), problems_(grid.file) {}
 
-  Measured read(std::span<const Wanted> wanted) {
-    refuse_clocks(wanted);
+  Measured read(std::span<const ColumnSpec> specs) {
+    refuse_clocks(specs);
     ColumnFinder finder(grid_, source_, problems_);
-    found_ = finder.find(wanted);
+    found_ = finder.find(specs);
     where_ = finder.conditions();
     find_clock();
     problems_.finish();
 
     Measured out{.file = grid_.file, .notes = grid_.notes};
     const std::size_t rows = grid_.rows_about();
-    for (const Found& f : found_) {
-      out.columns.push_back({std::string(f.wanted->name),
-                             std::string(f.wanted->unit),
+    for (const FoundColumn& f : found_) {
+      out.columns.push_back({std::string(f.spec->name),
+                             std::string(f.spec->unit),
                              {},
                              f.shown,
                              f.constant.has_value()});
@@ -408,14 +409,14 @@ class Table {
   // Finds the source of the times: a column of numbers or stamps, or a rate.
   void find_clock() {
     const std::size_t none = grid_.headings().size();
-    for (const Found& f : found_) {
-      if (f.wanted->name != "time") continue;
+    for (const FoundColumn& f : found_) {
+      if (f.spec->name != "time") continue;
       if (f.constant) return;
       if (f.index == none)
         period_ = source_.rate.empty() ? grid_.dialect.period : period_of_rate(source_.rate);
       if (f.index == none || f.is_at) return;
       clock_columns_ = {f.index};
-      if (tells_time(grid_.dialect.kinds[f.index])) {
+      if (holds_time(grid_.dialect.kinds[f.index])) {
         clock_ = std::make_unique<StampClock>(grid_, source_, f.index);
         clock_columns_ = clock_->columns();
       } else if ((split_ = split_seconds(grid_, f.index))) {
@@ -426,10 +427,10 @@ class Table {
   }
 
   // Refuses columns of another clock, as they would get the times of the first one.
-  void refuse_clocks(std::span<const Wanted> wanted) {
+  void refuse_clocks(std::span<const ColumnSpec> specs) {
     const std::optional<std::size_t> clock = clock_of(grid_, source_);
     const std::vector<ClockColumns> clocks = clocks_with(clock);
-    if (clocks.empty() || !wants_time(wanted)) return;
+    if (clocks.empty() || !needs_time(specs)) return;
     const auto is_own = [&](std::size_t column) {
       return std::ranges::any_of(clocks, [&](const ClockColumns& c) {
         return c.clock == *clock && column >= c.from && column < c.to;
@@ -439,10 +440,10 @@ class Table {
       return std::ranges::any_of(grid_.headings(),
                                  [&](const Heading& h) { return h.is_called(name); });
     };
-    for (const Wanted& w : wanted) {
+    for (const ColumnSpec& w : specs) {
       if (!w.replaces.empty() && is_there(w.replaces)) continue;
-      const auto said = source_.names.find(std::string(w.name));
-      const std::string name = said == source_.names.end() ? std::string(w.name) : said->second;
+      const auto given = source_.names.find(std::string(w.name));
+      const std::string name = given == source_.names.end() ? std::string(w.name) : given->second;
       const auto at = std::ranges::find_if(grid_.headings(),
                                            [&](const Heading& h) { return h.is_called(name); });
       const auto column = static_cast<std::size_t>(at - grid_.headings().begin());
@@ -477,11 +478,11 @@ class Table {
         ++merged;
         continue;
       }
-      if (!above.cells.empty() && wanted_row(above)) add_rows(above, index, out);
+      if (!above.cells.empty() && meets_conditions(above)) add_rows(above, index, out);
       std::swap(above, row);
       index = body.count() - 1;
     }
-    if (!above.cells.empty() && wanted_row(above)) add_rows(above, index, out);
+    if (!above.cells.empty() && meets_conditions(above)) add_rows(above, index, out);
     if (merged > 0) out.notes.push_back(merged_text(merged));
   }
 
@@ -515,7 +516,7 @@ class Table {
   }
 
   // Returns whether the row meets every condition of `where`.
-  bool wanted_row(const Row& row) const {
+  bool meets_conditions(const Row& row) const {
     return std::ranges::all_of(where_, [&](const auto& condition) {
       for (std::string_view rest = condition.second; !rest.empty();)
         if (same(row.cells[condition.first].text, first_of(rest))) return true;
@@ -525,7 +526,7 @@ class Table {
 
   // Adds one row, or one for each column with an @ whose cell is not empty.
   void add_rows(const Row& row, std::size_t index, Measured& out) {
-    const bool several = std::ranges::any_of(found_, &Found::is_at);
+    const bool several = std::ranges::any_of(found_, &FoundColumn::is_at);
     if (!several) return add_row(row, index, nullptr, out);
     for (std::size_t i = 0; i < grid_.headings().size(); ++i)
       if (!grid_.headings()[i].at_name.empty() && !row.cells[i].text.empty())
@@ -535,7 +536,7 @@ class Table {
   void add_row(const Row& row, std::size_t index, const Heading* at, Measured& out) {
     values_.clear();
     bool missing = false;
-    for (const Found& f : found_) {
+    for (const FoundColumn& f : found_) {
       const auto value = f.is_at ? condition(*at, f) : value_of(row, index, at, f, missing);
       if (!value && !missing) return;
       if (!value) break;
@@ -550,23 +551,23 @@ class Table {
   }
 
   std::optional<double> value_of(const Row& row, std::size_t index, const Heading* at,
-                                 const Found& f, bool& missing) {
+                                 const FoundColumn& f, bool& missing) {
     if (f.constant) return *f.constant;
     if (f.index == grid_.headings().size()) return static_cast<double>(index) * period_;
-    if ((clock_ || split_) && f.wanted->name == "time") return stamp(row, f, missing);
+    if ((clock_ || split_) && f.spec->name == "time") return stamp(row, f, missing);
     return cell(row, column_of(f, at), f, missing);
   }
 
   // Returns the column to read: `at` represents all columns of its name.
-  std::size_t column_of(const Found& f, const Heading* at) const {
+  std::size_t column_of(const FoundColumn& f, const Heading* at) const {
     if (at && at->name == grid_.headings()[f.index].name)
       return static_cast<std::size_t>(at - grid_.headings().data());
     return f.index;
   }
 
-  std::optional<double> condition(const Heading& at, const Found& f) {
+  std::optional<double> condition(const Heading& at, const FoundColumn& f) {
     const config::Parsed parsed =
-        config::parse_quantity(at.at_value, f.wanted->unit, source_.atmosphere);
+        config::parse_quantity(at.at_value, f.spec->unit, source_.atmosphere);
     if (!parsed.mistake) return parsed.si;
     if (bad_conditions_.insert(at.column).second)
       problems_.add(grid_.header_line(), at.column, at.at_name, parsed.mistake->found,
@@ -574,7 +575,7 @@ class Table {
     return std::nullopt;
   }
 
-  std::optional<double> stamp(const Row& row, const Found& f, bool& missing) {
+  std::optional<double> stamp(const Row& row, const FoundColumn& f, bool& missing) {
     std::size_t column = f.index;
     const auto instant =
         clock_ ? clock_->read(row, column) : split_->read(row, grid_.dialect.numbers, column);
@@ -587,17 +588,18 @@ class Table {
     return static_cast<double>(*instant - *first_instant_) / 1e9;
   }
 
-  std::optional<double> cell(const Row& row, std::size_t index, const Found& f, bool& missing) {
+  std::optional<double> cell(const Row& row, std::size_t index, const FoundColumn& f,
+                             bool& missing) {
     const std::string_view text = row.cells[index].text;
     const auto number = number_in(text, grid_.dialect.numbers);
     if (number && std::isfinite(*number)) {
-      if (f.wanted->name != "time") return f.conversion(*number);
+      if (f.spec->name != "time") return f.conversion(*number);
       return excel_days_ ? days(*number) : f.conversion(unwrap_(*number));
     }
-    for (const auto& [word, meant] : f.wanted->words)
+    for (const auto& [word, meant] : f.spec->words)
       if (text == word) return meant;
     std::string expected = "a finite number";
-    for (const auto& [word, meant] : f.wanted->words)
+    for (const auto& [word, meant] : f.spec->words)
       expected += fmt::format(" or {}", config::in_quotes(word));
     bad_cell(row, index, f, expected, missing);
     return std::nullopt;
@@ -608,18 +610,18 @@ class Table {
     return (number - *first_day_) * 86400;
   }
 
-  void bad_cell(const Row& row, std::size_t index, const Found& f, const std::string& expected,
-                bool& missing) {
+  void bad_cell(const Row& row, std::size_t index, const FoundColumn& f,
+                const std::string& expected, bool& missing) {
     const std::string_view text = row.cells[index].text;
-    const bool is_word = hint_for(text, grid_.dialect.numbers).empty() && f.wanted->words.empty();
+    const bool is_word = hint_for(text, grid_.dialect.numbers).empty() && f.spec->words.empty();
     const bool is_none = is_missing(text) || number_in(text) ||  // nan, inf
                          (is_word && source_.drop_incomplete);
     if (is_none && source_.drop_incomplete) {
-      ++missing_[f.wanted->name];
+      ++missing_[f.spec->name];
       missing = true;
       return;
     }
-    problems_.add(row.line, row.cells[index].column, std::string(f.wanted->name),
+    problems_.add(row.line, row.cells[index].column, std::string(f.spec->name),
                   text.empty() ? "an empty cell" : config::in_quotes(text), expected,
                   is_none ? "drop_incomplete=true to leave such rows out"
                           : hint_for(text, grid_.dialect.numbers));
@@ -637,8 +639,8 @@ class Table {
   // Checks sizes; reports them in the file's own unit, which its author is familiar with.
   void check_sizes(const Measured& data) {
     for (std::size_t i = 0; i < found_.size(); ++i) {
-      const Found& f = found_[i];
-      const Wanted& w = *f.wanted;
+      const FoundColumn& f = found_[i];
+      const ColumnSpec& w = *f.spec;
       if (w.most <= 0 || data.rows() == 0) continue;
       double size = 0;
       for (const double v : data.columns[i].values) size = std::max(size, std::abs(v));
@@ -712,7 +714,7 @@ class Table {
   const Grid& grid_;
   const Source& source_;
   Problems problems_;
-  std::vector<Found> found_;
+  std::vector<FoundColumn> found_;
   std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
   std::unique_ptr<StampClock> clock_;                       // if times are stamps
   std::optional<SplitSeconds> split_;                       // if times are in two columns
@@ -728,12 +730,12 @@ class Table {
   std::size_t dropped_ = 0;
 };
 
-Measured read_rows(std::string bytes, const Source& source, std::span<const Wanted> wanted) {
+Measured read_rows(std::string bytes, const Source& source, std::span<const ColumnSpec> specs) {
   Grid grid = read_grid(std::move(bytes), source);
-  const auto clock = wants_time(wanted) ? clock_of(grid, source) : std::nullopt;
+  const auto clock = needs_time(specs) ? clock_of(grid, source) : std::nullopt;
   if (source.part != 0) keep_part(grid, source, clock);
   try {
-    return Table(grid, source).read(wanted);
+    return Table(grid, source).read(specs);
   } catch (const config::Error&) {  // several recordings in the file explain the fault better
     if (source.where.empty()) refuse_parts(grid, source, clock);
     throw;
@@ -765,12 +767,12 @@ Measured Measured::subset(std::span<const std::size_t> keep) const {
 }
 
 Measured parse_measured(std::string_view text, const Source& source,
-                        std::span<const Wanted> wanted) {
-  return read_rows(std::string(text), source, wanted);
+                        std::span<const ColumnSpec> specs) {
+  return read_rows(std::string(text), source, specs);
 }
 
-Measured read_measured(const Source& source, std::span<const Wanted> wanted) {
-  return read_rows(text_of(source, "measurements as CSV"), source, wanted);
+Measured read_measured(const Source& source, std::span<const ColumnSpec> specs) {
+  return read_rows(text_of(source, "measurements as CSV"), source, specs);
 }
 
 }  // namespace sinew::recording

@@ -21,7 +21,7 @@
 namespace sinew::recording {
 
 // Column that a method requires.
-struct Wanted {
+struct ColumnSpec {
   std::string_view name;  // "pressure"
   std::string_view unit;  // SI unit of the values that are returned: "Pa gauge"
   // Range of the largest absolute value of such a measurement, in `unit`; outside it the unit or
@@ -36,14 +36,14 @@ struct Wanted {
 
 // Values of one quantity, in the requested unit.
 struct Column {
-  std::string name;  // name in Wanted
-  std::string unit;  // unit in Wanted
+  std::string name;  // name in ColumnSpec
+  std::string unit;  // unit in ColumnSpec
   std::vector<double> values;
   std::string shown;       // unit for messages: the file's, if Sinew has it; empty: `unit`
   bool is_stated = false;  // one value for the whole file, instead of a column
 };
 
-// Table of measurements, with columns named as in Wanted.
+// Table of measurements, with columns named as in ColumnSpec.
 struct Measured {
   std::string file;
   std::vector<Column> columns;
@@ -62,10 +62,10 @@ struct Measured {
 
 // Reads the wanted columns of the source. Throws config::Error. A wanted `time` must neither
 // decrease nor repeat; dates and times of day become seconds since the first row.
-Measured read_measured(const Source& source, std::span<const Wanted> wanted);
+Measured read_measured(const Source& source, std::span<const ColumnSpec> specs);
 
 // Reads a text in place of the file, for tests and tools; messages use `source.path` as its name.
 Measured parse_measured(std::string_view text, const Source& source,
-                        std::span<const Wanted> wanted);
+                        std::span<const ColumnSpec> specs);
 
 }  // namespace sinew::recording

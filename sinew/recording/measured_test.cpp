@@ -8,7 +8,7 @@
 namespace sinew::recording::measured_test {
 namespace {
 
-constexpr Wanted wanted[] = {
+constexpr ColumnSpec specs[] = {
     {.name = "time", .unit = "s", .optional = true, .doc = "since the start"},
     {.name = "length", .unit = "m", .least = 5e-3, .most = 5, .optional = true, .doc = "of it"},
     {.name = "pressure", .unit = "Pa gauge", .least = 1e3, .most = 2e6, .doc = "inside"},
@@ -16,7 +16,7 @@ constexpr Wanted wanted[] = {
 
 Measured read(std::string_view text, Source source = {}) {
   source.path = "rig.csv";
-  return parse_measured(text, source, wanted);
+  return parse_measured(text, source, specs);
 }
 
 std::string problem(std::string_view text, Source source = {}) {
@@ -60,9 +60,9 @@ TEST(Measured, AFileWithoutAHeaderIsReadByItsColumns) {
 }
 
 TEST(Measured, AValueOfTheWholeFileAndAnOffsetTakeTheirPlace) {
-  static constexpr Wanted of[] = {{.name = "length", .unit = "m", .doc = "of the muscle"},
-                                  {.name = "pressure", .unit = "Pa gauge", .doc = "inside"},
-                                  {.name = "force", .unit = "N", .doc = "it pulls with"}};
+  static constexpr ColumnSpec of[] = {{.name = "length", .unit = "m", .doc = "of the muscle"},
+                                      {.name = "pressure", .unit = "Pa gauge", .doc = "inside"},
+                                      {.name = "force", .unit = "N", .doc = "it pulls with"}};
   Source source{.path = "runs/bar2.csv"};
   source.names["length"] = "extension";
   source.offsets["length"] = "200 mm";

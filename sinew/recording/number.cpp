@@ -137,8 +137,8 @@ bool is_missing(std::string_view text) {
   return std::ranges::find(missing_words, word) != std::end(missing_words);
 }
 
-Marks marks_in(std::string_view text) {
-  Marks out;
+SeparatorEvidence separator_evidence_in(std::string_view text) {
+  SeparatorEvidence out;
   if (number_in(text)) {
     const std::size_t point = text.find('.');
     out.number = true;
@@ -165,22 +165,23 @@ Marks marks_in(std::string_view text) {
 }
 
 std::string hint_for(std::string_view text, NumberStyle style) {
-  const Marks marks = marks_in(text);
+  const SeparatorEvidence evidence = separator_evidence_in(text);
   const std::size_t point = text.find('.');
   if (style.decimal == ',' && point != text.npos && number_in(text))
     return can_part_thousands(text, point)
                ? std::string("thousands=\".\" if the point parts thousands")
                : fmt::format("a decimal comma, as in other rows: {}", with_mark(text, point, ','));
-  if (marks.either)
+  if (evidence.either)
     return fmt::format("thousands=\",\" if the comma parts thousands, or a decimal point: {}",
                        with_mark(text, text.find(','), '.'));
-  if (marks.number && marks.thousands) {
+  if (evidence.number && evidence.thousands) {
     for (const char mark : {'.', ',', '\''})
       if (const char other = mark == '.' ? ',' : '.'; number_in(text, {other, mark}))
         return fmt::format("thousands=\"{}\", the mark between groups of digits here", mark);
     return "thousands=\" \", the mark between groups of digits here";
   }
-  if (marks.comma) return fmt::format("a decimal point: {}", with_mark(text, text.find(','), '.'));
+  if (evidence.comma)
+    return fmt::format("a decimal point: {}", with_mark(text, text.find(','), '.'));
   const std::size_t blank = text.find_first_not_of("0123456789.,+-eE");
   if (blank != text.npos && blank > 0 && !config::spellings(text.substr(blank)).empty())
     return "the unit in the header alone, as in `force [N]`";

@@ -22,14 +22,14 @@ std::optional<double> number_in(std::string_view text, NumberStyle style = {});
 bool is_missing(std::string_view text);
 
 // Possible meanings of the commas and points of a text.
-struct Marks {
+struct SeparatorEvidence {
   bool number = false;     // a number in some format
   bool comma = false;      // the comma can only be the decimal mark
   bool point = false;      // the point can only be the decimal mark
   bool either = false;     // "1,234": its comma is a thousands separator or the decimal mark
   bool thousands = false;  // certainly with thousands separators: "1.234,5", "1 234"
 };
-Marks marks_in(std::string_view text);
+SeparatorEvidence separator_evidence_in(std::string_view text);
 
 // Returns advice for a cell that is not a number in the table's format; empty if no advice is
 // known.

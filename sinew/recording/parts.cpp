@@ -22,7 +22,7 @@ class PartFinder {
  public:
   PartFinder(const Grid& grid, const Source& source, std::optional<std::size_t> clock)
       : grid_(grid), clock_(source.rate.empty() ? clock : std::nullopt) {
-    if (clock_ && tells_time(grid.dialect.kinds[*clock_]))
+    if (clock_ && holds_time(grid.dialect.kinds[*clock_]))
       stamps_ = std::make_unique<StampClock>(grid, source, *clock_);
     else if (clock_)
       split_ = split_seconds(grid, clock_);

@@ -8,26 +8,26 @@ namespace sinew::recording {
 
 namespace {
 
-constexpr std::size_t most_told = 8;
+constexpr std::size_t most_problems = 8;
 
 }  // namespace
 
 void Problems::add(int line, int column, std::string key, std::string found, std::string expected,
                    std::string try_this) {
   ++count_;
-  if (told_.size() < most_told)
-    told_.push_back({{file_, line, column},
-                     std::move(key),
-                     std::move(found),
-                     std::move(expected),
-                     std::move(try_this)});
+  if (problems_.size() < most_problems)
+    problems_.push_back({{file_, line, column},
+                         std::move(key),
+                         std::move(found),
+                         std::move(expected),
+                         std::move(try_this)});
 }
 
 void Problems::finish() {
-  if (told_.empty()) return;
-  if (count_ > told_.size())
-    told_.back().expected += fmt::format(" (and {} more such)", count_ - told_.size());
-  throw config::Error(told_);
+  if (problems_.empty()) return;
+  if (count_ > problems_.size())
+    problems_.back().expected += fmt::format(" (and {} more such)", count_ - problems_.size());
+  throw config::Error(problems_);
 }
 
 }  // namespace sinew::recording

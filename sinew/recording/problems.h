@@ -22,7 +22,7 @@ class Problems {
 
  private:
   std::string file_;
-  std::vector<config::Problem> told_;
+  std::vector<config::Problem> problems_;
   std::size_t count_ = 0;
 };
 

@@ -82,7 +82,7 @@ class RawReader {
     finish_clock(out);
     problems_.finish();
     report_wraps(out);
-    tell_missing(out);
+    note_missing(out);
     return out;
   }
 
@@ -110,13 +110,13 @@ class RawReader {
   // Returns the given column, a column of stamps, or one with a usual name.
   std::optional<std::size_t> clock_column() {
     if (only_) return only_->clock;
-    const auto said = source_.names.find("time");
-    if (said != source_.names.end()) {
-      if (const auto column = column_called(said->second)) return column;
+    const auto stated = source_.names.find("time");
+    if (stated != source_.names.end()) {
+      if (const auto column = column_called(stated->second)) return column;
       const auto names = config::names_of(grid_.headings());
       problems_.add(grid_.header_line(), 1, "time",
-                    fmt::format("no column {}", config::in_quotes(said->second)),
-                    config::either(names), config::closest_in_quotes(said->second, names));
+                    fmt::format("no column {}", config::in_quotes(stated->second)),
+                    config::either(names), config::closest_in_quotes(stated->second, names));
       return std::nullopt;
     }
     for (const ColumnKind kind :
@@ -139,7 +139,7 @@ class RawReader {
     }
     const auto column = clock_column();
     if (!column) return;
-    if (tells_time(kinds()[*column])) {
+    if (holds_time(kinds()[*column])) {
       stamps_ = std::make_unique<StampClock>(grid_, source_, *column);
       for (const std::size_t used : stamps_->columns()) {
         out.clock += (out.clock.empty() ? "column " : " and ") + grid_.headings()[used].name;
@@ -168,10 +168,10 @@ class RawReader {
 
   // Finds the unit of a clock of numbers.
   void find_unit(const Heading& h) {
-    auto said = source_.units.find(h.name);
-    const bool is_given = said != source_.units.end() ||
-                          (said = source_.clock_units.find(h.name)) != source_.clock_units.end();
-    std::string unit = is_given ? said->second : h.file_unit;
+    auto stated = source_.units.find(h.name);
+    const bool is_given = stated != source_.units.end() ||
+                          (stated = source_.clock_units.find(h.name)) != source_.clock_units.end();
+    std::string unit = is_given ? stated->second : h.file_unit;
     const auto* known = std::ranges::find(clock_names, small_letters(h.name), &ClockName::name);
     if (unit.empty() && known != std::end(clock_names)) unit = known->unit;
     for (const config::Spelling& meaning : config::spellings(unit)) {
@@ -236,8 +236,8 @@ class RawReader {
 
   void add_column(std::size_t index, std::set<std::string>& names, RawTable& out) {
     Heading h = grid_.headings()[index];
-    const auto said = source_.units.find(h.name);
-    if (said != source_.units.end()) set_unit(h, said->second);
+    const auto stated = source_.units.find(h.name);
+    if (stated != source_.units.end()) set_unit(h, stated->second);
     RawColumn column{.name = h.name, .unit = h.unit, .header = h.written};
     column.known_unit = !h.unit.empty() && config::is_unit(h.unit);
     if (column.name.empty()) column.name = fmt::format("column {}", index + 1);
@@ -431,7 +431,7 @@ class RawReader {
                     name, step, out.time.back() / 3600, name));
   }
 
-  void tell_missing(RawTable& out) const {
+  void note_missing(RawTable& out) const {
     for (const RawColumn& column : out.columns)
       if (column.missing > 0)
         out.notes.push_back(fmt::format("{}: {} of {} values are missing", column.name,

@@ -244,7 +244,7 @@ TEST_F(ReadTest, OurOwnExportComesBackWithTheSameDigits) {
   std::vector<signals::Topic> topics;
   for (const signals::Series& s : table.series) topics.push_back(s.topic);
   const std::string csv = csv_of(table);
-  const Assembled back = assemble({read_recording(put("run.csv", csv), {})}, {}, topics);
+  const AssembledRecording back = assemble({read_recording(put("run.csv", csv), {})}, {}, topics);
   EXPECT_EQ(csv_of(back.table), csv);
 }
 
@@ -263,7 +263,7 @@ TEST_F(ReadTest, OurOwnLogComesBackBitForBit) {
       }
     log.finish();
   }
-  const Assembled back = assemble({read_recording(file, {})}, {}, topics);
+  const AssembledRecording back = assemble({read_recording(file, {})}, {}, topics);
   EXPECT_EQ(csv_of(back.table), csv_of(table));
 }
 
@@ -281,23 +281,23 @@ TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
     writer.finish();
   }
   log::write_csv(log::read(folder / "log.mcap"), folder / "run.csv");
-  constexpr Wanted wanted[] = {{.name = "time", .unit = "s", .doc = "of it"},
-                               {.name = "pressure", .unit = "Pa gauge", .doc = "inside"},
-                               {.name = "force", .unit = "N", .doc = "it pulls with"}};
+  constexpr ColumnSpec specs[] = {{.name = "time", .unit = "s", .doc = "of it"},
+                                  {.name = "pressure", .unit = "Pa gauge", .doc = "inside"},
+                                  {.name = "force", .unit = "N", .doc = "it pulls with"}};
   Source source{
       .path = folder.string(),
       .names = {{"pressure", "/muscle/flexor/pressure"}, {"force", "/muscle/flexor/tension"}}};
-  const Measured run = read_measured(source, wanted);
+  const Measured run = read_measured(source, specs);
   source.path = (folder / "run.csv").string();
-  const Measured csv = read_measured(source, wanted);
+  const Measured csv = read_measured(source, specs);
   ASSERT_EQ(run.rows(), 50u);
-  for (const Wanted& w : wanted) EXPECT_EQ(run[w.name], csv[w.name]) << w.name;
+  for (const ColumnSpec& w : specs) EXPECT_EQ(run[w.name], csv[w.name]) << w.name;
   // A channel's unit is Pa by default, absolute.
   for (std::size_t i = 0; i < run.rows(); ++i)
     EXPECT_NEAR(run["pressure"][i], 2e5 + 1e5 / static_cast<double>(i + 3) - units::atmosphere,
                 1e-9);
 
-  const auto said_of = [](const Source& asked, std::span<const Wanted> columns) {
+  const auto said_of = [](const Source& asked, std::span<const ColumnSpec> columns) {
     try {
       (void)read_measured(asked, columns);
     } catch (const std::exception& e) {
@@ -306,14 +306,14 @@ TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
     return std::string("no error");
   };
   source = {.path = folder.string(), .names = {{"force", "/muscle/flexor/tension"}}};
-  const std::string said = said_of(source, wanted);
+  const std::string said = said_of(source, specs);
   EXPECT_NE(said.find("pressure: found no column \"pressure\" among time, "
                       "/muscle/flexor/pressure, /muscle/flexor/tension"),
             std::string::npos)
       << said;
   EXPECT_NE(said.find("try names.pressure=/muscle/flexor/pressure"), std::string::npos) << said;
   std::filesystem::remove(folder / "log.mcap");
-  const std::string none = said_of(source, wanted);
+  const std::string none = said_of(source, specs);
   EXPECT_NE(
       none.find("found a folder; expected measurements as CSV, or a run's folder with log.mcap"),
       std::string::npos)

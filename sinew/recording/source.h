@@ -17,7 +17,7 @@ struct Source {
   std::string path;                  // a file, or the folder of a run
   std::optional<std::string> text;   // replaces the file's content; `path` then only names it
   std::vector<std::string> columns;  // "force [N]", ... for a file without a header
-  std::map<std::string, std::string> names;  // name in Wanted -> the file's name
+  std::map<std::string, std::string> names;  // name in ColumnSpec -> the file's name
   std::map<std::string, std::string> units;  // the file's name -> its unit, if the header has none
   // Like `units`, but only for the column that is the clock; ignored for other columns.
   std::map<std::string, std::string> clock_units;
@@ -26,9 +26,10 @@ struct Source {
   // "NAME=VALUE" for a column that the file lacks, "pressure=2 bar gauge", or "PART:NAME=VALUE" for
   // files with PART in their name.
   std::vector<std::string> values;
-  std::map<std::string, std::string> offsets;  // name in Wanted -> added to its numbers, "200 mm"
-  bool drop_incomplete = false;                // leave out rows with cells without a number
-  double atmosphere = units::atmosphere;       // [Pa]
+  std::map<std::string, std::string>
+      offsets;                            // name in ColumnSpec -> added to its numbers, "200 mm"
+  bool drop_incomplete = false;           // leave out rows with cells without a number
+  double atmosphere = units::atmosphere;  // [Pa]
 
   // Format settings that a file may leave open. Empty: found from the file, which is refused if
   // they cannot be determined.

@@ -24,12 +24,12 @@ namespace {
 constexpr std::string_view table_of_text = "a table as text, such as CSV";
 
 // Files that are not text, recognised by their first bytes.
-struct Known {
+struct FileSignature {
   std::string_view begin, what, try_this;
 };
 using namespace std::string_view_literals;
 constexpr std::string_view save_as_csv = "to save the sheet as CSV in the program that made it";
-constexpr Known known_files[] = {
+constexpr FileSignature known_files[] = {
     {"\xD0\xCF\x11\xE0"sv, "an Excel workbook (.xls)", save_as_csv},
     {"MATLAB 5.0"sv, "a file of MATLAB (.mat)", "writetable(T, 'file.csv') in MATLAB"},
     {"\x89HDF"sv, "an HDF5 file, as MATLAB 7.3 writes them too",
@@ -70,7 +70,7 @@ void refuse_archive(std::string_view bytes, const std::string& file) {
 
 void refuse_other_files(std::string_view bytes, const std::string& file) {
   refuse_archive(bytes, file);
-  for (const Known& known : known_files)
+  for (const FileSignature& known : known_files)
     if (bytes.starts_with(known.begin))
       config::fail({file, 0, 0}, "", std::string(known.what), std::string(table_of_text),
                    std::string(known.try_this));

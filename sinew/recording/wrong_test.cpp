@@ -14,7 +14,7 @@
 namespace sinew::recording::wrong_test {
 namespace {
 
-constexpr Wanted wanted[] = {
+constexpr ColumnSpec specs[] = {
     {.name = "time", .unit = "s", .optional = true, .doc = "since the start"},
     {.name = "pressure", .unit = "Pa gauge", .least = 1e3, .most = 2e6, .doc = "inside"},
     {.name = "force", .unit = "N", .least = 1, .most = 1e5, .doc = "it pulls with"}};
@@ -176,13 +176,13 @@ TEST(Wrong, MeasurementsWhoseTimeRunsFarBackwardsAreRefused) {
         "lab.csv:4:1: time: found 1 s after 2 s; expected times that do not run "
         "backwards; try to sort the rows by their time"},
        {header + "0,2,20\n1,2,21\n2,2,22\n2,2,23\n2,2,24\n2,2,25\n0.9,2,24\n", "0.9 s after"}},
-      [](const Source& s) { read_measured(s, wanted); });
+      [](const Source& s) { read_measured(s, specs); });
 }
 
 TEST(Wrong, MeasurementsThatShareATimeAreSpreadAndTold) {
   const Measured m =
       parse_measured("time [s],pressure [barg],force [N]\n0,2,20\n1,2,21\n1,2,22\n2,2,23\n",
-                     {.path = "lab.csv"}, wanted);
+                     {.path = "lab.csv"}, specs);
   EXPECT_EQ(m["time"], (std::vector<double>{0, 1, 1.5, 2}));
   ASSERT_EQ(m.notes.size(), 1u);
   EXPECT_EQ(m.notes[0], "1 rows shared the time of another: spread evenly");
@@ -193,7 +193,7 @@ TEST(Wrong, MeasurementsThatAreInterleavedAreSortedAndTold) {
   std::string text = "time [s],pressure [barg],force [N]\n";
   for (int block = 0; block < 100; ++block)
     for (const int i : {2 * block + 1, 2 * block}) text += fmt::format("{},2,{}\n", i, 20 + i);
-  const Measured m = parse_measured(text, {.path = "lab.csv"}, wanted);
+  const Measured m = parse_measured(text, {.path = "lab.csv"}, specs);
   ASSERT_EQ(m.rows(), 200u);
   for (std::size_t i = 0; i < m.rows(); ++i) {
     EXPECT_EQ(m["time"][i], static_cast<double>(i));
@@ -209,7 +209,7 @@ TEST(Wrong, RowsOfOneLineMayShareATime) {
   const Measured m = parse_measured(
       "time [s],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge\n"
       "0,10,20\n1,11,21\n",
-      {.path = "lab.csv"}, wanted);
+      {.path = "lab.csv"}, specs);
   EXPECT_EQ(m["time"], (std::vector<double>{0, 0, 1, 1}));
 }
 
@@ -217,7 +217,7 @@ TEST(Wrong, RowsOfOneLineMayShareATime) {
 TEST(Wrong, RowsOfOneTimeThatFillEachOthersCellsAreOneRow) {
   const std::string header = "time [s],pressure [bar gauge],force [N]\n";
   const Measured m =
-      parse_measured(header + "0,1,\n0,,10\n1,2,\n1,,11\n2,3,12\n", {.path = "lab.csv"}, wanted);
+      parse_measured(header + "0,1,\n0,,10\n1,2,\n1,,11\n2,3,12\n", {.path = "lab.csv"}, specs);
   EXPECT_EQ(m["time"], (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(m["pressure"], (std::vector<double>{1e5, 2e5, 3e5}));
   EXPECT_EQ(m["force"], (std::vector<double>{10, 11, 12}));
@@ -227,10 +227,10 @@ TEST(Wrong, RowsOfOneTimeThatFillEachOthersCellsAreOneRow) {
   const Measured stamps = parse_measured(
       "date,time,pressure [bar gauge],force [N]\n2026-11-27,10:00:00,1,\n2026-11-27,10:00:00,,10\n"
       "2026-11-27,10:00:01,2,11\n",
-      {.path = "lab.csv"}, wanted);
+      {.path = "lab.csv"}, specs);
   EXPECT_EQ(stamps["time"], (std::vector<double>{0, 1}));
   EXPECT_EQ(stamps["force"], (std::vector<double>{10, 11}));
-  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  const auto measured = [](const Source& s) { read_measured(s, specs); };
   expect_refused({{header + "0,1,\n1,,10\n2,2,11\n", "force: found an empty cell"},
                   {header + "0,1,\n0,2,10\n2,2,11\n", "force: found an empty cell"}},
                  measured);
@@ -238,7 +238,7 @@ TEST(Wrong, RowsOfOneTimeThatFillEachOthersCellsAreOneRow) {
 
 TEST(Wrong, AColumnOfASecondClockIsRefused) {
   const std::string rows = "\n0,20,0,2\n.01,21,.04,2\n.02,22,.08,2\n";
-  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  const auto measured = [](const Source& s) { read_measured(s, specs); };
   const std::string said =
       "pressure: found the column \"pressure\" of another clock than \"time\"; "
       "expected columns of one clock; try the table resampled at the times of "
@@ -263,7 +263,7 @@ TEST(Wrong, SeveralRecordingsInATableAreCountedAndOneCanBeRead) {
                         {header + first + header + second, again},
                         {header + first + second, "part: found 3; expected 1 to 2", {.part = 3}},
                         {header + first, "expected 1: the file holds one", {.part = 2}}});
-  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  const auto measured = [](const Source& s) { read_measured(s, specs); };
   expect_refused({{header + first + second, said}, {header + first + header + second, again}},
                  measured);
   for (const std::string& text : {header + first + second, header + first + header + second}) {
@@ -271,7 +271,7 @@ TEST(Wrong, SeveralRecordingsInATableAreCountedAndOneCanBeRead) {
     const RawTable table = read_table(source);
     EXPECT_EQ(table.time, (std::vector<double>{0, 1}));
     EXPECT_EQ(table.columns.at(1).values, (std::vector<double>{30, 31}));
-    EXPECT_EQ(read_measured(source, wanted)["force"], (std::vector<double>{30, 31}));
+    EXPECT_EQ(read_measured(source, specs)["force"], (std::vector<double>{30, 31}));
   }
 }
 
@@ -305,7 +305,7 @@ TEST(Wrong, RowsAndCellsAreToldByTheirPlace) {
 }
 
 TEST(Wrong, UnitsAreToldInTheWordsOfTheFile) {
-  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  const auto measured = [](const Source& s) { read_measured(s, specs); };
   expect_refused(
       {{"pressure [bar],force [N]\n2,20\n",
         "pressure: found the unit \"bar\"; expected Pa gauge (pressure); try \"bar gauge\" or "

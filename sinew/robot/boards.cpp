@@ -20,9 +20,9 @@ int joint_of(const Robot& robot, const Sensor& sensor) {
 bool measures_cylinder(const Sensor& sensor) { return sensor.kind == Sensor::Kind::cylinder; }
 
 // Assigns each joint, the cylinder and each sensor to a board.
-class Split {
+class BoardAssignment {
  public:
-  explicit Split(const Robot& robot)
+  explicit BoardAssignment(const Robot& robot)
       : robot_(robot),
         joint_(robot.joints.size(), 0),
         sensor_(robot.sensors.size(), 0),
@@ -160,7 +160,7 @@ std::string key_beyond(const Robot& robot, int board) {
 
 }  // namespace
 
-std::vector<Board> boards_of(const Robot& robot) { return Split(robot).boards(); }
+std::vector<Board> boards_of(const Robot& robot) { return BoardAssignment(robot).boards(); }
 
 int board_of_joint(const std::vector<Board>& boards, int joint) {
   for (std::size_t b = 0; b < boards.size(); ++b)

@@ -3,8 +3,8 @@
 
 #include "sinew/robot/control.h"
 #include "sinew/robot/robot.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::robot {
 
@@ -52,8 +52,8 @@ void observer_fields(Visitor& v, Velocity& velocity) {
             .doc = "kalman: of the angle, in addition to its rounding"},
            velocity.noise);
   if (observer && velocity.inertia <= 0 && (velocity.tensions || velocity.damping > 0))
-    units::complain(v, "inertia", "none", "the joint's, for damping or tensions",
-                    "inertia = \"0.01 kg m2\"");
+    units::report_conflict(v, "inertia", "none", "the joint's, for damping or tensions",
+                           "inertia = \"0.01 kg m2\"");
 }
 
 template <class Visitor>

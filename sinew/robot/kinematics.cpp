@@ -13,7 +13,7 @@ constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double edge = 1e-12;
 
 // Returns +1 if the muscle flexes its joint, -1 if it extends it.
-double pull(Muscle::Role role) { return role == Muscle::Role::flexor ? 1.0 : -1.0; }
+double sign_of(Muscle::Role role) { return role == Muscle::Role::flexor ? 1.0 : -1.0; }
 
 // Returns the target moved along its own ray to distance d; straight down if it has no direction.
 Point on_ray(Point target, double distance, double d) {
@@ -178,11 +178,11 @@ double cam_radius(const Cam& cam, const Joint& joint, double angle) {
   return cam_radius(cam.angle, cam.radii, angle);
 }
 
-double pull_at(const Muscle& muscle, const Joint& joint, double angle) {
+double moment_arm_at(const Muscle& muscle, const Joint& joint, double angle) {
   const bool first = muscle.joint == joint.name, second = muscle.second.joint == joint.name;
   if (!first && !second) return 0;
   const Cam& cam = first ? muscle.cam : muscle.second.cam;
-  return pull(first ? muscle.role : muscle.second.role) * joint.sign() *
+  return sign_of(first ? muscle.role : muscle.second.role) * joint.sign() *
          cam_radius(cam, joint, angle);
 }
 
@@ -199,7 +199,7 @@ double JointMuscles::torque(double angle, std::span<const double> tensions) cons
                          tensions[static_cast<std::size_t>(extensor_)]);
   double sum = 0;
   for (std::size_t m = 0; m < robot_.muscles.size() && m < tensions.size(); ++m)
-    sum += pull_at(robot_.muscles[m], joint_, angle) * tensions[m];
+    sum += moment_arm_at(robot_.muscles[m], joint_, angle) * tensions[m];
   return sum;
 }
 
@@ -213,20 +213,21 @@ double torque(const Joint& joint, double flexor_tension, double extensor_tension
 }
 
 double muscle_length(const Joint& joint, Muscle::Role role, double mount_length, double angle) {
-  return mount_length - pull(role) * joint.sign() * joint.moment_arm * (angle - joint.rest_angle);
+  return mount_length -
+         sign_of(role) * joint.sign() * joint.moment_arm * (angle - joint.rest_angle);
 }
 
 namespace {
 
 // Returns the tendon length taken up by the cam. The trapezoidal rule is exact for the straight
 // pieces of a cam if it meets the corners.
-double cord_taken_up(const Muscle& muscle, const Joint& joint, double angle) {
+double tendon_travel(const Muscle& muscle, const Joint& joint, double angle) {
   constexpr int pieces = 32;
   const double step = (angle - joint.rest_angle) / pieces;
   double sum = 0;
   for (int i = 0; i <= pieces; ++i) {
     const double share = i == 0 || i == pieces ? 0.5 : 1.0;
-    sum += share * pull_at(muscle, joint, joint.rest_angle + i * step);
+    sum += share * moment_arm_at(muscle, joint, joint.rest_angle + i * step);
   }
   return sum * step;
 }
@@ -236,19 +237,19 @@ double cord_taken_up(const Muscle& muscle, const Joint& joint, double angle) {
 double muscle_length(const Robot& robot, const Muscle& muscle, std::span<const double> angles) {
   double length = muscle.mount_length;
   for (std::size_t j = 0; j < robot.joints.size(); ++j)
-    if (pull_at(muscle, robot.joints[j], angles[j]) != 0)
-      length -= cord_taken_up(muscle, robot.joints[j], angles[j]);
+    if (moment_arm_at(muscle, robot.joints[j], angles[j]) != 0)
+      length -= tendon_travel(muscle, robot.joints[j], angles[j]);
   return length;
 }
 
-double believed_muscle_length(const Robot& robot, int muscle, double angle) {
+double assumed_muscle_length(const Robot& robot, int muscle, double angle) {
   const Muscle& m = robot.muscles[static_cast<std::size_t>(muscle)];
   const Joint& joint = robot.joints[static_cast<std::size_t>(find_joint(robot, m.joint))];
 
   const double assumed = robot.low_level.assumed_mount_length;
   const double mount = assumed > 0 ? assumed : m.mount_length;
   const double sign = robot.thesis.knee_lengths_swapped ? 1.0 : joint.sign();
-  return mount - pull(m.role) * sign * joint.moment_arm * (angle - joint.rest_angle);
+  return mount - sign_of(m.role) * sign * joint.moment_arm * (angle - joint.rest_angle);
 }
 
 }  // namespace sinew::robot

@@ -123,7 +123,7 @@ double cam_radius(const Cam&, const Joint&, double angle);
 
 // Returns the moment arm of a muscle at a joint at this angle, > 0 raises it; 0 at a joint that the
 // muscle does not cross [m].
-double pull_at(const Muscle&, const Joint&, double angle);
+double moment_arm_at(const Muscle&, const Joint&, double angle);
 
 // The muscles across a joint, found once for many torques. The robot must outlive the object.
 class JointMuscles {
@@ -154,6 +154,6 @@ double muscle_length(const Robot&, const Muscle&, std::span<const double> angles
 
 // Returns the length assumed by the low level: with its assumed mount length, and B.1's exchange at
 // the knee [m].
-double believed_muscle_length(const Robot&, int muscle, double angle);
+double assumed_muscle_length(const Robot&, int muscle, double angle);
 
 }  // namespace sinew::robot

@@ -278,9 +278,9 @@ TEST(Torque, ACamsLeverIsStraightBetweenItsPoints) {
   EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 4.25), 0.025);
   EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 5.5), 0.035);
   EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 7), 0.03);
-  EXPECT_DOUBLE_EQ(pull_at(robot.muscles[3], knee, 4.25),
+  EXPECT_DOUBLE_EQ(moment_arm_at(robot.muscles[3], knee, 4.25),
                    0.025);  // the knee's extensor raises its angle
-  EXPECT_EQ(pull_at(robot.muscles[3], robot.joints[0], 4.25), 0);  // no effect at the hip
+  EXPECT_EQ(moment_arm_at(robot.muscles[3], robot.joints[0], 4.25), 0);  // no effect at the hip
   const std::array<double, 4> tension{0, 0, 0, 100};
   EXPECT_DOUBLE_EQ(torque_of_muscles(robot, 1, 4.25, tension), 2.5);
 }
@@ -314,13 +314,13 @@ TEST(MuscleLength, BelievedKneeIsExchangedByTheThesis) {
   const int flexor = find_muscle(robot, "knee_flexor"),
             extensor = find_muscle(robot, "knee_extensor");
   const double angle = 300 * degree;
-  const double right = believed_muscle_length(robot, flexor, angle);
+  const double right = assumed_muscle_length(robot, flexor, angle);
   robot.thesis.knee_lengths_swapped = true;
-  EXPECT_NEAR(believed_muscle_length(robot, extensor, angle), right, 1e-15);
+  EXPECT_NEAR(assumed_muscle_length(robot, extensor, angle), right, 1e-15);
 
   // The hip's lengths are correct with either setting.
   const int hip = find_muscle(robot, "hip_flexor");
-  EXPECT_LT(believed_muscle_length(robot, hip, 290 * degree), 3.15 * inch);
+  EXPECT_LT(assumed_muscle_length(robot, hip, 290 * degree), 3.15 * inch);
 }
 
 TEST(Normalised, IsWithinOneTurn) {

@@ -5,8 +5,8 @@
 #include "sinew/gas/leak.fields.h"
 #include "sinew/robot/control.fields.h"
 #include "sinew/robot/robot.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::robot {
 

@@ -9,8 +9,8 @@
 #include "sinew/robot/muscle.fields.h"
 #include "sinew/robot/robot.h"
 #include "sinew/robot/sensor.fields.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::robot {
 
@@ -26,8 +26,8 @@ void stiffness_fields(Visitor& v, LowLevel& low) {
       low.stiffness_pole_clamp);
   constexpr double never = -12;  // [rad]: no muscle gets that far beyond its pole
   if (low.stiffness_pole_clamp < 0 && low.stiffness_pole_clamp > never)
-    units::complain(v, "stiffness_pole_clamp", "a distance below 0",
-                    "at least 0 deg, or -800 deg for never", "\"10 deg\"");
+    units::report_conflict(v, "stiffness_pole_clamp", "a distance below 0",
+                           "at least 0 deg, or -800 deg for never", "\"10 deg\"");
   v.number({.name = "assumed_thread_length",
             .unit = "m",
             .min = 0,

@@ -6,8 +6,8 @@
 
 #include "sinew/robot/muscle.fields.h"
 #include "sinew/robot/stand.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::robot {
 
@@ -44,7 +44,7 @@ void points(Visitor& v, std::string_view name, units::Field what, std::string_vi
          });
   for (std::size_t i = 1; i < list.size(); ++i)
     if (list[i].at < list[i - 1].at)
-      units::complain(v, name, "instants that go back", "ascending ones");
+      units::report_conflict(v, name, "instants that go back", "ascending ones");
 }
 
 template <class Visitor>
@@ -133,7 +133,7 @@ void fields(Visitor& v, Transducer& t) {
   amount(v, "offset", unit, -units::unbounded, "what it reads of nothing", t.offset);
   amount(v, "resolution", unit, 0, "of a dial or display, in measured.csv; 0: the counts'",
          t.resolution);
-  if (!(t.high > t.low)) units::complain(v, "high", "no range", "more than low");
+  if (!(t.high > t.low)) units::report_conflict(v, "high", "no range", "more than low");
 }
 
 // Visits element, load, air and transducers.

@@ -57,8 +57,8 @@ class PagedVector {
   // Exchanges the contents.
   void swap(PagedVector& other) noexcept {
     store_.swap(other.store_);
-    seen_.swap(other.seen_);
-    std::swap(seen_page_, other.seen_page_);
+    cached_.swap(other.cached_);
+    std::swap(cached_page_, other.cached_page_);
   }
 
   // Returns the file of its pages; empty if it stays in memory. Vectors derived from these
@@ -69,7 +69,7 @@ class PagedVector {
   bool empty() const { return size() == 0; }
   T operator[](std::size_t i) const {
     const std::size_t paged = store_->paged();
-    return i >= paged ? store_->tail[i - paged] : seen(i / page_size)[i % page_size];
+    return i >= paged ? store_->tail[i - paged] : load_page(i / page_size)[i % page_size];
   }
   // Return the first and the last value; requires at least one.
   T front() const { return (*this)[0]; }
@@ -82,7 +82,7 @@ class PagedVector {
 
   // Appends a value. Throws std::runtime_error if its file has no more room.
   void push_back(T value) {
-    own();
+    detach();
     if (!store_->push(value)) fail(store_->file);
   }
 
@@ -91,7 +91,7 @@ class PagedVector {
   bool try_push_back(T value) noexcept { return store_->room() && store_->push(value); }
   // Reserves room for this number of elements; with a file, for the list of their pages only.
   void reserve(std::size_t elements) {
-    own();
+    detach();
     store_->reserve(elements);
   }
 
@@ -145,25 +145,25 @@ class PagedVector {
   };
 
   // Detaches from copies before a change.
-  void own() {
+  void detach() {
     if (!store_) store_ = std::make_shared<Store>(PageFile());
     if (store_.use_count() > 1) *this = PagedVector(begin(), end(), file());
   }
-  const T* seen(std::size_t page) const {
-    if (page != seen_page_) {
-      if (!seen_) seen_ = std::make_unique_for_overwrite<T[]>(page_size);
-      seen_page_ = none;
-      if (!store_->file.read(store_->pages[page], seen_.get(), page_size * sizeof(T)))
+  const T* load_page(std::size_t page) const {
+    if (page != cached_page_) {
+      if (!cached_) cached_ = std::make_unique_for_overwrite<T[]>(page_size);
+      cached_page_ = none;
+      if (!store_->file.read(store_->pages[page], cached_.get(), page_size * sizeof(T)))
         fail(store_->file);
-      seen_page_ = page;
+      cached_page_ = page;
     }
-    return seen_.get();
+    return cached_.get();
   }
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::shared_ptr<Store> store_;
-  mutable std::unique_ptr<T[]> seen_;  // the page that was read last
-  mutable std::size_t seen_page_ = none;
+  mutable std::unique_ptr<T[]> cached_;  // the page that was read last
+  mutable std::size_t cached_page_ = none;
 };
 
 // Random access iterator over the values.
@@ -219,21 +219,21 @@ std::vector<T> PagedVector<T>::slice(std::size_t first, std::size_t last) const 
 
 template <class T>
 void PagedVector<T>::pop_back() {
-  own();
+  detach();
   Store& s = *store_;
   if (s.tail.empty()) {  // the last page is read back
-    const T* values = seen(s.pages.size() - 1);
+    const T* values = load_page(s.pages.size() - 1);
     s.tail.assign(values, values + page_size);
     s.file.release(s.pages.back());
     s.pages.pop_back();
-    seen_page_ = none;
+    cached_page_ = none;
   }
   s.tail.pop_back();
 }
 
 template <class T>
 void PagedVector<T>::set(std::size_t i, T value) {
-  own();
+  detach();
   Store& s = *store_;
   const std::size_t paged = s.paged();
   if (i >= paged) {
@@ -242,7 +242,7 @@ void PagedVector<T>::set(std::size_t i, T value) {
   }
   const std::size_t page = i / page_size, at = i % page_size;
   if (!s.file.rewrite(s.pages[page], at * sizeof(T), &value, sizeof(T))) fail(s.file);
-  if (page == seen_page_) seen_[at] = value;
+  if (page == cached_page_) cached_[at] = value;
 }
 
 }  // namespace sinew::signals

@@ -64,7 +64,7 @@ std::vector<Figure> reported_figures(const std::vector<config::Reported>& report
   std::vector<Figure> out;
   for (const config::Reported& r : reported)
     if (std::ranges::find(out, r.key, &Figure::key) == out.end())
-      out.push_back({r.key, analysis::spoken_unit(r, atmosphere)});
+      out.push_back({r.key, analysis::quoted_unit(r, atmosphere)});
   return out;
 }
 

@@ -13,7 +13,7 @@
 namespace sinew::tune {
 
 // A requested run.
-struct Wanted {
+struct RequestedRun {
   std::size_t point = 0;  // identifies the run for the caller
   std::string experiment;
   std::vector<std::string> sets;
@@ -21,9 +21,9 @@ struct Wanted {
 
 struct Many {
   // Returns the next run, if there is one. Must not throw.
-  std::function<std::optional<Wanted>()> next;
+  std::function<std::optional<RequestedRun>()> next;
   // Receives the results, in any order. Must not throw.
-  std::function<void(std::size_t point, Ran)> done;
+  std::function<void(std::size_t point, RunResult)> done;
   bool allow_unreachable = false;
   int lanes = 8;  // largest number; 1: one after the other
 };

@@ -29,17 +29,18 @@ std::string status_of(const experiment::Experiment& e, const run::Outcome& outco
 }
 
 // Adds judgements of the figures that are not part of the summary.
-void judge(const run::Outcome& outcome, const analysis::Machine& machine, Ran& out) {
+void compare_with_reported(const run::Outcome& outcome, const analysis::Machine& machine,
+                           RunResult& out) {
   out.no_air = !analysis::unused_air(outcome.table, machine).empty();
   for (const analysis::Verdict& v :
        analysis::compare(out.summary, machine.reported, machine.atmosphere))
-    if (v.is == analysis::Verdict::Is::differs) out.differs.push_back(v.key);
+    if (v.agreement == analysis::Verdict::Agreement::differs) out.differs.push_back(v.key);
 }
 
 // Returns the run that `work` fills, or its refusal.
 template <class Work>
-Ran refusing(const Work& work) {
-  Ran out;
+RunResult refusing(const Work& work) {
+  RunResult out;
   try {
     work(out);
   } catch (const config::Error& e) {
@@ -52,12 +53,13 @@ Ran refusing(const Work& work) {
 
 // A run that is ready to begin.
 struct Prepared {
-  Prepared(const Wanted& wanted, bool allow_unreachable)
-      : Prepared(wanted, config::compose(wanted.experiment, wanted.sets), allow_unreachable) {}
-  Prepared(const Wanted& wanted, const config::Node& root, bool allow_unreachable)
-      : point(wanted.point),
+  Prepared(const RequestedRun& requested, bool allow_unreachable)
+      : Prepared(requested, config::compose(requested.experiment, requested.sets),
+                 allow_unreachable) {}
+  Prepared(const RequestedRun& requested, const config::Node& root, bool allow_unreachable)
+      : point(requested.point),
         machine(analysis::read_machine(root)),
-        experiment(run::buildable(root, wanted.experiment)) {
+        experiment(run::buildable(root, requested.experiment)) {
     if (!allow_unreachable) experiment::refuse_unreachable(experiment);
   }
 
@@ -67,36 +69,36 @@ struct Prepared {
 };
 
 // Summarises the table in memory; no log is written.
-void sum_up(const Prepared& p, const run::Outcome& outcome, Ran& out) {
+void summarize(const Prepared& p, const run::Outcome& outcome, RunResult& out) {
   out.status = status_of(p.experiment, outcome);
   out.atmosphere = p.machine.atmosphere;
   if (!out.ok()) return;
   out.summary = analysis::summarize(outcome.table, p.machine);
-  judge(outcome, p.machine, out);
+  compare_with_reported(outcome, p.machine, out);
 }
 
 }  // namespace
 
-Ran run_once(const std::string& file, const std::vector<std::string>& sets,
-             bool allow_unreachable) {
-  return refusing([&](Ran& out) {
+RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
+                   bool allow_unreachable) {
+  return refusing([&](RunResult& out) {
     const Prepared p({0, file, sets}, allow_unreachable);
-    sum_up(p, run::run(p.experiment), out);
+    summarize(p, run::run(p.experiment), out);
   });
 }
 
 void run_many(const Many& many) {
   std::vector<std::unique_ptr<Prepared>> going;
-  const auto prepare = [&](const Wanted& wanted) {
+  const auto prepare = [&](const RequestedRun& requested) {
     std::unique_ptr<Prepared> p;
-    Ran refused =
-        refusing([&](Ran&) { p = std::make_unique<Prepared>(wanted, many.allow_unreachable); });
-    if (!p) many.done(wanted.point, std::move(refused));
+    RunResult refused = refusing(
+        [&](RunResult&) { p = std::make_unique<Prepared>(requested, many.allow_unreachable); });
+    if (!p) many.done(requested.point, std::move(refused));
     return p;
   };
   const auto next = [&]() -> const experiment::Experiment* {
-    while (const std::optional<Wanted> wanted = many.next())
-      if (std::unique_ptr<Prepared> p = prepare(*wanted))
+    while (const std::optional<RequestedRun> requested = many.next())
+      if (std::unique_ptr<Prepared> p = prepare(*requested))
         return &going.emplace_back(std::move(p))->experiment;
     return nullptr;
   };
@@ -106,9 +108,9 @@ void run_many(const Many& many) {
         std::ranges::find_if(going, [&](const auto& p) { return &p->experiment == &e; });
     const std::unique_ptr<Prepared> p = std::move(*it);
     going.erase(it);
-    many.done(p->point, refusing([&](Ran& out) {
+    many.done(p->point, refusing([&](RunResult& out) {
                 if (thrown) std::rethrow_exception(thrown);
-                sum_up(*p, outcome, out);
+                summarize(*p, outcome, out);
               }));
   };
   run::run_in_lanes({.next = next, .done = done, .most = many.lanes});

@@ -95,7 +95,7 @@ Range parse_range(std::string_view text, std::string_view setting) {
 }
 
 std::vector<double> shares(const Sample& s) {
-  if (!s.given.empty() || s.handed || s.ranges.empty()) return s.given;
+  if (!s.given.empty() || s.given_later || s.ranges.empty()) return s.given;
   if (s.kind == Sample::Kind::random) return random_shares(s);
   return s.kind == Sample::Kind::latin ? latin_shares(s)
                                        : sobol_shares(s.ranges.size(), s.points, s.seed);

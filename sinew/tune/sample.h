@@ -51,7 +51,7 @@ struct Sample {
   std::size_t points = 0;
   std::uint64_t seed = 1;
   std::vector<double> given;  // shares that replace drawn ones; may be empty
-  bool handed = false;        // the caller assigns `given` in portions, as points are handed out
+  bool given_later = false;   // the caller assigns `given` in portions, as points are handed out
 };
 
 inline constexpr std::size_t most_ranges = 1000;

@@ -34,22 +34,23 @@ Study load_study(const std::string& path) {
   return out;
 }
 
-Study load_study(const std::string& path, const Said& said) {
+Study load_study(const std::string& path, const StudyOptions& options) {
   const bool plan = config::format_kind(config::parse_file(path)) == "plan";
   Study out = plan ? load_study(path) : Study{};
   if (!plan) out.experiment = path;
   for (const auto list : {&Study::set, &Study::vary, &Study::range, &Study::where, &Study::report})
-    (out.*list).insert((out.*list).end(), (said.study.*list).begin(), (said.study.*list).end());
-  if (!said.study.largest.empty()) out.largest = said.study.largest;
-  if (said.study.seeds > 0) out.seeds = said.study.seeds;
-  if (said.study.points > 0) out.points = said.study.points;
-  if (!said.study.units.empty()) out.units = said.study.units;
-  if (said.sample == "sobol") out.sample = Sample::Kind::sobol;
-  if (said.sample == "latin") out.sample = Sample::Kind::latin;
-  if (said.sample == "random") out.sample = Sample::Kind::random;
-  if (said.sample_seed) out.sample_seed = *said.sample_seed;
-  if (said.halvings) out.halvings = *said.halvings;
-  out.allow_unreachable = out.allow_unreachable || said.study.allow_unreachable;
+    (out.*list).insert((out.*list).end(), (options.study.*list).begin(),
+                       (options.study.*list).end());
+  if (!options.study.largest.empty()) out.largest = options.study.largest;
+  if (options.study.seeds > 0) out.seeds = options.study.seeds;
+  if (options.study.points > 0) out.points = options.study.points;
+  if (!options.study.units.empty()) out.units = options.study.units;
+  if (options.sample == "sobol") out.sample = Sample::Kind::sobol;
+  if (options.sample == "latin") out.sample = Sample::Kind::latin;
+  if (options.sample == "random") out.sample = Sample::Kind::random;
+  if (options.sample_seed) out.sample_seed = *options.sample_seed;
+  if (options.halvings) out.halvings = *options.halvings;
+  out.allow_unreachable = out.allow_unreachable || options.study.allow_unreachable;
   return out;
 }
 
@@ -181,7 +182,7 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   if (axis.key == "robot") return;
   if (axis.key.ends_with(']')) return check_element(s, axis);
   if (axis.key == "experiment") {
-    for (const Value& value : axis.values) run::buildable(beside(s, value.text), s.sets);
+    for (const Value& value : axis.values) run::buildable(experiment_path(s, value.text), s.sets);
     return;
   }
   if (const config::Origin* origin = config::find_origin(origins, axis.key))

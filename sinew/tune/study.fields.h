@@ -44,7 +44,7 @@ void fields(Visitor& v, Study& s) {
           .optional = true,
           .doc = "of figures that name none: si, thesis, metric, or metric,length=cm"},
          s.units);
-  config::complain_of_units(v, s.units);
+  config::report_wrong_units(v, s.units);
   v.flag({.name = "allow_unreachable", .optional = true, .doc = "as sinew run's"},
          s.allow_unreachable);
 }

@@ -35,7 +35,7 @@ struct Study {
 
 // Settings given in addition to a plan: lists are appended to the plan's, the others override it if
 // they are given.
-struct Said {
+struct StudyOptions {
   Study study;         // numbers above 0 and non-empty texts are given
   std::string sample;  // "sobol", "latin" or "random"; empty: not given
   std::optional<int> sample_seed, halvings;
@@ -46,7 +46,7 @@ Study load_study(const std::string& path);
 
 // Returns a plan, or the study of a single experiment, with the additional settings. Throws
 // config::Error.
-Study load_study(const std::string& path, const Said& said);
+Study load_study(const std::string& path, const StudyOptions& options);
 
 // Returns the sweep of a study; reads the experiment if its reported figures are needed. Throws
 // config::Error for invalid settings, and for a faulty experiment if it is read.

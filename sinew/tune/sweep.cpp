@@ -14,16 +14,16 @@
 
 namespace sinew::tune {
 
-Notes notes_of(const Ran& ran, const std::vector<std::string>& keys) {
+Notes notes_of(const RunResult& result, const std::vector<std::string>& keys) {
   Notes out;
-  if (!ran.ok()) return out;
+  if (!result.ok()) return out;
   for (const std::string& key : keys) {
-    if (!ran.summary.find(key)) out.lacks.push_back(key);
-    if (std::ranges::find(ran.differs, key) != ran.differs.end()) out.differs.push_back(key);
+    if (!result.summary.find(key)) out.lacks.push_back(key);
+    if (std::ranges::find(result.differs, key) != result.differs.end()) out.differs.push_back(key);
   }
-  const double* share = ran.summary.find("unreachable_share");
-  out.stop_reached = ran.summary.find("trolley.stop_reached_s") != nullptr;
-  out.no_air = ran.no_air;
+  const double* share = result.summary.find("unreachable_share");
+  out.stop_reached = result.summary.find("trolley.stop_reached_s") != nullptr;
+  out.no_air = result.no_air;
   out.out_of_reach = share && *share > 0;
   return out;
 }
@@ -107,7 +107,7 @@ Point Points::at(std::size_t index) const {
   const std::vector<const Value*> values = grid.point(index % grid.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (s.axes[i].key == "experiment")
-      out.experiment = beside(s, values[i]->text);
+      out.experiment = experiment_path(s, values[i]->text);
     else
       out.sets.push_back(s.axes[i].set(*values[i]));
     out.cells.push_back(values[i]->cell);
@@ -122,20 +122,20 @@ bool lacks_condition(const Search& search, const std::vector<std::string>& lacks
   });
 }
 
-void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells) {
+void add_report(const Sweep& s, const RunResult& result, std::vector<std::string>& cells) {
   for (const Figure& figure : s.report)
-    cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
+    cells.push_back(result.ok() ? figure.cell(result.summary, result.atmosphere) : "");
 }
 
-Row single(const Sweep& s, std::size_t index, Point point, const Ran& ran, bool first) {
-  if (first && ran.ok()) check_keys(s, ran.summary);
-  add_report(s, ran, point.cells);
-  Notes notes = notes_of(ran, keys(s));
-  point.cells.push_back(status_with(notes, ran.status));
-  return {index, std::move(point.cells), ran.ok(), std::move(notes)};
+Row single(const Sweep& s, std::size_t index, Point point, const RunResult& result, bool first) {
+  if (first && result.ok()) check_keys(s, result.summary);
+  add_report(s, result, point.cells);
+  Notes notes = notes_of(result, keys(s));
+  point.cells.push_back(status_with(notes, result.status));
+  return {index, std::move(point.cells), result.ok(), std::move(notes)};
 }
 
-std::string searched_status(const Search& search, const Largest& found, const Ran& last,
+std::string searched_status(const Search& search, const Largest& found, const RunResult& last,
                             const Notes& notes) {
   if (found.is == Largest::Is::to_the_end) return status_with(notes, "holds to the last value");
   if (found.is == Largest::Is::between) return status_with(notes, "ok");
@@ -146,7 +146,7 @@ std::string searched_status(const Search& search, const Largest& found, const Ra
 // Runs a search; its row has the figures of the largest value that held.
 Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
   const Search& search = *s.largest;
-  Ran best, last;
+  RunResult best, last;
   int runs = 0;
   const auto holds = [&](double number) {
     std::vector<std::string> sets = point.sets;
@@ -177,8 +177,8 @@ Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
 Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) {
   Point point = points.at(index);
   if (s.largest) return searched(s, index, std::move(point), first);
-  const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
-  return single(s, index, std::move(point), ran, first);
+  const RunResult result = run_once(point.experiment, point.sets, s.allow_unreachable);
+  return single(s, index, std::move(point), result, first);
 }
 
 // Runs the points that next() returns, until it returns none, many in parallel, and passes their
@@ -190,16 +190,17 @@ void run_points(const Sweep& s, const Points& points, int lanes, const Next& nex
     while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
     return;
   }
-  const auto wanted = [&]() -> std::optional<Wanted> {
+  const auto wanted = [&]() -> std::optional<RequestedRun> {
     const std::optional<std::size_t> index = next();
     if (!index) return {};
     Point point = points.at(*index);
-    return Wanted{*index, std::move(point.experiment), std::move(point.sets)};
+    return RequestedRun{*index, std::move(point.experiment), std::move(point.sets)};
   };
-  const auto ran = [&](std::size_t index, const Ran& its) {
+  const auto result = [&](std::size_t index, const RunResult& its) {
     done(single(s, index, points.at(index), its, false));
   };
-  run_many({.next = wanted, .done = ran, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
+  run_many(
+      {.next = wanted, .done = result, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
 }
 
 // --- all points ---
@@ -219,14 +220,14 @@ class Work {
   }
 
   std::size_t to_do() const { return to_do_.size(); }
-  bool elsewhere() const { return static_cast<bool>(options_.elsewhere); }
+  bool has_dispatcher() const { return static_cast<bool>(options_.dispatch); }
 
   // Runs the first point in the caller's thread, which throws its refusal.
   void first() {
     if (!to_do_.empty()) done(row_of(sweep_, points_, to_do_[next_++], true));
   }
 
-  void go_on() noexcept {
+  void run_next() noexcept {
     const auto next = [this]() -> std::optional<std::size_t> {
       const std::size_t i = stopped() ? to_do_.size() : next_++;
       if (i >= to_do_.size()) return {};
@@ -239,7 +240,7 @@ class Work {
     std::vector<std::size_t> points(to_do_.begin() + static_cast<std::ptrdiff_t>(next_.load()),
                                     to_do_.end());
     if (!points.empty() && !stopped())
-      options_.elsewhere(points, [this](Row row) { done(std::move(row)); });
+      options_.dispatch(points, [this](Row row) { done(std::move(row)); });
   }
 
   // Returns all completed rows, including those after a gap if it was stopped.
@@ -247,7 +248,7 @@ class Work {
     std::vector<Row> out;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!rows_[i]) continue;
-      if (i >= told_ && options_.row) options_.row(*rows_[i]);
+      if (i >= reported_ && options_.row) options_.row(*rows_[i]);
       out.push_back(std::move(*rows_[i]));
     }
     return out;
@@ -261,8 +262,9 @@ class Work {
     if (options_.done) options_.done(row);
     rows_[index] = std::move(row);
     if (options_.progress) ++*options_.progress;
-    for (; told_ < rows_.size() && (rows_[told_] || !options_.share.has(told_)); ++told_)
-      if (options_.row && rows_[told_]) options_.row(*rows_[told_]);
+    for (; reported_ < rows_.size() && (rows_[reported_] || !options_.share.has(reported_));
+         ++reported_)
+      if (options_.row && rows_[reported_]) options_.row(*rows_[reported_]);
   }
 
   const Sweep& sweep_;
@@ -271,13 +273,13 @@ class Work {
   std::vector<std::optional<Row>> rows_;
   std::vector<std::size_t> to_do_;  // points of the share that are not known
   std::atomic<std::size_t> next_;   // index in to_do_
-  std::size_t told_ = 0;            // points whose rows were passed to Options::row
+  std::size_t reported_ = 0;        // points whose rows were passed to Options::row
   std::mutex mutex_;
 };
 
 }  // namespace
 
-std::string beside(const Sweep& s, const std::string& file) {
+std::string experiment_path(const Sweep& s, const std::string& file) {
   return (std::filesystem::path(s.experiment).parent_path() / file).lexically_normal().string();
 }
 
@@ -329,12 +331,12 @@ std::vector<Row> sweep(const Sweep& s, const Options& options) {
   if (!options.checked) check(s);
   Work work(s, options);
   if (!options.checked) work.first();
-  if (work.elsewhere())
+  if (work.has_dispatcher())
     work.go_on_elsewhere();
   else
     host::side_by_side(
         std::min(static_cast<std::size_t>(options.threads), work.to_do()),
-        [&work](std::size_t) { work.go_on(); }, nullptr, options.threads);
+        [&work](std::size_t) { work.run_next(); }, nullptr, options.threads);
   return work.finish();
 }
 

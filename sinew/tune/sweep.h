@@ -31,7 +31,7 @@ namespace sinew::tune {
 
 // Remarks about a row's figures. A table's status and a study's file use the same words.
 
-struct Ran;
+struct RunResult;
 
 struct Notes {
   std::vector<std::string> lacks;    // keys that the summary of the run lacks
@@ -45,7 +45,7 @@ struct Notes {
 };
 
 // Returns the remarks about the given keys. A run without figures has none.
-Notes notes_of(const Ran& ran, const std::vector<std::string>& keys);
+Notes notes_of(const RunResult& result, const std::vector<std::string>& keys);
 
 // Returns those that apply of "without foot.extension_time_s; reaches the end of the track; uses no
 // air; aims out of reach; differs in trolley.distance_m"; empty if none does.
@@ -114,7 +114,7 @@ struct Options {
   // Replaces the threads here: runs these points, passes their rows to `done` in any order, and
   // returns when all are complete or it was stopped.
   std::function<void(std::span<const std::size_t> points, const std::function<void(Row)>& done)>
-      elsewhere = {};
+      dispatch = {};
   Share share = {};             // the table has only these points
   bool checked = false;         // checked by an earlier sweep that differs in the sample's points
                                 // alone
@@ -123,7 +123,7 @@ struct Options {
 
 // Returns the path of the file that a value of the axis `experiment` names, in the folder of the
 // sweep's own experiment.
-std::string beside(const Sweep&, const std::string& file);
+std::string experiment_path(const Sweep&, const std::string& file);
 
 // Returns "joint.hip.angle_gain [%/count]", the reported figures, "status". A search also has its
 // largest value and the number of its runs.
@@ -163,7 +163,7 @@ class Runner {
 };
 
 // A run and its result, as `sinew run` would report it.
-struct Ran {
+struct RunResult {
   std::string status = "ok";
   analysis::Summary summary;  // empty unless the status is "ok"
   double atmosphere = units::atmosphere;
@@ -175,8 +175,8 @@ struct Ran {
 };
 // Runs an experiment's file with overriding settings. The status gives the reason if there are no
 // figures.
-Ran run_once(const std::string& file, const std::vector<std::string>& sets,
-             bool allow_unreachable = false);
+RunResult run_once(const std::string& file, const std::vector<std::string>& sets,
+                   bool allow_unreachable = false);
 
 // The largest value for which a condition holds, searched from below.
 //

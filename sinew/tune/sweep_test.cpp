@@ -129,7 +129,7 @@ TEST(Sweep, AnAxisOfExperiments) {
   const std::vector<Row> rows = sweep(s, {.threads = 2});
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[2].cells[0], "one-joint.toml");
-  const Ran other = run_once(lever, {"seed=2"});
+  const RunResult other = run_once(lever, {"seed=2"});
   EXPECT_EQ(std::stod(rows[3].cells[2]), *other.summary.find("air_used_kg"));
 
   Sweep missing = s;

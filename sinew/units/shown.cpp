@@ -33,7 +33,7 @@ const ShownChoice& choice_of(const ShownQuantity& q, UnitSet set) {
 }
 
 // Returns the shown unit of that name; `held` is the SI unit of the values.
-ShownUnit made(std::string_view name, std::string_view held, double room) {
+ShownUnit shown_unit(std::string_view name, std::string_view held, double room) {
   const auto [text, reference] = unit_and_reference(name);
   const Unit unit = read_unit(text).unit;
   ShownUnit out{std::string(name), unit.denominator / unit.numerator, -unit.offset};
@@ -152,16 +152,18 @@ ShownUnit ShownUnits::of(std::string_view unit, double largest, double room) con
   if (unit == "1" || unit.empty()) return {};
   const ShownQuantity* q = quantity_in(unit);
   if (!q) return {std::string(unit)};
-  if (const std::string* chosen = choice(q->name)) return made(*chosen, unit, room);
+  if (const std::string* chosen = choice(q->name)) return shown_unit(*chosen, unit, room);
   // A difference of pressures uses the unit chosen for pressures.
   if (const std::string* of_pressure = choice("pressure"); of_pressure && q->unit == "Pa diff")
-    return made(std::string(unit_and_reference(*of_pressure)[0]) + " diff", unit, room);
+    return shown_unit(std::string(unit_and_reference(*of_pressure)[0]) + " diff", unit, room);
   const ShownChoice& shown = choice_of(*q, set_);
-  ShownUnit usual = made(shown.usual, unit, room);
+  ShownUnit usual = shown_unit(shown.usual, unit, room);
   if (std::isnan(largest)) return usual;
   if (!shown.small.empty())
-    if (ShownUnit small = made(shown.small, unit, room); small.scale * largest < 1000) return small;
-  if (!shown.large.empty() && usual.scale * largest >= 1000) return made(shown.large, unit, room);
+    if (ShownUnit small = shown_unit(shown.small, unit, room); small.scale * largest < 1000)
+      return small;
+  if (!shown.large.empty() && usual.scale * largest >= 1000)
+    return shown_unit(shown.large, unit, room);
   return usual;
 }
 
@@ -173,7 +175,7 @@ ShownUnit ShownUnits::of_difference(std::string_view unit, double largest) const
 }
 
 std::string ShownUnits::text(double value, std::string_view unit, int digits, double room) const {
-  ShownUnit shown = of(unit, not_known, room);
+  ShownUnit shown = of(unit, unknown_size, room);
   if (std::abs(shown.of(value)) >= 1000) shown = of(unit, std::abs(value), room);
   char buffer[64];
   const auto end = std::to_chars(std::begin(buffer), std::end(buffer), shown.of(value),
@@ -208,15 +210,17 @@ ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& belo
   return {units, "", "", ""};
 }
 
-std::optional<ToldUnit> told_unit(std::string_view unit, double room) {
+std::optional<QuantityUnit> read_quantity_unit(std::string_view unit, double room) {
   const auto [text, reference] = unit_and_reference(unit);
   if (text.empty() || !read_unit(text).ok) return std::nullopt;
   for (const ShownQuantity& q : shown_quantities) {
     // Without a reference N/m2 is a stress, not a pressure.
     const std::string_view wanted = q.unit == "Pa diff" ? "diff" : "";
     const bool pressure = q.unit == "Pa";
-    const bool said = pressure ? reference == "gauge" || reference == "abs" : reference == wanted;
-    if (said && measures(text, q.unit)) return ToldUnit{q.unit, made(unit, q.unit, room)};
+    const bool has_reference =
+        pressure ? reference == "gauge" || reference == "abs" : reference == wanted;
+    if (has_reference && measures(text, q.unit))
+      return QuantityUnit{q.unit, shown_unit(unit, q.unit, room)};
   }
   return std::nullopt;
 }
@@ -226,7 +230,7 @@ std::vector<ShownEntry> shown_entries(const ShownUnits& units) {
   const auto add = [&](const ShownQuantity& q, std::string_view unit) {
     ShownEntry entry{unit, q.name, {}, 0};
     // Each size that affects the unit, from small to large; none affects a chosen unit.
-    for (const double size : {0.0, ShownUnits::not_known, 1e30})
+    for (const double size : {0.0, ShownUnits::unknown_size, 1e30})
       if (ShownUnit u = units.of(unit, size, 0);
           entry.shown.empty() || entry.shown.back().name != u.name) {
         if (std::isnan(size)) entry.usual = entry.shown.size();

@@ -59,10 +59,11 @@ class ShownUnits {
   // does not have is returned unchanged. `largest` is the largest magnitude to be shown, in SI: it
   // selects, among units that differ by a thousand, the first in which it is below 1000; without it
   // the usual unit is used. Gauge pressures are relative to the pressure of the `room` [Pa].
-  ShownUnit of(std::string_view unit, double largest = not_known, double room = atmosphere) const;
+  ShownUnit of(std::string_view unit, double largest = unknown_size,
+               double room = atmosphere) const;
 
   // Returns the unit for a difference between two such quantities, without an offset.
-  ShownUnit of_difference(std::string_view unit, double largest = not_known) const;
+  ShownUnit of_difference(std::string_view unit, double largest = unknown_size) const;
 
   // Returns an SI value with its unit, "62.31 psi gauge": the usual unit, or from 1000 on a larger
   // one if there is one.
@@ -82,7 +83,7 @@ class ShownUnits {
   bool operator==(const ShownUnits&) const = default;
 
   // An unknown size.
-  static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double unknown_size = std::numeric_limits<double>::quiet_NaN();
 
  private:
   const std::string* choice(std::string_view quantity) const;
@@ -105,14 +106,14 @@ struct ShownUnitsReading {
 ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& below = {});
 
 // A unit given as text, "psi gauge", and the unit in which the library stores it, "Pa".
-struct ToldUnit {
-  std::string_view held;
+struct QuantityUnit {
+  std::string_view stored;
   ShownUnit unit;  // unit.back(62) is 62 psi gauge in SI
 };
 
 // Reads a unit of one of the table's quantities; nullopt if it is of no such quantity. Gauge
 // pressures are relative to the `room` [Pa].
-std::optional<ToldUnit> told_unit(std::string_view unit, double room = atmosphere);
+std::optional<QuantityUnit> read_quantity_unit(std::string_view unit, double room = atmosphere);
 
 // One row for a page: an SI unit and the units in which it is shown.
 struct ShownEntry {

@@ -28,7 +28,7 @@ TEST(ShownUnits, ShowingAndGoingBackGivesTheValueInEverySetAndUnit) {
        {ShownUnits(UnitSet::si), ShownUnits(UnitSet::thesis), ShownUnits(UnitSet::metric), custom})
     for (const ShownEntry& entry : shown_entries(units))
       for (const double si : {-3.5e5, -0.02, 0.0, 1e-6, 0.37, 101353.0, 4e7})
-        for (const double size : {ShownUnits::not_known, std::abs(si)}) {
+        for (const double size : {ShownUnits::unknown_size, std::abs(si)}) {
           const ShownUnit shown = units.of(entry.unit, size);
           EXPECT_NEAR(shown.back(shown.of(si)), si, 1e-12 * (std::abs(si) + 2e5)) << shown.name;
         }
@@ -70,7 +70,7 @@ TEST(ShownUnits, OfUnitsThatDifferByAThousandTheFirstBelowAThousandIsShown) {
   EXPECT_EQ(name("m", 0.99), "mm");
   EXPECT_EQ(name("m", 1.5), "m");
   EXPECT_EQ(name("m", 5000), "m");
-  EXPECT_EQ(name("m", ShownUnits::not_known), "m");
+  EXPECT_EQ(name("m", ShownUnits::unknown_size), "m");
   EXPECT_EQ(name("kg", 1e-7), "mg");
   EXPECT_EQ(name("kg", 0.9), "g");
   EXPECT_EQ(name("kg", 20), "kg");
@@ -161,10 +161,11 @@ TEST(ShownUnits, WrongWordsNameTheChoices) {
   EXPECT_FALSE(read_shown_units("length=").ok());
 }
 
-TEST(ToldUnit, IsReadWithWhatAPressureCountsFrom) {
+TEST(QuantityUnit, IsReadWithWhatAPressureCountsFrom) {
   const auto back = [](const char* unit, double number) {
-    const auto told = told_unit(unit, 1e5);
-    return told ? std::string(told->held) + " " + std::to_string(told->unit.back(number)) : "none";
+    const auto given = read_quantity_unit(unit, 1e5);
+    return given ? std::string(given->stored) + " " + std::to_string(given->unit.back(number))
+                 : "none";
   };
   EXPECT_EQ(back("bar gauge", 2), "Pa 300000.000000");
   EXPECT_EQ(back("bar abs", 2), "Pa 200000.000000");

@@ -4,7 +4,7 @@
 //   Batch batch(Batch::widest(), setup);       // all machines parked
 //   batch.replace(k, setup);                   // machine k, at its start
 //   LegLane lane(batch, k);                    // drives and reads machine k
-//   int ended = batch.go(turn);                // chain_lanes.h
+//   int ended = batch.run(loop);               // chain_lanes.h
 #pragma once
 
 #include <limits>
@@ -23,7 +23,7 @@ class Batch {
   static int widest();
   // Return whether this machine can be simulated side by side with others, and whether these two
   // can.
-  static bool holds(const Setup& setup) { return Legs<2>::holds(setup); }
+  static bool fits(const Setup& setup) { return Legs<2>::fits(setup); }
   static bool alike(const Setup& a, const Setup& b) { return Legs<2>::alike(a, b); }
 
   // Uses at most `most` lanes, at least 2. All are parked; `like` is an example of the machines.
@@ -52,11 +52,11 @@ class Batch {
     visit([&](auto& legs) { legs.replace(k, setup); });
   }
 
-  static constexpr double over = Legs<2>::over;
+  static constexpr double finished = Legs<2>::finished;
   // Runs all machines as ChainLanes::go does, and returns its result.
-  template <class Turn>
-  int go(const Turn& turn) noexcept {
-    return visit([&](auto& legs) { return legs.go(turn); });
+  template <class Loop>
+  int run(const Loop& loop) noexcept {
+    return visit([&](auto& legs) { return legs.run(loop); });
   }
 
  private:

@@ -6,7 +6,7 @@
 // They run in lockstep by node, not by time: a machine that waits is still computed in its lane,
 // and the result is discarded.
 //
-//   go(turn)         runs all machines, each by its own loop: turn(k) is called whenever machine k
+//   run(loop)        runs all machines, each by its own loop: loop(k) is called whenever machine k
 //                    has reached the instant that it returned last
 //   advance(until)   commits every node up to each machine's own instant, many at once
 //   drive, read, …   as in World, for machine k; a node that only this one needs is committed alone
@@ -34,10 +34,10 @@ class ChainLanes {
   using World = ChainWorld<N>;
   using Instants = std::array<double, lanes>;
   static constexpr int width = W;
-  static constexpr double over = std::numeric_limits<double>::infinity();
+  static constexpr double finished = std::numeric_limits<double>::infinity();
 
   // Returns whether this machine can be simulated side by side with others; alike() compares two.
-  static bool holds(const Setup& setup);
+  static bool fits(const Setup& setup);
   static bool alike(const Setup& a, const Setup& b) {
     return plant::alike(chain_routing_of(a.robot), chain_routing_of(b.robot));
   }
@@ -48,11 +48,11 @@ class ChainLanes {
   // Commits every node of machine k up to until[k]  [s].
   void advance(const Instants& until) noexcept;
 
-  // Runs the machines that are not parked. turn(k) runs machine k's loop as far as its nodes reach
-  // and returns the instant up to which all its nodes can be committed [s], or `over`: machine k is
-  // then parked and its k returned. Returns -1 when all are parked.
-  template <class Turn>
-  int go(const Turn& turn) noexcept;
+  // Runs the machines that are not parked. loop(k) runs machine k's loop as far as its nodes reach
+  // and returns the instant up to which all its nodes can be committed [s], or `finished`: machine
+  // k is then parked and its k returned. Returns -1 when all are parked.
+  template <class Loop>
+  int run(const Loop& loop) noexcept;
   void park(int k) noexcept { parked_[static_cast<std::size_t>(k)] = true; }
 
   // Replaces machine k by another one at its start. Throws as the constructor does.
@@ -84,7 +84,7 @@ class ChainLanes {
 
   // Machine k for its senses (planar/planar_mechanism.h): with the interface of World, from its
   // lane.
-  class Sensed;
+  class LaneView;
 
   [[noreturn]] static void refuse() {
     throw std::invalid_argument("machines that cannot go side by side");
@@ -95,15 +95,15 @@ class ChainLanes {
 
   double next_node(int k) const noexcept;
   Mask only(int k) const noexcept;
-  void follow(int k) noexcept;
-  void glance(int k) noexcept;
-  void commit(const Mask& goes) noexcept;
-  void move_valves(const Mask& goes) noexcept;
-  void look_for_failures(const Mask& goes, const std::array<int, W>& failed) noexcept;
+  void update_lane(int k) noexcept;
+  void update_step_preview(int k) noexcept;
+  void commit(const Mask& active) noexcept;
+  void move_valves(const Mask& active) noexcept;
+  void check_for_failures(const Mask& active, const std::array<int, W>& failed) noexcept;
   template <class Packed, class One, class Put>
   void each_number(Packed& packed, One& one, const Put& put) const noexcept;
-  void take(int k) noexcept;
-  void bring(int k) noexcept;
+  void copy_to_lane(int k) noexcept;
+  void copy_to_world(int k) noexcept;
 
   Worlds worlds_;
   Integrated nodes_of_all_;
@@ -113,18 +113,18 @@ class ChainLanes {
   std::array<NodeTimes, lanes> times_{};
   Instants step_{}, change_{};  // body steps; instants of the next valve changes [s]
   std::array<air::Failure, lanes> failure_{};
-  std::array<bool, lanes> behind_{};  // the machine's World is out of date
+  std::array<bool, lanes> world_outdated_{};  // the machine's World is out of date
 
-  typename Integrated::Glance glance_;  // whole steps, used by evaluations between nodes
-  std::array<bool, lanes> glanced_{};   // it is valid for the machine's node
+  typename Integrated::StepPreview step_preview_;  // whole steps, used by evaluations between nodes
+  std::array<bool, lanes> has_step_preview_{};     // it is valid for the machine's node
   Instants until_{};
   std::array<bool, lanes> parked_{};
 };
 
 template <int N, int W>
-class ChainLanes<N, W>::Sensed {
+class ChainLanes<N, W>::LaneView {
  public:
-  Sensed(ChainLanes& all, int k) : b_(all), k_(k), l_(static_cast<std::size_t>(k)) {}
+  LaneView(ChainLanes& all, int k) : b_(all), k_(k), l_(static_cast<std::size_t>(k)) {}
 
   void advance(double t) noexcept { b_.advance(k_, t); }
   const air::Failure& failure() const noexcept { return b_.failure_[l_]; }
@@ -137,46 +137,46 @@ class ChainLanes<N, W>::Sensed {
   }
   double bound(int contact) const noexcept { return b_.nodes_of_all_.body().bound(contact)[k_]; }
 
-  GeneralizedState<N> peek_motion(double t) noexcept {
-    b_.glance(k_);
-    const auto a = units::lane_of<GeneralizedVector<N>>(b_.glance_.acceleration, k_);
+  GeneralizedState<N> preview_motion(double t) noexcept {
+    b_.update_step_preview(k_);
+    const auto a = units::lane_of<GeneralizedVector<N>>(b_.step_preview_.acceleration, k_);
     GeneralizedState<N> motion = units::lane_of<GeneralizedState<N>>(b_.state_.now.motion, k_);
-    mechanism().glide(motion, t - b_.times_[l_].time, a);
+    mechanism().extrapolate(motion, t - b_.times_[l_].time, a);
     return motion;
   }
-  struct Glanced {
+  struct StepPreview {
     std::array<double, N + 2> held;
   };
-  Glanced glanced() const noexcept {
-    return {units::lane_of<std::array<double, N + 2>>(b_.glance_.held, k_)};
+  StepPreview step_preview() const noexcept {
+    return {units::lane_of<std::array<double, N + 2>>(b_.step_preview_.held, k_)};
   }
 
   // The tension and pressure of one muscle; those of the others are not set.
-  struct Peek {
+  struct Preview {
     struct {
       struct {
         std::array<double, chain_muscles> tension, pressure;
       } air;
-    } look;
+    } evaluation;
   };
-  Peek peek_muscle(double t, int i) noexcept {
+  Preview preview_muscle(double t, int i) noexcept {
     const auto m = static_cast<std::size_t>(i);
     const auto& s = b_.state_;
-    Peek p;
-    b_.glance(k_);
+    Preview p;
+    b_.update_step_preview(k_);
     if (!(t > b_.times_[l_].time) || failure()) {
-      p.look.air.tension[m] = s.first.air.tension[i][k_];
-      p.look.air.pressure[m] = s.first.air.pressure[i][k_];
+      p.evaluation.air.tension[m] = s.first.air.tension[i][k_];
+      p.evaluation.air.pressure[m] = s.first.air.pressure[i][k_];
       return p;
     }
     typename ChainBody<N>::Ends ends;
     typename ChainBody<N>::Arms no_arms;
-    mechanism().route(t, peek_motion(t), ends, no_arms);
-    const auto seen =
-        b_.nodes_of_all_.air().ahead(k_, i, ends.length[i], ends.rate[i], t - b_.times_[l_].time,
-                                     s.now.air, s.valves, s.memory, s.first.air);
-    p.look.air.tension[m] = seen.tension;
-    p.look.air.pressure[m] = seen.pressure;
+    mechanism().route(t, preview_motion(t), ends, no_arms);
+    const auto muscle =
+        b_.nodes_of_all_.air().preview(k_, i, ends.length[i], ends.rate[i], t - b_.times_[l_].time,
+                                       s.now.air, s.valves, s.memory, s.first.air);
+    p.evaluation.air.tension[m] = muscle.tension;
+    p.evaluation.air.pressure[m] = muscle.pressure;
     return p;
   }
 
@@ -187,24 +187,24 @@ class ChainLanes<N, W>::Sensed {
 };
 
 template <int N, int W>
-bool ChainLanes<N, W>::holds(const Setup& setup) {
+bool ChainLanes<N, W>::fits(const Setup& setup) {
   if (!robot::is_chain(setup.robot) || setup.robot.joints.size() != N) return false;
   const air::AirNetwork<chain_muscles> air(setup.muscles, setup.air, setup.supply, setup.cylinder,
                                            setup.faults);
-  return air.plain_for_good();
+  return air.stays_plain();
 }
 
 template <int N, int W>
 ChainLanes<N, W>::ChainLanes(std::span<const Setup, lanes> setups)
     : worlds_(worlds_of(setups)), nodes_of_all_(bodies(worlds_), airs(worlds_)) {
-  for (int k = 0; k < W; ++k) take(k);
-  until_.fill(-over);
+  for (int k = 0; k < W; ++k) copy_to_lane(k);
+  until_.fill(-finished);
 }
 
 template <int N, int W>
 auto ChainLanes<N, W>::worlds_of(std::span<const Setup, lanes> setups) -> Worlds {
   for (const Setup& s : setups)
-    if (!holds(s) || !alike(s, setups[0])) refuse();
+    if (!fits(s) || !alike(s, setups[0])) refuse();
   Worlds worlds;
   for (std::size_t k = 0; k < W; ++k) worlds[k] = std::make_unique<World>(setups[k]);
   return worlds;
@@ -214,12 +214,12 @@ template <int N, int W>
 void ChainLanes<N, W>::replace(int k, const Setup& setup) {
   const auto l = static_cast<std::size_t>(k);
   const auto other = worlds_[l == 0 && W > 1 ? 1 : 0]->mechanism().routes();
-  if (!holds(setup) || !plant::alike(chain_routing_of(setup.robot), other)) refuse();
+  if (!fits(setup) || !plant::alike(chain_routing_of(setup.robot), other)) refuse();
   worlds_[l] = std::make_unique<World>(setup);
   nodes_of_all_.body() = bodies(worlds_);
   nodes_of_all_.air() = airs(worlds_);
-  take(k);
-  until_[l] = -over;
+  copy_to_lane(k);
+  until_[l] = -finished;
   parked_[l] = false;
 }
 
@@ -252,68 +252,68 @@ auto ChainLanes<N, W>::only(int k) const noexcept -> Mask {
 
 // Copies the World to its lane if it was driven or integrated by itself.
 template <int N, int W>
-void ChainLanes<N, W>::follow(int k) noexcept {
+void ChainLanes<N, W>::update_lane(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
-  if (behind_[l]) return;
+  if (world_outdated_[l]) return;
   change_[l] = worlds_[l]->state().valves.next_change;
-  if (worlds_[l]->nodes() != times_[l].nodes) take(k);
+  if (worlds_[l]->nodes() != times_[l].nodes) copy_to_lane(k);
 }
 
 template <int N, int W>
-template <class Turn>
-int ChainLanes<N, W>::go(const Turn& turn) noexcept {
-  for (int k = 0; k < W; ++k) follow(k);
+template <class Loop>
+int ChainLanes<N, W>::run(const Loop& loop) noexcept {
+  for (int k = 0; k < W; ++k) update_lane(k);
   for (;;) {
-    Mask goes = S(0.0) > 0.0;
+    Mask active = S(0.0) > 0.0;
     bool any = false;
     for (int k = 0; k < W; ++k) {
       const auto l = static_cast<std::size_t>(k);
       if (parked_[l]) continue;
       while (failure_[l] || !(next_node(k) <= until_[l])) {
-        until_[l] = turn(k);
-        if (until_[l] < over) continue;
+        until_[l] = loop(k);
+        if (until_[l] < finished) continue;
         park(k);
         return k;
       }
-      goes.set(k, true);
+      active.set(k, true);
       any = true;
     }
     if (!any) return -1;
-    commit(goes);
+    commit(active);
   }
 }
 
 template <int N, int W>
 void ChainLanes<N, W>::advance(const Instants& until) noexcept {
-  for (int k = 0; k < W; ++k) follow(k);
+  for (int k = 0; k < W; ++k) update_lane(k);
   for (;;) {
-    Mask goes = S(0.0) > 0.0;
+    Mask active = S(0.0) > 0.0;
     bool any = false;
     for (int k = 0; k < W; ++k) {
       const auto l = static_cast<std::size_t>(k);
       const bool one = !failure_[l] && next_node(k) <= until[l];
-      goes.set(k, one);
+      active.set(k, one);
       any = any || one;
     }
     if (!any) return;
-    commit(goes);
+    commit(active);
   }
 }
 
 template <int N, int W>
 void ChainLanes<N, W>::advance(int k, double t) noexcept {
-  follow(k);
+  update_lane(k);
   while (!failure_[static_cast<std::size_t>(k)] && next_node(k) <= t) commit(only(k));
 }
 
-// Commits the next node of the machines in `goes`.
+// Commits the next node of the machines in `active`.
 template <int N, int W>
-void ChainLanes<N, W>::commit(const Mask& goes) noexcept {
+void ChainLanes<N, W>::commit(const Mask& active) noexcept {
   S h = 0;
-  Mask steps = goes;
+  Mask steps = active;
   bool any = false;
   for (int k = 0; k < W; ++k) {
-    if (!goes[k]) continue;
+    if (!active[k]) continue;
     const auto l = static_cast<std::size_t>(k);
     const double next = next_node(k);
     const bool later = next > times_[l].time;
@@ -321,20 +321,20 @@ void ChainLanes<N, W>::commit(const Mask& goes) noexcept {
     steps.set(k, later);
     any = any || later;
     times_[l].pass(next, step_[l]);
-    behind_[l] = true;
-    glanced_[l] = false;
+    world_outdated_[l] = true;
+    has_step_preview_[l] = false;
   }
   if (any) nodes_of_all_.step(steps, h, state_);
-  move_valves(goes);
-  look_for_failures(goes, nodes_of_all_.prepare(goes, state_));
+  move_valves(active);
+  check_for_failures(active, nodes_of_all_.prepare(active, state_));
 }
 
 template <int N, int W>
-void ChainLanes<N, W>::move_valves(const Mask& goes) noexcept {
+void ChainLanes<N, W>::move_valves(const Mask& active) noexcept {
   for (int k = 0; k < W; ++k) {
     const auto l = static_cast<std::size_t>(k);
-    if (!goes[k] || change_[l] > times_[l].time) continue;
-    typename World::State& s = worlds_[l]->borrow();
+    if (!active[k] || change_[l] > times_[l].time) continue;
+    typename World::State& s = worlds_[l]->mutable_state();
     worlds_[l]->air().move_valves(times_[l].time, s.first.air, s.valves);
     change_[l] = s.valves.next_change;
     nodes_of_all_.air().set_shares(k, s.valves, state_.valves);
@@ -342,11 +342,11 @@ void ChainLanes<N, W>::move_valves(const Mask& goes) noexcept {
 }
 
 template <int N, int W>
-void ChainLanes<N, W>::look_for_failures(const Mask& goes,
-                                         const std::array<int, W>& failed) noexcept {
+void ChainLanes<N, W>::check_for_failures(const Mask& active,
+                                          const std::array<int, W>& failed) noexcept {
   for (std::size_t k = 0; k < W; ++k) {
     const int lane = static_cast<int>(k);
-    if (!goes[lane]) continue;
+    if (!active[lane]) continue;
     double places = state_.now.motion.x[lane];
     for (int j = 0; j < N; ++j) places += state_.now.motion.angle[j][lane];
     if (failed[k] >= 0)
@@ -354,7 +354,7 @@ void ChainLanes<N, W>::look_for_failures(const Mask& goes,
                      .muscle = failed[k],
                      .length = state_.first.ends.length[failed[k]][lane],
                      .time = times_[k].time};
-    else if (!air::is_place(places))
+    else if (!air::is_position(places))
       failure_[k] = {.of = air::Failure::Of::motion, .time = times_[k].time};
   }
 }
@@ -362,12 +362,12 @@ void ChainLanes<N, W>::look_for_failures(const Mask& goes,
 // Computes the friction of a whole step from each machine's node, for all lanes when any requires
 // it.
 template <int N, int W>
-void ChainLanes<N, W>::glance(int k) noexcept {
-  if (glanced_[static_cast<std::size_t>(k)]) return;
+void ChainLanes<N, W>::update_step_preview(int k) noexcept {
+  if (has_step_preview_[static_cast<std::size_t>(k)]) return;
   S h;
   for (int i = 0; i < W; ++i) h.set(i, step_[static_cast<std::size_t>(i)]);
-  nodes_of_all_.glance(h, state_, glance_);
-  glanced_.fill(true);
+  nodes_of_all_.preview_step(h, state_, step_preview_);
+  has_step_preview_.fill(true);
 }
 
 template <int N, int W>
@@ -379,14 +379,14 @@ template <int N, int W>
 signals::Status ChainLanes<N, W>::drive(int k, const signals::Edge& edge) noexcept {
   const auto l = static_cast<std::size_t>(k);
   World& world = *worlds_[l];
-  follow(k);
+  update_lane(k);
   if (world.ended()) return signals::Status::ended;
   if (failure_[l]) return signals::Status::fault;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
   if (edge.valve.index >= world.air().valves() || t < times_[l].time)
     return signals::Status::invalid;
   while (!failure_[l] && next_node(k) < t) commit(only(k));
-  typename World::State& s = world.borrow();
+  typename World::State& s = world.mutable_state();
   for (int i = 0; i < nodes_of_all_.air().muscles(); ++i)
     s.first.air.pressure[i] = state_.first.air.pressure[i][k];
   world.air().command(edge, t, s.first.air, s.valves);
@@ -398,14 +398,14 @@ template <int N, int W>
 signals::Reading ChainLanes<N, W>::read(int k, signals::Channel channel,
                                         signals::Tick now) noexcept {
   const World& world = *worlds_[static_cast<std::size_t>(k)];
-  Sensed sensed(*this, k);
-  return reading(sensed, world.senses(), channel, now - world.lag(channel));
+  LaneView view(*this, k);
+  return reading(view, world.senses(), channel, now - world.lag(channel));
 }
 
 template <int N, int W>
 signals::Status ChainLanes<N, W>::stop(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
-  worlds_[l]->borrow().ended = true;
+  worlds_[l]->mutable_state().ended = true;
   return failure_[l] ? signals::Status::fault : signals::Status::ok;
 }
 
@@ -418,15 +418,15 @@ Truth ChainLanes<N, W>::truth(int k, double t) noexcept {
 template <int N, int W>
 auto ChainLanes<N, W>::world(int k) noexcept -> World& {
   const auto l = static_cast<std::size_t>(k);
-  if (behind_[l]) bring(k);
-  behind_[l] = false;
+  if (world_outdated_[l]) copy_to_world(k);
+  world_outdated_[l] = false;
   return *worlds_[l];
 }
 
 template <int N, int W>
 void ChainLanes<N, W>::restore(int k, const typename World::State& state) noexcept {
   worlds_[static_cast<std::size_t>(k)]->restore(state);
-  take(k);
+  copy_to_lane(k);
 }
 
 // Calls put(values of all lanes, values of one) for each per-muscle array of a lane and a World.
@@ -434,14 +434,14 @@ template <int N, int W>
 template <class Packed, class One, class Put>
 void ChainLanes<N, W>::each_number(Packed& packed, One& one, const Put& put) const noexcept {
   each_of_air(packed.now.air, one.now.air, put);
-  each_of_look(packed.first, one.first, put);
+  each_of_evaluation(packed.first, one.first, put);
   put(packed.memory.y, one.memory.reference.y);
   put(packed.memory.inverse_sigma, one.memory.reference.inverse_sigma);
 }
 
 // Copies the World to its lane.
 template <int N, int W>
-void ChainLanes<N, W>::take(int k) noexcept {
+void ChainLanes<N, W>::copy_to_lane(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
   const typename World::State& s = worlds_[l]->state();
   units::put_lane(s.now.motion, k, state_.now.motion);
@@ -455,16 +455,16 @@ void ChainLanes<N, W>::take(int k) noexcept {
   change_[l] = s.valves.next_change;
   step_[l] = worlds_[l]->body_step();
   failure_[l] = s.failure;
-  behind_[l] = false;
-  glanced_[l] = false;
+  world_outdated_[l] = false;
+  has_step_preview_[l] = false;
   nodes_of_all_.prepare_friction(state_);
 }
 
 // Copies the lane to its World.
 template <int N, int W>
-void ChainLanes<N, W>::bring(int k) noexcept {
+void ChainLanes<N, W>::copy_to_world(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
-  typename World::State& s = worlds_[l]->borrow();
+  typename World::State& s = worlds_[l]->mutable_state();
   s.now.motion = units::lane_of<GeneralizedState<N>>(state_.now.motion, k);
   s.held = units::lane_of<typename ChainBody<N>::Forces>(state_.held, k);
   s.trolley_bound = state_.trolley_bound[k];
@@ -473,7 +473,7 @@ void ChainLanes<N, W>::bring(int k) noexcept {
   });
   s.times = times_[l];
   s.failure = failure_[l];
-  worlds_[l]->resume();
+  worlds_[l]->continue_from_state();
 }
 
 }  // namespace sinew::plant

@@ -138,7 +138,7 @@ TEST(ChainLanes, OnlyPlainMachinesWithLikeRoutesStandSideBySide) {
   EXPECT_THROW((ChainLanes<2, 2>(both)), std::invalid_argument);
   setups[1] = setups[0];
   setups[1].muscles[0].leak.area = 1e-8;
-  EXPECT_FALSE((ChainLanes<2, 2>::holds(setups[1])));
+  EXPECT_FALSE((ChainLanes<2, 2>::fits(setups[1])));
   EXPECT_THROW((ChainLanes<2, 2>(both)), std::invalid_argument);
 }
 

@@ -20,7 +20,7 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
   using Body = ChainBody<N, units::Pack<W>>;
   using Air = air::PlainAir<chain_muscles, W>;
   using Integrated = Nodes<Body, Air>;
-  using typename Integrated::Look;
+  using typename Integrated::Evaluation;
   using typename Integrated::Moving;
   using typename Integrated::S;
   using Mask = units::PackMask<W>;
@@ -32,10 +32,10 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
     typename Air::Memory memory{};
     typename Body::Forces held{};
     S trolley_bound = 0;
-    Look first{};
+    Evaluation first{};
   };
   // Friction and accelerations of a step from the node.
-  struct Glance {
+  struct StepPreview {
     typename Body::Forces held{};
     typename Body::Acceleration acceleration{};
   };
@@ -52,17 +52,17 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
   // Advances by RK4 by h under the friction of the step. Lanes that do not step are unchanged.
   void step(const Mask& steps, const S& h, State& s) const noexcept;
 
-  // Prepares a new node of the machines in `goes`: references, the first stage, friction. The
+  // Prepares a new node of the machines in `active`: references, the first stage, friction. The
   // others keep their first stage, which was evaluated before their references moved. Returns each
   // machine's first muscle whose density is not valid, or -1.
-  std::array<int, W> prepare(const Mask& goes, State& s) noexcept;
+  std::array<int, W> prepare(const Mask& active, State& s) noexcept;
 
   // Computes the friction problem of all lanes. Equal inputs have equal results, so lanes that wait
   // do not change.
   void prepare_friction(State& s) noexcept;
 
   // Computes friction and accelerations of a step of length h from the node.
-  void glance(const S& h, const State& s, Glance& out) const noexcept;
+  void preview_step(const S& h, const State& s, StepPreview& out) const noexcept;
 
  private:
   static void blend(const Mask& mask, const typename Body::Motion& from,
@@ -71,8 +71,8 @@ class LaneNodes : public Nodes<ChainBody<N, units::Pack<W>>, air::PlainAir<chain
 
 // Calls visit(value of a, value of b) for each per-muscle value of an evaluation, and of a state of
 // the air.
-template <class LookA, class LookB, class Visit>
-void each_of_look(LookA& a, LookB& b, const Visit& visit) {
+template <class EvaluationA, class EvaluationB, class Visit>
+void each_of_evaluation(EvaluationA& a, EvaluationB& b, const Visit& visit) {
   visit(a.ends.length, b.ends.length);
   visit(a.ends.rate, b.ends.rate);
   visit(a.air.tension, b.air.tension);
@@ -109,11 +109,11 @@ void LaneNodes<N, W>::step(const Mask& steps, const S& h, State& s) const noexce
     s.held[c] = units::select(steps, held[c], s.held[c]);
   const typename Body::Acceleration first = body().accelerate(s.first.acceleration, s.held);
   if (units::all(steps)) {
-    this->piece(0, h, s.now, s.valves, s.memory, s.first, first, s.held);
+    this->integrate_piece(0, h, s.now, s.valves, s.memory, s.first, first, s.held);
     return;
   }
   Moving after = s.now;
-  this->piece(0, h, after, s.valves, s.memory, s.first, first, s.held);
+  this->integrate_piece(0, h, after, s.valves, s.memory, s.first, first, s.held);
   blend(steps, after.motion, s.now.motion);
   each_of_air(after.air, s.now.air, [&](const auto& from, auto& to) {
     for (int i = 0; i < air().muscles(); ++i) to[i] = units::select(steps, from[i], to[i]);
@@ -121,30 +121,30 @@ void LaneNodes<N, W>::step(const Mask& steps, const S& h, State& s) const noexce
 }
 
 template <int N, int W>
-std::array<int, W> LaneNodes<N, W>::prepare(const Mask& goes, State& s) noexcept {
-  if (units::all(goes)) {
+std::array<int, W> LaneNodes<N, W>::prepare(const Mask& active, State& s) noexcept {
+  if (units::all(active)) {
     this->evaluate_air(0, s.now, s.valves, s.memory, s.first);
   } else {
-    Look look;
-    this->evaluate_air(0, s.now, s.valves, s.memory, look);
-    each_of_look(look, s.first, [&](const auto& from, auto& to) {
-      for (int i = 0; i < air().muscles(); ++i) to[i] = units::select(goes, from[i], to[i]);
+    Evaluation evaluation;
+    this->evaluate_air(0, s.now, s.valves, s.memory, evaluation);
+    each_of_evaluation(evaluation, s.first, [&](const auto& from, auto& to) {
+      for (int i = 0; i < air().muscles(); ++i) to[i] = units::select(active, from[i], to[i]);
     });
   }
-  const std::array<int, W> failed = air().remember(goes, s.first.air, s.memory);
+  const std::array<int, W> failed = air().update_memory(active, s.first.air, s.memory);
   s.trolley_bound =
-      units::select(goes, body().trolley_bound(s.held, s.trolley_bound), s.trolley_bound);
+      units::select(active, body().trolley_bound(s.held, s.trolley_bound), s.trolley_bound);
   prepare_friction(s);
   return failed;
 }
 
 template <int N, int W>
 void LaneNodes<N, W>::prepare_friction(State& s) noexcept {
-  this->meet(body().pose(0, s.now.motion), s.now.motion, s.trolley_bound, s.first);
+  this->prepare_forces(body().pose(0, s.now.motion), s.now.motion, s.trolley_bound, s.first);
 }
 
 template <int N, int W>
-void LaneNodes<N, W>::glance(const S& h, const State& s, Glance& out) const noexcept {
+void LaneNodes<N, W>::preview_step(const S& h, const State& s, StepPreview& out) const noexcept {
   out.held = body().hold(h, s.held);
   out.acceleration = body().accelerate(s.first.acceleration, out.held);
 }

@@ -11,7 +11,7 @@ namespace {
 template <class First, class... Larger>
 AnyWorld body_world_for(const Setup& s) {
   if constexpr (sizeof...(Larger) > 0)
-    if (!First::Body::holds(s.robot)) return body_world_for<Larger...>(s);
+    if (!First::Body::fits(s.robot)) return body_world_for<Larger...>(s);
   return AnyWorld(std::in_place_type<First>, s);
 }
 

@@ -84,8 +84,8 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
   EXPECT_EQ(host.telemetry.state, BoardState::running);
   EXPECT_EQ(lost, 0u);
   EXPECT_EQ(lost_to_board, 0u) << "frames to the board";
-  EXPECT_EQ(host.telemetry.seen.reading[1].counts, 2'048);
-  EXPECT_EQ(host.telemetry.seen.late, 0u);
+  EXPECT_EQ(host.telemetry.controller.reading[1].counts, 2'048);
+  EXPECT_EQ(host.telemetry.controller.late, 0u);
   EXPECT_EQ(host.telemetry.supervised.gaps, 0u) << "missed ticks";
 
   EXPECT_TRUE(host.wait([&] { return host.ask(link::ShutDown{}) == Code::done; }));
@@ -124,10 +124,10 @@ TEST(Application, TheWatchdogBitesWhereNobodyFeedsItAndTheBoardSaysSo) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   Machine machine("mps2-an386", image("application-mps2_an386"), "starve");
   Host host(machine.line());
-  const auto bitten = [&] {
+  const auto reset_by_watchdog = [&] {
     return !host.events.empty() && host.events.back().fault == BoardFault::watchdog;
   };
-  EXPECT_TRUE(host.wait(bitten, milliseconds(15'000)));
+  EXPECT_TRUE(host.wait(reset_by_watchdog, milliseconds(15'000)));
   EXPECT_EQ(host.events.back().what, link::Event::What::started);
   EXPECT_EQ(host.events.back().state, BoardState::dump);
 }

@@ -49,9 +49,9 @@ class Interrupts {
 TEST(Edges, NothingOlderReachesThePinsOnceTheyAreOff) {
   const Interrupts interrupts(30);
   for (std::uint32_t n = 1; found < 2'000; ++n) {
-    waiting.leave({n, n});
+    waiting.set({n, n});
     spend(n % 512);
-    waiting.forget();
+    waiting.clear();
     put({});
     spend(n % 64);
     ASSERT_EQ(pin_a, 0u) << n;
@@ -63,7 +63,7 @@ TEST(Edges, AWordReachesThePinsOnceWholeAndIsTheNewest) {
   const Interrupts interrupts(30);
   const std::uint32_t begin = found;
   for (std::uint32_t n = 1; found < begin + 2'000; ++n) {
-    waiting.leave({n, ~n});
+    waiting.set({n, ~n});
     spend(n % 256);
     Pins late;
     if (waiting.take(late)) put(late);

@@ -158,7 +158,7 @@ class Host {
   }
 
   std::optional<link::Identity> identity;
-  std::optional<link::Answer> answer;
+  std::optional<link::Reply> answer;
   std::vector<link::Event> events;
   link::Telemetry telemetry;
   int telemetries = 0;
@@ -169,7 +169,7 @@ class Host {
   Clock::duration longest_pause_{};
   void hear(const link::Frame& f) {
     if (link::Identity m; link::decode(f, m) == link::Code::done) identity = m;
-    if (link::Answer m; link::decode(f, m) == link::Code::done) answer = m;
+    if (link::Reply m; link::decode(f, m) == link::Code::done) answer = m;
     if (link::Event m; link::decode(f, m) == link::Code::done) events.push_back(m);
     if (const link::Telemetry* t = joiner_.take(f.type, f.body)) {
       telemetry = *t;

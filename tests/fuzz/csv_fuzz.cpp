@@ -12,11 +12,11 @@
 namespace sinew::fuzz {
 namespace {
 
+using recording::ColumnSpec;
 using recording::Measured;
-using recording::Wanted;
 
 constexpr std::pair<std::string_view, double> words[] = {{"fill", 1}, {"vent", -1}};
-constexpr Wanted wanted[] = {
+constexpr ColumnSpec wanted[] = {
     {.name = "time", .unit = "s", .optional = true, .doc = "since the start"},
     {.name = "length", .unit = "m", .least = 5e-3, .most = 5, .optional = true, .doc = "of it"},
     {.name = "phase", .unit = "1", .optional = true, .doc = "what it does", .words = words},

@@ -42,6 +42,6 @@ void gain(std::string_view input);     // config::parse_gains
 void out(std::string_view input);      // thesis::parse_out_dat
 void set(std::string_view input);      // config::apply_set and experiment::load, a --set a line
 void live(std::string_view input);     // live::read_request
-void wire(std::string_view input);     // link::Decoder, all messages, link::WordReader
+void wire(std::string_view input);     // link::Decoder, all messages, link::ThesisByteReader
 
 }  // namespace sinew::fuzz

@@ -5,7 +5,7 @@
 
 #include "sinew/control/link/telemetry.h"
 #include "sinew/control/link/test_wire.h"
-#include "sinew/control/link/thesis_words.h"
+#include "sinew/control/link/thesis_bytes.h"
 #include "sinew/signals/crc.h"
 #include "tests/fuzz/law.h"
 
@@ -85,8 +85,8 @@ void law_of_bodies(std::span<const std::uint8_t> body) {
 
 // Two bytes 255 shut down, unless a frame is not over.
 void law_of_words(std::span<const std::uint8_t> stream) {
-  link::WordReader reader({.joint = {2, 0, 1}, .found = true});
-  using What = link::WordStep::What;
+  link::ThesisByteReader reader({.joint = {2, 0, 1}, .found = true});
+  using What = link::ThesisByteResult::What;
   What last = What::nothing;
   for (const std::uint8_t byte : stream) last = reader.take(byte).what;
   if (last == What::frame) return;

@@ -12,7 +12,7 @@ namespace sinew::run {
 using experiment::Experiment;
 using experiment::Fault;
 using experiment::FaultPart;
-using plant::Mishap;
+using plant::BoardFailure;
 using signals::Tick;
 
 namespace {
@@ -41,9 +41,9 @@ bool is_angle(const Case& c, const FaultPart& part) {
 void draw_fault(Case& c, const std::vector<FaultPart>& parts, std::optional<Fault::What> wanted,
                 std::mt19937& random) {
   const FaultPart& part = parts[random() % parts.size()];
-  const auto words = experiment::words_of(part.kind);
-  experiment::FaultWord word = words[random() % words.size()];
-  if (wanted) word = {*wanted, experiment::word_of(*wanted)};
+  const auto words = experiment::faults_of(part.kind);
+  experiment::FaultName word = words[random() % words.size()];
+  if (wanted) word = {*wanted, experiment::name_of(*wanted)};
   Fault f{.at = in(random, 0.3, 2), .of = part.name, .what = word.what};
   using What = Fault::What;
   if (f.what == What::offset || f.what == What::slip) f.amount = in(random, -900, 900);
@@ -65,12 +65,12 @@ void draw_board(Case& c, unsigned what, std::mt19937& random) {
   const auto some = static_cast<std::uint16_t>(3 + random() % 50);
   const struct {
     const char* name;
-    Mishap mishap;
-  } kinds[] = {{"board: reset", {Mishap::What::reset}},
-               {"board: hangs", {Mishap::What::stall, 0xffff}},
-               {"board: misses ticks", {Mishap::What::stall, some}}};
+    BoardFailure failure;
+  } kinds[] = {{"board: reset", {BoardFailure::What::reset}},
+               {"board: hangs", {BoardFailure::What::stall, 0xffff}},
+               {"board: misses ticks", {BoardFailure::What::stall, some}}};
   c.name = kinds[what].name;
-  c.mishap = kinds[what].mishap;
+  c.failure = kinds[what].failure;
 }
 
 // A silence is the only one with a time in the table: it comes twice as often, and half of them

@@ -23,7 +23,7 @@ struct Case {
   Spoil down = Spoil::nothing, up = Spoil::nothing;
   double share = 0, from = 0, lasts = 1e9;  // of the line's spoiling [s]
   double board_at = -1;                     // from when on something befalls the board [s]
-  plant::Mishap mishap;                     // and what
+  plant::BoardFailure failure;              // and what
   bool is_sound = false;                    // nothing goes wrong
   bool of_angle = false;                    // an angle's sensor does
 };

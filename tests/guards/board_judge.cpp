@@ -43,7 +43,7 @@ class Judge {
     whatever_happens();
     if (proxy_.silent_from() >= 0) silence();
     if (case_.of_angle) angle();
-    if (case_.mishap.what != plant::Mishap::What::none) board();
+    if (case_.failure.what != plant::BoardFailure::What::none) board();
     if (told_.bound >= 0 && told_.reaction > told_.bound)
       unsafe("an inlet was open " + ticks(told_.reaction) + " after it began; allowed " +
              ticks(told_.bound));
@@ -95,10 +95,10 @@ class Judge {
   }
 
   void board() {
-    const Tick at = monitor_.facts().mishap;
+    const Tick at = monitor_.facts().failure;
     if (at < 0) return;  // the run was over
-    const bool stalls = case_.mishap.what == plant::Mishap::What::stall;
-    if (stalls && case_.mishap.ticks < 100) return missed_ticks(at);
+    const bool stalls = case_.failure.what == plant::BoardFailure::What::stall;
+    if (stalls && case_.failure.ticks < 100) return missed_ticks(at);
     if (!told_.noticed) unsafe("nobody has noticed that the board began anew");
     if (!stalls) return;
     if (remote_.fault() != control::BoardFault::watchdog || monitor_.facts().has_current)
@@ -107,7 +107,7 @@ class Judge {
 
   // Two or more: inlets are shut in the first tick after them, and the host is told.
   void missed_ticks(Tick at) {
-    const Tick missed = case_.mishap.ticks;
+    const Tick missed = case_.failure.ticks;
     const Tick shut = monitor_.inlets_shut(at);
     told_.bound = 1;
     told_.reaction = shut < 0 ? 10'000 : std::max<Tick>(shut - at - missed, 0);
@@ -128,11 +128,11 @@ class Judge {
 }  // namespace
 
 bool was_noticed(const Outcome& out, const plant::RemoteBoard& remote, bool by_clock) {
-  const link::LinkSeen& there = remote.line_there();
+  const link::LinkStatistics& there = remote.line_there();
   bool sensors = out.supervised.rejected > 0;
-  for (const control::SensorSeen& s : out.supervised.sensor) sensors |= s.rejected > 0;
+  for (const control::SensorStatistics& s : out.supervised.sensor) sensors |= s.rejected > 0;
   const bool late = out.lost > 0 || there.late > 0;
-  return out.ended_early() || (late && !by_clock) || sensors || out.seen.late > 0 ||
+  return out.ended_early() || (late && !by_clock) || sensors || out.controller.late > 0 ||
          out.supervised.gaps > 0 || out.supervised.rejected_commands > 0 || is_bad(remote.line()) ||
          is_bad(there.line) || there.lost + there.repeated > 0;
 }

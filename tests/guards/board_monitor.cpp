@@ -20,7 +20,7 @@ Monitor::Monitor(const experiment::Experiment& e) {
   }
 }
 
-plant::Wires Monitor::at(plant::Wires body, Tick from, plant::Mishap mishap) {
+plant::Wires Monitor::at(plant::Wires body, Tick from, plant::BoardFailure failure) {
   plant::Wires out;
   out.valves = [this, body](Tick tick, std::uint32_t open, bool current) {
     see(tick, open, current);
@@ -30,12 +30,12 @@ plant::Wires Monitor::at(plant::Wires body, Tick from, plant::Mishap mishap) {
     pass(tick);
     return body.read(c, tick);
   };
-  if (mishap.what == plant::Mishap::What::none) return out;
-  out.mishap = [this, from, mishap](Tick tick) -> plant::Mishap {
+  if (failure.what == plant::BoardFailure::What::none) return out;
+  out.failure = [this, from, failure](Tick tick) -> plant::BoardFailure {
     const std::lock_guard guard(lock_);
-    if (facts_.mishap >= 0 || tick < from || (facts_.open & inlets_) == 0) return {};
-    facts_.mishap = tick;
-    return mishap;
+    if (facts_.failure >= 0 || tick < from || (facts_.open & inlets_) == 0) return {};
+    facts_.failure = tick;
+    return failure;
   };
   return out;
 }
@@ -49,7 +49,7 @@ void Monitor::host_speaks(Tick now) {
 
 void Monitor::board_suffers() {
   const std::lock_guard guard(lock_);
-  facts_.mishap = facts_.now;
+  facts_.failure = facts_.now;
 }
 
 void Monitor::pass(Tick tick) {

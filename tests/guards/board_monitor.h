@@ -17,9 +17,9 @@ class Monitor {
  public:
   explicit Monitor(const experiment::Experiment& e);
 
-  // Stands between a board and this body; `mishap` befalls the board once, at the first reading
+  // Stands between a board and this body; `failure` befalls the board once, at the first reading
   // from that tick on at which an inlet is open.
-  plant::Wires at(plant::Wires body, signals::Tick from = 0, plant::Mishap mishap = {});
+  plant::Wires at(plant::Wires body, signals::Tick from = 0, plant::BoardFailure failure = {});
 
   // Bytes are on their way to the board.
   void host_speaks(signals::Tick now);
@@ -27,8 +27,8 @@ class Monitor {
   void board_suffers();
 
   struct Facts {
-    signals::Tick now = 0;      // when something came by last
-    signals::Tick mishap = -1;  // when it came; -1: not yet
+    signals::Tick now = 0;       // when something came by last
+    signals::Tick failure = -1;  // when it came; -1: not yet
     signals::Tick unheard = 0;  // for how long at most an inlet was open without a word of the host
     bool both_open = false;     // inlet and exhaust of one muscle, ever
     bool open_without_run = false;  // any valve while nothing ran, ever

@@ -83,7 +83,7 @@ Went run_case(const Case& c) {
   Monitor monitor(c.experiment);
   plant::EmulatedBoard board(
       firmware::image("application-mps2_an386"),
-      monitor.at(body.wires(), static_cast<Tick>(1e4 * std::max(c.board_at, 0.0)), c.mishap));
+      monitor.at(body.wires(), static_cast<Tick>(1e4 * std::max(c.board_at, 0.0)), c.failure));
   Proxy proxy(c, monitor, false);
   HostsLine line(board.line(), proxy);
   plant::RemoteBoard remote(line.line(), 1, 100);
@@ -99,7 +99,7 @@ Went run_case(const Case& c) {
   for (const double since = now(); !monitor.facts().at_rest() && now() < since + longest;)
     if (inner.read(bytes, 0.02) < 0) break;
   // One that hung says who it is when it has begun anew.
-  for (int i = 0; i < 5 && c.board_at >= 0; ++i) (void)remote.look(0.1);
+  for (int i = 0; i < 5 && c.board_at >= 0; ++i) (void)remote.wait_for_telemetry(0.1);
   return {judge(c, out, remote, monitor, proxy, lead), out.duration, now() - begin};
 }
 

@@ -17,7 +17,7 @@
 #include <random>
 
 #include "sinew/host/side_by_side.h"
-#include "sinew/identify/fit/matrix.h"
+#include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_fit.h"
 #include "sinew/run/simulation/run.h"

@@ -116,7 +116,7 @@ void expect_vented_in_time(const Trial& trial, const char* what) {
   ASSERT_TRUE(trip.cause == Trip::Cause::range || trip.cause == Trip::Cause::rate)
       << what << " of " << trial.sensor << " at " << trial.first_lie << " s, seed " << e.seed;
   EXPECT_EQ(trip.channel.index, channel);
-  EXPECT_EQ(out.seen.fault, signals::Status::fault);
+  EXPECT_EQ(out.controller.fault, signals::Status::fault);
 
   // The first scan that reads a lie, and the third.
   const Tick read = e.robot.sensors[static_cast<std::size_t>(channel)].tick;
@@ -220,8 +220,8 @@ TEST(Supervise, ValvesObeyWhateverComes) {
         EXPECT_GT(seen.rejected, 0u);
       }
       if (seen.trip.cause != Trip::Cause::none) {
-        EXPECT_NE(supervisor.seen().phase, control::Phase::running);
-        EXPECT_EQ(supervisor.seen().fault, signals::Status::fault);
+        EXPECT_NE(supervisor.state().phase, control::Phase::running);
+        EXPECT_EQ(supervisor.state().fault, signals::Status::fault);
       }
     }
   EXPECT_EQ(all.both_open, 0);

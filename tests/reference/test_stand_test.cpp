@@ -368,7 +368,7 @@ TEST(TestStand, FrictionWithoutStickHasTheSignOfTheSpeed) {
     Air::Ends ends{};
     ends.length.of.fill(0.08);
     ends.rate.of.fill(speed);
-    Air::Answer pull{};
+    Air::Evaluation pull{};
     air.evaluate(0, ends, air.initial(5e5, ends.length, 0), air.valves_at_rest(),
                  air.memory_at_rest(5e5, ends.length), pull);
     EXPECT_DOUBLE_EQ(pull.tension[1], pull.tension[0] + (speed > 0 ? pull.friction_bound[0]

@@ -56,15 +56,17 @@ TEST_F(SixLegs, AreOnThreeBoardsWithTheSameNumbers) {
   ASSERT_EQ(boards.size(), 3u);
   std::set<int> valves, channels;
   for (const control::Board& b : boards) {
-    EXPECT_EQ(b.spine.joints, 8u);
-    EXPECT_EQ(b.spine.conversions, 24u);
+    EXPECT_EQ(b.joint_controller.joints, 8u);
+    EXPECT_EQ(b.joint_controller.conversions, 24u);
     ASSERT_EQ(b.valve.size(), 32u);
     valves.insert(b.valve.begin(), b.valve.end());
     channels.insert(b.channel.begin(), b.channel.end());
     for (std::size_t j = 0; j < 8; ++j) {
-      EXPECT_EQ(b.spine.joint[j].angle.index, boards[0].spine.joint[j].angle.index);
-      EXPECT_EQ(b.spine.joint[j].flexor.inlet.index, boards[0].spine.joint[j].flexor.inlet.index);
-      EXPECT_EQ(b.spine.joint[j].law_tick, boards[0].spine.joint[j].law_tick);
+      EXPECT_EQ(b.joint_controller.joint[j].angle.index,
+                boards[0].joint_controller.joint[j].angle.index);
+      EXPECT_EQ(b.joint_controller.joint[j].flexor.inlet.index,
+                boards[0].joint_controller.joint[j].flexor.inlet.index);
+      EXPECT_EQ(b.joint_controller.joint[j].law_tick, boards[0].joint_controller.joint[j].law_tick);
     }
   }
   EXPECT_EQ(valves.size(), 96u);
@@ -157,7 +159,7 @@ TEST_F(SixLegs, AFaultNamesItsBoard) {
   EXPECT_EQ(out.supervised.board, 3);
   EXPECT_TRUE(run::cause_of(e, out).starts_with("sensor e_knee_angle on board 3 at 1.0"))
       << run::cause_of(e, out);
-  EXPECT_EQ(out.seen.phase, control::Phase::off);
+  EXPECT_EQ(out.controller.phase, control::Phase::off);
 }
 
 TEST_F(SixLegs, SayWhatIsTooMuch) {

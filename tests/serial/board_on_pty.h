@@ -72,8 +72,8 @@ class BoardOnPty {
 
  private:
   struct NoTicks {
-    void keep_away() noexcept {}
-    void let_come() noexcept {}
+    void block() noexcept {}
+    void allow() noexcept {}
   };
 
   void listen() {

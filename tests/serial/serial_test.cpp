@@ -111,7 +111,8 @@ TEST(Serial, ATestStandRunsAsARobotDoes) {
 
 TEST(Serial, ABoardWhoseWatchdogHasBittenRunsOnlyAfterSomebodyHasSaidSo) {
   const Workspace w;
-  BoardOnPty board(loaded("kick"), {.board = {'p', 't', 'y'}, .bitten = true, .active_low = true});
+  BoardOnPty board(loaded("kick"),
+                   {.board = {'p', 't', 'y'}, .reset_by_watchdog = true, .active_low = true});
   const Result refused = w.sinew(run_at(board, "kick"));
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("the board is in dump: its watchdog has reset it"));
@@ -144,7 +145,7 @@ TEST(Serial, AStopThatIsAskedForVents) {
     EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5)) << signal;
     EXPECT_EQ(board.open() & inlets, 0u);
     EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5)) << signal;
-    EXPECT_EQ(board.fault(), BoardFault::asked);
+    EXPECT_EQ(board.fault(), BoardFault::requested);
     const int status = run.wait();
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << "interrupted, and said so";
   }
@@ -162,7 +163,7 @@ TEST(Serial, SeveralSignalsVentAsOneDoes) {
     }
     EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5)) << signal;
     EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5)) << signal;
-    EXPECT_EQ(board.fault(), BoardFault::asked) << "the host was there to ask";
+    EXPECT_EQ(board.fault(), BoardFault::requested) << "the host was there to ask";
     const int status = run.wait();
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << signal;
   }

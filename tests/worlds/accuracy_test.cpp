@@ -1,4 +1,4 @@
-// A look between two nodes is nearly the node, and a world converges with its order.
+// A preview between two nodes is nearly the node, and a world converges with its order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,26 +23,26 @@ void record(const std::string& key, double figure) {
   ::testing::Test::RecordProperty(key, text);
 }
 
-// A look from the last node to just before the next one against that node itself, by what is looked
-// at: the farthest that a peek goes. The largest differences of a second.
-std::map<Kind, double> peeked(const Subject& s, const Variant& variant) {
+// A preview from the last node to just before the next one against that node itself, by what is
+// compared: the longest preview. The largest differences of a second.
+std::map<Kind, double> preview_errors(const Subject& s, const Variant& variant) {
   const std::unique_ptr<Body> body = s.make(variant);
   const Channels channels(*body);
   const std::vector<signals::Edge> edges = random_edges(s.taps, 10000, 11);
   std::map<Kind, double> worst;
   std::size_t next = 0;
-  Numbers peek{}, node{};
+  Numbers preview{}, node{};
   for (int k = 1; k <= static_cast<int>(std::lround(1 / s.step)); ++k) {
     const double at = k * s.step;
     for (; next < edges.size() && seconds(static_cast<double>(edges[next].at)) < at - 1e-5; ++next)
       EXPECT_EQ(body->port().drive(edges[next]), signals::Status::ok);
     // Two nanoseconds are 1e-8 rad of a joint that turns with 5 rad/s.
-    body->truth(at - 1e-9, peek);
+    body->truth(at - 1e-9, preview);
     body->truth(at + 1e-9, node);
     EXPECT_GE(body->time(), at - 1e-12);
     for (std::size_t i = 0; i < body->quantities().size(); ++i) {
       double& w = worst[body->quantities()[i].kind];
-      w = std::max(w, std::abs(node[i] - peek[i]));
+      w = std::max(w, std::abs(node[i] - preview[i]));
     }
   }
   EXPECT_FALSE(body->failure());
@@ -50,14 +50,14 @@ std::map<Kind, double> peeked(const Subject& s, const Variant& variant) {
 }
 
 // Nothing rubs: dry friction belongs to a step, and jumps where one ends.
-TEST_P(Accuracy, PeeksAgreeWithNodes) {
+TEST_P(Accuracy, PreviewsAgreeWithNodes) {
   const Subject& s = GetParam();
-  std::map<Kind, double> worst = peeked(s, {.smooth = true});
-  EXPECT_LE(worst[Kind::angle], s.limits.peek_angle);
-  EXPECT_LE(worst[Kind::place], s.limits.peek_place);
-  EXPECT_LE(worst[Kind::tension], s.limits.peek_tension);
-  EXPECT_LE(worst[Kind::pressure], s.limits.peek_pressure);
-  EXPECT_LE(worst[Kind::mass], s.limits.peek_mass);
+  std::map<Kind, double> worst = preview_errors(s, {.smooth = true});
+  EXPECT_LE(worst[Kind::angle], s.limits.preview_angle);
+  EXPECT_LE(worst[Kind::place], s.limits.preview_place);
+  EXPECT_LE(worst[Kind::tension], s.limits.preview_tension);
+  EXPECT_LE(worst[Kind::pressure], s.limits.preview_pressure);
+  EXPECT_LE(worst[Kind::mass], s.limits.preview_mass);
   record("angle", worst[Kind::angle]);
   record("place", worst[Kind::place]);
   record("tension", worst[Kind::tension]);
@@ -66,9 +66,9 @@ TEST_P(Accuracy, PeeksAgreeWithNodes) {
 }
 
 // On its ground and with all that rubs.
-TEST_P(Accuracy, PeeksAgreeWithNodesWhereItRubs) {
+TEST_P(Accuracy, PreviewsAgreeWithNodesUnderFriction) {
   const Subject& s = GetParam();
-  std::map<Kind, double> worst = peeked(s, {});
+  std::map<Kind, double> worst = preview_errors(s, {});
   EXPECT_LE(worst[Kind::angle], s.limits.rubbing_angle);
   EXPECT_LE(worst[Kind::place], s.limits.rubbing_place);
   EXPECT_LE(worst[Kind::tension], s.limits.rubbing_tension);

@@ -25,7 +25,7 @@ TEST_P(Bits, TwiceTheSameBits) {
   expect_same(GetParam(), once, follow(GetParam(), {}, end, 1));
 }
 
-// Looks at random instants, several a tick.
+// Reads at random instants, several a tick.
 TEST_P(Bits, PeeksLeaveNoTrace) {
   expect_same(GetParam(), follow(GetParam(), {}, end, 2),
               follow(GetParam(), {}, end, 2, {.truths = 3}));
@@ -50,7 +50,7 @@ TEST_P(Bits, GoesOnFromASave) {
 }
 
 // The real controller in the loop: what it decides depends on every reading.
-TEST_P(Bits, AClosedLoopSeesNoLooks) {
+TEST_P(Bits, ReadsDoNotChangeAClosedLoop) {
   if (!GetParam().run) return;
   const signals::Table alone = GetParam().run(false, 0);
   ASSERT_FALSE(alone.series.empty());

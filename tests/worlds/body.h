@@ -77,14 +77,14 @@ struct Tap {
 // The limits that a subject is held to. The defaults are those of a planar world; each other value
 // stands where its subject is made, with the reason and the figure that was measured.
 struct Limits {
-  // A peek over a whole step against the node there, valves at random. A peek is the motion at
-  // constant acceleration and Heun's rule for the air, both of the third order within the step.
+  // A preview over a whole step against the node there, valves at random. A preview is the motion
+  // at constant acceleration and Heun's rule for the air, both of the third order within the step.
   // Measured of legs: 1.9e-5 rad, 1.9e-6 m, 0.11 N, 520 Pa, 0.086 mg.
-  double peek_angle = 2.2e-5;  // [rad]
-  double peek_place = 2.2e-6;  // [m]
-  double peek_tension = 0.13;  // [N]
-  double peek_pressure = 600;  // [Pa]
-  double peek_mass = 1e-7;     // [kg]
+  double preview_angle = 2.2e-5;  // [rad]
+  double preview_place = 2.2e-6;  // [m]
+  double preview_tension = 0.13;  // [N]
+  double preview_pressure = 600;  // [Pa]
+  double preview_mass = 1e-7;     // [kg]
 
   // These hold where it rubs: the foot may touch the ground, or a joint come to rest, within the
   // step, and the gauge's share of the mesh's friction jumps at the node. Measured of legs: 5.2e-4
@@ -109,7 +109,7 @@ struct Subject {
   std::vector<Tap> taps;
   double step = 0;  // between nodes [s]
 
-  // Closed loop with the real controller: every tick visited, extra looks per event. Empty: there
+  // Closed loop with the real controller: every tick visited, extra reads per event. Empty: there
   // is no experiment of it.
   std::function<signals::Table(bool every_tick, int extra_readers)> run;
 

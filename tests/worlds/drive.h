@@ -1,5 +1,5 @@
 // tests/worlds/drive.h - valves driven by a seeded random pattern, and a world that is followed
-// while it moves, by somebody who looks seldom or by somebody who looks all the time.
+// while it moves, with few or with many extra reads.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -67,8 +67,8 @@ class Channels {
   std::array<signals::Conversion, 192> all_{};  // six boards full
 };
 
-// Who looks at a world beside what is recorded of it.
-struct Looks {
+// Reads of a world in addition to those that are recorded.
+struct ExtraReads {
   bool every_tick = false;  // the truth at each tick, and a node if one is due
   unsigned truths = 0;      // at most, at random instants of each tick
   bool advances = false;    // calls that commit nodes, at random instants
@@ -82,10 +82,10 @@ struct Record {
   double entered = 0;  // air through the valves [kg]
 };
 
-// A world from its start to `end`, with somebody who looks. A conversion that begins at a tick is
-// read a tick later, and calls never go back in time, so nobody looks between the two.
+// A world from its start to `end`, with extra reads. A conversion that begins at a tick is
+// read a tick later, and calls never go back in time, so nothing is read between the two.
 inline Record follow(const Subject& subject, const Variant& variant, Tick end, unsigned seed,
-                     const Looks& looks = {}) {
+                     const ExtraReads& extra = {}) {
   std::unique_ptr<Body> body = subject.make(variant);
   Channels channels(*body);
   const std::vector<signals::Edge> edges = random_edges(subject.taps, end, seed);
@@ -106,7 +106,7 @@ inline Record follow(const Subject& subject, const Variant& variant, Tick end, u
       out.truth.insert(out.truth.end(), numbers.begin(),
                        numbers.begin() + static_cast<std::ptrdiff_t>(count));
     }
-    if (looks.every_tick) {
+    if (extra.every_tick) {
       body->advance(seconds(static_cast<double>(t)));
       body->truth(seconds(static_cast<double>(t)), unused);
     }
@@ -116,14 +116,14 @@ inline Record follow(const Subject& subject, const Variant& variant, Tick end, u
       within += (1.0 - within) * static_cast<double>(random() % 1000) / 1000;
       return seconds(static_cast<double>(t) + within);
     };
-    if (looks.advances && random() % 5 == 0) body->advance(later());
-    if (looks.restores && random() % 50 == 0) {
+    if (extra.advances && random() % 5 == 0) body->advance(later());
+    if (extra.restores && random() % 50 == 0) {
       std::unique_ptr<Body> other = subject.make(variant);
       channels.start(*other);
       other->restore(body->save());
       body = std::move(other);
     }
-    for (unsigned i = looks.truths > 0 ? random() % (looks.truths + 1) : 0; i > 0; --i)
+    for (unsigned i = extra.truths > 0 ? random() % (extra.truths + 1) : 0; i > 0; --i)
       body->truth(later(), unused);
   }
   for (const Account& a : body->air(seconds(static_cast<double>(end)))) out.entered += a.entered;

@@ -4,7 +4,7 @@
 //
 //   World                        made from a Setup
 //   channels(setup)              of its port
-//   tell(setup, truth, take)     take(name, kind, number) of each number of a truth, in one order
+//   visit(setup, truth, take)    take(name, kind, number) of each number of a truth, in one order
 //   air(setup, truth, held)      its balances, with the air in all of it [kg]
 //   energy(setup, truth)         [J]
 #pragma once
@@ -25,7 +25,7 @@ class OnWorld final : public Body {
 
  public:
   explicit OnWorld(const Setup& s) : setup_(s), world_(s) {
-    Meaning::tell(setup_, Truth{}, [&](const char* name, Kind kind, double) {
+    Meaning::visit(setup_, Truth{}, [&](const char* name, Kind kind, double) {
       quantities_.push_back({name, kind});
     });
   }
@@ -65,7 +65,7 @@ class OnWorld final : public Body {
   const std::vector<Quantity>& quantities() const override { return quantities_; }
   void truth(double t, std::span<double> out) override {
     std::size_t n = 0;
-    Meaning::tell(setup_, world_.truth(t), [&](const char*, Kind, double x) { out[n++] = x; });
+    Meaning::visit(setup_, world_.truth(t), [&](const char*, Kind, double x) { out[n++] = x; });
   }
   std::vector<Account> air(double t) override {
     const Truth x = world_.truth(t);

@@ -69,7 +69,7 @@ bool has_cylinder(const Setup& s) {
 
 // All numbers of a truth, in the order of `quantities`.
 template <class Take>
-void tell(const Setup& s, const Truth& x, Take take) {
+void visit(const Setup& s, const Truth& x, Take take) {
   take("trolley", Kind::place, x.x);
   take("trolley rate", Kind::rate, x.x_rate);
   take("lift", Kind::place, x.lift);
@@ -176,8 +176,8 @@ struct OfPlanar {
 
   static std::size_t channels(const Setup& s) { return s.robot.sensors.size(); }
   template <class Take>
-  static void tell(const Setup& s, const Truth& x, Take take) {
-    worlds::tell(s, x, take);
+  static void visit(const Setup& s, const Truth& x, Take take) {
+    worlds::visit(s, x, take);
   }
   static std::vector<Account> air(const Setup& s, const Truth& x, double held) {
     std::vector<Account> out = accounts(s, x);
@@ -212,7 +212,7 @@ struct OfDriven {
 
   static std::size_t channels(const Setup&) { return 0; }
   template <class Take>
-  static void tell(const Setup&, const plant::DrivenTruth& x, Take take) {
+  static void visit(const Setup&, const plant::DrivenTruth& x, Take take) {
     take("length", Kind::place, x.length);
     take("tension", Kind::tension, x.tension);
     take("pressure", Kind::pressure, x.pressure);

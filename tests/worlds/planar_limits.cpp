@@ -8,11 +8,12 @@ Limits planar_limits(const std::string& name) {
   Limits l;
   // A short muscle with little air fills within a few milliseconds (0.19 N, 1240 Pa, 0.11 mg).
   if (name == "one_joint")
-    l.peek_place = 2.7e-6, l.peek_tension = 0.22, l.peek_pressure = 1400, l.peek_mass = 1.3e-7;
+    l.preview_place = 2.7e-6, l.preview_tension = 0.22, l.preview_pressure = 1400,
+    l.preview_mass = 1.3e-7;
   // A light foot on a stiff spring: within a millisecond its acceleration turns (1.2e-3 rad, 0.34
   // N; 4e-3 J of 71 J, which fall by 32 with the step's half).
   if (name == "three_joints" || name == "ankle") {
-    l.peek_angle = 1.4e-3, l.peek_place = 3.5e-5, l.peek_tension = 0.4;
+    l.preview_angle = 1.4e-3, l.preview_place = 3.5e-5, l.preview_tension = 0.4;
     l.rubbing_angle = 1.3e-3;
     l.error = l.driven_error = 3e-5, l.energy = 1e-4;
   }
@@ -20,26 +21,26 @@ Limits planar_limits(const std::string& name) {
   // damper alone would bear); from 1 ms on the error is near rounding (7e-10 rad; 1.3e-8 of the
   // energy).
   if (name == "six_legs") {
-    l.peek_angle = 4.5e-5, l.rubbing_angle = 2e-3;
+    l.preview_angle = 4.5e-5, l.rubbing_angle = 2e-3;
     l.order = l.driven_order = -1, l.energy = 2e-8;
   }
   // The body accelerates on its cylinder (3.9e-5 rad, 4.0e-6 m; 1.4e-3 rad, 1.5e-4 m where the foot
   // lands). Chambers near the supply's pressure go ahead of a step (9e-9 m).
   if (name == "moving_cylinder") {
-    l.peek_angle = 5e-5, l.peek_place = 5e-6, l.peek_pressure = 1000;
+    l.preview_angle = 5e-5, l.preview_place = 5e-6, l.preview_pressure = 1000;
     l.rubbing_angle = 1.7e-3, l.rubbing_place = 1.8e-4;
     l.driven_order = -1;
   }
   // The body falls on its stop, and no step is cut where it arrives (7e-5 rad at 1 ms).
   if (name == "regulated_cylinder") l.order = l.driven_order = -3, l.error = l.driven_error = 2e-3;
   // Stretched and filled at once, a short muscle with little air (0.24 N).
-  if (name == "driven_length") l.peek_tension = 0.28;
+  if (name == "driven_length") l.preview_tension = 0.28;
   // Never shut in: what vents passes from choked to not choked to linear (order 1.9).
   if (name == "leg_3_way") l.order = 1.5;
   // Regulators have such kinks all the time (order 0.6, 2.0e-6 rad; 0.29 N, 1360 Pa, 0.21 mg).
   if (name == "regulators") {
     l.order = l.driven_order = -2, l.error = l.driven_error = 1e-5;
-    l.peek_tension = 0.35, l.peek_pressure = 1600, l.peek_mass = 2.5e-7;
+    l.preview_tension = 0.35, l.preview_pressure = 1600, l.preview_mass = 2.5e-7;
   }
   // Hoses go ahead of a step by an error of their own, along a length that runs on straight (8e-7
   // rad; driven 8e-6).
@@ -52,11 +53,12 @@ Limits planar_limits(const std::string& name) {
   if (name == "failing_valves") l.driven_order = -1, l.driven_error = 1e-5;
   // An inlet stands open until its muscle is full, then settles at the supply's pressure (0.20 N,
   // 1530 Pa, 0.23 mg).
-  if (name == "broken_valves") l.peek_tension = 0.24, l.peek_pressure = 1800, l.peek_mass = 2.8e-7;
+  if (name == "broken_valves")
+    l.preview_tension = 0.24, l.preview_pressure = 1800, l.preview_mass = 2.8e-7;
   // A muscle is lost within milliseconds, a supply at once (8.0e-5 rad, 9.3e-6 m, 0.15 N), and
   // flows turn round and change their law (order 1.3 with valves at random, 4.3e-7).
   if (name.starts_with("broken_") && name != "broken_valves") {
-    l.peek_angle = 1e-4, l.peek_place = 1.2e-5, l.peek_tension = 0.18;
+    l.preview_angle = 1e-4, l.preview_place = 1.2e-5, l.preview_tension = 0.18;
     l.driven_order = 0;
   }
   // As of hoses without a fault (driven 1.5e-5 rad).

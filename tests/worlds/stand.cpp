@@ -38,7 +38,7 @@ struct OfStand {
   static std::size_t channels(const Setup& s) { return s.transducers.size(); }
 
   template <class Take>
-  static void tell(const Setup&, const StandTruth& x, Take take) {
+  static void visit(const Setup&, const StandTruth& x, Take take) {
     take("length", Kind::place, x.length);
     take("velocity", Kind::rate, x.velocity);
     take("acceleration", Kind::other, x.acceleration);
@@ -156,14 +156,14 @@ StandSetup regulated() {
   return s;
 }
 
-// The stand integrates also between nodes, in pieces that suit its fastest rate, and so its looks
-// are as exact as its nodes. Measured: 6.4e-9 m, 3.3e-5 N, 0.18 Pa, 5e-12 kg.
+// The stand integrates also between nodes, in pieces that suit its fastest rate, and so its
+// previews are as exact as its nodes. Measured: 6.4e-9 m, 3.3e-5 N, 0.18 Pa, 5e-12 kg.
 Limits limits_of(const std::string& name) {
-  Limits l{.peek_angle = 0,
-           .peek_place = 2e-8,
-           .peek_tension = 1e-4,
-           .peek_pressure = 0.5,
-           .peek_mass = 2e-11,
+  Limits l{.preview_angle = 0,
+           .preview_place = 2e-8,
+           .preview_tension = 1e-4,
+           .preview_pressure = 0.5,
+           .preview_mass = 2e-11,
            .rubbing_angle = 0,
            .rubbing_place = 2e-8,
            .rubbing_tension = 1e-4,

@@ -165,10 +165,10 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
       {judge(put_in, {.where = "2.3",
                       .says = "Force is no straight line over length",
                       .quantity = "least distance of a way up from a straight line, of its range",
-                      .ours = 100 * least_of(loops,
-                                             [](const Loop& l) {
-                                               return report::bend(way_up(l, l.force));
-                                             }),
+                      .computed = 100 * least_of(loops,
+                                                 [](const Loop& l) {
+                                                   return report::bend(way_up(l, l.force));
+                                                 }),
                       .unit = "%",
                       .accept = analysis::noticeable(100),
                       .why = "our stand was made with [22]",
@@ -177,7 +177,7 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
              {.where = "2.3",
               .says = "The curves close and show hysteresis, by dry friction of bladder and mesh",
               .quantity = "least mean opening of a loop, of its range of lengths",
-              .ours = 100 * least_of(loops, opening),
+              .computed = 100 * least_of(loops, opening),
               .unit = "%",
               .accept = analysis::noticeable(100),
               .why = "our stand was given the friction of 3.4",
@@ -185,7 +185,7 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
        judge(put_in, {.where = "6.3",
                       .says = "The more they contract, the less they pull",
                       .quantity = "largest fall of force while the length grows",
-                      .ours = fall,
+                      .computed = fall,
                       .unit = "lbf",
                       .accept = analysis::negligible(15),
                       .why = "the range of the weights is 15 lb"})}};
@@ -215,7 +215,7 @@ Exhibit figure_2_9(const std::vector<Loop>& loops) {
                       .says = "The predicted rise of pressure holds; what is left comes from the "
                               "coarse gauge",
                       .quantity = "largest distance of a reading from [29]",
-                      .ours = largest,
+                      .computed = largest,
                       .unit = "psi",
                       .accept = analysis::another(0, 1),
                       .why = "a division of our dial is 1 psi, in a reading and in the first; the "
@@ -223,7 +223,7 @@ Exhibit figure_2_9(const std::vector<Loop>& loops) {
 }
 
 // Returns the curves of 2-10 and 2-12, which have the pressures of 2.3.
-std::vector<Curve> beside_law(const std::vector<Loop>& loops, bool with_effectiveness) {
+std::vector<Curve> curves_with_law(const std::vector<Loop>& loops, bool with_effectiveness) {
   std::vector<Curve> out;
   int color = 0;
   for (const Loop& l : loops) {
@@ -239,7 +239,7 @@ std::vector<Curve> beside_law(const std::vector<Loop>& loops, bool with_effectiv
 
 // Returns the largest difference between the law's loading and unloading forces over the measured
 // lengths [lbf].
-double ways_apart(const Loop& l) {
+double largest_branch_difference(const Loop& l) {
   const Trace up = way_up(l, l.ideal_force);
   double largest = 0;
   for (std::size_t i = heaviest(l); i < l.length.size(); ++i) {
@@ -251,7 +251,7 @@ double ways_apart(const Loop& l) {
 
 Exhibit figure_2_10(const std::vector<Loop>& loops) {
   double apart = 0;
-  for (const Loop& l : loops) apart = std::max(apart, ways_apart(l));
+  for (const Loop& l : loops) apart = std::max(apart, largest_branch_difference(l));
   const auto at = [&](int nominal) {
     return effectiveness_of(*std::ranges::find(loops, nominal, &Loop::nominal));
   };
@@ -261,11 +261,11 @@ Exhibit figure_2_10(const std::vector<Loop>& loops) {
        .caption = "Readings of our stand and [22] at the pressure of [29], without effectiveness.",
        .plots = {{.x = {"length", "in"},
                   .y = {"force", "lbf"},
-                  .curves = beside_law(loops, false)}}},
+                  .curves = curves_with_law(loops, false)}}},
       {judge(put_in, {.where = "2.3",
                       .says = "The model predicts more force than was measured",
                       .quantity = "least mean of predicted less measured force",
-                      .ours = least_of(
+                      .computed = least_of(
                           loops, [](const Loop& l) { return mean(l.ideal_force) - mean(l.force); }),
                       .unit = "lbf",
                       .accept = analysis::at_least(0),
@@ -274,7 +274,7 @@ Exhibit figure_2_10(const std::vector<Loop>& loops) {
              {.where = "2.3",
               .says = "The model has no hysteresis",
               .quantity = "largest distance of its two ways",
-              .ours = apart,
+              .computed = apart,
               .unit = "lbf",
               .accept = analysis::negligible(15),
               .why = "one force for each length; what is left are straight lines between readings",
@@ -282,7 +282,7 @@ Exhibit figure_2_10(const std::vector<Loop>& loops) {
        judge(put_in, {.where = "2.3",
                       .says = "What is missing depends on the pressure",
                       .quantity = "measured by predicted force, at 60 psi less at 90 psi",
-                      .ours = at(60) - at(90),
+                      .computed = at(60) - at(90),
                       .accept = analysis::noticeable(1),
                       .why = "[30] has 0.075 between them"})}};
 }
@@ -324,7 +324,7 @@ Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
              {.where = "2.3, [30]",
               .says = "Found for each nominal pressure, then drawn as one function of pressure",
               .quantity = "largest distance of what our stand finds from [30]",
-              .ours = farthest,
+              .computed = farthest,
               .accept = analysis::negligible(report::greatest(trace(by_text)) -
                                              report::least(trace(by_text))),
               .why = "of the range of [30] in the figure; our stand was made with it, and the dial "
@@ -332,9 +332,9 @@ Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
                      "hysteresis are in such a fit"}),
        judge(put_in, {.where = "2.3",
                       .says = "The actual force is less than the predicted one",
-                      .theirs = "below 1",
+                      .reported = "below 1",
                       .quantity = "largest effectiveness found",
-                      .ours = highest,
+                      .computed = highest,
                       .accept = analysis::at_most(1),
                       .why = "our stand was made with [30]"}),
        report::not_applicable("[30] and appendix A", "Which pressure the function takes", "",
@@ -359,12 +359,12 @@ Exhibit figure_2_12(const std::vector<Loop>& loops) {
                   "[29].",
        .plots = {{.x = {"length", "in"},
                   .y = {"force", "lbf"},
-                  .curves = beside_law(loops, true)}}},
+                  .curves = curves_with_law(loops, true)}}},
       {judge(put_in,
              {.where = "2.3",
               .says = "With effectiveness the static model describes the force adequately",
               .quantity = "largest mean distance of a loop from the model, of its largest force",
-              .ours = 100 * largest,
+              .computed = 100 * largest,
               .unit = "%",
               .accept = analysis::negligible(100),
               .why = "\"adequate\" is taken as a difference that is negligible; the loop's own "

@@ -175,9 +175,9 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
     const std::string of = fmt::format(" of transducer {}", t + 1);
     out.push_back(judge(put_in, {.where = "table 4-1",
                                  .says = "Scale factor" + of,
-                                 .theirs = fmt::format("{:.4f} V/lb", printed_scale[t]),
+                                 .reported = fmt::format("{:.4f} V/lb", printed_scale[t]),
                                  .quantity = "slope through our readings",
-                                 .ours = scale[t],
+                                 .computed = scale[t],
                                  .unit = "V/lb",
                                  .accept = analysis::measured(printed_scale[t], 1e-4),
                                  .why = "counts of 1.2 mV and one count of noise; the scale was "
@@ -186,9 +186,9 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
                                  .because = {}}));
     out.push_back(judge(put_in, {.where = "table 4-1",
                                  .says = "Error from the average" + of,
-                                 .theirs = fmt::format("{:.1f} %", printed_error[t]),
+                                 .reported = fmt::format("{:.1f} %", printed_error[t]),
                                  .quantity = "(average - s)/s",
-                                 .ours = 100 * found.sensors[t].deviation,
+                                 .computed = 100 * found.sensors[t].deviation,
                                  .unit = "%",
                                  .accept = analysis::percentage(printed_error[t]),
                                  .why = "of two such slopes",
@@ -197,9 +197,9 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
   out.push_back(
       judge(put_in, {.where = "4.4",
                      .says = "Transducers 1 and 3 are alike, 2 and 4 less so",
-                     .theirs = {},
+                     .reported = {},
                      .quantity = "difference of 2 and 4 by that of 1 and 3",
-                     .ours = std::fabs(scale[1] - scale[3]) / std::fabs(scale[0] - scale[2]),
+                     .computed = std::fabs(scale[1] - scale[3]) / std::fabs(scale[0] - scale[2]),
                      .unit = {},
                      .accept = analysis::much_more(1),
                      .why = "table 4-1 has 40",

@@ -35,7 +35,7 @@ struct Valve {
 
 struct Schedule {
   experiment::Experiment experiment;
-  control::JointControllerConfig spine;
+  control::JointControllerConfig joint_controller;
   std::vector<Valve> valves;
   Tick begin = 0, end = 0;  // range of the plan's phases
   Tick period = 0;          // first tick of the period that is drawn
@@ -77,16 +77,18 @@ Tick busiest(const std::vector<Valve>& valves, Tick period, Tick from, Tick to) 
 
 Schedule schedule(const Sources& from) {
   Schedule out{.experiment = experiment::load(from.path(file), {"sequence.repeat=1"})};
-  out.spine = control::joint_controller_config(run::installation(out.experiment));
+  out.joint_controller = control::joint_controller_config(run::installation(out.experiment));
   const signals::Table table = run::run(out.experiment).table;
   out.valves = valves_of(out.experiment, table);
   const signals::Series& phase = *table.find("/plan/phase");
   for (std::size_t i = 0; i < phase.time_ns.size(); ++i) {
     if (phase.columns[0][i] < 0) continue;
-    out.end = phase.time_ns[i] / signals::tick_nanoseconds / out.spine.period * out.spine.period;
-    if (out.begin == 0) out.begin = out.end + out.spine.period;
+    out.end = phase.time_ns[i] / signals::tick_nanoseconds / out.joint_controller.period *
+              out.joint_controller.period;
+    if (out.begin == 0) out.begin = out.end + out.joint_controller.period;
   }
-  out.period = busiest(out.valves, out.spine.period, out.begin, out.end - 2 * out.spine.period);
+  out.period = busiest(out.valves, out.joint_controller.period, out.begin,
+                       out.end - 2 * out.joint_controller.period);
   return out;
 }
 
@@ -96,7 +98,7 @@ std::pair<Tick, Tick> openings(const Schedule& s, std::size_t joint) {
   for (const Valve& v : s.valves)
     for (const Edge& e : v.edges) {
       if (v.joint != joint || !e.open || e.at < s.begin || e.at >= s.end) continue;
-      const Tick phase = e.at % s.spine.period;
+      const Tick phase = e.at % s.joint_controller.period;
       out = {std::min(out.first, phase), std::max(out.second, phase)};
     }
   return out;
@@ -166,18 +168,18 @@ class Rows {
 };
 
 report::Plot scan(const Schedule& s) {
-  Rows rows(2.0, 1 + s.spine.conversions + 2 * s.spine.joints);
+  Rows rows(2.0, 1 + s.joint_controller.conversions + 2 * s.joint_controller.joints);
   std::vector<std::pair<double, double>> interrupts;
   for (int k = 0; k < 20; ++k) interrupts.push_back({k * ms_per_tick, (k + 0.3) * ms_per_tick});
   rows.add("interrupt", interrupts, "every 100 us", 6);
   const std::string source = "the low level's scan, from robots/leg/robot.toml";
-  for (std::size_t i = 0; i < s.spine.conversions; ++i) {
-    const signals::Conversion& c = s.spine.conversion[i];
+  for (std::size_t i = 0; i < s.joint_controller.conversions; ++i) {
+    const signals::Conversion& c = s.joint_controller.conversion[i];
     rows.add(in_words(s.experiment.robot.sensors[c.channel.index].name),
              {{c.start * ms_per_tick, c.read * ms_per_tick}}, source, 0);
   }
-  for (std::size_t j = 0; j < s.spine.joints; ++j) {
-    const double at = s.spine.joint[j].law_tick * ms_per_tick;
+  for (std::size_t j = 0; j < s.joint_controller.joints; ++j) {
+    const double at = s.joint_controller.joint[j].law_tick * ms_per_tick;
     const std::string name = s.experiment.robot.joints[j].name;
     rows.add(name + " law", {{at, at + ms_per_tick}}, source, 1);
     const double open = static_cast<double>(openings(s, j).first) * ms_per_tick;
@@ -188,7 +190,7 @@ report::Plot scan(const Schedule& s) {
 }
 
 report::Plot pulses(const Schedule& s) {
-  const double last = 2 * s.spine.period * ms_per_tick;
+  const double last = 2 * s.joint_controller.period * ms_per_tick;
   Rows rows(last, s.valves.size());
   for (const Valve& v : s.valves) {
     std::vector<std::pair<double, double>> on;
@@ -212,23 +214,24 @@ report::Plot pulses(const Schedule& s) {
 std::vector<report::Claim> claims_of(const Schedule& s) {
   const Section text("5.2");
   int least_step = 1000, most_step = 0, least_settling = 1000;
-  for (std::size_t i = 0; i < s.spine.conversions; ++i) {
-    const signals::Conversion& c = s.spine.conversion[i];
+  for (std::size_t i = 0; i < s.joint_controller.conversions; ++i) {
+    const signals::Conversion& c = s.joint_controller.conversion[i];
     least_settling = std::min(least_settling, c.read - c.start);
     if (i == 0) continue;
-    const int step = c.read - s.spine.conversion[i - 1].read;
+    const int step = c.read - s.joint_controller.conversion[i - 1].read;
     least_step = std::min(least_step, step);
     most_step = std::max(most_step, step);
   }
   double latest = 0;  // time from a law to the opening that results from it
-  for (std::size_t j = 0; j < s.spine.joints; ++j) {
+  for (std::size_t j = 0; j < s.joint_controller.joints; ++j) {
     const auto [first, last] = openings(s, j);
     for (const Tick at : {first, last})
-      latest = std::max(latest, std::fabs(static_cast<double>(at) - s.spine.joint[j].law_tick));
+      latest = std::max(latest,
+                        std::fabs(static_cast<double>(at) - s.joint_controller.joint[j].law_tick));
   }
   const double apart =
       static_cast<double>(openings(s, 1).first - openings(s, 0).first) * ms_per_tick;
-  const double period = s.spine.period * ms_per_tick;
+  const double period = s.joint_controller.period * ms_per_tick;
   return {
       text.number(put_in, "A whole period lasts", "10 ms", "ticks of the low level", period, "ms",
                   analysis::computed(10, 1)),

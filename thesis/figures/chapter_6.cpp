@@ -57,7 +57,7 @@ Exhibit figure_6_1(const LegRun& run) {
           {judge(code_against_code, {.where = "[66], [68], [70]",
                                      .says = "An arc of second order, then two straight lines",
                                      .quantity = "largest distance in y from the equations",
-                                     .ours = off,
+                                     .computed = off,
                                      .unit = "in",
                                      .accept = analysis::another(0, 1e-9),
                                      .why = "rounding"})}};
@@ -73,18 +73,18 @@ Exhibit figure_6_3(const LegRun& run) {
                     run.sequence()),
           {judge(put_in, {.where = "6.3",
                           .says = "The table is at about -13 in",
-                          .theirs = "-13 in",
+                          .reported = "-13 in",
                           .quantity = "mean y of the actual path in propulsion",
-                          .ours = table,
+                          .computed = table,
                           .unit = "in",
                           .accept = analysis::another(-13.2, -12.8),
                           .why = "\"about\": 10 % of the path's height of 2 in"}),
            judge(put_in,
                  {.where = "6.3",
                   .says = "What is desired in propulsion lies 0.5 in lower than what is possible",
-                  .theirs = "0.5 in",
+                  .reported = "0.5 in",
                   .quantity = "mean y in propulsion, actual less desired",
-                  .ours = table - analysis::mean(wanted, propulsion),
+                  .computed = table - analysis::mean(wanted, propulsion),
                   .unit = "in",
                   .accept = analysis::measured(0.5, 0.1),
                   .because = "angles come from 714 counts/rad and are taken for 767, which lowers "
@@ -92,7 +92,7 @@ Exhibit figure_6_3(const LegRun& run) {
            judge(predicted, {.where = "6.3",
                              .says = "The actual path repeats itself very well",
                              .quantity = "rms distance of steps from their mean",
-                             .ours = run.summary("foot.step_repeat_rms_m") / units::inch,
+                             .computed = run.summary("foot.step_repeat_rms_m") / units::inch,
                              .unit = "in",
                              .accept = analysis::another(0, 0.25),
                              .why = "half of the gap to the table, less than 5 % of the way"})}};
@@ -143,22 +143,22 @@ Exhibit figure_6_4(const LegRun& run) {
       judge(predicted, {.where = "6.3",
                         .says = "The joints do not come to their limits",
                         .quantity = "least distance of an angle to a limit of table 6-1",
-                        .ours = to_a_limit(run),
+                        .computed = to_a_limit(run),
                         .unit = "deg",
                         .accept = analysis::at_least(0)}),
       judge(code_against_code,
             {.where = "6.3",
              .says = "The knee is asked for more than it can do in a small part of swing",
              .quantity = "share of swing with a desired knee below 289 deg",
-             .ours = analysis::mean(beyond, run.record().swing()),
+             .computed = analysis::mean(beyond, run.record().swing()),
              .unit = "%",
              .accept = analysis::small(100),
              .because = "so do [65], [66] and table 6-1: nothing simulated is in this number"}),
       judge(predicted, {.where = "6.3",
                         .says = "The angle's error is larger in propulsion than usual",
                         .quantity = "rms error of the hip, propulsion by swing",
-                        .ours = analysis::rms(error, phase_of(run, "propulsion")) /
-                                analysis::rms(error, run.record().swing()),
+                        .computed = analysis::rms(error, phase_of(run, "propulsion")) /
+                                    analysis::rms(error, run.record().swing()),
                         .accept = analysis::at_least(1)})};
   return out;
 }
@@ -183,7 +183,7 @@ Exhibit figure_6_5(const LegRun& run) {
   out.claims.push_back(judge(predicted, {.where = "6.3",
                                          .says = "Only the hip's extensor is used to its capacity",
                                          .quantity = "largest reading of the three others",
-                                         .ours = others,
+                                         .computed = others,
                                          .unit = "lbf",
                                          .accept = analysis::much_less(30)}));
   for (const std::string joint : {"hip", "knee"})
@@ -204,8 +204,8 @@ Exhibit figure_6_6(const LegRun& run) {
                  {.where = "6.3",
                   .says = "The hip's stiffness is controlled much more tightly than the knee's",
                   .quantity = "standard deviation, hip by knee",
-                  .ours = run.summary("joints.hip.stiffness_std_Nm_per_rad") /
-                          run.summary("joints.knee.stiffness_std_Nm_per_rad"),
+                  .computed = run.summary("joints.hip.stiffness_std_Nm_per_rad") /
+                              run.summary("joints.knee.stiffness_std_Nm_per_rad"),
                   .accept = analysis::much_less(1)})}};
 }
 
@@ -221,7 +221,7 @@ Exhibit figure_6_7(const LegRun& run) {
         predicted, {.where = "6.3",
                     .says = "The torque is near zero in swing: the " + joint,
                     .quantity = "rms torque in the air, of its range over the walk",
-                    .ours = in_the_air_of_range(run, run.rows({"/joint/" + joint + "/torque"})),
+                    .computed = in_the_air_of_range(run, run.rows({"/joint/" + joint + "/torque"})),
                     .unit = "%",
                     .accept = analysis::negligible(100),
                     .because = moves_against}));
@@ -263,7 +263,7 @@ Exhibit figure_6_8(const LegRun& run) {
       {judge(predicted, {.where = "6.3",
                          .says = "False reactions in swing are minimal beside those in propulsion",
                          .quantity = "rms normal force in the air, of its range over the walk",
-                         .ours = in_the_air_of_range(run, normal),
+                         .computed = in_the_air_of_range(run, normal),
                          .unit = "%",
                          .accept = analysis::negligible(100),
                          .because = moves_against}),
@@ -272,14 +272,14 @@ Exhibit figure_6_8(const LegRun& run) {
               .says = "Friction does not begin as soon as the foot is on the ground",
               .quantity = "from half of the largest normal force to half of the largest friction, "
                           "second step",
-              .ours = begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5),
+              .computed = begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5),
               .unit = "s",
               .accept = analysis::noticeable(1.5)}),
        judge(predicted, {.where = "6.3",
                          .says = "A mass of 5 lb could have been carried",
-                         .theirs = "5 lb",
+                         .reported = "5 lb",
                          .quantity = "largest normal force",
-                         .ours = analysis::largest(normal, run.record().sequence()),
+                         .computed = analysis::largest(normal, run.record().sequence()),
                          .unit = "lbf",
                          .accept = analysis::measured(5, 1)})}};
 }
@@ -324,9 +324,9 @@ Exhibit duties(const LegRun& run, const std::string& number, const std::string& 
     claims.push_back(
         judge(fitted, {.where = "table 6-4",
                        .says = "Mean duty cycle of the " + in_words(d.muscle) + "'s " + d.valve,
-                       .theirs = std::to_string(static_cast<int>(d.reported)) + " %",
+                       .reported = std::to_string(static_cast<int>(d.reported)) + " %",
                        .quantity = "mean over the phases",
-                       .ours = analysis::mean(run.rows({topic}), run.record().sequence()),
+                       .computed = analysis::mean(run.rows({topic}), run.record().sequence()),
                        .unit = "%",
                        .accept = analysis::percentage(d.reported)}));
   }

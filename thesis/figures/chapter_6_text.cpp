@@ -49,7 +49,7 @@ double lag(const LegRun& run) {
 }
 
 // Returns the share of propulsion before the hip has moved by half a degree.
-double stands_for(const LegRun& run) {
+double standing_share(const LegRun& run) {
   const Column angle = run.rows({"/joint/hip/angle"});
   return mean_of(stretches(run, "propulsion"), [&](const Stretch& s) {
     std::size_t at = s.first;
@@ -107,7 +107,7 @@ struct SwingTurns {
 
 SwingTurns turns_in(const LegRun& run, const std::string& joint, const Stretch& s) {
   const Column error = run.rows({"/joint/" + joint + "/error"});
-  const double back = analysis::turn_back * 180 / M_PI;
+  const double back = analysis::least_return * 180 / M_PI;
   return {analysis::turning_points(error.slice(s.first, s.last), back),
           static_cast<double>(s.last - s.first)};
 }
@@ -197,7 +197,7 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
                          largest_swing(run, "knee"), "%", analysis::negligible(100)));
   add("6-4", text.number(predicted, "The joints turn only from about the middle of propulsion on",
                          "the middle", "share of propulsion until the hip has moved by 0.5 deg",
-                         stands_for(run), "", analysis::about(0.5)));
+                         standing_share(run), "", analysis::about(0.5)));
   add("6-7", text.number(predicted, "In swing the torque has a slope, since gravity's part changes",
                          "", "least change at the hip over the second half of swing, of its range",
                          change_of(run, "/joint/hip/torque"), "%", analysis::noticeable(100)));

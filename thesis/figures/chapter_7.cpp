@@ -60,7 +60,7 @@ Exhibits kick(const Sources& from) {
        {judge(predicted, {.where = "6.4",
                           .says = "The leg oscillates after the kick: there is not enough damping",
                           .quantity = "turning points of the hip's error in the extended position",
-                          .ours = run.summary("phases.extended.joints.hip.turning_points"),
+                          .computed = run.summary("phases.extended.joints.hip.turning_points"),
                           .accept = analysis::another(2, 1000),
                           .why = "an oscillation has two turning points at least"})}}};
 }

@@ -8,7 +8,7 @@ namespace sinew::thesis {
 
 namespace {
 
-using Is = report::Is;
+using Agreement = report::Agreement;
 
 std::string shown(int n) { return n > 0 ? std::to_string(n) : std::string(); }
 
@@ -16,11 +16,11 @@ std::string shown(int n) { return n > 0 ? std::to_string(n) : std::string(); }
 std::string text_of_figures(const report::Gallery& gallery) {
   using enum report::TextTable::Align;
   std::vector<std::string> titles{"figure", ""};
-  for (const Is v : report::all_verdicts) titles.emplace_back(to_text(v));
+  for (const Agreement v : report::all_verdicts) titles.emplace_back(to_text(v));
   report::TextTable table(titles, {left, left, right, right, right, right, right});
   const auto row = [&](const std::string& name, const std::string& title, const report::Tally& t) {
     std::vector<std::string> cells{name, title};
-    for (const Is v : report::all_verdicts) cells.push_back(shown(t.of(v)));
+    for (const Agreement v : report::all_verdicts) cells.push_back(shown(t.of(v)));
     table.add(std::move(cells));
   };
   for (const report::Exhibit& e : gallery.exhibits) {
@@ -37,13 +37,13 @@ std::string text_of_classes(const report::Gallery& gallery) {
   using enum report::TextTable::Align;
   const report::Tally all = tally(gallery);
   std::vector<std::string> titles{"class"};
-  for (const Is v : report::all_verdicts) titles.emplace_back(to_text(v));
+  for (const Agreement v : report::all_verdicts) titles.emplace_back(to_text(v));
   report::TextTable table(titles, {left, right, right, right, right, right});
   for (const report::StatementClass c : report::all_classes) {
     if (all.of(c) == 0) continue;
     std::vector<std::string> cells{
         std::string(c == report::StatementClass::none ? "not compared" : to_text(c))};
-    for (const Is v : report::all_verdicts) cells.push_back(shown(all.of(c, v)));
+    for (const Agreement v : report::all_verdicts) cells.push_back(shown(all.of(c, v)));
     table.add(std::move(cells));
   }
   return table.text();

@@ -67,8 +67,8 @@ class Section {
  public:
   // `where` is the section as named in the claims.
   explicit Section(std::string where) : where_(std::move(where)) {}
-  report::Claim number(StatementClass statement_class, const char* says, const char* theirs,
-                       const char* quantity, double ours, const char* unit, report::Band accept,
+  report::Claim number(StatementClass statement_class, const char* says, const char* reported,
+                       const char* quantity, double computed, const char* unit, report::Band accept,
                        const char* why = "", const char* because = "") const;
 
  private:

@@ -47,14 +47,15 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> words = 
 
 }  // namespace
 
-report::Claim Section::number(StatementClass statement_class, const char* says, const char* theirs,
-                              const char* quantity, double ours, const char* unit,
-                              report::Band accept, const char* why, const char* because) const {
+report::Claim Section::number(StatementClass statement_class, const char* says,
+                              const char* reported, const char* quantity, double computed,
+                              const char* unit, report::Band accept, const char* why,
+                              const char* because) const {
   return report::judge(statement_class, {.where = where_,
                                          .says = says,
-                                         .theirs = theirs,
+                                         .reported = reported,
                                          .quantity = quantity,
-                                         .ours = ours,
+                                         .computed = computed,
                                          .unit = unit,
                                          .accept = accept,
                                          .why = why,

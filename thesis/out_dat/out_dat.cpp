@@ -149,7 +149,7 @@ class PlanWalk {
       : plan_(plan), problems_(problems), period_(std::llround(plan.brain_period * 1e9)) {}
 
   // Processes a line. A new phase begins where its name changes or the timer restarts.
-  void go_on(const Line& line) {
+  void follow_plan(const Line& line) {
     const auto timer = static_cast<std::int64_t>(line.values[0]);
     const bool begins = line.mode != mode_ || timer == 0;
     if (begins) {
@@ -324,7 +324,7 @@ signals::Table parse_out_dat(std::string_view text, const std::string& name,
     if (config::trimmed_row(line_text).empty()) continue;
     const Line line = read_line(line_text, number, names, e.robot.converter.top(), problems);
     if (line.values.size() + 1 != names.size()) continue;
-    plan.go_on(line);
+    plan.follow_plan(line);
     put_line(line, columns, plan, out);
     plan.step_on();
     ++read;

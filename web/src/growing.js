@@ -1,5 +1,5 @@
 // Columns that grow while a run continues: its pieces are appended to the columns of the page
-// (sinew/report/page/growing.h). Columns of one clock share their times, as on the page of a finished run.
+// (sinew/report/page/live_page.h). Columns of one clock share their times, as on the page of a finished run.
 
 // Typed array with spare capacity.
 class Row {

@@ -143,7 +143,7 @@ void start() {
 }
 
 const char* name() { return "counted"; }
-bool bitten() { return false; }
+bool reset_by_watchdog() { return false; }
 bool active_low() { return low_gives_current; }
 std::uint32_t nonce() { return 1; }
 void start_line(std::uint32_t) {}
@@ -159,8 +159,8 @@ signals::Reading reading(Tick) {
 void drive(const Drive&) {
   if (in_tick && now >= 2'020) to_valves.add(instructions(tick_begun, counts()) - nothing);
 }
-void keep_ticks_away() { away_since = counts(); }
-void let_ticks_come() {
+void block_ticks() { away_since = counts(); }
+void allow_ticks() {
   if (now > 2'020) kept_away.add(instructions(away_since, counts()) - nothing);
 }
 void wake_sender() {

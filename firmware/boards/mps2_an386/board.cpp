@@ -54,12 +54,12 @@ constexpr std::uint32_t line_came = 0, line_sent = 1, time_is_over = 8;  // inte
 
 // --- memory that is kept over a reset -----------------------------------------------------------
 
-constexpr std::uint32_t watchdog_bit = 0x62697465;
+constexpr std::uint32_t watchdog_expired = 0x62697465;
 
-struct Kept {
+struct Retained {
   std::uint32_t why, starts;
 };
-[[gnu::section(".kept")]] Kept kept;
+[[gnu::section(".kept")]] Retained retained;
 
 // --- the host's converter and valves ------------------------------------------------------------
 
@@ -75,9 +75,9 @@ std::array<char, 512> words;
 constexpr std::uint32_t bytes_a_tick = 9;
 std::uint32_t bytes_left = 0;
 
-bool bitten_ = false;
-bool starves = false;
-std::uint32_t meals = 0;
+bool reset_by_watchdog_ = false;
+bool stops_feeding = false;
+std::uint32_t feedings = 0;
 
 bool same(const char* a, const char* b) {
   while (*a != 0 && *a == *b) ++a, ++b;
@@ -94,7 +94,7 @@ void read_command_line() {
       words[i] = 0;
       word[n++] = &words[i + 1];
     }
-  starves = n == 2 && same(word[1], "starve");
+  stops_feeding = n == 2 && same(word[1], "starve");
   if (n == 3)
     host = new (host_room.data())
         Host{File(word[1], File::For::writing), File(word[2], File::For::reading)};
@@ -145,18 +145,18 @@ void stand_still(std::uint32_t ticks) {
 
 void start() {
   asm volatile("" : : "r"(board::application_image));  // keeps the mark in the image
-  bitten_ = kept.why == watchdog_bit;
-  kept.why = 0;
-  ++kept.starts;
+  reset_by_watchdog_ = retained.why == watchdog_expired;
+  retained.why = 0;
+  ++retained.starts;
   read_command_line();
   reg(running + reload) = 0xFFFFFFFF;
   reg(running + control) = enabled;
 }
 
 const char* name() { return "mps2-an386"; }
-bool bitten() { return bitten_; }
+bool reset_by_watchdog() { return reset_by_watchdog_; }
 bool active_low() { return low_gives_current; }
-std::uint32_t nonce() { return kept.starts << 16 | 1u; }
+std::uint32_t nonce() { return retained.starts << 16 | 1u; }
 
 void start_line(std::uint32_t baud) {
   reg(uart_divider) = clock / baud;
@@ -175,7 +175,7 @@ void start_watchdog() {
 }
 
 void feed_watchdog() {
-  if (starves && !bitten_ && ++meals > 10'000) return;
+  if (stops_feeding && !reset_by_watchdog_ && ++feedings > 10'000) return;
   reg(watchdog_clear) = 1;
 }
 
@@ -204,8 +204,8 @@ signals::Reading reading(Tick run) {
     std::array<std::uint8_t, 3> b;
     host->from.read(b);
     const auto number = static_cast<std::uint16_t>(b[0] | b[1] << 8);
-    if (b[2] < board::mishap::stalls) return {number, static_cast<Status>(b[2])};
-    if (b[2] == board::mishap::resets) cortex_m::reset_all();
+    if (b[2] < board::failure::stalls) return {number, static_cast<Status>(b[2])};
+    if (b[2] == board::failure::resets) cortex_m::reset_all();
     stand_still(number);
   }
 }
@@ -221,8 +221,8 @@ void drive(const Drive& d) {
   host->to.write(out);
 }
 
-void keep_ticks_away() { cortex_m::keep_ticks_away(); }
-void let_ticks_come() { cortex_m::let_ticks_come(); }
+void block_ticks() { cortex_m::block_ticks(); }
+void allow_ticks() { cortex_m::allow_ticks(); }
 
 // The interrupt checks whether there is something to send and room for it.
 void wake_sender() { cortex_m::request(line_sent); }
@@ -252,8 +252,8 @@ void fault() {
 }
 
 // Handles the watchdog's first time-out; the second one resets the board.
-void bite() {
-  sinew::firmware::kept.why = sinew::firmware::watchdog_bit;
+void watchdog_interrupt() {
+  sinew::firmware::retained.why = sinew::firmware::watchdog_expired;
   for (;;) {}
 }
 
@@ -285,8 +285,8 @@ using Handler = void (*)();
   std::uint32_t* stack;
   Handler handler[15], interrupt[9];
 } vectors = {stack_top,
-             {reset, bite, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
-              fault, fault, fault},
+             {reset, watchdog_interrupt, fault, fault, fault, fault, fault, fault, fault, fault,
+              fault, fault, fault, fault, fault},
              {byte_came, byte_sent, fault, fault, fault, fault, fault, fault, time_over}};
 
 }  // extern "C"

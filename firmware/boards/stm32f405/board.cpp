@@ -63,11 +63,11 @@ constexpr std::uint32_t interrupt_of_ticks = 28, interrupt_of_line = 37, interru
 
 // --- memory that is kept over a reset -----------------------------------------------------------
 
-struct Kept {
+struct Retained {
   std::uint32_t starts;
 };
-[[gnu::section(".kept")]] Kept kept;
-bool bitten_ = false;
+[[gnu::section(".kept")]] Retained retained;
+bool reset_by_watchdog_ = false;
 
 // Returns whether a bit was set within a limited time. The outputs of the valves are set up before
 // the first call, so they are safe even if an oscillator does not start.
@@ -163,9 +163,9 @@ constinit TickCount count;
 void start() {
   constexpr std::uint32_t by_watchdog = 1u << 29, forget = 1u << 24;
   start_pins();
-  bitten_ = reg(rcc_why) & by_watchdog;
+  reset_by_watchdog_ = reg(rcc_why) & by_watchdog;
   reg(rcc_why) = reg(rcc_why) | forget;
-  ++kept.starts;
+  ++retained.starts;
   start_clocks();
   reg(rcc_ahb2) = reg(rcc_ahb2) | 1u << 6;            // noise source
   reg(rcc_apb1) = reg(rcc_apb1) | 1u | 1u << 3;       // both timers
@@ -180,14 +180,14 @@ void start() {
 }
 
 const char* name() { return "stm32f405"; }
-bool bitten() { return bitten_; }
+bool reset_by_watchdog() { return reset_by_watchdog_; }
 bool active_low() { return low_gives_current; }
 
 // Uses noise if available: after a time without power, memory kept by a battery may hold the same
 // count.
 std::uint32_t nonce() {
   const bool there = wait_for(noise + 4, 1);
-  return (there ? reg(noise + 8) : 0) ^ (kept.starts << 16 | 1u);
+  return (there ? reg(noise + 8) : 0) ^ (retained.starts << 16 | 1u);
 }
 
 void start_line(std::uint32_t baud) {
@@ -236,18 +236,18 @@ void drive(const Drive& d) {
   const Pins p =
       d.current ? pins(d.coils, d.supply) : pins(control::rest_word(low_gives_current), d.supply);
   if (!waits(d)) {
-    waiting.forget();
+    waiting.clear();
     put(p);
     return;
   }
   const std::uint32_t instant = count.began() + edge_delay * clocks_a_us;
-  waiting.leave(p);
+  waiting.set(p);
   reg(running + timer_compare) = instant;
   if (is_late(reg(running + timer_count), instant, clocks_a_us)) put_late();
 }
 
-void keep_ticks_away() { cortex_m::keep_ticks_away(); }
-void let_ticks_come() { cortex_m::let_ticks_come(); }
+void block_ticks() { cortex_m::block_ticks(); }
+void allow_ticks() { cortex_m::allow_ticks(); }
 // The emulator's line has no interrupt for free room, so one is requested here.
 void wake_sender() {
   reg(line_control) = line_on | line_room;
@@ -273,7 +273,7 @@ extern "C" {
 // Switches all coils off and waits for the watchdog's reset.
 void fault() {
   using namespace sinew::firmware;
-  cortex_m::keep_all_away();
+  cortex_m::block_interrupts();
   put(no_current);
   for (;;) {}
 }

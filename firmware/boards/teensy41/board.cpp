@@ -138,11 +138,11 @@ void start_pins() {
 
 // --- memory that is kept over a reset -----------------------------------------------------------
 
-struct Kept {
+struct Retained {
   std::uint32_t starts;
 };
-[[gnu::section(".kept")]] Kept kept;
-bool bitten_ = false;
+[[gnu::section(".kept")]] Retained retained;
+bool reset_by_watchdog_ = false;
 
 // Waits for a bit for about 0.2 s. Returns false if it did not change.
 bool wait_for(std::uintptr_t address, std::uint32_t bits, std::uint32_t value) {
@@ -179,15 +179,15 @@ namespace hardware {
 
 namespace {
 constinit TickCount count;
-std::uint32_t hungry = 0;  // calls since the watchdog was fed
+std::uint32_t ticks_since_feeding = 0;  // calls since the watchdog was fed
 }  // namespace
 
 void start() {
   constexpr std::uint32_t by_watchdog = 1u << 7;
   start_pins();
-  bitten_ = reg(why_reset) & by_watchdog;
+  reset_by_watchdog_ = reg(why_reset) & by_watchdog;
   reg(why_reset) = reg(why_reset);  // writing a one clears the flag
-  ++kept.starts;
+  ++retained.starts;
   start_clocks();
   reg(noise) = 1u << 16 | 1u << 6;  // stopped with its defaults; then started
   reg(noise) = 2;
@@ -201,13 +201,13 @@ void start() {
 }
 
 const char* name() { return "teensy41"; }
-bool bitten() { return bitten_; }
+bool reset_by_watchdog() { return reset_by_watchdog_; }
 bool active_low() { return low_gives_current; }
 
 // Uses noise if the source delivers some within a tenth of a second.
 std::uint32_t nonce() {
   constexpr std::uint32_t there = 1u << 10;
-  return (wait_for(noise, there, there) ? reg(noise + 0x40) : 0) ^ (kept.starts << 16 | 1u);
+  return (wait_for(noise, there, there) ? reg(noise + 0x40) : 0) ^ (retained.starts << 16 | 1u);
 }
 
 // Each bit is sampled as often as the crystal has clocks in it: 26 at 921,600 baud, which makes
@@ -233,7 +233,7 @@ std::uint32_t longest_pause() { return 200; }
 // again.
 void start_watchdog() {
   constexpr std::uint32_t key = 0xD928C520, wide = 1u << 13, taken = 1u << 10;
-  cortex_m::keep_all_away();
+  cortex_m::block_interrupts();
   if (reg(watchdog_control) & wide) {
     reg(watchdog_key) = key;
   } else {
@@ -243,14 +243,14 @@ void start_watchdog() {
   reg(watchdog_window) = 0;
   reg(watchdog_time) = 655;
   reg(watchdog_control) = wide | 1u << 8 | 1u << 7 | 7u;
-  cortex_m::let_all_come();
+  cortex_m::allow_interrupts();
   wait_for(watchdog_control, taken, taken);
 }
 
 // Feeds the watchdog once a millisecond, since its clock is slower than the ticks.
 void feed_watchdog() {
-  if (++hungry < 10) return;
-  hungry = 0;
+  if (++ticks_since_feeding < 10) return;
+  ticks_since_feeding = 0;
   reg(watchdog_key) = 0xB480A602;
 }
 
@@ -279,18 +279,18 @@ void drive(const Drive& d) {
   const Pins p =
       d.current ? pins(d.coils, d.supply) : pins(control::rest_word(low_gives_current), d.supply);
   if (!waits(d)) {
-    waiting.forget();
+    waiting.clear();
     put(p);
     return;
   }
   const std::uint32_t instant = count.began() + edge_delay * clocks_a_us;
-  waiting.leave(p);
+  waiting.set(p);
   reg(running_compare) = instant;
   if (is_late(reg(running_count), instant, clocks_a_us)) put_late();
 }
 
-void keep_ticks_away() { cortex_m::keep_ticks_away(); }
-void let_ticks_come() { cortex_m::let_ticks_come(); }
+void block_ticks() { cortex_m::block_ticks(); }
+void allow_ticks() { cortex_m::allow_ticks(); }
 
 void wake_sender() { reg(line_control) = line_on | line_room; }
 
@@ -307,7 +307,7 @@ extern "C" {
 // Switches all coils off and waits for the watchdog's reset.
 void fault() {
   using namespace sinew::firmware;
-  cortex_m::keep_all_away();
+  cortex_m::block_interrupts();
   put(no_current);
   for (;;) {}
 }

@@ -42,10 +42,10 @@ struct QuickRates {
 
 template <int N>
 struct QuickStep {
-  std::array<double, N> mass{};    // at the end of the step [kg]
-  std::array<double, 3> passed{};  // within the step [kg]
-  std::array<double, N> error{};   // estimated, of a mass [kg]
-  std::array<double, N> bend{};    // h/8 times the change of a mass's rate over the step [kg]
+  std::array<double, N> mass{};       // at the end of the step [kg]
+  std::array<double, 3> passed{};     // within the step [kg]
+  std::array<double, N> error{};      // estimated, of a mass [kg]
+  std::array<double, N> curvature{};  // h/8 times the change of a mass's rate over the step [kg]
 };
 
 namespace rodas3 {
@@ -121,7 +121,7 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
   for (std::size_t i = 0; i < n; ++i) {
     out.mass[i] = there[i] + k[3][i];
     out.error[i] = std::abs(k[3][i]);
-    out.bend[i] = 0.125 * h * (first.mass[i] - last.mass[i]);
+    out.curvature[i] = 0.125 * h * (first.mass[i] - last.mass[i]);
   }
   for (std::size_t i = 0; i < m; ++i) out.passed[i] = 2.0 * q[0][i] + q[2][i] + q[3][i];
   return out;
@@ -129,20 +129,21 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
 
 namespace quick {
 
-inline constexpr double muscle_error = 1e-4;  // relative error of a muscle's mass within one step
-inline constexpr double hose_error = 5e-4;    // relative error of a hose's mass
-inline constexpr double equal = 3e-3;     // relative difference of densities that counts as none
-inline constexpr double little = 1e-3;    // relative bend of a mass within a calm step
-inline constexpr double shortest = 1e-7;  // step that is accepted whatever its error [s]
+inline constexpr double muscle_error = 1e-4;    // relative error of a muscle's mass within one step
+inline constexpr double hose_error = 5e-4;      // relative error of a hose's mass
+inline constexpr double equal_density = 3e-3;   // relative difference of equal densities
+inline constexpr double calm_curvature = 1e-3;  // relative curvature of a mass within a calm step
+inline constexpr double shortest = 1e-7;        // step that is accepted whatever its error [s]
 
-// Integrates x from t to `until` with error control. `pace` is the step length, kept between calls.
+// Integrates x from t to `until` with error control. `step_size` is the step length, kept between
+// calls.
 template <int N, class Rates>
-void go(const Rates& rates, double t, double until, const std::array<double, N>& error,
-        std::array<double, N>& x, std::array<double, 3>& passed, double& pace) {
+void integrate(const Rates& rates, double t, double until, const std::array<double, N>& error,
+               std::array<double, N>& x, std::array<double, 3>& passed, double& step_size) {
   while (t < until) {
     const double left = until - t;
-    const bool last = !(pace < left);
-    const double h = last ? left : pace;
+    const bool last = !(step_size < left);
+    const double h = last ? left : step_size;
     const QuickStep<N> step = rodas3_step<N>(rates, t, x, h);
     double worst = 0;
     for (std::size_t i = 0; i < N; ++i) {
@@ -150,26 +151,26 @@ void go(const Rates& rates, double t, double until, const std::array<double, N>&
       worst = one > worst || !(one >= 0) ? one : worst;
     }
     if (!(worst <= 1.0) && h > shortest) {
-      pace = 0.25 * h;
+      step_size = 0.25 * h;
       continue;
     }
     x = step.mass;
     for (std::size_t k = 0; k < 3; ++k) passed[k] += step.passed[k];
     t = last ? until : t + h;
-    if (worst < 0.03) pace = 3.0 * h;
+    if (worst < 0.03) step_size = 3.0 * h;
   }
 }
 
 // Masses at the half and at the end of a step, and the masses passed within it.
 template <int N>
-struct Ahead {
+struct StepResult {
   std::array<double, N> half{}, full{};
   std::array<double, 3> passed{};
 };
 
 // Writes the result into the cell; its muscle or chamber is the last body.
 template <int N, class Cell>
-void fill(const Ahead<N>& ahead, Cell& cell) {
+void write_result(const StepResult<N>& ahead, Cell& cell) {
   cell.half = ahead.half.back();
   cell.full = ahead.full.back();
   if constexpr (N > 1) cell.hose = ahead.full.front();
@@ -180,28 +181,29 @@ void fill(const Ahead<N>& ahead, Cell& cell) {
 
 // Integrates through a step. If the step is calm, one step of the rule suffices, and the half is on
 // the cubic through both ends and their rates. For a decay of rate r that half is wrong by 2 % of
-// the bend at r h = 1, by a tenth at 2.5 and by a third at 5.
+// the curvature at r h = 1, by a tenth at 2.5 and by a third at 5.
 template <int N, class Rates>
-Ahead<N> through(const Rates& rates, double t, double h, const std::array<double, N>& error,
-                 const std::array<double, N>& start) {
-  Ahead<N> out;
+StepResult<N> integrate_step(const Rates& rates, double t, double h,
+                             const std::array<double, N>& error,
+                             const std::array<double, N>& start) {
+  StepResult<N> out;
   const QuickStep<N> whole = rodas3_step<N>(rates, t, start, h);
   bool calm = true;
   for (std::size_t i = 0; i < N; ++i) {
-    calm =
-        calm && std::abs(whole.bend[i]) < little * start[i] && whole.error[i] < error[i] * start[i];
-    out.half[i] = 0.5 * (start[i] + whole.mass[i]) + whole.bend[i];
+    calm = calm && std::abs(whole.curvature[i]) < calm_curvature * start[i] &&
+           whole.error[i] < error[i] * start[i];
+    out.half[i] = 0.5 * (start[i] + whole.mass[i]) + whole.curvature[i];
   }
   if (calm) {
     out.full = whole.mass;
     out.passed = whole.passed;
     return out;
   }
-  double pace = 0.5 * h;
+  double step_size = 0.5 * h;
   out.full = start;
-  go<N>(rates, t, t + 0.5 * h, error, out.full, out.passed, pace);
+  integrate<N>(rates, t, t + 0.5 * h, error, out.full, out.passed, step_size);
   out.half = out.full;
-  go<N>(rates, t + 0.5 * h, t + h, error, out.full, out.passed, pace);
+  integrate<N>(rates, t + 0.5 * h, t + h, error, out.full, out.passed, step_size);
   return out;
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "sinew/analysis/align/parting.h"
+#include "sinew/analysis/align/divergence.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 
@@ -62,7 +62,7 @@ std::optional<LocalShift> shift_in(std::span<const Pair> pairs, const Clock& abo
   int best = 0;
   double best_r = -INFINITY;
   for (int i = -side; i <= side; ++i) {
-    const auto found = likeness(pairs, {about.shift + i * width, about.rate}, piece);
+    const auto found = overlap_correlation(pairs, {about.shift + i * width, about.rate}, piece);
     if (found && found->r > best_r) best = i, best_r = found->r;
   }
   if (best_r < least_alike || std::abs(best) == side) return std::nullopt;
@@ -163,9 +163,10 @@ ClockFit fit_shift(std::span<const LocalShift> shifts, double rate) {
 namespace {
 
 constexpr double least_correlation = 0.6;
-constexpr double least_fall = 0.01;       // fall of r within a tenth of the shorter recording
-constexpr double clearly_better = 0.005;  // in likeness_at_rest(), of the best peak over the next
-constexpr double clearly_higher = 0.01;   // in r, of a peak over the next one
+constexpr double least_fall = 0.01;  // fall of r within a tenth of the shorter recording
+constexpr double clearly_better =
+    0.005;  // in correlation_with_rest(), of the best peak over the next
+constexpr double clearly_higher = 0.01;  // in r, of a peak over the next one
 
 // Reason why an alignment is impossible; align() adds the name of the recording.
 struct Refusal {
@@ -247,8 +248,8 @@ const Pair& named_pair(const std::vector<Pair>& all, const std::string& name) {
          near.empty() ? "another channel" : near);
 }
 
-std::vector<Pair> wished_pairs(const std::vector<Pair>& all,
-                               const std::vector<std::string>& names) {
+std::vector<Pair> requested_pairs(const std::vector<Pair>& all,
+                                  const std::vector<std::string>& names) {
   std::vector<Pair> out;
   for (const std::string& name : names) {
     const Pair& pair = named_pair(all, name);
@@ -268,7 +269,7 @@ bool same_samples(const std::vector<Pair>& pairs) {
 
 // --- by an event ---
 
-EventPair wished_event(const std::vector<Pair>& all, const AlignRequest& request) {
+EventPair requested_event(const std::vector<Pair>& all, const AlignRequest& request) {
   const Event event = parse_event(request.event);
   const Pair& pair = named_pair(all, event.channel);
   const double level = config::quantity(event.level, pair.unit, "event", request.atmosphere);
@@ -285,7 +286,7 @@ EventPair wished_event(const std::vector<Pair>& all, const AlignRequest& request
 double align_by_event(const std::vector<Pair>& all, const AlignRequest& request, Alignment& out) {
   EventPair found;
   if (!request.event.empty()) {
-    found = wished_event(all, request);
+    found = requested_event(all, request);
   } else {
     const std::vector<Pair> pairs = chosen_pairs(all);
     const auto surest = surest_motion(pairs);
@@ -326,13 +327,13 @@ void require_clear(const Found& found, const std::string& channels) {
 Clock best_of(const std::vector<Pair>& pairs, const Found& found, const std::string& channels) {
   if (found.others.empty()) return found.clock;
   Clock best = found.clock, second = found.others.front();
-  double r = likeness_at_rest(pairs, best).value_or(-1), next = -1;
-  const auto free = likeness(pairs, best);
+  double r = correlation_with_rest(pairs, best).value_or(-1), next = -1;
+  const auto free = overlap_correlation(pairs, best);
   bool as_high = false;
   for (const Clock& other : found.others) {
-    const auto its = likeness(pairs, other);
+    const auto its = overlap_correlation(pairs, other);
     as_high = as_high || (its && free && its->r > free->r - clearly_higher);
-    const double held = likeness_at_rest(pairs, other).value_or(-1);
+    const double held = correlation_with_rest(pairs, other).value_or(-1);
     if (held > r) {
       second = std::exchange(best, other);
       next = std::exchange(r, held);
@@ -398,7 +399,7 @@ Alignment aligned(const signals::Table& first, const signals::Table& other,
   if (!correlated) return out;
 
   const std::vector<Pair> pairs =
-      request.channels.empty() ? chosen_pairs(all) : wished_pairs(all, request.channels);
+      request.channels.empty() ? chosen_pairs(all) : requested_pairs(all, request.channels);
   for (const Pair& p : pairs) out.channels.push_back(p.first.channel);
   if (same_samples(pairs)) {
     out.same = true;
@@ -409,10 +410,10 @@ Alignment aligned(const signals::Table& first, const signals::Table& other,
   }
   double half_width = 0;
   if (request.by == AlignBy::correlation) {
-    if (!(request.most_shift > 0))
-      refuse(fmt::format("a largest shift of {:g} s", request.most_shift), "a time above 0 s",
+    if (!(request.largest_shift > 0))
+      refuse(fmt::format("a largest shift of {:g} s", request.largest_shift), "a time above 0 s",
              "1 s");
-    const auto found = search(pairs, request.most_shift, request.fit_clock);
+    const auto found = search(pairs, request.largest_shift, request.fit_clock);
     if (!found)
       refuse("recordings that overlap by less than half of the shorter one at every shift",
              "two recordings of one motion", "a greater limit of the shift");
@@ -425,7 +426,7 @@ Alignment aligned(const signals::Table& first, const signals::Table& other,
     half_width = own_width(pairs);
   }
   follow_clock(pairs, known_at, half_width, request, out);
-  if (const auto reached = likeness(pairs, out.clock)) out.correlation = reached->r;
+  if (const auto reached = overlap_correlation(pairs, out.clock)) out.correlation = reached->r;
   return out;
 }
 

@@ -73,10 +73,11 @@ struct AlignRequest {
   AlignBy by = AlignBy::correlation;
   double shift = 0, known_at = 0;  // given shift, and the time at which it is right [s]
   std::string event = {};  // "/joint/elbow/angle > 10 deg"; empty: the most certain first motion
-  std::vector<std::string> channels = {};                       // to be correlated; empty: chosen
-  bool fit_clock = false;                                       // fit the clock's rate too
-  double most_shift = std::numeric_limits<double>::infinity();  // largest shift of the search [s]
-  double atmosphere = units::atmosphere;                        // [Pa]
+  std::vector<std::string> channels = {};  // to be correlated; empty: chosen
+  bool fit_clock = false;                  // fit the clock's rate too
+  double largest_shift =
+      std::numeric_limits<double>::infinity();  // largest shift of the search [s]
+  double atmosphere = units::atmosphere;        // [Pa]
 };
 
 // Alignment of the other recording with the first one.

@@ -118,7 +118,7 @@ TEST(Align, AMotionThatRepeatsItselfIsNotGuessed) {
   test::add_channel(a, "/joint/hip/angle", "rad", {}, 0.05, walk);
   test::add_channel(b, "/joint/hip/angle", "rad", {.clock = {0.2, 0}, .seed = 9}, 0.05, walk);
   EXPECT_TRUE(says(refusal_of(a, b, {}), "repeats itself"));
-  EXPECT_NEAR(align(a, b, {.most_shift = 0.7}).clock.shift, 0.2, 0.003);
+  EXPECT_NEAR(align(a, b, {.largest_shift = 0.7}).clock.shift, 0.2, 0.003);
 }
 
 TEST(Align, RestBeforeAndAfterTellsRepetitionsApart) {

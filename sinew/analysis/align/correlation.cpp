@@ -261,7 +261,7 @@ double half_width(const Shifts& s, std::size_t top) {
 }
 
 // Finds the fall of r near the peak, and other peaks.
-void look_around(const Shifts& s, std::size_t top, double near, Found& found) {
+void add_other_peaks(const Shifts& s, std::size_t top, double near, Found& found) {
   double least = found.r;
   const double rate = found.clock.rate, shift_of_top = s.from + static_cast<double>(top) * s.step;
   for (std::size_t i = 0; i < s.r.size(); ++i) {
@@ -300,7 +300,7 @@ bool all_rest(std::span<const Pair> pairs, bool at_the_end) {
 
 }  // namespace
 
-std::optional<double> likeness_at_rest(std::span<const Pair> pairs, const Clock& clock) {
+std::optional<double> correlation_with_rest(std::span<const Pair> pairs, const Clock& clock) {
   const bool begins = all_rest(pairs, false), ends = all_rest(pairs, true);
   if (!begins && !ends) return std::nullopt;
   double sum = 0, count = 0;
@@ -327,10 +327,10 @@ double longest_step(std::span<const Pair> pairs) {
   return step;
 }
 
-std::optional<Likeness> likeness(std::span<const Pair> pairs, const Clock& clock,
-                                 std::optional<Interval> within) {
+std::optional<Correlation> overlap_correlation(std::span<const Pair> pairs, const Clock& clock,
+                                               std::optional<Interval> within) {
   double sum = 0, count = 0;
-  Likeness out;
+  Correlation out;
   for (const Pair& pair : pairs) {
     std::size_t samples = 0;
     const double r = correlation_of(pair, clock, within, samples);
@@ -368,7 +368,7 @@ std::optional<Found> search(std::span<const Pair> pairs, double most, bool rates
   }
   if (!best) return best;
   best->half_width = half_width(of_best, top);
-  look_around(of_best, top, 0.1 * shorter, *best);
+  add_other_peaks(of_best, top, 0.1 * shorter, *best);
   return best;
 }
 
@@ -422,7 +422,9 @@ Step step_of(const Pair& pair, const Clock& clock, double width, std::optional<I
 void to_vertex(std::span<const Pair> pairs, Clock& clock, double width,
                std::optional<Interval> within) {
   const auto r = [&](double by) {
-    return likeness(pairs, {clock.shift + by, clock.rate}, within).value_or(Likeness{NAN, 0}).r;
+    return overlap_correlation(pairs, {clock.shift + by, clock.rate}, within)
+        .value_or(Correlation{NAN, 0})
+        .r;
   };
   const double before = r(-width), after = r(width), bend = before - 2 * r(0) + after;
   if (bend < 0) clock.shift += std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) * width;
@@ -446,7 +448,7 @@ Peak refine(std::span<const Pair> pairs, Clock clock, double width,
     clock.shift += std::clamp(by / information, -width, width);
     if (std::abs(by / information) < 1e-7 * width) break;
   }
-  const auto found = likeness(pairs, clock, within);
+  const auto found = overlap_correlation(pairs, clock, within);
   return {clock, found ? found->r : 0, information > 0 ? 1 / std::sqrt(information) : INFINITY};
 }
 

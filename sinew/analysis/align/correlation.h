@@ -98,14 +98,14 @@ struct Interval {
 };
 
 // Correlation of two recordings.
-struct Likeness {
+struct Correlation {
   double r = 0;             // -1 to 1
   std::size_t samples = 0;  // samples that have a partner, in the channel with the most
 };
 // Returns the correlation under a clock, over the whole overlap or `within`; empty if no channel
 // has enough common samples that change in both recordings.
-std::optional<Likeness> likeness(std::span<const Pair> pairs, const Clock& clock,
-                                 std::optional<Interval> within = {});
+std::optional<Correlation> overlap_correlation(std::span<const Pair> pairs, const Clock& clock,
+                                               std::optional<Interval> within = {});
 
 // The best of all shifts and rates.
 struct Found {
@@ -124,7 +124,7 @@ std::optional<Found> search(std::span<const Pair> pairs, double most, bool rates
 // value. It distinguishes the shifts of a periodic motion by its beginning and end, if the machine
 // rests there: a side at which it moves in either recording is not extended, but limited to the
 // overlap. Returns empty if it rests on neither side.
-std::optional<double> likeness_at_rest(std::span<const Pair> pairs, const Clock& clock);
+std::optional<double> correlation_with_rest(std::span<const Pair> pairs, const Clock& clock);
 
 // A local maximum of r over the shift.
 struct Peak {

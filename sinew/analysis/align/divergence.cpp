@@ -1,4 +1,4 @@
-#include "sinew/analysis/align/parting.h"
+#include "sinew/analysis/align/divergence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-std::optional<double> parts_at(const Meetings& met, double band) {
+std::optional<double> diverges_at(const PairedSamples& met, double band) {
   std::size_t beyond = 0;  // in a row
   for (std::size_t i = 0; i < met.difference.size(); ++i) {
     const double d = met.difference[i];
@@ -21,7 +21,7 @@ std::optional<double> parts_at(const Meetings& met, double band) {
   return std::nullopt;
 }
 
-std::array<double, 10> growth_of(const Meetings& met) {
+std::array<double, 10> growth_of(const PairedSamples& met) {
   std::array<double, 10> square{}, count{};
   if (met.time_ns.empty()) return square;
   const std::int64_t from = met.time_ns.front();
@@ -48,23 +48,23 @@ bool is_of_motion(std::string_view topic) {
          !topic.starts_with("/low_level/");
 }
 
-std::vector<Parting> partings(const signals::Table& measured, const signals::Table& simulated,
-                              double share) {
-  std::vector<Parting> out;
+std::vector<Divergence> divergences(const signals::Table& measured, const signals::Table& simulated,
+                                    double share) {
+  std::vector<Divergence> out;
   for (const ChannelDifference& d : differences(measured, simulated)) {
-    if (!is_of_motion(d.topic) || d.difference.how == Meeting::never) continue;
+    if (!is_of_motion(d.topic) || d.difference.how == Pairing::never) continue;
     const auto recording = [&](const signals::Table& table) {
       return Recording{&table.find(d.topic)->time_ns, table.column(d.topic, d.field)};
     };
-    const Meetings met = meet(recording(measured), recording(simulated));
+    const PairedSamples met = pair_samples(recording(measured), recording(simulated));
     const Spread spread = spread_of(signal_of(d.topic, recording(measured)));
-    Parting p{d.topic, d.field, d.unit, d.difference};
+    Divergence p{d.topic, d.field, d.unit, d.difference};
     p.band = std::max(share * spread.range, 4 * spread.noise);
-    p.at = parts_at(met, p.band);
+    p.at = diverges_at(met, p.band);
     p.growth = growth_of(met);
     out.push_back(std::move(p));
   }
-  std::ranges::stable_sort(out, {}, [](const Parting& p) { return p.at.value_or(INFINITY); });
+  std::ranges::stable_sort(out, {}, [](const Divergence& p) { return p.at.value_or(INFINITY); });
   return out;
 }
 

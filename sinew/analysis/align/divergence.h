@@ -1,4 +1,5 @@
-// analysis/align/parting.h - the time at which a simulation departs from a measurement, by channel.
+// analysis/align/divergence.h - the time at which a simulation departs from a measurement, by
+// channel.
 //
 //   e_i = simulated - measured       where their samples meet (verdict/compare.h)
 //   band = max(share·range, 4 sigma) of the measured channel; sigma is its noise (signal.h)
@@ -18,7 +19,7 @@
 namespace sinew::analysis {
 
 // One channel that both have.
-struct Parting {
+struct Divergence {
   std::string topic, field, unit;
   Difference difference;
   double band = 0;                  // in the channel's unit
@@ -28,8 +29,8 @@ struct Parting {
 
 // Returns the common channels that a sensor can measure, without valves, duties and plans, in the
 // order of departure. The band is `share` of the range, 0 to 1.
-std::vector<Parting> partings(const signals::Table& measured, const signals::Table& simulated,
-                              double share);
+std::vector<Divergence> divergences(const signals::Table& measured, const signals::Table& simulated,
+                                    double share);
 
 // Returns whether a channel describes the motion of a machine: not a valve, a duty, a plan, an
 // internal value of the low level or a true value of a simulation.

@@ -1,4 +1,4 @@
-#include "sinew/analysis/align/parting.h"
+#include "sinew/analysis/align/divergence.h"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ signals::Table leaving(double t0, double slope) {
   return out;
 }
 
-TEST(Parting, IsWhereTheDifferenceLeavesTheBandForGood) {
+TEST(Divergence, IsWhereTheDifferenceLeavesTheBandForGood) {
   const signals::Table measured = leaving(0, 0), simulated = leaving(12, 0.05);
-  const Parting p = partings(measured, simulated, 0.05).at(0);
+  const Divergence p = divergences(measured, simulated, 0.05).at(0);
   const double range =
       spread_of(signal_of("", {&measured.series[0].time_ns, &measured.series[0].columns[0]})).range;
   EXPECT_NEAR(p.band, 0.05 * range, 1e-3 * range);
@@ -27,20 +27,20 @@ TEST(Parting, IsWhereTheDifferenceLeavesTheBandForGood) {
   for (std::size_t k = 4; k + 1 < p.growth.size(); ++k) EXPECT_LT(p.growth[k], p.growth[k + 1]);
 }
 
-TEST(Parting, OneStraySampleIsNone) {
+TEST(Divergence, OneStraySampleIsNone) {
   const signals::Table measured = leaving(0, 0);
   signals::Table simulated = measured;
   simulated.series[0].columns[0].set(700, 99);
-  EXPECT_FALSE(partings(measured, simulated, 0.05).at(0).at);
+  EXPECT_FALSE(divergences(measured, simulated, 0.05).at(0).at);
 }
 
-TEST(Parting, NoiseAloneIsNone) {
+TEST(Divergence, NoiseAloneIsNone) {
   signals::Table measured, simulated = leaving(0, 0);
   test::add_channel(measured, "/joint/elbow/angle", "rad", {}, 0.1, test::motion);
-  EXPECT_FALSE(partings(measured, simulated, 0.01).at(0).at);
+  EXPECT_FALSE(divergences(measured, simulated, 0.01).at(0).at);
 }
 
-TEST(Parting, CommandsAndPlansAreNoMotion) {
+TEST(Divergence, CommandsAndPlansAreNoMotion) {
   for (const char* topic : {"/valve/a/inlet/open", "/muscle/a/inlet_duty", "/desired/joint/a/angle",
                             "/true/joint/a/angle", "/plan/phase", "/leg/left/valve/a/inlet/open"})
     EXPECT_FALSE(is_of_motion(topic)) << topic;

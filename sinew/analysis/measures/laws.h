@@ -14,7 +14,7 @@ inline constexpr double oscillation_window = 0.21;
 // Least return of a joint's error after a turning point  [rad]: twice the smallest amplitude that
 // counts as an oscillation, 0.5 deg. It is just visible in a plot of 60 deg, and noise of one or
 // two counts of a converter of 0.08 deg per count does not reach it.
-inline constexpr double turn_back = std::numbers::pi / 180;
+inline constexpr double least_return = std::numbers::pi / 180;
 
 // Slip velocity below which the foot counts as sticking  [m/s].
 inline constexpr double sticking = 2e-3;

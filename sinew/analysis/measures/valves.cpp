@@ -39,21 +39,22 @@ std::optional<EdgeDifference> difference(const signals::Series& recorded,
 constexpr std::int64_t near_ns = 5'000'000;
 
 // An edge that has no equal on the other side.
-struct Lone {
+struct UnmatchedEdge {
   std::int64_t time_ns;
   bool opens;
 };
 
 // Appends the edges of both trains that have no equal in the other one.
 void leave_out_equal(const signals::Series& a, std::size_t of_a, const signals::Series& b,
-                     std::size_t of_b, std::vector<Lone>& lone_a, std::vector<Lone>& lone_b) {
+                     std::size_t of_b, std::vector<UnmatchedEdge>& unmatched_a,
+                     std::vector<UnmatchedEdge>& unmatched_b) {
   std::size_t i = 0, k = 0;
   while (i < of_a || k < of_b) {
     const std::int64_t ta = i < of_a ? a.time_ns[i] : INT64_MAX;
     const std::int64_t tb = k < of_b ? b.time_ns[k] : INT64_MAX;
     const bool equal = ta == tb && a.columns[0][i] == b.columns[0][k];
-    if (!equal && ta <= tb) lone_a.push_back({ta, a.columns[0][i] != 0});
-    if (!equal && tb <= ta) lone_b.push_back({tb, b.columns[0][k] != 0});
+    if (!equal && ta <= tb) unmatched_a.push_back({ta, a.columns[0][i] != 0});
+    if (!equal && tb <= ta) unmatched_b.push_back({tb, b.columns[0][k] != 0});
     if (ta <= tb) ++i;
     if (tb <= ta) ++k;
   }
@@ -62,12 +63,12 @@ void leave_out_equal(const signals::Series& a, std::size_t of_a, const signals::
 ValveEdges compared(const signals::Series& recorded, std::size_t of_recorded,
                     const signals::Series& replayed, std::size_t of_replayed) {
   ValveEdges out{recorded.topic.name, of_recorded, of_replayed};
-  std::vector<Lone> then, now;
+  std::vector<UnmatchedEdge> then, now;
   leave_out_equal(recorded, of_recorded, replayed, of_replayed, then, now);
   std::vector<bool> taken(now.size(), false);
   std::size_t from = 0;
   double sum = 0;
-  for (const Lone& edge : then) {
+  for (const UnmatchedEdge& edge : then) {
     while (from < now.size() && now[from].time_ns < edge.time_ns - near_ns) ++from;
     std::size_t best = now.size();
     for (std::size_t k = from; k < now.size() && now[k].time_ns <= edge.time_ns + near_ns; ++k) {

@@ -127,7 +127,7 @@ Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t 
       if (length[k].empty()) continue;
       const robot::Muscle& muscle = m.robot.muscles[k];
       sum += joint_stiffness(
-          robot::pull_at(muscle, at, angle_in(angle, at, i)), muscle.count,
+          robot::moment_arm_at(muscle, at, angle_in(angle, at, i)), muscle.count,
           true_stiffness(actuators[k], length[k][i], pressure[k][i], m.atmosphere, tension[k][i]));
     }
     out.push_back(sum);

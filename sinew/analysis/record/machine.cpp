@@ -30,7 +30,7 @@ void seconds(Visitor& v, std::string_view name, double& value) {
   v.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
 }
 
-MachineValve what_matters(const gas::Valve& valve) {
+MachineValve machine_valve_of(const gas::Valve& valve) {
   MachineValve out{.name = valve.name, .coil = valve.coil};
   out.seals = valve.kind != gas::Valve::Kind::three_way;
   if (valve.drive != gas::Valve::Drive::speed_up) out.coil.boost_power = out.coil.boost_time = 0;
@@ -64,7 +64,7 @@ void read_valves(const config::Node& root, Machine& m) {
   std::vector<gas::Valve> valves;
   gas::fields(reader, valves);
   reader.finish_part();
-  for (const gas::Valve& valve : valves) m.valves.push_back(what_matters(valve));
+  for (const gas::Valve& valve : valves) m.valves.push_back(machine_valve_of(valve));
 }
 
 template <class Visitor>

@@ -142,7 +142,7 @@ bool holds_word(std::string_view text, std::initializer_list<std::string_view> w
 
 }  // namespace
 
-Spoken spoken(std::string_view words) {
+QuotedNumber quoted_number(std::string_view words) {
   std::array<Number, 2> last;
   int count = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -153,10 +153,10 @@ Spoken spoken(std::string_view words) {
     i = last[1].end;
   }
   if (count == 0) return {};
-  Spoken out{.found = true,
-             .lowest = last[1].value,
-             .highest = last[1].value,
-             .last_digit = last[1].last_digit};
+  QuotedNumber out{.found = true,
+                   .lowest = last[1].value,
+                   .highest = last[1].value,
+                   .last_digit = last[1].last_digit};
   const std::size_t unit = words.find_first_not_of(' ', last[1].end);
   if (unit != words.npos) out.unit = words.substr(unit);
   const std::string_view before = words.substr(0, last[1].begin);

@@ -59,12 +59,12 @@ std::string_view rule_of(Wording wording);
 
 // The numbers of a source's text: "55 to 60 in" gives 55, 60, "in"; "below 0.5" gives -inf, 0.5,
 // ""; "0.035" gives 0.035 twice with 0.001 as its last digit. `found` is false without a number.
-struct Spoken {
+struct QuotedNumber {
   bool found = false;
   double lowest = 0, highest = 0;
   double last_digit = 1;  // place value of the last number's last digit
   std::string unit;       // text after the last number
 };
-Spoken spoken(std::string_view words);
+QuotedNumber quoted_number(std::string_view words);
 
 }  // namespace sinew::analysis

@@ -60,7 +60,7 @@ TEST(Band, EachWordingHasItsRule) {
 TEST(Band, NumbersAreTakenFromWhatIsSaid) {
   const auto expect_words = [](const char* words, double lowest, double highest, double digit,
                                const char* unit) {
-    const Spoken s = spoken(words);
+    const QuotedNumber s = quoted_number(words);
     ASSERT_TRUE(s.found) << words;
     EXPECT_EQ(s.lowest, lowest) << words;
     EXPECT_EQ(s.highest, highest) << words;
@@ -77,8 +77,8 @@ TEST(Band, NumbersAreTakenFromWhatIsSaid) {
   expect_words("1.8e-5 ft2", 1.8e-5, 1.8e-5, 1e-6, "ft2");
   expect_words("below 0.5", -inf, 0.5, 0.1, "");
   expect_words("at least 60 in", 60, inf, 1, "in");
-  EXPECT_FALSE(spoken("much smaller").found);
-  EXPECT_FALSE(spoken("").found);
+  EXPECT_FALSE(quoted_number("much smaller").found);
+  EXPECT_FALSE(quoted_number("").found);
 }
 
 }  // namespace

@@ -17,14 +17,14 @@ std::size_t within(const signals::Times& times, std::int64_t from, std::int64_t 
   return last > first ? static_cast<std::size_t>(last - first) : 0;
 }
 
-// Returns empty meetings, stored in the same file as `like`.
-Meetings meetings(Meeting how, Recording like) {
+// Returns an empty pairing, stored in the same file as `like`.
+PairedSamples paired_samples(Pairing how, Recording like) {
   const signals::PageFile file = like.time_ns->file();
   return {how, signals::Times(file), signals::Column(file)};
 }
 
-Meetings meet_together(Recording a, Recording b) {
-  Meetings out = meetings(Meeting::together, a);
+PairedSamples pair_together(Recording a, Recording b) {
+  PairedSamples out = paired_samples(Pairing::together, a);
   std::size_t i = 0, k = 0;
   while (i < a.time_ns->size() && k < b.time_ns->size()) {
     const std::int64_t ta = (*a.time_ns)[i], tb = (*b.time_ns)[k];
@@ -50,8 +50,8 @@ double straight_at(Recording from, std::int64_t t, std::size_t& k) {
   return before + share * ((*from.values)[k + 1] - before);
 }
 
-Meetings meet_between(Recording sparse, Recording dense, double sign) {
-  Meetings out = meetings(Meeting::between, sparse);
+PairedSamples pair_between(Recording sparse, Recording dense, double sign) {
+  PairedSamples out = paired_samples(Pairing::between, sparse);
   std::size_t k = 0;
   for (std::size_t i = 0; i < sparse.time_ns->size(); ++i) {
     const std::int64_t t = (*sparse.time_ns)[i];
@@ -88,7 +88,7 @@ double span_of(Recording a, Recording b) {
 
 // Returns the difference without its correlation. weight(i) is 1, or the duration of pair i.
 template <class Weight>
-Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) {
+Difference summed(Recording a, Recording b, const PairedSamples& met, Weight weight) {
   Difference out{.how = met.how, .same = same_samples(a, b), .span = span_of(a, b)};
   double sum = 0, square = 0, all = 0;
   for (std::size_t i = 0; i < met.difference.size(); ++i) {
@@ -112,7 +112,7 @@ Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) 
 }
 
 // Returns the correlation of a and a + d at the times where they met.
-double correlation(Recording a, const Meetings& met) {
+double correlation(Recording a, const PairedSamples& met) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0, a0 = 0;
   std::size_t k = 0;
   for (std::size_t i = 0; i < met.difference.size(); ++i) {
@@ -134,35 +134,35 @@ bool has_field(const signals::Series& series, const signals::Field& like) {
 
 }  // namespace
 
-std::string_view to_text(Meeting how) {
+std::string_view to_text(Pairing how) {
   switch (how) {
-    case Meeting::together:
+    case Pairing::together:
       return "together";
-    case Meeting::between:
+    case Pairing::between:
       return "between";
-    case Meeting::held:
+    case Pairing::held:
       return "held";
-    case Meeting::never:
+    case Pairing::never:
       break;
   }
   return "never";
 }
 
-Meetings meet(Recording a, Recording b) {
+PairedSamples pair_samples(Recording a, Recording b) {
   if (a.time_ns->empty() || b.time_ns->empty()) return {};
   const std::int64_t from = std::max(a.time_ns->front(), b.time_ns->front());
   const std::int64_t to = std::min(a.time_ns->back(), b.time_ns->back());
   const std::size_t of_a = within(*a.time_ns, from, to), of_b = within(*b.time_ns, from, to);
 
-  Meetings out = meet_together(a, b);
+  PairedSamples out = pair_together(a, b);
   if (2 * out.time_ns.size() < std::min(of_a, of_b))
-    out = of_a <= of_b ? meet_between(a, b, 1) : meet_between(b, a, -1);
-  return out.time_ns.empty() ? Meetings{} : out;
+    out = of_a <= of_b ? pair_between(a, b, 1) : pair_between(b, a, -1);
+  return out.time_ns.empty() ? PairedSamples{} : out;
 }
 
-Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {
+PairedSamples pair_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {
   if (to <= from) return {};
-  Meetings out = meetings(Meeting::held, a);
+  PairedSamples out = paired_samples(Pairing::held, a);
   std::size_t i = 0, k = 0;
   for (std::int64_t t = from; t < to;) {
     const double d = held_at(b, t, k) - held_at(a, t, i);
@@ -179,14 +179,14 @@ Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to
   return out;
 }
 
-Difference difference(Recording a, Recording b, const Meetings& met) {
+Difference difference(Recording a, Recording b, const PairedSamples& met) {
   Difference out = summed(a, b, met, [](std::size_t) { return 1.0; });
   out.correlation = correlation(a, met);
   return out;
 }
 
 Difference difference_of_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {
-  const Meetings met = meet_edges(a, b, from, to);
+  const PairedSamples met = pair_edges(a, b, from, to);
   return summed(a, b, met, [&](std::size_t i) {
     const std::int64_t end = i + 1 < met.time_ns.size() ? met.time_ns[i + 1] : to;
     return static_cast<double>(end - met.time_ns[i]);
@@ -222,7 +222,7 @@ std::vector<ChannelDifference> differences(const signals::Table& a, const signal
       const Recording rb{&sb->time_ns, b.column(sb->topic.name, field.name)};
       out.push_back({sa.topic.name, field.name, field.unit,
                      is_edges(sa.topic.name) ? difference_of_edges(ra, rb, both.first, both.last)
-                                             : difference(ra, rb, meet(ra, rb))});
+                                             : difference(ra, rb, pair_samples(ra, rb))});
     }
   }
   return out;
@@ -236,7 +236,7 @@ void shift(signals::Table& table, std::int64_t by) {
   }
 }
 
-std::vector<FigureRow> figures_beside(const std::vector<const Summary*>& summaries) {
+std::vector<FigureRow> compare_figures(const std::vector<const Summary*>& summaries) {
   std::vector<FigureRow> out;
   for (std::size_t from = 0; from < summaries.size(); ++from)
     for (const Entry& e : summaries[from]->entries()) {

@@ -30,9 +30,9 @@
 namespace sinew::analysis {
 
 // The way in which the samples of two channels meet, see above.
-enum class Meeting { never, together, between, held };
+enum class Pairing { never, together, between, held };
 // Returns its name.
-std::string_view to_text(Meeting how);
+std::string_view to_text(Pairing how);
 
 // A channel's samples, in ascending time; points into a table.
 struct Recording {
@@ -41,21 +41,21 @@ struct Recording {
 };
 
 // Times at which the samples of two channels meet, and their differences.
-struct Meetings {
-  Meeting how = Meeting::never;
+struct PairedSamples {
+  Pairing how = Pairing::never;
   signals::Times time_ns;      // a's times; the sparser one's if they meet `between`
   signals::Column difference;  // b - a
 };
 
 // Pairs the samples of two channels, `together` or `between`.
-Meetings meet(Recording a, Recording b);
+PairedSamples pair_samples(Recording a, Recording b);
 // Compares edges within [from, to)  [ns]: a time for every change of their difference, the first at
 // `from`.
-Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to);
+PairedSamples pair_edges(Recording a, Recording b, std::int64_t from, std::int64_t to);
 
 // Difference of two channels.
 struct Difference {
-  Meeting how = Meeting::never;
+  Pairing how = Pairing::never;
   bool same = false;        // equal times, and equal bits in every sample
   std::size_t samples = 0;  // pairs that are finite in both
   std::size_t gaps = 0;     // pairs that are not finite in one or both
@@ -73,7 +73,7 @@ struct Difference {
 };
 
 // Return the difference of two channels, from their pairs; or of edges within [from, to)  [ns].
-Difference difference(Recording a, Recording b, const Meetings& met);
+Difference difference(Recording a, Recording b, const PairedSamples& met);
 Difference difference_of_edges(Recording a, Recording b, std::int64_t from, std::int64_t to);
 
 // --- tables ---
@@ -109,7 +109,7 @@ struct FigureRow {
 
 // Returns a row for every key: those of the first summary in its order, then those that only others
 // have.
-std::vector<FigureRow> figures_beside(const std::vector<const Summary*>&);
+std::vector<FigureRow> compare_figures(const std::vector<const Summary*>&);
 
 // Returns (other - first)/|first|  [-]; empty if the first is 0 and the other is not.
 std::optional<double> relative_difference(double first, double other);

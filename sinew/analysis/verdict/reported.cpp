@@ -141,7 +141,7 @@ BandOrMistake read_accept(const Reported& r, double atmosphere) {
 }
 
 // Returns the band that the wording's rule gives for a number, or for a share of the quantity `of`.
-Band band_of(Wording wording, const Spoken& value, double of, double error) {
+Band band_of(Wording wording, const QuotedNumber& value, double of, double error) {
   switch (wording) {
     case Wording::measured:
       return measured(value.highest, value.last_digit, error);
@@ -182,13 +182,13 @@ BandOrMistake read_wording(const Reported& r, double atmosphere) {
     return BandOrMistake{{}, config::Mistake{std::move(found), std::move(expected), ""}};
   };
   const bool share = is_share(r.wording);
-  const Spoken value = spoken(share ? r.of : r.value);
+  const QuotedNumber value = quoted_number(share ? r.of : r.value);
   if (!value.found)
     return mistake(fmt::format("\"{}\"", share ? r.of : r.value),
                    share ? "of = a quantity: what it is a share of" : "a number in `value`");
   double error = 0;
   if (!r.reading_error.empty()) {
-    const Spoken read = spoken(r.reading_error);
+    const QuotedNumber read = quoted_number(r.reading_error);
     if (!read.found || read.unit != value.unit || read.highest < 0)
       return mistake(fmt::format("reading_error \"{}\"", r.reading_error),
                      fmt::format("a quantity in the unit of the value, \"{}\"", value.unit));
@@ -272,11 +272,11 @@ std::string accept_text(const Reported& r, const Band& band, const std::string& 
 
 Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
               const units::ShownUnits* shown) {
-  Verdict v{.key = r.key, .reported = r.value, .ours = {}, .accept = {}, .source = r.source};
+  Verdict v{.key = r.key, .reported = r.value, .computed = {}, .accept = {}, .source = r.source};
   v.statement_class = r.statement_class;
-  const double* ours = summary.find(r.key);
-  const std::string unit =
-      shown ? shown_unit(r.key, *shown, ours ? *ours : 0) : spoken_unit(r, atmosphere);
+  const double* value_of_run = summary.find(r.key);
+  const std::string unit = shown ? shown_unit(r.key, *shown, value_of_run ? *value_of_run : 0)
+                                 : quoted_unit(r, atmosphere);
   std::optional<Band> band;
   if (config::is_judged(r)) {
     const BandOrMistake read = read_band(r, atmosphere);
@@ -292,25 +292,26 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
     v.band_reason = r.band_reason;
   }
 
-  if (!ours) return v;
+  if (!value_of_run) return v;
   // A narrow band requires more digits.
-  const auto spoken_in = [&](double si) {
+  const auto quoted_unit_in = [&](double si) {
     return config::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
-  const double width = band ? spoken_in(band->highest) - spoken_in(band->lowest) : 0;
-  v.ours = show(*ours, r.key, unit, atmosphere, std::isfinite(width) ? width : 0);
+  const double width = band ? quoted_unit_in(band->highest) - quoted_unit_in(band->lowest) : 0;
+  v.computed = show(*value_of_run, r.key, unit, atmosphere, std::isfinite(width) ? width : 0);
   if (!band || r.changed) return v;
-  const bool inside = band->holds(*ours);
-  v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
+  const bool inside = band->holds(*value_of_run);
+  v.agreement = inside ? Verdict::Agreement::agrees : Verdict::Agreement::differs;
   if (r.because.empty()) return v;
-  v.is = inside ? Verdict::Is::agrees_after_all : Verdict::Is::differs_as_known;
+  v.agreement =
+      inside ? Verdict::Agreement::agrees_unexpectedly : Verdict::Agreement::differs_as_known;
   v.source += ". Why: " + r.because;
   return v;
 }
 
 }  // namespace
 
-std::string spoken_unit(const Reported& r, double atmosphere) {
+std::string quoted_unit(const Reported& r, double atmosphere) {
   const std::string unit = unit_of_key(r.key);
   std::string_view text = after_last_number(r.value);
   if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
@@ -343,17 +344,17 @@ void mark_changed(std::vector<Reported>& reported, const config::Node& root) {
   for (Reported& r : reported) r.changed = changed;
 }
 
-std::string_view to_text(Verdict::Is is) {
-  switch (is) {
-    case Verdict::Is::agrees:
+std::string_view to_text(Verdict::Agreement agreement) {
+  switch (agreement) {
+    case Verdict::Agreement::agrees:
       return "agrees";
-    case Verdict::Is::differs:
+    case Verdict::Agreement::differs:
       return "differs";
-    case Verdict::Is::differs_as_known:
+    case Verdict::Agreement::differs_as_known:
       return "differs as known";
-    case Verdict::Is::agrees_after_all:
+    case Verdict::Agreement::agrees_unexpectedly:
       return "agrees after all";
-    case Verdict::Is::not_applicable:
+    case Verdict::Agreement::not_applicable:
       break;
   }
   return "not applicable";

@@ -40,7 +40,7 @@ std::string unit_of_key(std::string_view key);
 std::string_view without_unit(std::string_view key);  // "trolley.distance" of "trolley.distance_m"
 
 // Returns the unit of the source's text; if it has none, that of `of` or `accept`, else SI.
-std::string spoken_unit(const Reported&, double atmosphere = units::atmosphere);
+std::string quoted_unit(const Reported&, double atmosphere = units::atmosphere);
 
 // Returns the mistake in `accept`, or in the values that a wording needs; empty if there is no
 // mistake.
@@ -49,22 +49,23 @@ std::optional<config::Mistake> mistake_in_band(const Reported&,
 
 // A figure of the source, the one of the run, and whether they agree.
 struct Verdict {
-  // differs_as_known: a reason is given; agrees_after_all: a reason is given that no longer
+  // differs_as_known: a reason is given; agrees_unexpectedly: a reason is given that no longer
   // applies.
-  enum class Is { agrees, differs, not_applicable, differs_as_known, agrees_after_all };
+  enum class Agreement { agrees, differs, not_applicable, differs_as_known, agrees_unexpectedly };
 
   std::string key;
   std::string reported;  // as reported
-  std::string ours;      // "57.7 in", "93.1 %"; empty where the summary has no such key
+  std::string computed;  // "57.7 in", "93.1 %"; empty where the summary has no such key
   std::string accept;    // "53 in to 60 in"; empty without a band
   std::string source;    // with the reason of a known difference
   config::StatementClass statement_class = config::StatementClass::none;
   Wording wording = Wording::another;  // rule of `accept`
   std::string band_reason;             // reason for another band
-  Is is = Is::not_applicable;          // the key or the band is missing, or the run was changed
+  Agreement agreement =
+      Agreement::not_applicable;  // the key or the band is missing, or the run was changed
 };
 
-std::string_view to_text(Verdict::Is is);  // "agrees", "differs as known", …
+std::string_view to_text(Verdict::Agreement agreement);  // "agrees", "differs as known", …
 
 // Returns one verdict for each figure, in the order of the file. The run's figure and the band are
 // in the source's unit, or in those of `shown` if it is given. Throws config::Error for a band that

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double inch = 0.0254, degree = std::numbers::pi / 180;
 
-Verdict verdict(std::string key, double ours, std::string value, std::vector<std::string> accept) {
+Verdict verdict(std::string key, double value_of_run, std::string value,
+                std::vector<std::string> accept) {
   Summary s;
-  s.add(key, ours);
+  s.add(key, value_of_run);
   return compare(s, {{key, std::move(value), std::move(accept), "6.3"}}).at(0);
 }
 
@@ -45,39 +46,40 @@ TEST(Reported, UnitFollowsFromTheEndOfTheKey) {
 }
 
 TEST(Reported, OursIsShownInTheUnitOfTheSource) {
-  EXPECT_EQ(verdict("trolley.distance_m", 57.68 * inch, "55 to 60 in", {}).ours, "57.7 in");
-  EXPECT_EQ(verdict("trolley.mean_speed_m_per_s", 4.612 * inch, "4.5 in/s", {}).ours, "4.6 in/s");
-  EXPECT_EQ(verdict("passiveness", 0.9312, "94 %", {}).ours, "93.1 %");
-  EXPECT_EQ(verdict("a_rad", 249.24 * degree, "249 deg", {}).ours, "249.2 deg");
-  EXPECT_EQ(verdict("a_Pa", 101352.9322095749, "0 psi gauge", {}).ours, "0 psi gauge");
-  EXPECT_EQ(verdict("a_Pa", 790827.07, "100 psi gauge", {}).ours, "100.0 psi gauge");
-  EXPECT_EQ(verdict("a_kg", 0.000123456, "0.1 g", {}).ours, "0.12 g");
-  EXPECT_EQ(verdict("valves.switchings", 4513, "about 4500", {}).ours, "4513");
+  EXPECT_EQ(verdict("trolley.distance_m", 57.68 * inch, "55 to 60 in", {}).computed, "57.7 in");
+  EXPECT_EQ(verdict("trolley.mean_speed_m_per_s", 4.612 * inch, "4.5 in/s", {}).computed,
+            "4.6 in/s");
+  EXPECT_EQ(verdict("passiveness", 0.9312, "94 %", {}).computed, "93.1 %");
+  EXPECT_EQ(verdict("a_rad", 249.24 * degree, "249 deg", {}).computed, "249.2 deg");
+  EXPECT_EQ(verdict("a_Pa", 101352.9322095749, "0 psi gauge", {}).computed, "0 psi gauge");
+  EXPECT_EQ(verdict("a_Pa", 790827.07, "100 psi gauge", {}).computed, "100.0 psi gauge");
+  EXPECT_EQ(verdict("a_kg", 0.000123456, "0.1 g", {}).computed, "0.12 g");
+  EXPECT_EQ(verdict("valves.switchings", 4513, "about 4500", {}).computed, "4513");
   // If the text has no usable unit, that of the band is used, else SI.
-  EXPECT_EQ(verdict("a_m", 2 * inch, "two inches", {"1 in", "3 in"}).ours, "2.0 in");
-  EXPECT_EQ(verdict("a_m", 1.5, "as far as the wall", {}).ours, "1.5 m");
+  EXPECT_EQ(verdict("a_m", 2 * inch, "two inches", {"1 in", "3 in"}).computed, "2.0 in");
+  EXPECT_EQ(verdict("a_m", 1.5, "as far as the wall", {}).computed, "1.5 m");
 }
 
 TEST(Reported, TheBandDecides) {
   const std::vector<std::string> band = {"53 in", "60 in"};
-  using Is = Verdict::Is;
-  EXPECT_EQ(verdict("d_m", 53 * inch, "55 in", band).is, Is::agrees);
-  EXPECT_EQ(verdict("d_m", 1.524, "55 in", band).is, Is::agrees);
-  EXPECT_EQ(verdict("d_m", 60.1 * inch, "55 in", band).is, Is::differs);
-  EXPECT_EQ(verdict("d_m", 52.9 * inch, "55 in", band).is, Is::differs);
+  using Agreement = Verdict::Agreement;
+  EXPECT_EQ(verdict("d_m", 53 * inch, "55 in", band).agreement, Agreement::agrees);
+  EXPECT_EQ(verdict("d_m", 1.524, "55 in", band).agreement, Agreement::agrees);
+  EXPECT_EQ(verdict("d_m", 60.1 * inch, "55 in", band).agreement, Agreement::differs);
+  EXPECT_EQ(verdict("d_m", 52.9 * inch, "55 in", band).agreement, Agreement::differs);
   EXPECT_EQ(verdict("d_m", 57 * inch, "55 in", band).accept, "53 in to 60 in");
-  EXPECT_EQ(to_text(Is::agrees), "agrees");
-  EXPECT_EQ(to_text(Is::differs), "differs");
-  EXPECT_EQ(to_text(Is::differs_as_known), "differs as known");
+  EXPECT_EQ(to_text(Agreement::agrees), "agrees");
+  EXPECT_EQ(to_text(Agreement::differs), "differs");
+  EXPECT_EQ(to_text(Agreement::differs_as_known), "differs as known");
 }
 
 TEST(Reported, NoKeyOrNoBandIsNotJudged) {
   const Verdict absent = compare({}, {{"d_m", "55 in", {"53 in", "60 in"}, "6.3"}}).at(0);
-  EXPECT_EQ(absent.is, Verdict::Is::not_applicable);
-  EXPECT_EQ(absent.ours, "");
+  EXPECT_EQ(absent.agreement, Verdict::Agreement::not_applicable);
+  EXPECT_EQ(absent.computed, "");
   const Verdict open = verdict("d_m", 1, "55 in", {});
-  EXPECT_EQ(open.is, Verdict::Is::not_applicable);
-  EXPECT_EQ(open.ours, "39.4 in");
+  EXPECT_EQ(open.agreement, Verdict::Agreement::not_applicable);
+  EXPECT_EQ(open.computed, "39.4 in");
 }
 
 TEST(Reported, WhatCannotBeABandIsAnError) {
@@ -96,8 +98,8 @@ TEST(Reported, GaugePressuresKnowTheAtmosphere) {
   Summary s;
   s.add("a_Pa", 100000);
   const Reported r{"a_Pa", "0 Pa gauge", {"-1 Pa gauge", "1 Pa gauge"}, ""};
-  EXPECT_EQ(compare(s, {r}, 100000).at(0).is, Verdict::Is::agrees);
-  EXPECT_EQ(compare(s, {r}, 101325).at(0).is, Verdict::Is::differs);
+  EXPECT_EQ(compare(s, {r}, 100000).at(0).agreement, Verdict::Agreement::agrees);
+  EXPECT_EQ(compare(s, {r}, 101325).at(0).agreement, Verdict::Agreement::differs);
 }
 
 // A reason makes a difference a known one. Agreement in spite of a reason is reported too.
@@ -107,10 +109,10 @@ TEST(Reported, AKnownDifferenceSaysWhy) {
   Reported r{.key = "d_m", .value = "2 m", .accept = {"1.9 m", "2.1 m"}, .source = "6.3"};
   r.because = "the foot slips";
   const Verdict known = compare(s, {r}).at(0);
-  EXPECT_EQ(known.is, Verdict::Is::differs_as_known);
+  EXPECT_EQ(known.agreement, Verdict::Agreement::differs_as_known);
   EXPECT_EQ(known.source, "6.3. Why: the foot slips");
   r.accept = {"0.9 m", "1.1 m"};
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees_after_all);
+  EXPECT_EQ(compare(s, {r}).at(0).agreement, Verdict::Agreement::agrees_unexpectedly);
 }
 
 // The band follows from the wording, in the source's unit.
@@ -124,27 +126,27 @@ TEST(Reported, ABandFollowsFromTheWording) {
   r.statement_class = StatementClass::fitted;
   r.wording = Wording::range;
   Verdict v = compare(s, {r}).at(0);
-  EXPECT_EQ(v.is, Verdict::Is::agrees);
+  EXPECT_EQ(v.agreement, Verdict::Agreement::agrees);
   EXPECT_EQ(v.accept, "55 in to 60 in");
   EXPECT_EQ(v.statement_class, StatementClass::fitted);
   r.value = "60 in";
   r.wording = Wording::measured;
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::differs);  // the lowest is 57 in
+  EXPECT_EQ(compare(s, {r}).at(0).agreement, Verdict::Agreement::differs);  // the lowest is 57 in
   r.reading_error = "1 in";
   EXPECT_EQ(compare(s, {r}).at(0).accept, "56 in to 64 in");
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  EXPECT_EQ(compare(s, {r}).at(0).agreement, Verdict::Agreement::agrees);
   r = {.key = "share", .value = "94 %", .source = "6.3"};
   r.wording = Wording::percentage;
   EXPECT_EQ(compare(s, {r}).at(0).accept, "92 % to 96 %");
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  EXPECT_EQ(compare(s, {r}).at(0).agreement, Verdict::Agreement::agrees);
   r = {.key = "p_Pa", .value = "60 psi gauge", .source = "3.4"};
   r.wording = Wording::measured;  // 5 % of the gauge pressure, not of the absolute one
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  EXPECT_EQ(compare(s, {r}).at(0).agreement, Verdict::Agreement::agrees);
   r = {.key = "d_m", .value = "much smaller", .source = "6.5"};
   r.wording = Wording::much_less;
   r.of = "1.8 m";
   EXPECT_EQ(compare(s, {r}).at(0).accept, "at most 1.44 m");
-  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  EXPECT_EQ(compare(s, {r}).at(0).agreement, Verdict::Agreement::agrees);
 }
 
 TEST(Reported, AWordingNeedsItsNumber) {
@@ -172,18 +174,20 @@ TEST(Reported, IsNotJudgedWhereTheRunWasChanged) {
   for (const char* lowest : {"1 m", "2 m"}) {
     std::vector<Reported> reported = {{"d_m", "1 m", {lowest, "3 m"}, "6.3"}};
     mark_changed(reported, config::parse_text(experiment, "a.toml"));
-    EXPECT_NE(compare(summary, reported).at(0).is, Verdict::Is::not_applicable);
+    EXPECT_NE(compare(summary, reported).at(0).agreement, Verdict::Agreement::not_applicable);
     for (const char* same : {"title = 'mine'\n", "seed = 7\n", "[log]\nperiod = 1\n"}) {
       mark_changed(reported, config::parse_text(same, "--set"));
-      EXPECT_NE(compare(summary, reported).at(0).is, Verdict::Is::not_applicable) << same;
+      EXPECT_NE(compare(summary, reported).at(0).agreement, Verdict::Agreement::not_applicable)
+          << same;
     }
     for (const std::string& changed : {experiment, "[page]\ntitle = 'mine'\n" + experiment,
                                        "[phase.up]\ntitle = 'mine'\n" + experiment}) {
       mark_changed(reported, config::parse_text(changed, "--set"));
-      EXPECT_EQ(compare(summary, reported).at(0).is, Verdict::Is::not_applicable) << changed;
+      EXPECT_EQ(compare(summary, reported).at(0).agreement, Verdict::Agreement::not_applicable)
+          << changed;
     }
     mark_changed(reported, config::parse_text(experiment + kept, "resolved.toml"));
-    EXPECT_EQ(compare(summary, reported).at(0).is, Verdict::Is::not_applicable);
+    EXPECT_EQ(compare(summary, reported).at(0).agreement, Verdict::Agreement::not_applicable);
   }
 }
 

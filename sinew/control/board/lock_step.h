@@ -21,10 +21,10 @@ namespace sinew::board {
 namespace record {
 inline constexpr std::uint8_t valves = 'V', reading = 'R', line = 'L', waits = 'W', sizes = 'S';
 }
-namespace mishap {                            // instead of a status
+namespace failure {                           // instead of a status
 inline constexpr std::uint8_t stalls = 0xf0;  // for a number of ticks
 inline constexpr std::uint8_t resets = 0xf1;
-}  // namespace mishap
+}  // namespace failure
 // Marks by which a host identifies the two programs for the emulator.
 inline constexpr char lock_step_image[] = "sinew firmware in lock step";
 inline constexpr char application_image[] = "sinew firmware at a serial line";

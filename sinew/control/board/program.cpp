@@ -20,7 +20,7 @@ constexpr std::uint8_t of(Type type) noexcept { return static_cast<std::uint8_t>
 
 // Copies the parts that telemetry has for that many joints and channels; a tick has no time to copy
 // the rest.
-void copy(const control::Seen& from, control::Seen& to, std::size_t joints,
+void copy(const control::ControllerState& from, control::ControllerState& to, std::size_t joints,
           std::size_t channels) noexcept {
   to.phase = from.phase;
   for (std::size_t j = 0; j < joints; ++j) to.joint[j] = from.joint[j];
@@ -44,13 +44,13 @@ void copy(const control::Supervised& from, control::Supervised& to, std::size_t 
   to.trip = from.trip;
 }
 
-constexpr control::Seen nothing_seen;
+constexpr control::ControllerState no_controller;
 constexpr control::Supervised nothing_supervised;
 
 }  // namespace
 
 Program::Program(const Identification& who) noexcept
-    : who_(who), safety_(who.bitten), nonce_(who.nonce) {}
+    : who_(who), safety_(who.reset_by_watchdog), nonce_(who.nonce) {}
 
 bool Program::runs() const noexcept {
   const BoardState state = safety_.state();
@@ -76,8 +76,8 @@ bool Program::begins_period() noexcept {
 
 // Records the telemetry of the period that begins. If the last one is not completely sent yet, it
 // is kept and the host sees a gap.
-void Program::note() noexcept {
-  if (speaking_.load(std::memory_order_acquire)) {
+void Program::record_telemetry() noexcept {
+  if (telemetry_pending_.load(std::memory_order_acquire)) {
     ++dropped_;
     return;
   }
@@ -86,34 +86,35 @@ void Program::note() noexcept {
   telemetry_.state = safety_.state();
   telemetry_.fault = safety_.fault();
   const control::Supervisor* c = run < 0 ? nullptr : safety_.controller();
-  copy(c ? c->seen() : nothing_seen, telemetry_.seen, telemetry_.joints, telemetry_.channels);
+  copy(c ? c->state() : no_controller, telemetry_.controller, telemetry_.joints,
+       telemetry_.channels);
   copy(c ? c->supervised() : nothing_supervised, telemetry_.supervised, telemetry_.channels);
   if (c == nullptr) {
     for (std::uint8_t i = 0; i < telemetry_.channels; ++i) {
-      telemetry_.seen.reading[i] = safety_.reading(i);
+      telemetry_.controller.reading[i] = safety_.reading(i);
       telemetry_.supervised.sensor[i].counts = safety_.reading(i).counts;
     }
   }
-  telemetry_.link = line_seen();
+  telemetry_.link = link_statistics();
   part_ = 0;
-  speaking_.store(true, std::memory_order_release);
+  telemetry_pending_.store(true, std::memory_order_release);
 }
 
-void Program::obey_command() noexcept {
+void Program::apply_command() noexcept {
   const bool starts = safety_.state() == BoardState::armed;
   if (starts ? !starts_ : !runs()) return;
   const Tick run = starts ? 0 : safety_.run_tick(now_);
-  const link::CommandFor* to_obey = queue_.at(run);
+  const link::CommandFor* current = queue_.at(run);
   command_begun_ = run;
   starts_ = false;
   bool ends = false;
   // A command changes the setpoints once, even if it is valid for several periods.
-  if (to_obey != nullptr && to_obey->from != obeyed_) {
-    for (std::size_t j = 0; j < to_obey->joints; ++j) held_.joint[j] = to_obey->joint[j];
-    obeyed_ = to_obey->from;
-    ends = to_obey->ends;
+  if (current != nullptr && current->from != applied_from_) {
+    for (std::size_t j = 0; j < current->joints; ++j) held_.joint[j] = current->joint[j];
+    applied_from_ = current->from;
+    ends = current->ends;
   }
-  if (to_obey != nullptr || changed_) safety_.command(held_, now_);
+  if (current != nullptr || changed_) safety_.command(held_, now_);
   for (control::JointCommand& c : held_.joint)
     if (c.timed) c.openings = {};
   changed_ = false;
@@ -154,8 +155,8 @@ std::size_t Program::receive(std::span<const std::uint8_t> bytes) noexcept {
 void Program::silent() noexcept {
   if (in_.size() > 0) return;
   decoder_.silent();
-  if (words_ && words_->silent()) {
-    step_ = {.what = link::WordStep::What::bad};
+  if (thesis_reader_ && thesis_reader_->silent()) {
+    step_ = {.what = link::ThesisByteResult::What::bad};
     step_due_ = true;
   }
 }
@@ -166,10 +167,10 @@ bool Program::next_frame() noexcept {
   while (in_.size() > 0) {
     std::array<std::uint8_t, 1> byte;
     in_.pop(byte);
-    if (words_) {
-      step_ = words_->take(byte[0]);
-      if (step_.what == link::WordStep::What::nothing) continue;
-      if (step_.what != link::WordStep::What::frame) return step_due_ = true;
+    if (thesis_reader_) {
+      step_ = thesis_reader_->take(byte[0]);
+      if (step_.what == link::ThesisByteResult::What::nothing) continue;
+      if (step_.what != link::ThesisByteResult::What::frame) return step_due_ = true;
     }
     decoder_.push(byte);
     if ((frame_ = decoder_.next()) != nullptr) return true;
@@ -177,18 +178,18 @@ bool Program::next_frame() noexcept {
   return false;
 }
 
-void Program::obey() noexcept {
-  if (step_due_) return obey_word();
+void Program::execute_request() noexcept {
+  if (step_due_) return execute_thesis_request();
   quiet_ = false;
-  why_ = nullptr;
+  refusal_ = nullptr;
   value_ = 0;
-  code_ = judge();
+  code_ = check_frame();
   if (code_ == Code::done) code_ = act();
   if (code_ != Code::done) ++refused_;
 }
 
 // Checks the address, sequence and version of a frame. Frames to other boards are ignored.
-Code Program::judge() noexcept {
+Code Program::check_frame() noexcept {
   const std::uint8_t to = frame_->envelope.board;
   const bool identify = frame_->type == of(Type::identify);
   const bool shut_down = frame_->type == of(Type::shut_down);
@@ -225,7 +226,7 @@ Code Program::act() noexcept {
       return quiet_ = log_wanted_ = true, Code::done;
     }
     case Type::heartbeat:
-      safety_.heard(now_);
+      safety_.note_host_alive(now_);
       quiet_ = true;
       return Code::done;
     case Type::clear_fault:
@@ -300,8 +301,8 @@ Code Program::act_on_configuration() noexcept {
       const Code code = link::decode(*frame_, m);
       if (code != Code::done) return code;
       if (m.on && !thesis_.found) return Code::configuration;
-      words_.reset();
-      if (m.on) words_.emplace(thesis_);
+      thesis_reader_.reset();
+      if (m.on) thesis_reader_.emplace(thesis_);
       return Code::done;
     }
     default:
@@ -312,16 +313,16 @@ Code Program::act_on_configuration() noexcept {
 Code Program::configure(const link::ConfigureEnd& end) noexcept {
   if (!at_rest()) return Code::state;
   const link::Refusal refusal = receiver_.take(end, incoming_);
-  why_ = refusal.words;
+  refusal_ = refusal.words;
   if (refusal.code != Code::done) return refusal.code;
-  why_ = safety_.configure(incoming_.spine, incoming_.limits, incoming_.safety);
-  if (why_ != nullptr) return Code::configuration;
+  refusal_ = safety_.configure(incoming_.joint_controller, incoming_.limits, incoming_.safety);
+  if (refusal_ != nullptr) return Code::configuration;
   configuration_ = end.crc;
-  thesis_ = link::thesis_joints(incoming_.spine);
-  words_.reset();
-  new (&queue_) link::CommandQueue(incoming_.spine.period);  // too large for the stack
-  telemetry_.joints = static_cast<std::uint8_t>(incoming_.spine.joints);
-  telemetry_.channels = link::channels_of(incoming_.spine);
+  thesis_ = link::thesis_joints(incoming_.joint_controller);
+  thesis_reader_.reset();
+  new (&queue_) link::CommandQueue(incoming_.joint_controller.period);  // too large for the stack
+  telemetry_.joints = static_cast<std::uint8_t>(incoming_.joint_controller.joints);
+  telemetry_.channels = link::channels_of(incoming_.joint_controller);
   return Code::done;
 }
 
@@ -338,7 +339,7 @@ Code Program::arm(const link::ArmSecond& m) noexcept {
   new (&queue_) link::CommandQueue(safety_.machine().period);
   held_ = control::rest_command(safety_.machine());
   starts_ = changed_ = false;
-  obeyed_ = -1;
+  applied_from_ = -1;
   log_.clear();
   log_stops_ = log_stopped_ = false;
   edge_count_ = 0;
@@ -382,8 +383,8 @@ Code Program::enable(const link::Enable& m) noexcept {
   return Code::done;
 }
 
-void Program::obey_word() noexcept {
-  using What = link::WordStep::What;
+void Program::execute_thesis_request() noexcept {
+  using What = link::ThesisByteResult::What;
   if (step_.what == What::shut_down) safety_.shut_down(now_);
   if (step_.what != What::enable && step_.what != What::feedforward && step_.what != What::desired)
     return;
@@ -401,7 +402,7 @@ void Program::obey_word() noexcept {
 
 // --- what a board sends: replies, telemetry, events, edges and the log of a fault ---
 
-void Program::say(std::uint8_t type, std::span<const std::uint8_t> body) noexcept {
+void Program::send(std::uint8_t type, std::span<const std::uint8_t> body) noexcept {
   std::array<std::uint8_t, link::max_frame> frame;
   const std::size_t size = link::encode(type, {who_.number, sequence_}, body, frame);
   if (size == 0 || !line_.push({frame.data(), size})) {
@@ -412,12 +413,12 @@ void Program::say(std::uint8_t type, std::span<const std::uint8_t> body) noexcep
 }
 
 template <class M>
-void Program::say(const M& message) noexcept {
+void Program::send(const M& message) noexcept {
   const link::Body body = link::body_of(message);
-  if (body.ok) say(static_cast<std::uint8_t>(M::type), body.span());
+  if (body.ok) send(static_cast<std::uint8_t>(M::type), body.span());
 }
 
-link::LinkSeen Program::line_seen() const noexcept {
+link::LinkStatistics Program::link_statistics() const noexcept {
   return {.line = decoder_.line(),
           .refused = refused_,
           .lost = window_.lost(),
@@ -425,28 +426,28 @@ link::LinkSeen Program::line_seen() const noexcept {
           .late = late_};
 }
 
-void Program::answer() noexcept {
+void Program::send_reply() noexcept {
   if (step_due_) {
     step_due_ = false;
-    return answer_words();
+    return send_thesis_reply();
   }
   if (frame_ == nullptr) return;
   const link::Frame frame = *frame_;
   frame_ = nullptr;
   if ((code_ == Code::done && quiet_) || code_ == Code::sequence) return;
-  link::Answer out{
+  link::Reply out{
       .to = frame.type, .sequence = frame.envelope.sequence, .code = code_, .value = value_};
-  for (const char* c = why_; c != nullptr && *c != 0 && out.letters < link::max_text; ++c)
+  for (const char* c = refusal_; c != nullptr && *c != 0 && out.letters < link::max_text; ++c)
     out.text[out.letters++] = *c;
-  say(out);
+  send(out);
 }
 
-void Program::answer_words() noexcept {
-  using What = link::WordStep::What;
+void Program::send_thesis_reply() noexcept {
+  using What = link::ThesisByteResult::What;
   std::array<std::uint8_t, 32> bytes;
   std::size_t n = 0;
   if (step_.what == What::readings) {
-    n = link::write_readings(step_, thesis_, safety_.machine(), telemetry_.seen, bytes);
+    n = link::write_readings(step_, thesis_, safety_.machine(), telemetry_.controller, bytes);
   } else {
     const char one = step_.what == What::ready ? link::ready_for_16
                      : step_.what == What::bad ? link::bad_command
@@ -458,24 +459,24 @@ void Program::answer_words() noexcept {
 
 // Copies data that ticks change, while ticks are kept away.
 bool Program::gather() noexcept {
-  if (!event_due_) tell_state();
+  if (!event_due_) gather_event();
   if (!edges_due_) gather_edges();
   return event_due_ || edges_due_;
 }
 
 // Reports each new state once, with its reason.
-void Program::tell_state() noexcept {
+void Program::gather_event() noexcept {
   const BoardState state = safety_.state();
-  if (started_told_ && state == told_) return;
+  if (start_reported_ && state == reported_state_) return;
   event_ = {.tick = now_,
-            .what = started_told_ ? Event::What::state : Event::What::started,
+            .what = start_reported_ ? Event::What::state : Event::What::started,
             .state = state,
             .fault = safety_.fault()};
-  started_told_ = true;
-  told_ = state;
+  start_reported_ = true;
+  reported_state_ = state;
   event_due_ = true;
   const bool bad = state == BoardState::vent || state == BoardState::dump;
-  if (bad && safety_.fault() != BoardFault::asked) log_stops_ = true;
+  if (bad && safety_.fault() != BoardFault::requested) log_stops_ = true;
 }
 
 // Collects edges for one message; they must be less than 65,536 ticks apart.
@@ -496,42 +497,42 @@ void Program::gather_edges() noexcept {
 }
 
 // Sends at most one message of each kind, so that a long one does not delay the others.
-bool Program::speak() noexcept {
-  if (event_due_) say(event_);
-  if (edges_due_) say(edges_);
+bool Program::send_next() noexcept {
+  if (event_due_) send(event_);
+  if (edges_due_) send(edges_);
   event_due_ = edges_due_ = false;
   if (identity_wanted_)
-    say(link::Identity{.state = safety_.state(),
-                       .firmware = who_.firmware,
-                       .board = who_.board,
-                       .configuration = configuration_,
-                       .configuration_bytes = link::configuration_size,
-                       .joints = control::max_joints,
-                       .channels = control::max_channels,
-                       .conversions = control::max_conversions,
-                       .tick = now_,
-                       .fault = safety_.fault(),
-                       .active_low = who_.active_low});
+    send(link::Identity{.state = safety_.state(),
+                        .firmware = who_.firmware,
+                        .board = who_.board,
+                        .configuration = configuration_,
+                        .configuration_bytes = link::configuration_size,
+                        .joints = control::max_joints,
+                        .channels = control::max_channels,
+                        .conversions = control::max_conversions,
+                        .tick = now_,
+                        .fault = safety_.fault(),
+                        .active_low = who_.active_low});
   identity_wanted_ = false;
-  if (log_wanted_) speak_log();
-  if (!speaking_.load(std::memory_order_acquire)) return log_wanted_;
+  if (log_wanted_) send_log_record();
+  if (!telemetry_pending_.load(std::memory_order_acquire)) return log_wanted_;
 
-  if (readings_wanted_) say(link::readings_alone(telemetry_));
+  if (readings_wanted_) send(link::readings_alone(telemetry_));
   readings_wanted_ = false;
   const link::TelemetryMessage part = link::part_of(telemetry_, part_);
-  if (part.body.ok) say(static_cast<std::uint8_t>(part.type), part.body.span());
+  if (part.body.ok) send(static_cast<std::uint8_t>(part.type), part.body.span());
   if (!log_stopped_ && telemetry_.state > BoardState::armed) {
     if (part_ == 0) log_.begin_period(logged_periods);
     log_.add(static_cast<std::uint8_t>(part.type), part.body.span());
   }
   if (++part_ < link::parts_of(telemetry_.joints, telemetry_.channels)) return true;
   log_stopped_ = log_stopped_ || (log_stops_ && telemetry_.state > BoardState::hold);
-  speaking_.store(false, std::memory_order_release);
+  telemetry_pending_.store(false, std::memory_order_release);
   return log_wanted_;
 }
 
 // Sends one record of the log if the line has room for it; a record without data marks the end.
-void Program::speak_log() noexcept {
+void Program::send_log_record() noexcept {
   if (line_.room() < 2 * link::max_frame) return;
   link::FaultLog out{.part = static_cast<std::uint16_t>(log_from_),
                      .parts = static_cast<std::uint16_t>(log_.records())};
@@ -542,7 +543,7 @@ void Program::speak_log() noexcept {
     out.count = record.size < link::max_logged ? record.size : link::max_logged;
     for (std::size_t i = 0; i < out.count; ++i) out.data[i] = log_.byte(record.place + i);
   }
-  say(out);
+  send(out);
 }
 
 }  // namespace sinew::board

@@ -28,7 +28,7 @@
 #include "sinew/control/link/configuration.h"
 #include "sinew/control/link/sequence.h"
 #include "sinew/control/link/telemetry.h"
-#include "sinew/control/link/thesis_words.h"
+#include "sinew/control/link/thesis_bytes.h"
 #include "sinew/control/supervise/safety.h"
 
 namespace sinew::board {
@@ -36,10 +36,10 @@ namespace sinew::board {
 // Identity of a board.
 struct Identification {
   link::Name board{}, firmware{};
-  std::uint8_t number = 1;  // number of the board on its line
-  std::uint32_t nonce = 1;  // start of the numbers for arming, different after each reset
-  bool bitten = false;      // the watchdog has reset the board
-  bool active_low = false;  // level 0 gives current in a coil
+  std::uint8_t number = 1;         // number of the board on its line
+  std::uint32_t nonce = 1;         // start of the numbers for arming, different after each reset
+  bool reset_by_watchdog = false;  // the watchdog has reset the board
+  bool active_low = false;         // level 0 gives current in a coil
 };
 
 // Outputs for valves and supply from a tick on.
@@ -61,14 +61,14 @@ class Program {
 
   // --- a tick ---
 
-  // Starts a tick. `told` is called at the start of a period, between the report of the last
+  // Starts a tick. `exchange` is called at the start of a period, between the report of the last
   // period and the command of the new one: in lock step it waits for the host.
-  template <class Told>
-  Outputs begin_tick(Told told) noexcept {
+  template <class Exchange>
+  Outputs begin_tick(Exchange exchange) noexcept {
     if (begins_period()) {
-      note();
-      told();
-      obey_command();
+      record_telemetry();
+      exchange();
+      apply_command();
     }
     return drive();
   }
@@ -94,17 +94,17 @@ class Program {
   // Notes that no byte has come for longer than allowed within a frame.
   void silent() noexcept;
 
-  // Handles received bytes and prepares messages. `Ticks` has keep_away() and let_come(). Returns
+  // Handles received bytes and prepares messages. `Ticks` has block() and allow(). Returns
   // whether there is more to do.
   template <class Ticks>
   bool serve(Ticks&& ticks) noexcept {
     const bool more = next_frame();
-    ticks.keep_away();
-    if (more) obey();
-    const bool said = gather();
-    ticks.let_come();
-    answer();
-    return speak() || said || more;
+    ticks.block();
+    if (more) execute_request();
+    const bool gathered = gather();
+    ticks.allow();
+    send_reply();
+    return send_next() || gathered || more;
   }
 
   // Takes the next bytes for the line. Returns their number.
@@ -120,16 +120,16 @@ class Program {
  private:
   // A tick
   bool begins_period() noexcept;
-  void note() noexcept;
-  void obey_command() noexcept;
+  void record_telemetry() noexcept;
+  void apply_command() noexcept;
   Outputs drive() noexcept;
 
   // messages of a host
   bool next_frame() noexcept;
   bool next_word() noexcept;
-  void obey() noexcept;
-  void obey_word() noexcept;
-  link::Code judge() noexcept;
+  void execute_request() noexcept;
+  void execute_thesis_request() noexcept;
+  link::Code check_frame() noexcept;
   link::Code act() noexcept;
   link::Code act_on_run() noexcept;
   link::Code act_on_configuration() noexcept;
@@ -144,16 +144,16 @@ class Program {
 
   // messages of the board
   template <class M>
-  void say(const M& message) noexcept;
-  void say(std::uint8_t type, std::span<const std::uint8_t> body) noexcept;
-  void answer() noexcept;
-  void answer_words() noexcept;
+  void send(const M& message) noexcept;
+  void send(std::uint8_t type, std::span<const std::uint8_t> body) noexcept;
+  void send_reply() noexcept;
+  void send_thesis_reply() noexcept;
   bool gather() noexcept;
-  bool speak() noexcept;
-  void speak_log() noexcept;
-  void tell_state() noexcept;
+  bool send_next() noexcept;
+  void send_log_record() noexcept;
+  void gather_event() noexcept;
   void gather_edges() noexcept;
-  link::LinkSeen line_seen() const noexcept;
+  link::LinkStatistics link_statistics() const noexcept;
 
   Identification who_;
   control::Safety safety_;
@@ -164,7 +164,7 @@ class Program {
   link::CommandQueue queue_{100};
   control::Command held_;            // current command, including the host's changes
   signals::Tick command_begun_ = 0;  // start of the last period whose command was taken
-  signals::Tick obeyed_ = -1;        // `from` of the current command
+  signals::Tick applied_from_ = -1;  // `from` of the current command
   bool starts_ = false;              // a first command has come
   bool changed_ = false;
 
@@ -174,7 +174,7 @@ class Program {
   link::SequenceWindow window_;
   const link::Frame* frame_ = nullptr;
   link::Code code_ = link::Code::done;
-  const char* why_ = nullptr;
+  const char* refusal_ = nullptr;
   std::uint32_t value_ = 0;  // of the reply
   bool quiet_ = false;       // no reply to a message that is done
   std::uint32_t refused_ = 0, late_ = 0;
@@ -182,9 +182,9 @@ class Program {
   link::Configuration incoming_;
   std::uint32_t configuration_ = 0;  // crc32; 0: none
   std::uint32_t nonce_ = 0;
-  std::optional<link::WordReader> words_;
+  std::optional<link::ThesisByteReader> thesis_reader_;
   link::ThesisJoints thesis_;
-  link::WordStep step_;
+  link::ThesisByteResult step_;
   bool step_due_ = false;
 
   // sending
@@ -193,13 +193,13 @@ class Program {
   std::uint32_t dropped_ = 0;
   link::Telemetry telemetry_;
   std::uint8_t part_ = 0;
-  std::atomic<bool> speaking_ = false;  // telemetry_ is not completely sent yet
+  std::atomic<bool> telemetry_pending_ = false;  // telemetry_ is not completely sent yet
   bool identity_wanted_ = false, readings_wanted_ = false, log_wanted_ = false;
   std::size_t log_from_ = 0;
   link::Event event_;
   bool event_due_ = false;
-  control::BoardState told_ = control::BoardState::fault;
-  bool started_told_ = false;
+  control::BoardState reported_state_ = control::BoardState::fault;
+  bool start_reported_ = false;
 
   // edges of a run, oldest first
   std::array<signals::Edge, edges_kept> edge_;

@@ -57,7 +57,7 @@ TEST(Program, FramesToOtherBoardsAreNobodysBusiness) {
   Bench b;
   b.put(link::frame_of(link::ClearFault{}, {2, 0}));
   b.put(link::frame_of(link::ClearFault{}, {link::every_board, 0}));
-  EXPECT_TRUE(b.answers.empty());
+  EXPECT_TRUE(b.replies.empty());
   EXPECT_EQ(b.program.safety().state(), BoardState::fault);
   b.put(link::frame_of(link::Identify{}, {link::every_board, 0}));
   EXPECT_EQ(b.identities.size(), 1u);
@@ -86,7 +86,7 @@ TEST(Program, NothingMovesBeforeTwoDifferentFramesHaveArmedIt) {
   EXPECT_EQ(b.last(), Code::nonce);
   b.send(link::ArmFirst{b.crc});
   EXPECT_EQ(b.last(), Code::done);
-  const std::uint32_t number = b.answers.back().value;
+  const std::uint32_t number = b.replies.back().value;
   b.send(link::ArmSecond{number + 1, b.crc});
   EXPECT_EQ(b.last(), Code::nonce);
   EXPECT_EQ(b.program.safety().state(), BoardState::idle);
@@ -98,9 +98,9 @@ TEST(Program, NothingMovesBeforeTwoDifferentFramesHaveArmedIt) {
   b.configure(leg_configuration());
   EXPECT_EQ(b.last(), Code::state) << "armed";
   b.send(command_of(command, 0));
-  const std::size_t answers = b.answers.size();
+  const std::size_t replies = b.replies.size();
   b.send(command_of(command, 100));
-  EXPECT_EQ(b.answers.size(), answers) << "the next one may come before the run has begun";
+  EXPECT_EQ(b.replies.size(), replies) << "the next one may come before the run has begun";
   b.run(1);
   EXPECT_EQ(b.program.safety().state(), BoardState::running);
 }
@@ -110,10 +110,10 @@ TEST(Program, AConfigurationIsRefusedWholeAndTheOldOneStays) {
   b.configure(leg_configuration());
   const std::uint32_t good = b.crc;
   link::Configuration bad = leg_configuration();
-  bad.spine.timing.closing[50] = 2;
+  bad.joint_controller.timing.closing[50] = 2;
   b.configure(bad);
   EXPECT_EQ(b.last(), Code::configuration);
-  const link::Answer& answer = b.answers.back();
+  const link::Reply& answer = b.replies.back();
   EXPECT_NE(std::string(answer.text.data(), answer.letters).find("not monotone"),
             std::string::npos);
   b.send(link::Identify{});
@@ -138,7 +138,7 @@ TEST(Program, AFrameThatIsSentTwiceIsObeyedOnce) {
   EXPECT_EQ(b.last(), Code::done);
   b.run(100);
   EXPECT_EQ(b.telemetry.link.repeated, 1u);
-  EXPECT_EQ(b.answers.back().sequence, sequence);
+  EXPECT_EQ(b.replies.back().sequence, sequence);
   // A shutdown is the exception.
   b.put(link::frame_of(link::ShutDown{}, {1, sequence}));
   b.run(1);
@@ -164,17 +164,17 @@ TEST(Program, IsTheSupervisedControllerToTheBit) {
     };
     b.ready(c);
     b.send(link::EdgesWanted{true});
-    control::Supervisor alone(c.spine, c.limits);
+    control::Supervisor alone(c.joint_controller, c.limits);
     std::vector<signals::Edge> expected;
     Tick t = 0;
     const auto next_command = [&] {
-      command = control::any_command(commands, c.spine, false);
+      command = control::any_command(commands, c.joint_controller, false);
       b.send(command_of(command, t));
     };
-    b.told = [&] {
+    b.on_period = [&] {
       if (b.program.safety().state() == BoardState::armed) return;
       link::Telemetry here = b.telemetry;  // keeps fields that only the board has
-      here.seen = alone.seen();
+      here.controller = alone.state();
       here.supervised = alone.supervised();
       ASSERT_EQ(b.telemetry.tick, t);
       ASSERT_EQ(all_of(b.telemetry), all_of(here)) << t;
@@ -232,11 +232,11 @@ TEST(Program, GainsDutiesAndEnablingHoldUntilACommandSaysOtherwise) {
   b.run(50);
   b.send(link::SetFeedforward{control::hip, {40, 0, 0, 40}});
   b.run(260);
-  EXPECT_EQ(b.telemetry.seen.joint[control::hip].duties, (control::Duties{40, 0, 0, 40}));
+  EXPECT_EQ(b.telemetry.controller.joint[control::hip].duties, (control::Duties{40, 0, 0, 40}));
   b.send(link::Enable{1u << control::hip, false});
   b.run(200);
-  EXPECT_FALSE(b.telemetry.seen.joint[control::hip].enabled);
-  EXPECT_TRUE(b.telemetry.seen.joint[control::knee].enabled);
+  EXPECT_FALSE(b.telemetry.controller.joint[control::hip].enabled);
+  EXPECT_TRUE(b.telemetry.controller.joint[control::knee].enabled);
   b.send(link::SetGains{7, {}});
   EXPECT_EQ(b.last(), Code::value);
 }
@@ -300,7 +300,7 @@ TEST(Program, TheLogOfAFaultIsTheTelemetryBeforeIt) {
     return r;
   };
   Tick t = 0;
-  b.told = [&] { b.send(command_of(command, t)); };
+  b.on_period = [&] { b.send(command_of(command, t)); };
   b.send(command_of(command, 0));
   for (; t < 5'000; ++t) b.tick();
   lies_from = t;
@@ -382,9 +382,9 @@ TEST(Program, UnderstandsTheThesissBytesBetweenFrames) {
   b.run(150);
   const auto word = [&](const Bytes& bytes) {
     b.serve();
-    b.heard_bytes.clear();
+    b.received_bytes.clear();
     b.put(bytes);
-    return b.heard_bytes;
+    return b.received_bytes;
   };
   EXPECT_EQ(word({23}), Bytes{'F'});  // enableall
   EXPECT_EQ(word({31}), Bytes{'R'});
@@ -392,8 +392,8 @@ TEST(Program, UnderstandsTheThesissBytesBetweenFrames) {
   EXPECT_EQ(word({254}), Bytes{'B'});
   EXPECT_EQ(word({10}).size(), 2 * 7u + 1);
   b.run(200);
-  EXPECT_TRUE(b.telemetry.seen.joint[control::hip].enabled);
-  EXPECT_NE(b.telemetry.seen.joint[control::hip].angle_output, 0.0f) << "1800 of 1895 counts";
+  EXPECT_TRUE(b.telemetry.controller.joint[control::hip].enabled);
+  EXPECT_NE(b.telemetry.controller.joint[control::hip].angle_output, 0.0f) << "1800 of 1895 counts";
   EXPECT_EQ(word({255}).front(), 'F');
   b.run(1);
   EXPECT_EQ(b.program.safety().state(), BoardState::vent);

@@ -24,8 +24,8 @@ inline link::Configuration leg_configuration() {
 }
 
 struct NoTicks {
-  void keep_away() noexcept {}
-  void let_come() noexcept {}
+  void block() noexcept {}
+  void allow() noexcept {}
 };
 
 struct Bench {
@@ -54,15 +54,15 @@ struct Bench {
     std::array<std::uint8_t, 300> buffer;
     for (std::size_t n; (n = program.transmit(buffer)) > 0;) {
       std::span<const std::uint8_t> left(buffer.data(), n);
-      heard_bytes.insert(heard_bytes.end(), left.begin(), left.end());
+      received_bytes.insert(received_bytes.end(), left.begin(), left.end());
       while (!left.empty()) {
         left = left.subspan(decoder.push(left));
-        while (const link::Frame* f = decoder.next()) hear(*f);
+        while (const link::Frame* f = decoder.next()) receive_frame(*f);
       }
     }
   }
-  void hear(const link::Frame& f) {
-    if (link::Answer m; link::decode(f, m) == Code::done) answers.push_back(m);
+  void receive_frame(const link::Frame& f) {
+    if (link::Reply m; link::decode(f, m) == Code::done) replies.push_back(m);
     if (link::Identity m; link::decode(f, m) == Code::done) identities.push_back(m);
     if (link::Event m; link::decode(f, m) == Code::done) events.push_back(m);
     if (link::Edges m; link::decode(f, m) == Code::done)
@@ -77,14 +77,14 @@ struct Bench {
       if (on_telemetry) on_telemetry(*t);
     }
   }
-  Code last() const { return answers.empty() ? Code::type : answers.back().code; }
+  Code last() const { return replies.empty() ? Code::type : replies.back().code; }
 
   // --- the board ---
 
   void tick() {
     out = program.begin_tick([&] {
       serve();
-      if (told) told();
+      if (on_period) on_period();
     });
     if (const signals::Conversion* c = program.due()) {
       const std::uint8_t channel = c->channel.index;
@@ -113,7 +113,7 @@ struct Bench {
   }
   void arm() {
     send(link::ArmFirst{crc});
-    send(link::ArmSecond{answers.back().value, crc});
+    send(link::ArmSecond{replies.back().value, crc});
   }
   // Runs from power-up to an armed board.
   void ready(const link::Configuration& configuration = leg_configuration()) {
@@ -134,13 +134,13 @@ struct Bench {
   std::uint32_t crc = 0;
   std::function<void(Bytes&)> spoil;  // changes a frame on its way to the board
   std::function<signals::Reading(std::uint8_t channel, Tick run, signals::Reading)> reads;
-  std::function<void()> told;
+  std::function<void()> on_period;
   std::function<void(const link::Telemetry&)> on_telemetry;
 
   link::Decoder decoder;
   link::TelemetryJoiner joiner{100};
-  Bytes heard_bytes;
-  std::vector<link::Answer> answers;
+  Bytes received_bytes;
+  std::vector<link::Reply> replies;
   std::vector<link::Identity> identities;
   std::vector<link::Event> events;
   std::vector<signals::Edge> edges;

@@ -79,7 +79,7 @@ Overrides::Overrides(const Plan& plan) : settings_(gait::settings(plan)) {}
 
 void Overrides::apply(Desired& desired) const noexcept {
   for (std::size_t i = 0; i < settings_.size(); ++i)
-    if (slots_[i].given) value_of(settings_[i], desired) = slots_[i].value;
+    if (overrides_[i].given) value_of(settings_[i], desired) = overrides_[i].value;
 }
 
 }  // namespace sinew::gait

@@ -62,28 +62,28 @@ class Overrides {
   explicit Overrides(const Plan& plan);
 
   // Set or release a setting by its number, which must be below settings().size().
-  void set(std::size_t setting, double value) noexcept { slots_[setting] = {true, value}; }
-  void release(std::size_t setting) noexcept { slots_[setting].given = false; }
+  void set(std::size_t setting, double value) noexcept { overrides_[setting] = {true, value}; }
+  void release(std::size_t setting) noexcept { overrides_[setting].given = false; }
 
   // Return whether a setting overrides the plan, and the list of all settings.
-  bool given(std::size_t setting) const noexcept { return slots_[setting].given; }
+  bool given(std::size_t setting) const noexcept { return overrides_[setting].given; }
   const std::vector<Setting>& settings() const noexcept { return settings_; }
 
   // Replaces the plan's values by those that are set.
   void apply(Desired& desired) const noexcept;
 
   // The value of each setting, by its number. Trivially copyable.
-  struct Slot {
+  struct Override {
     bool given = false;
     double value = 0;
   };
-  using State = std::array<Slot, most>;
-  const State& state() const noexcept { return slots_; }
-  void restore(const State& state) noexcept { slots_ = state; }
+  using State = std::array<Override, most>;
+  const State& state() const noexcept { return overrides_; }
+  void restore(const State& state) noexcept { overrides_ = state; }
 
  private:
   std::vector<Setting> settings_;
-  State slots_{};
+  State overrides_{};
 };
 
 }  // namespace sinew::gait

@@ -34,18 +34,18 @@ GaitController::GaitController(const robot::Robot& robot, const Plan& plan, doub
   for (Phase& phase : plan_.phases) phase.joints.resize(robot_.joints.size());
 
   for (const std::string& name : plan_.sequence) {
-    Slot slot;
-    slot.phase = find_phase(plan_, name);
-    const Phase& phase = plan_.phases[static_cast<std::size_t>(slot.phase)];
-    slot.periods = periods(plan_, phase);
-    slot.steps = steps_of_s(plan_, phase);
-    slot.before = sequence_.empty() ? 0 : sequence_.back().before + sequence_.back().periods;
-    slot.measure = find_measure(robot, phase.until.measure);
+    ScheduledPhase scheduled;
+    scheduled.phase = find_phase(plan_, name);
+    const Phase& phase = plan_.phases[static_cast<std::size_t>(scheduled.phase)];
+    scheduled.periods = periods(plan_, phase);
+    scheduled.steps = steps_of_s(plan_, phase);
+    scheduled.before = sequence_.empty() ? 0 : sequence_.back().before + sequence_.back().periods;
+    scheduled.measure = find_measure(robot, phase.until.measure);
     for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
       const JointPlan& joint = plan_.joints[i];
-      slot.enabled[i] = joint.enabled && !listed(phase.disabled, joint.name);
+      scheduled.enabled[i] = joint.enabled && !listed(phase.disabled, joint.name);
     }
-    sequence_.push_back(slot);
+    sequence_.push_back(scheduled);
   }
   if (sequence_.empty()) return;
   const int step = sequence_.back().before + sequence_.back().periods;
@@ -65,7 +65,7 @@ const Desired& GaitController::update(const Measured& measured, std::int64_t per
 
 std::int64_t GaitController::planned_periods() const noexcept {
   if (desired_.stage == Stage::settling || sequence_.empty()) return 0;
-  const Slot &here = sequence_[position_], &last = sequence_.back();
+  const ScheduledPhase &here = sequence_[position_], &last = sequence_.back();
   const std::int64_t step = last.before + last.periods;
   return desired_.step * step + here.before + k_ - (sequence_[first_].before + first_k_);
 }
@@ -77,7 +77,7 @@ void GaitController::wait(const Measured& measured) noexcept {
 
 // Enters the next phase. Returns false if the last step is over. A leg that began within a step has
 // one more partial step.
-bool GaitController::go_on() noexcept {
+bool GaitController::enter_next_phase() noexcept {
   if (position_ + 1 < sequence_.size()) {
     enter(position_ + 1);
     return true;
@@ -108,7 +108,7 @@ void GaitController::advance(const Measured& measured) noexcept {
     const bool early = !over && ended(measured);
     if (over || early) {
       leave(early, measured);
-      if (!go_on()) return finish();
+      if (!enter_next_phase()) return finish();
     }
     if (is_back()) return finish();
   }
@@ -142,10 +142,10 @@ void GaitController::finish() noexcept {
 }
 
 bool GaitController::ended(const Measured& measured) const noexcept {
-  const Slot& slot = sequence_[position_];
-  if (slot.measure.kind == Measure::Kind::none) return false;
-  const Until& until = plan_.phases[static_cast<std::size_t>(slot.phase)].until;
-  const double now = value(slot.measure, measured);
+  const ScheduledPhase& scheduled = sequence_[position_];
+  if (scheduled.measure.kind == Measure::Kind::none) return false;
+  const Until& until = plan_.phases[static_cast<std::size_t>(scheduled.phase)].until;
+  const double now = value(scheduled.measure, measured);
   return until.is == Until::Is::above ? now > until.level : now < until.level;
 }
 

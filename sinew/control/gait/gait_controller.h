@@ -121,7 +121,7 @@ class GaitController {
 
  private:
   // A phase at its position in the sequence.
-  struct Slot {
+  struct ScheduledPhase {
     int phase = 0;    // position in Plan::phases
     int periods = 1;  // at most
     int before = 0;   // longest sum of the periods before it in the step
@@ -131,7 +131,7 @@ class GaitController {
   };
   void advance(const Measured&) noexcept;
   void wait(const Measured&) noexcept;
-  bool go_on() noexcept;
+  bool enter_next_phase() noexcept;
   bool is_back() const noexcept;
   void enter(std::size_t position) noexcept;
   void leave(bool early, const Measured&) noexcept;
@@ -148,7 +148,7 @@ class GaitController {
   robot::Robot robot_;
   robot::TwoLinks links_;
   bool leg_ = false;
-  std::vector<Slot> sequence_;
+  std::vector<ScheduledPhase> sequence_;
   std::int64_t settle_periods_ = 0;
   std::size_t first_ = 0;  // position in sequence_ at the start
   int first_k_ = 0;        // period within that phase

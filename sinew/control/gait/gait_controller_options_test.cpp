@@ -46,14 +46,14 @@ TEST(GaitController, DesiredAnglesKeepToTheirRange) {
   Plan free = test::walk(robot), kept = free;
   kept.joints[0].range = {260 * degree, 290 * degree};
   kept.joints[1].range = {300 * degree, 330 * degree};
-  GaitController any(robot, free), brain(robot, kept);
+  GaitController any(robot, free), controller(robot, kept);
   bool lower = false, inside = false;
   for (std::int64_t p = 0; p < 303; ++p) {
     any.update({}, p);
-    brain.update({}, p);
+    controller.update({}, p);
     for (std::size_t j = 0; j < 2; ++j) {
       const double range[] = {kept.joints[j].range[0], kept.joints[j].range[1]};
-      const double asked = any.desired().joint[j].angle, got = brain.desired().joint[j].angle;
+      const double asked = any.desired().joint[j].angle, got = controller.desired().joint[j].angle;
       ASSERT_NEAR(got, std::clamp(asked, range[0], range[1]), 1e-15);
       lower = lower || got < asked - degree || got > asked + degree;
       inside = inside || got == asked;
@@ -91,15 +91,15 @@ TEST(GaitController, TheMeasuredForceMovesThePathOfItsPhaseAlone) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[2].ground_force = {.desired = 20, .gain = 1e-3, .limit = 0.02};
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   const Measured light = standing(robot, 12);
-  brain.update(light, 100);
-  EXPECT_DOUBLE_EQ(brain.desired().foot.y, foot_at(plan.phases[0], 100.0 / 150).y);
-  brain.update(light, 200);
-  EXPECT_NEAR(brain.desired().foot.y, -13.5 * inch - 0.008, 1e-12);
-  const robot::Point aim =
-      robot::foot_position(links, brain.desired().joint[0].angle, brain.desired().joint[1].angle);
-  EXPECT_NEAR(aim.y, brain.desired().foot.y, 1e-12);
+  controller.update(light, 100);
+  EXPECT_DOUBLE_EQ(controller.desired().foot.y, foot_at(plan.phases[0], 100.0 / 150).y);
+  controller.update(light, 200);
+  EXPECT_NEAR(controller.desired().foot.y, -13.5 * inch - 0.008, 1e-12);
+  const robot::Point aim = robot::foot_position(links, controller.desired().joint[0].angle,
+                                                controller.desired().joint[1].angle);
+  EXPECT_NEAR(aim.y, controller.desired().foot.y, 1e-12);
 }
 
 // In comments of B.1: thetades[0] = 400 + 800 (y + 13.5), in counts and inches.
@@ -108,26 +108,26 @@ TEST(GaitController, TheCylinderFollowsTheFootsHeight) {
   Plan plan = test::walk(robot);
   plan.phases[0].cylinder = {
       .position = {}, .polynomial = {13.5 * inch, 1}, .of = CylinderPhase::Of::foot_y};
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   for (std::int64_t p = 0; p < 150; ++p) {
-    brain.update({}, p);
-    ASSERT_TRUE(brain.desired().cylinder.given);
-    const double counts = 400 + 800 * (brain.desired().foot.y / inch + 13.5);
-    ASSERT_NEAR(400 + 800 * brain.desired().cylinder.position / inch, counts, 1e-9);
+    controller.update({}, p);
+    ASSERT_TRUE(controller.desired().cylinder.given);
+    const double counts = 400 + 800 * (controller.desired().foot.y / inch + 13.5);
+    ASSERT_NEAR(400 + 800 * controller.desired().cylinder.position / inch, counts, 1e-9);
   }
   // The next phases have no position: it stays at that of s = 1, y = -13.2503 in.
   const double left = foot_at(plan.phases[0], 1).y + 13.5 * inch;
-  brain.update({}, 200);
-  EXPECT_NEAR(brain.desired().cylinder.position, left, 1e-15);
+  controller.update({}, 200);
+  EXPECT_NEAR(controller.desired().cylinder.position, left, 1e-15);
 }
 
 TEST(GaitController, TheCylinderGoesThroughAProfile) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[2].cylinder.position = {0, 0.05};
-  GaitController brain(robot, plan);
-  EXPECT_FALSE(brain.update({}, 100).cylinder.given);
-  EXPECT_NEAR(brain.update({}, 153 + 75).cylinder.position, 0.025, 1e-15);
+  GaitController controller(robot, plan);
+  EXPECT_FALSE(controller.update({}, 100).cylinder.given);
+  EXPECT_NEAR(controller.update({}, 153 + 75).cylinder.position, 0.025, 1e-15);
 }
 
 // Open loop lasts as long as its phase; inlet and exhaust of a chamber may be open together.
@@ -135,14 +135,14 @@ TEST(GaitController, TheCylinderOpenLoop) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[0].cylinder.feedforward = {.flexor_inlet = {0.2, 0.6}, .flexor_exhaust = {0.5}};
-  GaitController brain(robot, plan);
-  const DesiredCylinder& c = brain.update({}, 75).cylinder;
+  GaitController controller(robot, plan);
+  const DesiredCylinder& c = controller.update({}, 75).cylinder;
   EXPECT_TRUE(c.open_loop);
   EXPECT_FALSE(c.given);
   EXPECT_NEAR(c.up_inlet, 0.4, 1e-15);
   EXPECT_EQ(c.up_exhaust, 0.5);
   EXPECT_EQ(c.down_inlet + c.down_exhaust, 0);
-  EXPECT_FALSE(brain.update({}, 150).cylinder.open_loop);
+  EXPECT_FALSE(controller.update({}, 150).cylinder.open_loop);
 }
 
 // An ankle without muscles after the knee, a muscle over hip and knee, a knee without extensor.
@@ -165,9 +165,9 @@ TEST(GaitController, APassiveJointIsLeftAlone) {
   Plan plan = test::walk(robot);
   for (Phase& phase : plan.phases) phase.joints.clear();
   ASSERT_TRUE(contradictions(robot, plan).empty());
-  GaitController brain(robot, plan), leg(robot::test::leg(), test::walk(robot::test::leg()));
+  GaitController controller(robot, plan), leg(robot::test::leg(), test::walk(robot::test::leg()));
   for (std::int64_t p = 0; p < 303; ++p) {
-    const Desired& want = brain.update({}, p);
+    const Desired& want = controller.update({}, p);
     leg.update({}, p);
     for (std::size_t j = 0; j < 2; ++j)
       ASSERT_EQ(want.joint[j].angle, leg.desired().joint[j].angle);
@@ -180,14 +180,14 @@ TEST(GaitController, APassiveJointIsLeftAlone) {
 // Virtual work: the work of the tensions over a small turn equals that of the force on the foot.
 TEST(GaitController, GroundReactionOfAnyMuscles) {
   const robot::Robot robot = odd_machine();
-  const GaitController brain(robot, test::walk(robot));
+  const GaitController controller(robot, test::walk(robot));
   std::mt19937 random(11);
   std::uniform_real_distribution<double> pull(0, 150), bend(0.3, 2.5), any(0, turn);
   for (int i = 0; i < 200; ++i) {
     Measured m;
     m.angle = {any(random), turn - bend(random), 0};
     for (double& t : m.tension) t = pull(random);
-    const robot::Point force = brain.ground_reaction(m);
+    const robot::Point force = controller.ground_reaction(m);
     const double arm = inch;
     const std::array torque{arm * (m.tension[0] - m.tension[1]),
                             -arm * m.tension[2] + 0.5 * inch * m.tension[0]};

@@ -18,12 +18,12 @@ using test::inch;
 const robot::TwoLinks links{8.875 * inch, 6.25 * inch};
 
 // Returns the periods spent in each phase, by name, until the controller has finished.
-std::map<std::string, int> spent(GaitController& brain, const Measured& measured = {}) {
+std::map<std::string, int> spent(GaitController& controller, const Measured& measured = {}) {
   std::map<std::string, int> count;
   for (std::int64_t p = 0; p < 100000; ++p) {
-    const Desired& want = brain.update(measured, p);
+    const Desired& want = controller.update(measured, p);
     if (want.stage == Stage::finished) break;
-    const auto& phases = brain.plan().phases;
+    const auto& phases = controller.plan().phases;
     ++count[want.phase < 0 ? "settling" : phases[static_cast<std::size_t>(want.phase)].name];
   }
   return count;
@@ -31,15 +31,15 @@ std::map<std::string, int> spent(GaitController& brain, const Measured& measured
 
 TEST(GaitController, FourStepsOfTheText) {
   const robot::Robot robot = robot::test::leg();
-  GaitController brain(robot, test::walk(robot));
-  const auto count = spent(brain);
+  GaitController controller(robot, test::walk(robot));
+  const auto count = spent(controller);
   EXPECT_EQ(count.at("swing"), 4 * 150);
   EXPECT_EQ(count.at("foot_plant"), 4 * 3);
   EXPECT_EQ(count.at("propulsion"), 4 * 150);
-  EXPECT_EQ(brain.desired().step, 3);
-  EXPECT_TRUE(brain.desired().vent);
-  EXPECT_FALSE(brain.desired().joint[0].enabled);
-  EXPECT_EQ(brain.unreachable_periods(), 0);
+  EXPECT_EQ(controller.desired().step, 3);
+  EXPECT_TRUE(controller.desired().vent);
+  EXPECT_FALSE(controller.desired().joint[0].enabled);
+  EXPECT_EQ(controller.unreachable_periods(), 0);
 }
 
 // B.1: p[0] = -6.5 + timer * 0.01 * 9.5/1.5 for timer = 0 ... 150, and so on.
@@ -48,23 +48,23 @@ TEST(GaitController, LoopsOfTheCode) {
   Plan plan = test::walk(robot);
   plan.thesis_timing = true;
   plan.repeat = 1;
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
 
   std::int64_t p = 0;
   const auto expect_x = [&](double inches) {
-    EXPECT_NEAR(brain.update({}, p++).foot.x, inches * inch, 1e-15);
+    EXPECT_NEAR(controller.update({}, p++).foot.x, inches * inch, 1e-15);
   };
   for (int timer = 0; timer <= 150; ++timer) expect_x(-6.5 + timer * 0.01 * 9.5 / 1.5);
   for (int timer = 0; timer <= 1; ++timer) expect_x(3 - timer * 0.01 * 1.0 / 0.01);
   for (int timer = 0; timer <= 150; ++timer) expect_x(2.0 - (timer * 0.01) * 8.5 / 1.5);
-  EXPECT_EQ(brain.update({}, p).stage, Stage::finished);
+  EXPECT_EQ(controller.update({}, p).stage, Stage::finished);
 }
 
 TEST(GaitController, AnglesPutTheFootOnThePathWithTheThesissKnee) {
   const robot::Robot robot = robot::test::leg();
-  GaitController brain(robot, test::walk(robot));
+  GaitController controller(robot, test::walk(robot));
   for (std::int64_t p = 0; p < 303; ++p) {
-    const Desired& want = brain.update({}, p);
+    const Desired& want = controller.update({}, p);
     const robot::Point foot = robot::foot_position(links, want.joint[0].angle, want.joint[1].angle);
     ASSERT_NEAR(foot.x, want.foot.x, 2e-15);
     ASSERT_NEAR(foot.y, want.foot.y, 2e-15);
@@ -89,28 +89,28 @@ TEST(GaitController, SettlesWithItsJointsLeftAlone) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.settle = 0.6;
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   for (std::int64_t p = 0; p < 60; ++p) {
-    const Desired& want = brain.update({}, p);
+    const Desired& want = controller.update({}, p);
     ASSERT_EQ(want.stage, Stage::settling);
     ASSERT_FALSE(want.joint[0].enabled);
     ASSERT_EQ(want.joint[0].angle, robot.joints[0].rest_angle);
     ASSERT_EQ(want.phase, -1);
   }
-  EXPECT_EQ(brain.update({}, 60).progress, 0);
-  EXPECT_TRUE(brain.desired().joint[0].enabled);
+  EXPECT_EQ(controller.update({}, 60).progress, 0);
+  EXPECT_TRUE(controller.desired().joint[0].enabled);
 }
 
 TEST(GaitController, HoldsAtTheEndIfToldTo) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.finish = Plan::Finish::hold;
-  GaitController brain(robot, plan);
-  brain.update({}, 5000);
-  EXPECT_TRUE(brain.finished());
-  EXPECT_FALSE(brain.desired().vent);
-  EXPECT_TRUE(brain.desired().joint[0].enabled);
-  EXPECT_NEAR(brain.desired().foot.x, -6.5 * inch, 1e-15);
+  GaitController controller(robot, plan);
+  controller.update({}, 5000);
+  EXPECT_TRUE(controller.finished());
+  EXPECT_FALSE(controller.desired().vent);
+  EXPECT_TRUE(controller.desired().joint[0].enabled);
+  EXPECT_NEAR(controller.desired().foot.x, -6.5 * inch, 1e-15);
 }
 
 // Returns measurements of a standing foot: tensions for which [75] gives 5 N upwards.
@@ -130,8 +130,8 @@ Measured standing(const robot::Robot& robot, robot::Point force) {
 
 TEST(GaitController, GroundReactionFromTensions) {
   const robot::Robot robot = robot::test::leg();
-  const GaitController brain(robot, test::walk(robot));
-  const robot::Point force = brain.ground_reaction(standing(robot, {1.5, 5}));
+  const GaitController controller(robot, test::walk(robot));
+  const robot::Point force = controller.ground_reaction(standing(robot, {1.5, 5}));
   EXPECT_NEAR(force.x, 1.5, 1e-12);
   EXPECT_NEAR(force.y, 5, 1e-12);
 }
@@ -146,13 +146,13 @@ TEST(GaitController, APhaseEndsWhereTheFootStands) {
   GaitController never(robot, plan);
   EXPECT_EQ(spent(never, standing(robot, {0, 3})).at("foot_plant"), 30);  // latest end
 
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   std::int64_t p = 0;
-  for (; p < 150 + 7; ++p) brain.update(standing(robot, {0, 0}), p);
-  EXPECT_EQ(brain.desired().phase, 1);
-  brain.update(standing(robot, {0, 5}), p++);
-  EXPECT_EQ(brain.desired().phase, 2);
-  EXPECT_EQ(brain.desired().progress, 0);
+  for (; p < 150 + 7; ++p) controller.update(standing(robot, {0, 0}), p);
+  EXPECT_EQ(controller.desired().phase, 1);
+  controller.update(standing(robot, {0, 5}), p++);
+  EXPECT_EQ(controller.desired().phase, 2);
+  EXPECT_EQ(controller.desired().progress, 0);
 }
 
 TEST(GaitController, APhaseLastsAtLeastOnePeriod) {
@@ -160,8 +160,8 @@ TEST(GaitController, APhaseLastsAtLeastOnePeriod) {
   Plan plan = test::walk(robot);
   for (Phase& phase : plan.phases)
     phase.until = {.measure = "joint.hip.angle", .is = Until::Is::below, .level = 1};
-  GaitController brain(robot, plan);
-  const auto count = spent(brain);  // measured: 0 rad
+  GaitController controller(robot, plan);
+  const auto count = spent(controller);  // measured: 0 rad
   EXPECT_EQ(count.at("swing"), 4);
   EXPECT_EQ(count.at("foot_plant"), 4);
 }
@@ -171,10 +171,10 @@ TEST(GaitController, OutOfReachItAimsAtTheNearestPointAndCounts) {
   Plan plan = test::walk(robot);
   plan.phases[2].x.to = -9 * inch;
   plan.repeat = 2;
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   std::int64_t flagged = 0;
   for (std::int64_t p = 0; p < 606; ++p) {
-    const Desired& want = brain.update({}, p);
+    const Desired& want = controller.update({}, p);
     flagged += want.unreachable;
     const robot::Point aim = robot::foot_position(links, want.joint[0].angle, want.joint[1].angle);
     const robot::Inverse inv = robot::inverse(links, want.foot);
@@ -182,7 +182,7 @@ TEST(GaitController, OutOfReachItAimsAtTheNearestPointAndCounts) {
     ASSERT_NEAR(aim.y, inv.nearest.y, 1e-9);
   }
   EXPECT_GT(flagged, 0);
-  EXPECT_EQ(brain.unreachable_periods(), flagged);
+  EXPECT_EQ(controller.unreachable_periods(), flagged);
 }
 
 TEST(GaitController, WhatAPhaseChangesHoldsFromThenOn) {
@@ -191,13 +191,13 @@ TEST(GaitController, WhatAPhaseChangesHoldsFromThenOn) {
   plan.phases[0].joints[0].stiffness = {4, 2};     // a ramp
   plan.phases[1].joints[1].gains.angle = {0.002};  // from the plant on
   plan.phases[2].joints[1].gains.angle = {0.0015};
-  GaitController brain(robot, plan);
-  EXPECT_EQ(brain.update({}, 0).joint[1].gains.angle, robot.joints[1].gains.angle);
-  EXPECT_DOUBLE_EQ(brain.update({}, 75).joint[0].stiffness, 3);
-  EXPECT_DOUBLE_EQ(brain.update({}, 150).joint[0].stiffness, 2);  // s = 1 was reached
-  EXPECT_EQ(brain.desired().joint[1].gains.angle, 0.002);
-  EXPECT_EQ(brain.update({}, 303).joint[1].gains.angle, 0.0015);  // the second swing
-  EXPECT_DOUBLE_EQ(brain.desired().joint[0].stiffness, 4);
+  GaitController controller(robot, plan);
+  EXPECT_EQ(controller.update({}, 0).joint[1].gains.angle, robot.joints[1].gains.angle);
+  EXPECT_DOUBLE_EQ(controller.update({}, 75).joint[0].stiffness, 3);
+  EXPECT_DOUBLE_EQ(controller.update({}, 150).joint[0].stiffness, 2);  // s = 1 was reached
+  EXPECT_EQ(controller.desired().joint[1].gains.angle, 0.002);
+  EXPECT_EQ(controller.update({}, 303).joint[1].gains.angle, 0.0015);  // the second swing
+  EXPECT_DOUBLE_EQ(controller.desired().joint[0].stiffness, 4);
 }
 
 TEST(GaitController, OpenLoopAndDisabledLastAsLongAsTheirPhase) {
@@ -205,15 +205,15 @@ TEST(GaitController, OpenLoopAndDisabledLastAsLongAsTheirPhase) {
   Plan plan = test::walk(robot);
   plan.phases[0].joints[0].feedforward.flexor_inlet = {1};
   plan.phases[0].disabled = {"knee"};
-  GaitController brain(robot, plan);
-  brain.update({}, 10);
-  EXPECT_TRUE(brain.desired().joint[0].open_loop);
-  EXPECT_EQ(brain.desired().joint[0].flexor_inlet, 1);
-  EXPECT_EQ(brain.desired().joint[0].extensor_exhaust, 0);
-  EXPECT_FALSE(brain.desired().joint[1].enabled);
-  brain.update({}, 150);
-  EXPECT_FALSE(brain.desired().joint[0].open_loop);
-  EXPECT_TRUE(brain.desired().joint[1].enabled);
+  GaitController controller(robot, plan);
+  controller.update({}, 10);
+  EXPECT_TRUE(controller.desired().joint[0].open_loop);
+  EXPECT_EQ(controller.desired().joint[0].flexor_inlet, 1);
+  EXPECT_EQ(controller.desired().joint[0].extensor_exhaust, 0);
+  EXPECT_FALSE(controller.desired().joint[1].enabled);
+  controller.update({}, 150);
+  EXPECT_FALSE(controller.desired().joint[0].open_loop);
+  EXPECT_TRUE(controller.desired().joint[1].enabled);
 }
 
 TEST(GaitController, JointAnglesNeedNoFoot) {
@@ -223,11 +223,11 @@ TEST(GaitController, JointAnglesNeedNoFoot) {
   turn.joints[0].angle = {278 * degree, 298 * degree};
   plan.phases = {turn};
   plan.sequence = {"turn"};
-  GaitController brain(robot, plan);
-  brain.update({}, 50);
-  EXPECT_NEAR(brain.desired().joint[0].angle, 288 * degree, 1e-14);
-  EXPECT_EQ(brain.desired().joint[1].angle, robot.joints[1].rest_angle);
-  EXPECT_FALSE(brain.desired().has_foot);
+  GaitController controller(robot, plan);
+  controller.update({}, 50);
+  EXPECT_NEAR(controller.desired().joint[0].angle, 288 * degree, 1e-14);
+  EXPECT_EQ(controller.desired().joint[1].angle, robot.joints[1].rest_angle);
+  EXPECT_FALSE(controller.desired().has_foot);
 }
 
 TEST(GaitController, NoHeapInUpdate) {
@@ -239,14 +239,14 @@ TEST(GaitController, NoHeapInUpdate) {
   plan.phases[2].ground_force = {.desired = 20, .gain = 1e-3, .limit = 0.01};
   plan.phases[2].cylinder = {{}, {0.3, 1}, CylinderPhase::Of::foot_y};
   plan.joints[1].range = {5, 6};
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   const Measured measured = standing(robot, {0, 0});
   sinew::test::allocations = 0;
   sinew::test::counting = true;
-  for (std::int64_t p = 0; p < 2000; ++p) brain.update(measured, p);
+  for (std::int64_t p = 0; p < 2000; ++p) controller.update(measured, p);
   sinew::test::counting = false;
   EXPECT_EQ(sinew::test::allocations, 0);
-  EXPECT_TRUE(brain.finished());
+  EXPECT_TRUE(controller.finished());
 }
 
 }  // namespace

@@ -6,9 +6,10 @@
 namespace sinew::gait {
 
 Legs::Legs(const robot::Robot& robot, const Plan& plan) : parts_(robot::legs_of(robot)) {
-  brains_.reserve(parts_.size());
+  controllers_.reserve(parts_.size());
   for (std::size_t l = 0; l < parts_.size(); ++l)
-    brains_.emplace_back(robot::only_leg(robot, l), plan_of_leg(plan, parts_[l]), parts_[l].offset);
+    controllers_.emplace_back(robot::only_leg(robot, l), plan_of_leg(plan, parts_[l]),
+                              parts_[l].offset);
 }
 
 Measured Legs::of_leg(const MachineMeasured& machine, const robot::LegParts& leg) const noexcept {
@@ -27,31 +28,32 @@ Measured Legs::of_leg(const MachineMeasured& machine, const robot::LegParts& leg
 
 void Legs::update(const MachineMeasured& machine, std::int64_t period_index) noexcept {
   std::int64_t slowest = std::numeric_limits<std::int64_t>::max();
-  for (const GaitController& brain : brains_)
-    if (!brain.finished()) slowest = std::min(slowest, brain.planned_periods());
-  for (std::size_t l = 0; l < brains_.size(); ++l) {
-    GaitController& brain = brains_[l];
-    brain.update(of_leg(machine, parts_[l]), period_index, brain.planned_periods() > slowest);
+  for (const GaitController& controller : controllers_)
+    if (!controller.finished()) slowest = std::min(slowest, controller.planned_periods());
+  for (std::size_t l = 0; l < controllers_.size(); ++l) {
+    GaitController& controller = controllers_[l];
+    controller.update(of_leg(machine, parts_[l]), period_index,
+                      controller.planned_periods() > slowest);
   }
 }
 
 Legs::State Legs::state() const noexcept {
   State out{};
-  for (std::size_t l = 0; l < brains_.size(); ++l) out[l] = brains_[l].state();
+  for (std::size_t l = 0; l < controllers_.size(); ++l) out[l] = controllers_[l].state();
   return out;
 }
 
 void Legs::restore(const State& state) noexcept {
-  for (std::size_t l = 0; l < brains_.size(); ++l) brains_[l].restore(state[l]);
+  for (std::size_t l = 0; l < controllers_.size(); ++l) controllers_[l].restore(state[l]);
 }
 
 bool Legs::finished() const noexcept {
-  return std::ranges::all_of(brains_, [](const GaitController& b) { return b.finished(); });
+  return std::ranges::all_of(controllers_, [](const GaitController& b) { return b.finished(); });
 }
 
 std::int64_t Legs::unreachable_periods() const noexcept {
   std::int64_t sum = 0;
-  for (const GaitController& b : brains_) sum += b.unreachable_periods();
+  for (const GaitController& b : controllers_) sum += b.unreachable_periods();
   return sum;
 }
 

@@ -31,10 +31,10 @@ class Legs {
   void update(const MachineMeasured& machine, std::int64_t period_index) noexcept;
 
   // Return the number of legs, and a leg's parts, gait controller and setpoints.
-  std::size_t count() const noexcept { return brains_.size(); }
+  std::size_t count() const noexcept { return controllers_.size(); }
   const robot::LegParts& parts(std::size_t leg) const noexcept { return parts_[leg]; }
-  const GaitController& brain(std::size_t leg) const noexcept { return brains_[leg]; }
-  const Desired& desired(std::size_t leg) const noexcept { return brains_[leg].desired(); }
+  const GaitController& controller(std::size_t leg) const noexcept { return controllers_[leg]; }
+  const Desired& desired(std::size_t leg) const noexcept { return controllers_[leg].desired(); }
 
   // Everything that the next setpoints depend on, apart from the plan and future measurements; for
   // legs that do not exist, the default. Trivially copyable.
@@ -50,7 +50,7 @@ class Legs {
   Measured of_leg(const MachineMeasured& machine, const robot::LegParts& leg) const noexcept;
 
   std::vector<robot::LegParts> parts_;
-  std::vector<GaitController> brains_;
+  std::vector<GaitController> controllers_;
 };
 
 }  // namespace sinew::gait

@@ -24,7 +24,7 @@ MachineMeasured at_rest(const robot::Robot& robot) {
 
 std::string phase_of(const Legs& legs, std::size_t leg) {
   const int phase = legs.desired(leg).phase;
-  return phase < 0 ? "" : legs.brain(leg).plan().phases[static_cast<std::size_t>(phase)].name;
+  return phase < 0 ? "" : legs.controller(leg).plan().phases[static_cast<std::size_t>(phase)].name;
 }
 
 // One leg alone has the setpoints of its controller, for all measurements.
@@ -32,7 +32,7 @@ TEST(Legs, OneLegIsItsBrain) {
   const robot::Robot robot = robot::test::leg();
   const Plan plan = test::walk(robot);
   Legs legs(robot, plan);
-  GaitController brain(robot, plan);
+  GaitController controller(robot, plan);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(0, 6);
   ASSERT_EQ(legs.count(), 1u);
@@ -42,11 +42,11 @@ TEST(Legs, OneLegIsItsBrain) {
     for (std::size_t j = 0; j < 2; ++j) m.angle[j] = machine.angle[j] = any(random);
     for (std::size_t i = 0; i < 4; ++i) m.tension[i] = machine.tension[i] = 20 * any(random);
     legs.update(machine, k);
-    const Desired& want = brain.update(m, k);
+    const Desired& want = controller.update(m, k);
     for (std::size_t j = 0; j < 2; ++j)
       ASSERT_EQ(legs.desired(0).joint[j].angle, want.joint[j].angle);
     ASSERT_EQ(legs.desired(0).phase, want.phase);
-    ASSERT_EQ(legs.finished(), brain.finished());
+    ASSERT_EQ(legs.finished(), controller.finished());
   }
 }
 
@@ -97,7 +97,7 @@ TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
     ASSERT_LT(k, step);
   }
   EXPECT_EQ(k - 1, 150 + 3);  // as if the swing had taken its full time
-  EXPECT_EQ(legs.brain(0).planned_periods(), legs.brain(1).planned_periods());
+  EXPECT_EQ(legs.controller(0).planned_periods(), legs.controller(1).planned_periods());
 
   // The right knee's angle is the right leg's measure.
   Legs others(robot, plan);
@@ -113,7 +113,7 @@ TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
 TEST(Legs, GroundReactionOfEachLeg) {
   const robot::Robot robot = antiphase(), one = robot::test::leg();
   Legs legs(robot, test::walk(robot));
-  const GaitController brain(one, test::walk(one));
+  const GaitController controller(one, test::walk(one));
   MachineMeasured m;
   Measured left, right;
   m.angle = {5.2, 5.0, 4.9, 5.3};
@@ -121,10 +121,10 @@ TEST(Legs, GroundReactionOfEachLeg) {
   left.angle = {5.2, 5.0}, right.angle = {4.9, 5.3};
   left.tension = {10, 60, 20, 40}, right.tension = {15, 90, 30, 35};
   const auto reaction = [&](std::size_t leg) {
-    return legs.brain(leg).ground_reaction(leg == 0 ? left : right);
+    return legs.controller(leg).ground_reaction(leg == 0 ? left : right);
   };
-  EXPECT_EQ(reaction(0).y, brain.ground_reaction(left).y);
-  EXPECT_EQ(reaction(1).x, brain.ground_reaction(right).x);
+  EXPECT_EQ(reaction(0).y, controller.ground_reaction(left).y);
+  EXPECT_EQ(reaction(1).x, controller.ground_reaction(right).x);
   EXPECT_NE(reaction(0).y, reaction(1).y);
 }
 

@@ -282,7 +282,7 @@ std::string point(robot::Point p) {
 }
 
 // A stretch of s in which the foot path is out of reach, and its worst point.
-struct Stretch {
+struct UnreachableSection {
   double from = 0, to = 0;
   double worst_s = 0, worst = 0;  // [m] beyond the reach
   robot::Point target;
@@ -302,7 +302,7 @@ struct Stretch {
 
 void check_reach(const robot::TwoLinks& leg, const Plan& plan, const Phase& phase, List& out) {
   const int steps = steps_of_s(plan, phase);
-  Stretch stretch;
+  UnreachableSection section;
   bool inside = true;
 
   for (int k = 0; k <= steps; ++k) {
@@ -311,22 +311,22 @@ void check_reach(const robot::TwoLinks& leg, const Plan& plan, const Phase& phas
     const robot::Inverse inverse = robot::inverse(leg, target);
 
     if (inverse.reached()) {
-      if (!inside) out.push_back(stretch.contradiction(phase.name));
+      if (!inside) out.push_back(section.contradiction(phase.name));
       inside = true;
       continue;
     }
-    if (inside) stretch = Stretch{s, s, s, -1, {}, {}};
+    if (inside) section = UnreachableSection{s, s, s, -1, {}, {}};
     inside = false;
-    stretch.to = s;
+    section.to = s;
     const double beyond = std::hypot(target.x - inverse.nearest.x, target.y - inverse.nearest.y);
-    if (!(beyond <= stretch.worst)) {
-      stretch.worst_s = s;
-      stretch.worst = beyond;
-      stretch.target = target;
-      stretch.inverse = inverse;
+    if (!(beyond <= section.worst)) {
+      section.worst_s = s;
+      section.worst = beyond;
+      section.target = target;
+      section.inverse = inverse;
     }
   }
-  if (!inside) out.push_back(stretch.contradiction(phase.name));
+  if (!inside) out.push_back(section.contradiction(phase.name));
 }
 
 }  // namespace

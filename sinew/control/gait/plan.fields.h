@@ -7,8 +7,8 @@
 #include <string>
 
 #include "sinew/control/gait/plan.h"
-#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
+#include "sinew/units/report_conflict.h"
 
 namespace sinew::gait {
 
@@ -106,8 +106,8 @@ void fields(Visitor& v, Until& until) {
   // Without a measure a level has no unit; only the missing measure is reported.
   const std::string_view unit = unit_of(until.measure);
   if (unit.empty() && !until.measure.empty()) {
-    units::complain(v, "measure", "\"" + until.measure + "\"", "a measured quantity",
-                    std::string(measures));
+    units::report_conflict(v, "measure", "\"" + until.measure + "\"", "a measured quantity",
+                           std::string(measures));
     std::string level;
     v.text({.name = "level", .optional = true, .doc = "that ends the phase"}, level);
     return;
@@ -264,7 +264,7 @@ void fields(Visitor& v, Change& c) {
   // Without a key the value has no unit; only the missing key is reported.
   const std::string_view unit = unit_of_setting(c.key);
   if (unit.empty() && !c.key.empty()) {
-    units::complain(v, "key", "\"" + c.key + "\"", std::string(keys));
+    units::report_conflict(v, "key", "\"" + c.key + "\"", std::string(keys));
     std::string value;
     v.text({.name = "value", .optional = true, .doc = "in place of the plan's"}, value);
     return;

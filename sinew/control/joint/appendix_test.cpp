@@ -159,7 +159,7 @@ constexpr std::array<int, 3> thesis_joint = {1, 2, 0};  // of the test leg's hip
 class Duel {
  public:
   Duel(const JointControllerConfig& config, std::uint32_t seed, bool open_loop = false)
-      : spine_(config), random_(seed), open_loop_(open_loop) {
+      : controller_(config), random_(seed), open_loop_(open_loop) {
     isr_.timing = config.timing;
     isr_.forward_flexor = static_cast<short>(config.joint[cylinder].feedforward.flexor_inlet);
     isr_.forward_extensor = static_cast<short>(config.joint[cylinder].feedforward.extensor_inlet);
@@ -182,15 +182,15 @@ class Duel {
  private:
   void step(Tick t) {
     std::set<std::pair<int, bool>> ours;
-    for (const signals::Edge& e : spine_.edges(t)) ours.emplace(e.valve.index, e.open);
+    for (const signals::Edge& e : controller_.edges(t)) ours.emplace(e.valve.index, e.open);
     std::set<std::pair<int, bool>> theirs;
     for (const auto& [valve, open] : isr_.output()) theirs.emplace(our_valve(valve), open);
     ASSERT_EQ(ours, theirs) << "tick " << t;
     edges += static_cast<int>(ours.size());
 
-    if (const signals::Conversion* c = spine_.due(t))
-      spine_.take(*c, {static_cast<std::uint16_t>(reading_[c->channel.index]), signals::Status::ok},
-                  t);
+    if (const signals::Conversion* c = controller_.due(t))
+      controller_.take(
+          *c, {static_cast<std::uint16_t>(reading_[c->channel.index]), signals::Status::ok}, t);
     const int law = isr_.convert([&](int channel) { return reading_[channel]; });
     if (law >= 0) compare(law, t);
     isr_.valves();
@@ -199,11 +199,11 @@ class Duel {
   void compare(int law, Tick t) {
     ++laws;
     const std::size_t j = law == 0 ? cylinder : law == 1 ? hip : knee;
-    const Duties& d = spine_.seen().joint[j].duties;
+    const Duties& d = controller_.state().joint[j].duties;
     const std::array<short, 4> ours = {
         static_cast<short>(d.flexor_inlet), static_cast<short>(d.flexor_exhaust),
         static_cast<short>(d.extensor_inlet), static_cast<short>(d.extensor_exhaust)};
-    ASSERT_EQ(spine_.seen().joint[j].law_at, t);
+    ASSERT_EQ(controller_.state().joint[j].law_at, t);
     Interrupt::Joint& theirs = isr_.joint[law];
     if (ours == theirs.duty) return;
     // The stiffness is a float on both sides, but is rounded differently.
@@ -256,7 +256,7 @@ class Duel {
   }
 
   void hand_down() {
-    spine_.command(command_);
+    controller_.command(command_);
     for (int j = 0; j < 3; ++j) {
       const JointCommand& c = command_.joint[j];
       Interrupt::Joint& theirs = isr_.joint[thesis_joint[j]];
@@ -273,7 +273,7 @@ class Duel {
     }
   }
 
-  JointController spine_;
+  JointController controller_;
   Interrupt isr_;
   Command command_;
   std::array<int, 7> reading_{};

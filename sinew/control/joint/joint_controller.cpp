@@ -28,7 +28,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
   if (config.startup_vent > 0)
     vent(0, config.startup_vent, Phase::startup, Phase::running);
   else
-    seen_.phase = Phase::running;
+    state_.phase = Phase::running;
 }
 
 Scan JointController::scan() const noexcept {
@@ -77,14 +77,14 @@ const Conversion* JointController::begins(Tick t) const noexcept {
   return nullptr;
 }
 
-void JointController::missed(Tick) noexcept { ++seen_.missed; }
+void JointController::missed(Tick) noexcept { ++state_.missed; }
 
 // --- readings -----------------------------------------------------------------------------------
 
 void JointController::take(const Conversion& conversion, Reading reading, Tick t) noexcept {
   store(conversion.channel, reading, t);
   for (std::size_t j = 0; j < config_.joints; ++j)
-    if (config_.joint[j].law_tick == conversion.read && seen_.phase == Phase::running)
+    if (config_.joint[j].law_tick == conversion.read && state_.phase == Phase::running)
       run_law(j, t);
 }
 
@@ -92,23 +92,23 @@ void JointController::take(const Conversion& conversion, Reading reading, Tick t
 void JointController::store(Channel channel, Reading reading, Tick t) noexcept {
   const std::size_t i = channel.index;
   if (i >= max_channels) return;
-  seen_.reading[i].status = reading.status;
+  state_.reading[i].status = reading.status;
   if (reading.status == Status::ok) {
     // the range that the laws' integers are designed for
-    seen_.reading[i].counts =
+    state_.reading[i].counts =
         reading.counts < signals::max_counts ? reading.counts : signals::max_counts;
-    answered_[i] = true;
+    has_good_reading_[i] = true;
     bad_in_a_row_[i] = 0;
     return;
   }
-  if (reading.status == Status::late) ++seen_.late;
-  if (reading.status == Status::invalid) ++seen_.invalid;
+  if (reading.status == Status::late) ++state_.late;
+  if (reading.status == Status::invalid) ++state_.invalid;
 
   const bool sticky = reading.status == Status::ended || reading.status == Status::fault;
   const bool too_many = ++bad_in_a_row_[i] == config_.hold_limit;
-  if ((sticky || too_many) && seen_.fault == Status::ok) {
-    seen_.fault = reading.status;
-    seen_.fault_channel = channel;
+  if ((sticky || too_many) && state_.fault == Status::ok) {
+    state_.fault = reading.status;
+    state_.fault_channel = channel;
     shut_down(t);
   }
 }
@@ -139,7 +139,7 @@ void JointController::find_partners() noexcept {
 }
 
 void JointController::schedule(std::size_t j, Tick t) noexcept {
-  const JointSeen& seen = seen_.joint[j];
+  const JointState& state = state_.joint[j];
   const auto cycle = [&](std::size_t valve, std::int32_t duty, bool enabled) {
     const std::size_t d = static_cast<std::size_t>(duty);
     const Pulse pulse{config_.timing.closing[d], config_.timing.opening[d], config_.period,
@@ -154,14 +154,14 @@ void JointController::schedule(std::size_t j, Tick t) noexcept {
     }
     const Partner& partner = partner_[j][side];
     const bool enabled =
-        seen.enabled ||
-        (partner.joint >= 0 && seen_.joint[static_cast<std::size_t>(partner.joint)].enabled);
+        state.enabled ||
+        (partner.joint >= 0 && state_.joint[static_cast<std::size_t>(partner.joint)].enabled);
     const bool flexes = side == flexor;
     cycle(flexes ? flexor_inlet : extensor_inlet,
-          flexes ? seen.duties.flexor_inlet : seen.duties.extensor_inlet, enabled);
+          flexes ? state.duties.flexor_inlet : state.duties.extensor_inlet, enabled);
     if (!has_exhausts(config_.joint[j].kind)) continue;
     cycle(flexes ? flexor_exhaust : extensor_exhaust,
-          flexes ? seen.duties.flexor_exhaust : seen.duties.extensor_exhaust, enabled);
+          flexes ? state.duties.flexor_exhaust : state.duties.extensor_exhaust, enabled);
   }
   find_next_edge_of(j);
   find_first_edge();
@@ -175,8 +175,8 @@ void JointController::schedule_openings(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j) {
     if (!is_timed(config_.joint[j].kind)) continue;
     JointCommand& command = command_.joint[j];
-    seen_.joint[j].enabled = config_.joint[j].enabled && command.enabled;
-    const bool opens = seen_.joint[j].enabled && command.timed && period_start_ == t;
+    state_.joint[j].enabled = config_.joint[j].enabled && command.enabled;
+    const bool opens = state_.joint[j].enabled && command.timed && period_start_ == t;
     const Openings openings = opens ? command.openings : Openings{};
     valves_[j][flexor_inlet].open(t, config_.period, openings.inlet);
     if (has_exhausts(config_.joint[j].kind))
@@ -188,13 +188,13 @@ void JointController::schedule_openings(Tick t) noexcept {
 }
 
 void JointController::schedule_level(std::size_t j, Side side, Tick t) noexcept {
-  const JointSeen& seen = seen_.joint[j];
-  const std::uint16_t level = side == flexor ? seen.levels.flexor : seen.levels.extensor;
-  levels_[j][side] = {t + config_.output_delay, seen.enabled ? level : std::uint16_t{0}};
+  const JointState& state = state_.joint[j];
+  const std::uint16_t level = side == flexor ? state.levels.flexor : state.levels.extensor;
+  levels_[j][side] = {t + config_.output_delay, state.enabled ? level : std::uint16_t{0}};
 }
 
 void JointController::shut_down(Tick t) noexcept {
-  if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
+  if (state_.phase == Phase::venting || state_.phase == Phase::off) return;
   vent(t + config_.output_delay, config_.shutdown_vent, Phase::venting, Phase::off);
 }
 
@@ -203,11 +203,11 @@ void JointController::skip_to(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j)
     for (PulseTrain& train : valves_[j]) {
       if (train.next() >= t) continue;
-      if (seen_.phase == Phase::running || !train.next_opens()) {
+      if (state_.phase == Phase::running || !train.next_opens()) {
         train.shut(t);
         continue;
       }
-      const bool startup = seen_.phase == Phase::startup;
+      const bool startup = state_.phase == Phase::startup;
       phase_end_ = t + (startup ? config_.startup_vent : config_.shutdown_vent);
       train.pulse(t, phase_end_);
     }
@@ -230,9 +230,9 @@ void JointController::shut_valves(std::size_t j, Tick t) noexcept {
 }
 
 void JointController::trip(Status status, Channel channel, Tick t) noexcept {
-  if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
-  seen_.fault = status;
-  seen_.fault_channel = channel;
+  if (state_.phase == Phase::venting || state_.phase == Phase::off) return;
+  state_.fault = status;
+  state_.fault_channel = channel;
   const std::uint32_t lasts = config_.shutdown_vent > 0 ? config_.shutdown_vent : fault_vent;
   vent(t, lasts, Phase::venting, Phase::off);
 }
@@ -253,7 +253,7 @@ void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase a
       if (has_exhausts(kind))
         valves[side == flexor ? flexor_exhaust : extensor_exhaust].pulse(from, from + ticks);
     }
-  seen_.phase = during;
+  state_.phase = during;
   next_phase_ = after;
   phase_end_ = from + ticks;
   find_next_edge();
@@ -261,15 +261,15 @@ void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase a
 
 // Returns the edges of a tick. It is the first call of a tick and also changes the phase.
 std::span<const Edge> JointController::edges(Tick t) noexcept {
-  if (t >= phase_end_) seen_.phase = next_phase_;
-  if (timed_ && seen_.phase == Phase::running) {
+  if (t >= phase_end_) state_.phase = next_phase_;
+  if (timed_ && state_.phase == Phase::running) {
     locate(t);
     schedule_openings(t);
   }
   out_count_ = 0;
   if (next_edge_ <= t) {
-    hand_out(t);
-    hand_out_levels(t);
+    collect_edges(t);
+    collect_levels(t);
     for (std::size_t j = 0; j < config_.joints; ++j)
       if (next_of_[j] <= t) find_next_edge_of(j);
     find_first_edge();
@@ -278,7 +278,7 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
 }
 
 // Outputs closing edges first, so that a muscle is never open to supply and room at once.
-void JointController::hand_out(Tick t) noexcept {
+void JointController::collect_edges(Tick t) noexcept {
   static_assert(max_joints * valves_per_joint <= 32);
   std::uint32_t opening = 0;
   for (std::size_t j = 0; j < config_.joints; ++j) {
@@ -308,7 +308,7 @@ void JointController::drive(std::size_t j, std::size_t valve, Tick t) noexcept {
       exhaust ? Edge{t, m.exhaust, open != m.exhaust_inverted} : Edge{t, m.inlet, open};
 }
 
-void JointController::hand_out_levels(Tick t) noexcept {
+void JointController::collect_levels(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j) {
     if (next_of_[j] > t) continue;
     for (const Side side : sides) {
@@ -352,14 +352,14 @@ constexpr float ticks_per_second = 10'000.0f;
 // period.
 bool JointController::ready(std::size_t j, Tick t) const noexcept {
   const JointConfig& joint = config_.joint[j];
-  const Tick last = seen_.joint[j].law_at;
+  const Tick last = state_.joint[j].law_at;
   if (joint.kind == JointKind::passive || is_timed(joint.kind)) return false;
   if (last >= 0 && t - last < config_.period) return false;
   for (const Channel c : readings_of(joint))
-    if (!answered_[c.index]) return false;
+    if (!has_good_reading_[c.index]) return false;
   for (const Partner& partner : partner_[j])
     if (partner.joint >= 0 &&
-        !answered_[config_.joint[static_cast<std::size_t>(partner.joint)].angle.index])
+        !has_good_reading_[config_.joint[static_cast<std::size_t>(partner.joint)].angle.index])
       return false;
   return true;
 }
@@ -368,19 +368,19 @@ void JointController::run_law(std::size_t j, Tick t) noexcept {
   if (!ready(j, t)) return;
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
-  JointSeen& seen = seen_.joint[j];
-  seen_.overruns += config_.laws_overrun;
+  JointState& state = state_.joint[j];
+  state_.overruns += config_.laws_overrun;
 
   // A cylinder's law has no speed, as in the thesis's code.
-  seen.velocity = joint.kind == JointKind::cylinder ? 0.0f : speed(j);
+  state.velocity = joint.kind == JointKind::cylinder ? 0.0f : speed(j);
   const Exact u_theta =
-      angle_law(command.gains, joint.flexion, command.angle, counts(joint.angle), seen.velocity);
+      angle_law(command.gains, joint.flexion, command.angle, counts(joint.angle), state.velocity);
 
-  seen.law_at = t;
-  seen.enabled = joint.enabled && command.enabled;
-  seen.angle_output = u_theta.high;
+  state.law_at = t;
+  state.enabled = joint.enabled && command.enabled;
+  state.angle_output = u_theta.high;
   if (joint.kind == JointKind::cylinder)
-    seen.duties = cylinder_duties(joint.feedforward, u_theta, config_.truncation);
+    state.duties = cylinder_duties(joint.feedforward, u_theta, config_.truncation);
   else if (joint.kind == JointKind::regulated)
     set_levels(j, stiffness_output(j), u_theta);
   else
@@ -437,26 +437,26 @@ Stiffness JointController::measured_stiffness(std::size_t j) const noexcept {
 Exact JointController::stiffness_output(std::size_t j) noexcept {
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
-  JointSeen& seen = seen_.joint[j];
+  JointState& state = state_.joint[j];
   if (joint.stiffness_source == StiffnessSource::none) return {};
 
   const Stiffness now = measured_stiffness(j);
-  if (now.valid) seen.stiffness = now.value;
-  seen.pole_held = !now.valid;
-  seen.pole_holds += seen.pole_held;
+  if (now.valid) state.stiffness = now.value;
+  state.pole_held = !now.valid;
+  state.pole_holds += state.pole_held;
 
-  const Exact u_k = stiffness_law(command.gains.stiffness, command.stiffness, seen.stiffness);
-  seen.stiffness_output = u_k.high;
+  const Exact u_k = stiffness_law(command.gains.stiffness, command.stiffness, state.stiffness);
+  state.stiffness_output = u_k.high;
   return u_k;
 }
 
 // Sets the duties; those of an absent muscle are 0.
 void JointController::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   const JointConfig& joint = config_.joint[j];
-  asked_[j] = asked(u_k, u_theta, config_.truncation);
-  Duties& duties = seen_.joint[j].duties;
-  duties = joint.kind == JointKind::three_way ? three_way_duties(joint.bias, asked_[j])
-                                              : to_duties(asked_[j], config_.dead_band);
+  signed_duties_[j] = signed_duties(u_k, u_theta, config_.truncation);
+  Duties& duties = state_.joint[j].duties;
+  duties = joint.kind == JointKind::three_way ? three_way_duties(joint.bias, signed_duties_[j])
+                                              : to_duties(signed_duties_[j], config_.dead_band);
   if (!joint.flexor.present) duties.flexor_inlet = duties.flexor_exhaust = 0;
   if (!joint.extensor.present) duties.extensor_inlet = duties.extensor_exhaust = 0;
 }
@@ -465,35 +465,35 @@ void JointController::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexce
 void JointController::set_levels(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
-  JointSeen& seen = seen_.joint[j];
+  JointState& state = state_.joint[j];
   RegulatorInput in{.bias = static_cast<float>(joint.bias),
                     .u_k = clamped(u_k.high, law_limit),
                     .u_theta = clamped(u_theta.high, law_limit)};
-  if (seen.enabled && !command.open_loop) {
+  if (state.enabled && !command.open_loop) {
     const std::int32_t error =
         joint.flexion * (clamped(command.angle, -angle_limit, angle_limit) - counts(joint.angle));
     in.angle_step = joint.regulator.angle_integral * static_cast<float>(error);
     if (joint.stiffness_source != StiffnessSource::none)
       in.stiffness_step = joint.regulator.stiffness_integral *
-                          (clamped(command.stiffness, stiffness_limit) - seen.stiffness);
+                          (clamped(command.stiffness, stiffness_limit) - state.stiffness);
   } else {
     regulator_[j] = {};
   }
-  seen.levels = regulate(regulator_[j], in);
-  if (!joint.flexor.present) seen.levels.flexor = 0;
-  if (!joint.extensor.present) seen.levels.extensor = 0;
+  state.levels = regulate(regulator_[j], in);
+  if (!joint.flexor.present) state.levels.flexor = 0;
+  if (!joint.extensor.present) state.levels.extensor = 0;
 }
 
 void JointController::open_loop(std::size_t j) noexcept {
   const JointConfig& joint = config_.joint[j];
-  JointSeen& seen = seen_.joint[j];
-  seen.duties = open_loop_duties(command_.joint[j].duties, joint.kind);
-  asked_[j] = {seen.duties.flexor_inlet - seen.duties.flexor_exhaust,
-               seen.duties.extensor_inlet - seen.duties.extensor_exhaust};
+  JointState& state = state_.joint[j];
+  state.duties = open_loop_duties(command_.joint[j].duties, joint.kind);
+  signed_duties_[j] = {state.duties.flexor_inlet - state.duties.flexor_exhaust,
+                       state.duties.extensor_inlet - state.duties.extensor_exhaust};
   if (joint.kind == JointKind::regulated) {
-    seen.levels = {level_of(static_cast<float>(seen.duties.flexor_inlet)),
-                   level_of(static_cast<float>(seen.duties.extensor_inlet))};
-    seen.duties = {};
+    state.levels = {level_of(static_cast<float>(state.duties.flexor_inlet)),
+                    level_of(static_cast<float>(state.duties.extensor_inlet))};
+    state.duties = {};
   }
 }
 
@@ -506,19 +506,19 @@ void JointController::share_duties(std::size_t j) noexcept {
     const auto of = [](const Pair& pair, Side s) {
       return s == flexor ? pair.flexor : pair.extensor;
     };
-    const auto wish = [&](std::size_t joint, Side s) {
-      return seen_.joint[joint].enabled ? of(asked_[joint], s) : 0;
+    const auto duty_of = [&](std::size_t joint, Side s) {
+      return state_.joint[joint].enabled ? of(signed_duties_[joint], s) : 0;
     };
     const std::int32_t duty =
-        shared_duty(muscle(j, side).share, wish(j, side), muscle(other, partner.side).share,
-                    wish(other, partner.side), config_.truncation);
+        shared_duty(muscle(j, side).share, duty_of(j, side), muscle(other, partner.side).share,
+                    duty_of(other, partner.side), config_.truncation);
     const Duties both = to_duties({duty, duty}, config_.dead_band);
     const auto put = [&](Duties& duties, Side s) {
       (s == flexor ? duties.flexor_inlet : duties.extensor_inlet) = both.flexor_inlet;
       (s == flexor ? duties.flexor_exhaust : duties.extensor_exhaust) = both.flexor_exhaust;
     };
-    put(seen_.joint[j].duties, side);
-    put(seen_.joint[other].duties, partner.side);
+    put(state_.joint[j].duties, side);
+    put(state_.joint[other].duties, partner.side);
   }
 }
 

@@ -5,7 +5,7 @@
 //
 //   Tick t = 0;
 //   for (; t < end; t = controller.next_event(t)) {
-//     if (controller.starts_period(t)) controller.command(gait.update(controller.seen(), t));
+//     if (controller.starts_period(t)) controller.command(gait.update(controller.state(), t));
 //     for (const Edge& e : controller.edges(t)) port.drive(e);
 //     if (const Conversion* c = controller.due(t))
 //       controller.take(*c, port.read(c->channel, t), t);
@@ -30,7 +30,7 @@
 #include "sinew/control/joint/exact.h"
 #include "sinew/control/joint/laws.h"
 #include "sinew/control/joint/pulse_train.h"
-#include "sinew/control/joint/seen.h"
+#include "sinew/control/joint/state.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/tick.h"
 
@@ -68,13 +68,13 @@ class JointController {
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
 
   // Return the state, and the configuration that it was constructed from.
-  const Seen& seen() const noexcept { return seen_; }
+  const ControllerState& state() const noexcept { return state_; }
   const JointControllerConfig& config() const noexcept { return config_; }
 
   // Counts a tick that the clock missed. Its events are still processed.
   void missed(signals::Tick t) noexcept;
 
-  // Vents, then shuts all valves; the loop continues until seen().phase is `off`.
+  // Vents, then shuts all valves; the loop continues until state().phase is `off`.
   void shut_down(signals::Tick t) noexcept;
 
   // --- for a supervisor (control/supervise); to be called before edges(t) ---
@@ -115,7 +115,7 @@ class JointController {
   // time and readings
   void locate(signals::Tick t) noexcept;
   void store(signals::Channel, signals::Reading, signals::Tick t) noexcept;
-  std::int32_t counts(signals::Channel c) const noexcept { return seen_.reading[c.index].counts; }
+  std::int32_t counts(signals::Channel c) const noexcept { return state_.reading[c.index].counts; }
 
   // laws
   bool ready(std::size_t joint, signals::Tick t) const noexcept;
@@ -137,23 +137,23 @@ class JointController {
   void schedule_openings(signals::Tick t) noexcept;
   void schedule_level(std::size_t joint, Side side, signals::Tick t) noexcept;
   void vent(signals::Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept;
-  void hand_out(signals::Tick t) noexcept;
+  void collect_edges(signals::Tick t) noexcept;
   void drive(std::size_t joint, std::size_t valve, signals::Tick t) noexcept;
-  void hand_out_levels(signals::Tick t) noexcept;
+  void collect_levels(signals::Tick t) noexcept;
   void find_next_edge() noexcept;
   void find_next_edge_of(std::size_t joint) noexcept;
   void find_first_edge() noexcept;
 
   JointControllerConfig config_;
   Command command_;
-  Seen seen_;
+  ControllerState state_;
 
   // Laws
   std::array<VelocityState, max_joints> velocity_;
   std::array<RegulatorState, max_joints> regulator_;
-  std::array<Pair, max_joints> asked_;  // signed duties of the last law [%]
+  std::array<Pair, max_joints> signed_duties_;  // signed duties of the last law [%]
   std::array<std::uint32_t, max_channels> bad_in_a_row_{};
-  std::array<bool, max_channels> answered_{};  // had a good reading
+  std::array<bool, max_channels> has_good_reading_{};  // had a good reading
 
   // Time
   signals::Tick period_start_ = 0;

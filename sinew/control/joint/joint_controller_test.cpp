@@ -70,32 +70,33 @@ struct Event {
 
 struct Trace {
   std::vector<Event> edges;
-  std::vector<Seen> seen;  // at each period's start
+  std::vector<ControllerState> states;  // at each period's start
   int visited = 0;
 };
 
-Trace run(JointController& spine, const World& world, Tick end, bool every_tick = false) {
+Trace run(JointController& controller, const World& world, Tick end, bool every_tick = false) {
   Trace trace;
-  for (Tick t = 0; t < end; t = every_tick ? t + 1 : spine.next_event(t)) {
+  for (Tick t = 0; t < end; t = every_tick ? t + 1 : controller.next_event(t)) {
     ++trace.visited;
-    if (t % spine.scan().period == 0) {
-      trace.seen.push_back(spine.seen());
-      spine.command(world.command(spine.config(), t));
+    if (t % controller.scan().period == 0) {
+      trace.states.push_back(controller.state());
+      controller.command(world.command(controller.config(), t));
     }
-    for (const signals::Edge& e : spine.edges(t)) {
+    for (const signals::Edge& e : controller.edges(t)) {
       EXPECT_EQ(e.at, t);
       trace.edges.push_back({e.at, e.valve.index, e.open});
     }
-    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, world.read(c->channel, t), t);
-    world.interfere(spine, t);
+    if (const signals::Conversion* c = controller.due(t))
+      controller.take(*c, world.read(c->channel, t), t);
+    world.interfere(controller, t);
   }
   return trace;
 }
 
 Trace run(const JointControllerConfig& config, const World& world, Tick end,
           bool every_tick = false) {
-  JointController spine(config);
-  return run(spine, world, end, every_tick);
+  JointController controller(config);
+  return run(controller, world, end, every_tick);
 }
 
 JointControllerConfig leg_with(const signals::ValveTiming& timing, std::uint16_t delay = 1) {
@@ -105,7 +106,7 @@ JointControllerConfig leg_with(const signals::ValveTiming& timing, std::uint16_t
   return config;
 }
 
-bool same(const Seen& a, const Seen& b) {
+bool same(const ControllerState& a, const ControllerState& b) {
   for (std::size_t j = 0; j < max_joints; ++j)
     if (a.joint[j].duties != b.joint[j].duties || a.joint[j].stiffness != b.joint[j].stiffness ||
         a.joint[j].law_at != b.joint[j].law_at || a.joint[j].pole_holds != b.joint[j].pole_holds)
@@ -128,9 +129,9 @@ TEST(JointController, NextEventSkipsOnlyEmptyTicks) {
       const Trace jumps = run(config, world, 60'000), all = run(config, world, 60'000, true);
       ASSERT_EQ(jumps.edges, all.edges);
       ASSERT_GT(jumps.edges.size(), 300u);
-      ASSERT_EQ(jumps.seen.size(), all.seen.size());
-      for (std::size_t i = 0; i < all.seen.size(); ++i)
-        ASSERT_TRUE(same(jumps.seen[i], all.seen[i])) << i;
+      ASSERT_EQ(jumps.states.size(), all.states.size());
+      for (std::size_t i = 0; i < all.states.size(); ++i)
+        ASSERT_TRUE(same(jumps.states[i], all.states[i])) << i;
       ASSERT_LT(jumps.visited, all.visited / 5);
     }
 }
@@ -138,9 +139,9 @@ TEST(JointController, NextEventSkipsOnlyEmptyTicks) {
 TEST(JointController, VisitsPeriodsAndConversionsWithoutValves) {
   JointControllerConfig config = test_leg();
   config.joints = 0;
-  JointController spine(config);
+  JointController controller(config);
   std::vector<Tick> ticks;
-  for (Tick t = 0; t < 200; t = spine.next_event(t)) ticks.push_back(t);
+  for (Tick t = 0; t < 200; t = controller.next_event(t)) ticks.push_back(t);
   EXPECT_EQ(ticks,
             (std::vector<Tick>{0, 1, 3, 5, 7, 9, 11, 13, 100, 101, 103, 105, 107, 109, 111, 113}));
 }
@@ -182,8 +183,8 @@ TEST(JointController, InletAndExhaustAreNeverOpenTogether) {
 TEST(JointController, StartupVentsThenRuns) {
   JointControllerConfig config = test_leg();
   config.startup_vent = 250;
-  JointController spine(config);
-  const Trace trace = run(spine, {.commands = false}, 1000);
+  JointController controller(config);
+  const Trace trace = run(controller, {.commands = false}, 1000);
   const std::vector<Event> vent = {{0, 1, true},    {0, 3, true},    {0, 5, true},
                                    {0, 7, true},    {0, 9, true},    {0, 11, true},
                                    {250, 1, false}, {250, 3, false}, {250, 5, false},
@@ -191,10 +192,10 @@ TEST(JointController, StartupVentsThenRuns) {
   ASSERT_GE(trace.edges.size(), vent.size());
   EXPECT_TRUE(std::equal(vent.begin(), vent.end(), trace.edges.begin()));
   for (std::size_t i = vent.size(); i < trace.edges.size(); ++i) EXPECT_GT(trace.edges[i].at, 301);
-  EXPECT_EQ(trace.seen[2].phase, Phase::startup);
-  EXPECT_EQ(trace.seen[3].phase, Phase::running);
-  EXPECT_EQ(trace.seen[3].joint[hip].law_at, -1);
-  EXPECT_EQ(trace.seen[4].joint[hip].law_at, 309);
+  EXPECT_EQ(trace.states[2].phase, Phase::startup);
+  EXPECT_EQ(trace.states[3].phase, Phase::running);
+  EXPECT_EQ(trace.states[3].joint[hip].law_at, -1);
+  EXPECT_EQ(trace.states[4].joint[hip].law_at, 309);
 }
 
 // Expects inlets shut and exhausts open from tick `at` on, all shut `vent` later, then no edges.
@@ -222,96 +223,96 @@ TEST(JointController, ShutDownVentsThenShuts) {
   for (const std::uint32_t startup : {0, 6000})
     for (const Tick at : {0, 5009, 5010, 5050, 5108, 7313}) {
       config.startup_vent = startup;
-      JointController spine(config);
+      JointController controller(config);
       const World world{.interfere = [at](JointController& s, Tick t) {
         if (t >= at && t < at + 1000) s.shut_down(t);  // a repeated request changes nothing
       }};
-      const Trace trace = run(spine, world, 20'000, true);
+      const Trace trace = run(controller, world, 20'000, true);
       expect_safe_after(trace, at, 3000);
-      EXPECT_EQ(spine.seen().phase, Phase::off);
-      EXPECT_EQ(spine.seen().fault, Status::ok);
+      EXPECT_EQ(controller.state().phase, Phase::off);
+      EXPECT_EQ(controller.state().fault, Status::ok);
     }
 }
 
 TEST(JointController, FaultAndEndLeadToTheSafeState) {
   for (const Status status : {Status::fault, Status::ended}) {
-    JointController spine(test_leg());
+    JointController controller(test_leg());
     const World world{.commands = false};
-    const Trace before = run(spine, world, 5000);
-    EXPECT_EQ(spine.seen().phase, Phase::running);
-    spine.take({{4}, 8, 9}, {123, status}, 5009);
-    EXPECT_EQ(spine.seen().phase, Phase::venting);
-    EXPECT_EQ(spine.seen().fault, status);
-    EXPECT_EQ(spine.seen().fault_channel.index, 4);
-    EXPECT_NE(spine.seen().reading[4].counts, 123);
-    EXPECT_LT(spine.seen().joint[hip].law_at, 5009);
-    EXPECT_EQ(spine.next_event(5009), 5010);
-    for (const signals::Edge& e : spine.edges(5010)) EXPECT_EQ(e.open, e.valve.index % 2 == 1);
+    const Trace before = run(controller, world, 5000);
+    EXPECT_EQ(controller.state().phase, Phase::running);
+    controller.take({{4}, 8, 9}, {123, status}, 5009);
+    EXPECT_EQ(controller.state().phase, Phase::venting);
+    EXPECT_EQ(controller.state().fault, status);
+    EXPECT_EQ(controller.state().fault_channel.index, 4);
+    EXPECT_NE(controller.state().reading[4].counts, 123);
+    EXPECT_LT(controller.state().joint[hip].law_at, 5009);
+    EXPECT_EQ(controller.next_event(5009), 5010);
+    for (const signals::Edge& e : controller.edges(5010)) EXPECT_EQ(e.open, e.valve.index % 2 == 1);
   }
 }
 
 // --- readings -----------------------------------------------------------------------------------
 
 TEST(JointController, BadReadingsHoldTheLastGoodOnes) {
-  JointController spine(test_leg());
-  run(spine, {.commands = false}, 1000);
-  const std::uint16_t good = spine.seen().reading[1].counts;
-  spine.take({{1}, 2, 3}, {7, Status::late}, 1003);
-  spine.take({{1}, 2, 3}, {7, Status::invalid}, 1103);
-  EXPECT_EQ(spine.seen().reading[1].counts, good);
-  EXPECT_EQ(spine.seen().reading[1].status, Status::invalid);
-  EXPECT_EQ(spine.seen().late, 1u);
-  EXPECT_EQ(spine.seen().invalid, 1u);
-  EXPECT_EQ(spine.seen().phase, Phase::running);
-  spine.take({{1}, 2, 3}, {60'000, Status::ok}, 1203);  // limited to 12 bits
-  EXPECT_EQ(spine.seen().reading[1].counts, 4095);
-  spine.missed(1203);
-  EXPECT_EQ(spine.seen().missed, 1u);
+  JointController controller(test_leg());
+  run(controller, {.commands = false}, 1000);
+  const std::uint16_t good = controller.state().reading[1].counts;
+  controller.take({{1}, 2, 3}, {7, Status::late}, 1003);
+  controller.take({{1}, 2, 3}, {7, Status::invalid}, 1103);
+  EXPECT_EQ(controller.state().reading[1].counts, good);
+  EXPECT_EQ(controller.state().reading[1].status, Status::invalid);
+  EXPECT_EQ(controller.state().late, 1u);
+  EXPECT_EQ(controller.state().invalid, 1u);
+  EXPECT_EQ(controller.state().phase, Phase::running);
+  controller.take({{1}, 2, 3}, {60'000, Status::ok}, 1203);  // limited to 12 bits
+  EXPECT_EQ(controller.state().reading[1].counts, 4095);
+  controller.missed(1203);
+  EXPECT_EQ(controller.state().missed, 1u);
 }
 
 TEST(JointController, HoldLimitEndsTheRun) {
   JointControllerConfig config = test_leg();
   config.hold_limit = 3;
-  JointController spine(config);
-  run(spine, {.commands = false}, 1000);
-  for (const Tick t : {1003, 1103}) spine.take({{1}, 2, 3}, {0, Status::late}, t);
-  spine.take({{1}, 2, 3}, {0, Status::ok}, 1203);
-  for (const Tick t : {1303, 1403}) spine.take({{1}, 2, 3}, {0, Status::late}, t);
-  EXPECT_EQ(spine.seen().phase, Phase::running);
-  spine.take({{1}, 2, 3}, {0, Status::late}, 1503);
-  EXPECT_EQ(spine.seen().phase, Phase::venting);
-  EXPECT_EQ(spine.seen().fault, Status::late);
+  JointController controller(config);
+  run(controller, {.commands = false}, 1000);
+  for (const Tick t : {1003, 1103}) controller.take({{1}, 2, 3}, {0, Status::late}, t);
+  controller.take({{1}, 2, 3}, {0, Status::ok}, 1203);
+  for (const Tick t : {1303, 1403}) controller.take({{1}, 2, 3}, {0, Status::late}, t);
+  EXPECT_EQ(controller.state().phase, Phase::running);
+  controller.take({{1}, 2, 3}, {0, Status::late}, 1503);
+  EXPECT_EQ(controller.state().phase, Phase::venting);
+  EXPECT_EQ(controller.state().fault, Status::late);
 }
 
 TEST(JointController, NoLawBeforeItsChannelsAnswered) {
-  JointController spine(test_leg());
-  for (Tick t = 0; t < 1000; t = spine.next_event(t)) {
-    spine.edges(t);
-    const signals::Conversion* c = spine.due(t);
-    if (c) spine.take(*c, {2000, c->channel.index == 3 ? Status::late : Status::ok}, t);
+  JointController controller(test_leg());
+  for (Tick t = 0; t < 1000; t = controller.next_event(t)) {
+    controller.edges(t);
+    const signals::Conversion* c = controller.due(t);
+    if (c) controller.take(*c, {2000, c->channel.index == 3 ? Status::late : Status::ok}, t);
   }
-  EXPECT_EQ(spine.seen().joint[hip].law_at, -1);
-  EXPECT_EQ(spine.seen().joint[knee].law_at, 913);
+  EXPECT_EQ(controller.state().joint[hip].law_at, -1);
+  EXPECT_EQ(controller.state().joint[knee].law_at, 913);
 }
 
 TEST(JointController, StiffnessIsHeldNearThePole) {
-  JointController spine(test_leg());
+  JointController controller(test_leg());
   const auto period = [&](Tick start, std::uint16_t angle) {
-    for (Tick t = start; t < start + 100; t = spine.next_event(t)) {
-      spine.edges(t);
-      if (const signals::Conversion* c = spine.due(t))
-        spine.take(*c, {c->channel.index == 1 ? angle : std::uint16_t{1000}, Status::ok}, t);
+    for (Tick t = start; t < start + 100; t = controller.next_event(t)) {
+      controller.edges(t);
+      if (const signals::Conversion* c = controller.due(t))
+        controller.take(*c, {c->channel.index == 1 ? angle : std::uint16_t{1000}, Status::ok}, t);
     }
-    return spine.seen().joint[hip];
+    return controller.state().joint[hip];
   };
-  const JointSeen rest = period(0, 1895);
+  const JointState rest = period(0, 1895);
   EXPECT_NEAR(rest.stiffness, 2 * 33 * 1000 / 2917.0, 0.01);
   EXPECT_FALSE(rest.pole_held);
-  const JointSeen held = period(100, 1895 + 500);  // 48 counts from the pole
+  const JointState held = period(100, 1895 + 500);  // 48 counts from the pole
   EXPECT_TRUE(held.pole_held);
   EXPECT_EQ(held.stiffness, rest.stiffness);
   EXPECT_EQ(held.pole_holds, 1u);
-  const JointSeen again = period(200, 1895 + 300);
+  const JointState again = period(200, 1895 + 300);
   EXPECT_FALSE(again.pole_held);
   EXPECT_GT(again.stiffness, rest.stiffness);
 }
@@ -321,22 +322,23 @@ TEST(JointController, StiffnessIsHeldNearThePole) {
 TEST(JointController, EachJointIsEnabledOnItsOwn) {
   JointControllerConfig config = test_leg();
   config.joint[cylinder].enabled = false;  // permanently
-  JointController spine(config);
+  JointController controller(config);
   Command command = rest_command(config);
   command.joint[knee].enabled = command.joint[cylinder].enabled = true;
   for (JointCommand& c : command.joint) c.open_loop = true, c.duties = {30, 0, 0, 40};
   bool knee_moved = false;
-  for (Tick t = 0; t < 2000; t = spine.next_event(t)) {
-    if (spine.starts_period(t)) spine.command(command);
-    for (const signals::Edge& e : spine.edges(t)) {
+  for (Tick t = 0; t < 2000; t = controller.next_event(t)) {
+    if (controller.starts_period(t)) controller.command(command);
+    for (const signals::Edge& e : controller.edges(t)) {
       EXPECT_TRUE(e.valve.index == 4 || e.valve.index == 7);
       knee_moved = true;
     }
-    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, {1500, Status::ok}, t);
+    if (const signals::Conversion* c = controller.due(t))
+      controller.take(*c, {1500, Status::ok}, t);
   }
   EXPECT_TRUE(knee_moved);
-  EXPECT_EQ(spine.seen().joint[hip].duties, (Duties{30, 0, 0, 40}));  // computed, not driven
-  EXPECT_FALSE(spine.seen().joint[hip].enabled);
+  EXPECT_EQ(controller.state().joint[hip].duties, (Duties{30, 0, 0, 40}));  // computed, not driven
+  EXPECT_FALSE(controller.state().joint[hip].enabled);
 }
 
 // --- configuration, heap ------------------------------------------------------------------------
@@ -370,13 +372,14 @@ TEST(JointController, NeverAllocates) {
   config.startup_vent = 300;
   test::allocations = 0;
   test::counting = true;
-  JointController spine(config);
+  JointController controller(config);
   std::size_t edges = 0;
-  for (Tick t = 0; t < 100'000; t = spine.next_event(t)) {
-    if (spine.starts_period(t)) spine.command(world.command(config, t));
-    edges += spine.edges(t).size();
-    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, world.read(c->channel, t), t);
-    if (t == 90'000) spine.shut_down(t);
+  for (Tick t = 0; t < 100'000; t = controller.next_event(t)) {
+    if (controller.starts_period(t)) controller.command(world.command(config, t));
+    edges += controller.edges(t).size();
+    if (const signals::Conversion* c = controller.due(t))
+      controller.take(*c, world.read(c->channel, t), t);
+    if (t == 90'000) controller.shut_down(t);
   }
   test::counting = false;
   EXPECT_EQ(test::allocations, 0);

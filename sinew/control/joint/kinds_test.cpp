@@ -89,7 +89,7 @@ TEST(StiffnessSource, NoneNeedsNoTension) {
   for (JointCommand& c : bench.command.joint) c.stiffness = 40;
   bench.reading[1] = 1895 - 400;
   bench.run(20);
-  const JointSeen& seen = bench.spine.seen().joint[hip];
+  const JointState& seen = bench.controller.state().joint[hip];
   EXPECT_EQ(seen.stiffness_output, 0);
   EXPECT_EQ(seen.duties, (Duties{14, 0, 0, 14}));  // 0.035 x 400, cut
   EXPECT_NEAR(bench.open_share(0, 10), 0.14, 1e-9);
@@ -114,8 +114,8 @@ TEST(Velocity, IsSeenAndCountsInTheLaw) {
     bench.command.joint[hip].gains.velocity = 0.02f;
     for (int i = 0; i < 20; ++i)
       bench.reading[1] = static_cast<std::uint16_t>(1895 + 3 * i), bench.run(1);
-    EXPECT_NEAR(bench.spine.seen().joint[hip].velocity, 300, 1e-3);
-    const Duties& d = bench.spine.seen().joint[hip].duties;
+    EXPECT_NEAR(bench.controller.state().joint[hip].velocity, 300, 1e-3);
+    const Duties& d = bench.controller.state().joint[hip].duties;
     EXPECT_NEAR(d.flexor_exhaust, 6, 1);
     EXPECT_NEAR(d.extensor_inlet, 6, 1);
   }
@@ -136,16 +136,16 @@ TEST(DeadBand, ShutsWhatIsBelowIt) {
   }));
   bench.reading[1] = 1895 - 400;  // 14 %
   bench.run(20);
-  EXPECT_EQ(bench.spine.seen().joint[hip].duties, Duties{});
+  EXPECT_EQ(bench.controller.state().joint[hip].duties, Duties{});
 }
 
 TEST(Overruns, AreTheLawsThatTakeTooLong) {
   Bench bench(leg_with([](JointControllerConfig& c) { c.laws_overrun = true; }));
   bench.run(10);
-  EXPECT_EQ(bench.spine.seen().overruns, 30u);  // three joints
+  EXPECT_EQ(bench.controller.state().overruns, 30u);  // three joints
   Bench quick(test_leg());
   quick.run(10);
-  EXPECT_EQ(quick.spine.seen().overruns, 0u);
+  EXPECT_EQ(quick.controller.state().overruns, 0u);
 }
 
 // The edges are the same, except for the levels of the exhausts.
@@ -190,7 +190,7 @@ TEST(ThreeWay, DutySetsTheMeanAndTheDifference) {
   Bench bench(three_way_leg());
   bench.reading[1] = 1895 - 400;  // U_theta = 14 %
   bench.run(20);
-  EXPECT_EQ(bench.spine.seen().joint[hip].duties, (Duties{54, 0, 26, 0}));
+  EXPECT_EQ(bench.controller.state().joint[hip].duties, (Duties{54, 0, 26, 0}));
   EXPECT_NEAR(bench.open_share(0, 10), 0.54, 1e-9);
   EXPECT_NEAR(bench.open_share(2, 10), 0.26, 1e-9);
 }
@@ -202,9 +202,9 @@ TEST(ThreeWay, NeverDrivesAnExhaustAndVentsByShutting) {
     for (std::uint16_t& r : bench.reading) r = static_cast<std::uint16_t>(random() % 4096);
     bench.run(1);
   }
-  bench.spine.shut_down(bench.now - 1);
+  bench.controller.shut_down(bench.now - 1);
   bench.run(150);
-  EXPECT_EQ(bench.spine.seen().phase, Phase::off);
+  EXPECT_EQ(bench.controller.state().phase, Phase::off);
   std::array<bool, 4> open{};
   for (const Edge& e : bench.edges) {
     ASSERT_EQ(e.valve.index % 2, 0);
@@ -225,20 +225,20 @@ JointControllerConfig timed_actuator() {
 }
 
 // Returns the edges in two periods of a controller that receives a command in the first one.
-std::vector<Edge> edges_of(JointController& spine, Tick first_visited) {
-  Command command = rest_command(spine.config());
+std::vector<Edge> edges_of(JointController& controller, Tick first_visited) {
+  Command command = rest_command(controller.config());
   command.joint[hip].enabled = command.joint[hip].timed = true;
   command.joint[hip].openings = {.inlet = {20, 100}, .exhaust = {0, 10}};
-  spine.command(command);
+  controller.command(command);
   std::vector<Edge> out;
-  for (Tick t = first_visited; t < 200; t = spine.next_event(t))
-    for (const Edge& e : spine.edges(t)) out.push_back(e);
+  for (Tick t = first_visited; t < 200; t = controller.next_event(t))
+    for (const Edge& e : controller.edges(t)) out.push_back(e);
   return out;
 }
 
 TEST(Timed, ValvesOpenWhenTheHostHasItAndOnce) {
-  JointController spine(timed_actuator());
-  const std::vector<Edge> edges = edges_of(spine, 0);
+  JointController controller(timed_actuator());
+  const std::vector<Edge> edges = edges_of(controller, 0);
   ASSERT_EQ(edges.size(), 4u) << "nothing opens in the second period, which has no command";
   const Edge expected[] = {{0, {1}, true}, {10, {1}, false}, {20, {0}, true}, {100, {0}, false}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -246,15 +246,15 @@ TEST(Timed, ValvesOpenWhenTheHostHasItAndOnce) {
     EXPECT_EQ(edges[i].valve.index, expected[i].valve.index);
     EXPECT_EQ(edges[i].open, expected[i].open);
   }
-  spine.shut_down(199);
-  const auto vents = spine.edges(200);
+  controller.shut_down(199);
+  const auto vents = controller.edges(200);
   ASSERT_EQ(vents.size(), 1u);
   EXPECT_TRUE(vents[0].open && vents[0].valve.index == 1) << "the exhaust alone";
 }
 
 TEST(Timed, APeriodWhoseStartIsSkippedOpensNothing) {
-  JointController spine(timed_actuator());
-  EXPECT_TRUE(edges_of(spine, 3).empty());
+  JointController controller(timed_actuator());
+  EXPECT_TRUE(edges_of(controller, 3).empty());
 }
 
 // --- regulators ---------------------------------------------------------------------------------
@@ -286,10 +286,10 @@ TEST(Regulated, IntegratesToTheEnd) {
   Bench bench(regulated_leg(0.002f));
   bench.reading[1] = 1895 - 400;
   bench.run(200);
-  EXPECT_EQ(bench.spine.seen().joint[hip].levels, (Levels{signals::max_level, 0}));
+  EXPECT_EQ(bench.controller.state().joint[hip].levels, (Levels{signals::max_level, 0}));
   bench.reading[1] = 1895 + 30;
   bench.run(60);
-  EXPECT_LT(bench.spine.seen().joint[hip].levels.flexor, signals::max_level);
+  EXPECT_LT(bench.controller.state().joint[hip].levels.flexor, signals::max_level);
 }
 
 TEST(Regulated, DisabledOrShutDownIsNoPressure) {
@@ -303,8 +303,8 @@ TEST(Regulated, DisabledOrShutDownIsNoPressure) {
   bench.command.joint[hip].open_loop = true;
   bench.command.joint[hip].duties = {.flexor_inlet = 25, .extensor_inlet = 75};
   bench.run(2);
-  EXPECT_EQ(bench.spine.seen().joint[hip].levels, (Levels{level_of(25), level_of(75)}));
-  bench.spine.shut_down(bench.now - 1);
+  EXPECT_EQ(bench.controller.state().joint[hip].levels, (Levels{level_of(25), level_of(75)}));
+  bench.controller.shut_down(bench.now - 1);
   bench.run(1);
   EXPECT_EQ(bench.edges.back().level, 0);
   EXPECT_FALSE(bench.edges.back().open);

@@ -152,14 +152,14 @@ constexpr std::int32_t clipped(std::int32_t duty, std::int32_t dead_band) noexce
 
 // Applies [54]-[57]: converts each muscle's signed duty to those of its two valves, at least
 // one of which stays shut.
-constexpr Duties to_duties(const Pair& asked, std::int32_t dead_band = 0) noexcept {
-  return {clipped(asked.flexor, dead_band), clipped(-asked.flexor, dead_band),
-          clipped(asked.extensor, dead_band), clipped(-asked.extensor, dead_band)};
+constexpr Duties to_duties(const Pair& signed_duties, std::int32_t dead_band = 0) noexcept {
+  return {clipped(signed_duties.flexor, dead_band), clipped(-signed_duties.flexor, dead_band),
+          clipped(signed_duties.extensor, dead_band), clipped(-signed_duties.extensor, dead_band)};
 }
 
 // Returns the signed duties of both muscles from the laws' real outputs [%], converted to whole
 // percents according to the mode.
-constexpr Pair asked(Exact stiffness, Exact angle, Truncation mode) noexcept {
+constexpr Pair signed_duties(Exact stiffness, Exact angle, Truncation mode) noexcept {
   switch (mode) {
     case Truncation::sum:
       return {truncated(stiffness + angle), truncated(stiffness - angle)};
@@ -185,8 +185,8 @@ constexpr std::int32_t shared_duty(float share, std::int32_t own, float other_sh
 // Returns the duties of Robot III (5.1): a 3-way valve connects its muscle to the supply for the
 // duty and to the room for the rest, so that the duty sets the pressure. `bias` is the duty at zero
 // error. These valves never seal, so exhausts have no duties and a dead band does not apply.
-constexpr Duties three_way_duties(std::int32_t bias, const Pair& asked) noexcept {
-  return {clipped(bias + asked.flexor), 0, clipped(bias + asked.extensor), 0};
+constexpr Duties three_way_duties(std::int32_t bias, const Pair& signed_duties) noexcept {
+  return {clipped(bias + signed_duties.flexor), 0, clipped(bias + signed_duties.extensor), 0};
 }
 
 // Returns the duties of appendix B's joint 0, position control of a double-acting cylinder. With

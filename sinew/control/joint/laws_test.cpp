@@ -160,9 +160,9 @@ TEST(Duties, NeverBothValvesOfAMuscle) {
 
 TEST(Duties, WhereRealPercentsBecomeWhole) {
   const Exact u_k{1.9f, 0}, u_theta{3.9f, 0};
-  EXPECT_EQ(to_duties(asked(u_k, u_theta, Truncation::each_law)), (Duties{4, 0, 0, 2}));
-  EXPECT_EQ(to_duties(asked(u_k, u_theta, Truncation::sum)), (Duties{5, 0, 0, 2}));
-  EXPECT_EQ(to_duties(asked(u_k, u_theta, Truncation::none)), (Duties{6, 0, 0, 2}));
+  EXPECT_EQ(to_duties(signed_duties(u_k, u_theta, Truncation::each_law)), (Duties{4, 0, 0, 2}));
+  EXPECT_EQ(to_duties(signed_duties(u_k, u_theta, Truncation::sum)), (Duties{5, 0, 0, 2}));
+  EXPECT_EQ(to_duties(signed_duties(u_k, u_theta, Truncation::none)), (Duties{6, 0, 0, 2}));
 }
 
 TEST(Duties, CylinderWorksAgainstItsFeedforward) {
@@ -197,7 +197,8 @@ TEST(Laws, AnyInputGivesDuties) {
               const Stiffness k = joint_stiffness(joint, mode, reading, 4095, 0);
               const Exact u_theta =
                   angle_law({x, 0, y}, -1, desired, reading, difference(reading, 0, 100.0f));
-              const Duties d = to_duties(asked(stiffness_law(x, y, k.value), u_theta, mode));
+              const Duties d =
+                  to_duties(signed_duties(stiffness_law(x, y, k.value), u_theta, mode));
               for (const int duty :
                    {d.flexor_inlet, d.flexor_exhaust, d.extensor_inlet, d.extensor_exhaust})
                 ASSERT_TRUE(duty >= 0 && duty <= 100);

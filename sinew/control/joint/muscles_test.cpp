@@ -26,7 +26,7 @@ TEST(SingleMuscle, LeavesTheOtherSideAlone) {
   bench.reading[1] = 1895 - 400;
   bench.reading[3] = 700;
   bench.run(10);
-  const JointSeen& seen = bench.spine.seen().joint[hip];
+  const JointState& seen = bench.controller.state().joint[hip];
   EXPECT_EQ(seen.duties.extensor_inlet, 0);
   EXPECT_EQ(seen.duties.extensor_exhaust, 0);
   EXPECT_GT(seen.duties.flexor_inlet, 0);
@@ -57,7 +57,7 @@ TEST(SharedMuscle, DutyIsTheWeightedSum) {
     bench.run(20);
     const int expected = static_cast<int>(share * 35 - (1 - share) * 60);
     for (const std::size_t j : {hip, knee}) {
-      const Duties& d = bench.spine.seen().joint[j].duties;
+      const Duties& d = bench.controller.state().joint[j].duties;
       EXPECT_EQ(d.flexor_inlet - d.flexor_exhaust, expected) << share;
     }
     EXPECT_NEAR(bench.open_share(0, 10), std::max(0.0, 0.01 * expected), 1e-9);
@@ -80,7 +80,7 @@ TEST(SharedMuscle, IsDrivenOnce) {
     bench.command.joint[random() % 2].enabled ^= random() % 8 == 0;
     bench.run(1);
   }
-  bench.spine.shut_down(bench.now - 1);
+  bench.controller.shut_down(bench.now - 1);
   bench.run(150);
   std::array<bool, 12> open{};
   for (const Edge& e : bench.edges) {
@@ -102,7 +102,7 @@ TEST(SharedMuscle, ItsLengthFollowsBothJoints) {
   JointConfig alone = config.joint[hip];
   const float expected =
       joint_stiffness(alone, Truncation::each_law, Pair{2416 - 100, 2416}, Pair{900, 900}).value;
-  EXPECT_EQ(bench.spine.seen().joint[hip].stiffness, expected);
+  EXPECT_EQ(bench.controller.state().joint[hip].stiffness, expected);
 }
 
 // --- invalid configurations ---------------------------------------------------------------------

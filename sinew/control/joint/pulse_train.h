@@ -53,7 +53,7 @@ class PulseTrain {
   // Opens the valve in [from, until) and drops all other future edges.
   constexpr void pulse(signals::Tick from, signals::Tick until) noexcept {
     if (until <= from) return shut(from);
-    forget();
+    drop_future_edges();
     if (!on_) toggle_at(from);
     toggle_at(until);
   }
@@ -71,7 +71,7 @@ class PulseTrain {
 
   // Shuts the valve from `at` on.
   constexpr void shut(signals::Tick at) noexcept {
-    forget();
+    drop_future_edges();
     if (on_) toggle_at(at);
   }
 
@@ -90,7 +90,7 @@ class PulseTrain {
   // two edges of this period and, with a delay, two of the last one
   static constexpr std::uint8_t capacity = 4;
 
-  constexpr void forget() noexcept {
+  constexpr void drop_future_edges() noexcept {
     waiting_ = 0;
     on_ = driven_;
   }

@@ -1,4 +1,4 @@
-// control/joint/seen.h - state of the joint controller, for the gait controller and the log.
+// control/joint/state.h - state of the joint controller, for the gait controller and the log.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Phase : std::uint8_t {
 };
 
 // State at the joint's last law; zeros before the first.
-struct JointSeen {
+struct JointState {
   signals::Tick law_at = -1;   // -1: no law has run yet
   float stiffness = 0;         // K_act [27], [60] [lbf in/rad]
   float stiffness_output = 0;  // U_k [58] [%], before truncation
@@ -32,9 +32,9 @@ struct JointSeen {
   std::uint32_t pole_holds = 0;  // laws with a held stiffness
 };
 
-struct Seen {
+struct ControllerState {
   Phase phase = Phase::startup;  // at the last visited tick
-  std::array<JointSeen, max_joints> joint;
+  std::array<JointState, max_joints> joint;
 
   // last good counts, and the status of the last reading
   std::array<signals::Reading, max_channels> reading;

@@ -15,7 +15,7 @@ namespace sinew::control {
 
 // Constant readings by channel, and the same command for all joints.
 struct Bench {
-  explicit Bench(const JointControllerConfig& config) : spine(config) {
+  explicit Bench(const JointControllerConfig& config) : controller(config) {
     EXPECT_EQ(problem(config), nullptr);
     command = rest_command(config);
     for (JointCommand& c : command.joint) c.enabled = true;
@@ -23,18 +23,18 @@ struct Bench {
   }
 
   void run(int periods) {
-    const signals::Tick end = now + periods * spine.config().period;
-    for (; now < end; now = spine.next_event(now)) {
-      if (spine.starts_period(now)) spine.command(command);
-      for (const signals::Edge& e : spine.edges(now)) edges.push_back(e);
-      if (const signals::Conversion* c = spine.due(now))
-        spine.take(*c, {reading[c->channel.index], signals::Status::ok}, now);
+    const signals::Tick end = now + periods * controller.config().period;
+    for (; now < end; now = controller.next_event(now)) {
+      if (controller.starts_period(now)) controller.command(command);
+      for (const signals::Edge& e : controller.edges(now)) edges.push_back(e);
+      if (const signals::Conversion* c = controller.due(now))
+        controller.take(*c, {reading[c->channel.index], signals::Status::ok}, now);
     }
   }
 
   // Returns the share of time for which a valve was open in the last periods.
   double open_share(int valve, int periods) const {
-    const signals::Tick from = now - periods * spine.config().period;
+    const signals::Tick from = now - periods * controller.config().period;
     double open = 0;
     signals::Tick since = from;
     bool on = false;
@@ -47,7 +47,7 @@ struct Bench {
     return open / static_cast<double>(now - from);
   }
 
-  JointController spine;
+  JointController controller;
   Command command;
   std::array<std::uint16_t, max_channels> reading{};
   std::vector<signals::Edge> edges;

@@ -38,18 +38,17 @@ std::uint32_t edges_size(const control::JointControllerConfig& config) noexcept 
 
 }  // namespace
 
-Load load_of(const control::JointControllerConfig& config, bool edges_wanted) noexcept {
-  Load out;
+LineLoad load_of(const control::JointControllerConfig& config, bool edges_wanted) noexcept {
+  LineLoad out;
   out.to_host = telemetry_size(config.joints, channels_of(config)) +
-                (edges_wanted ? edges_size(config) : 0) + frame_size(Answer{}) +
-                frame_size(Event{});
+                (edges_wanted ? edges_size(config) : 0) + frame_size(Reply{}) + frame_size(Event{});
   out.to_board = frame_size(CommandFor{.joints = static_cast<std::uint8_t>(config.joints)}) +
                  frame_size(SetGains{});
   return out;
 }
 
 // bytes x 10 bits <= 90 % x baud x period x 100 us, without a division
-bool carries(std::uint32_t baud, const Load& load, std::uint16_t period) noexcept {
+bool carries(std::uint32_t baud, const LineLoad& load, std::uint16_t period) noexcept {
   const std::uint32_t most = load.to_host > load.to_board ? load.to_host : load.to_board;
   constexpr std::uint64_t ticks_per_second = 10'000;
   return std::uint64_t{most} * 10 * ticks_per_second * 10 <= std::uint64_t{baud} * period * 9;
@@ -57,7 +56,7 @@ bool carries(std::uint32_t baud, const Load& load, std::uint16_t period) noexcep
 
 std::uint32_t choose_baud(const control::JointControllerConfig& config, bool edges_wanted,
                           std::span<const std::uint32_t> choices) noexcept {
-  const Load load = load_of(config, edges_wanted);
+  const LineLoad load = load_of(config, edges_wanted);
   std::uint32_t out = 0;
   for (const std::uint32_t baud : choices)
     if (carries(baud, load, config.period) && (out == 0 || baud < out)) out = baud;

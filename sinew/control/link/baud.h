@@ -18,15 +18,15 @@
 
 namespace sinew::link {
 
-struct Load {
+struct LineLoad {
   std::uint32_t to_host = 0, to_board = 0;  // largest number in a period [bytes]
 };
 
 // Returns the bytes that a board of this configuration sends and receives.
-Load load_of(const control::JointControllerConfig& config, bool edges_wanted) noexcept;
+LineLoad load_of(const control::JointControllerConfig& config, bool edges_wanted) noexcept;
 
 // Returns whether a line of that rate [bits/s] carries the load.
-bool carries(std::uint32_t baud, const Load& load, std::uint16_t period) noexcept;
+bool carries(std::uint32_t baud, const LineLoad& load, std::uint16_t period) noexcept;
 
 // Rate of firmware/application.cpp [bits/s].
 inline constexpr std::uint32_t firmware_baud = 921'600;

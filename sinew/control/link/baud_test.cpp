@@ -32,9 +32,9 @@ std::size_t telemetry_bytes(const control::JointControllerConfig& config) {
 
 TEST(Baud, TheLoadIsWhatIsSent) {
   for (const control::JointControllerConfig& config : {control::test_leg(), largest()}) {
-    const Load load = load_of(config, false);
+    const LineLoad load = load_of(config, false);
     EXPECT_EQ(load.to_host,
-              telemetry_bytes(config) + frame_of(Answer{}).size() + frame_of(Event{}).size());
+              telemetry_bytes(config) + frame_of(Reply{}).size() + frame_of(Event{}).size());
     CommandFor command{.joints = static_cast<std::uint8_t>(config.joints)};
     EXPECT_EQ(load.to_board, frame_of(command).size() + frame_of(SetGains{}).size());
   }
@@ -57,7 +57,7 @@ TEST(Baud, TheSlowestThatCarriesAllIsChosen) {
     for (const std::uint16_t period : {20, 50, 100, 200, 400}) {
       config.period = period;
       const std::uint32_t baud = choose_baud(config, edges, choices);
-      const Load load = load_of(config, edges);
+      const LineLoad load = load_of(config, edges);
       for (const std::uint32_t other : choices)
         EXPECT_EQ(carries(other, load, period), baud != 0 && other >= baud) << other;
       if (baud == 0) continue;

@@ -25,8 +25,9 @@ Refusal read(std::span<const std::uint8_t> bytes, Configuration& out) noexcept {
   const Code code = read<Configuration>(bytes, out);
   if (code == Code::length) return {Code::size};
   if (code != Code::done) return {Code::layout};
-  for (const char* words : {control::problem(out.spine), control::safety_problem(out.spine),
-                            control::problem(out.limits), control::problem(out.safety)})
+  for (const char* words :
+       {control::problem(out.joint_controller), control::safety_problem(out.joint_controller),
+        control::problem(out.limits), control::problem(out.safety)})
     if (words != nullptr) return {Code::configuration, words};
   return {};
 }

@@ -19,7 +19,7 @@ namespace sinew::link {
 
 // Configuration of a board for its machine.
 struct Configuration {
-  control::JointControllerConfig spine;
+  control::JointControllerConfig joint_controller;
   control::SuperviseConfig limits;
   control::SafetyConfig safety;
 };
@@ -188,7 +188,7 @@ constexpr void fields(Io& io, M& c) noexcept {
     io.limited(layout, configuration_layout, configuration_layout);
   else
     io.whole(layout);
-  fields(io, c.spine);
+  fields(io, c.joint_controller);
   fields(io, c.limits);
   fields(io, c.safety);
 }

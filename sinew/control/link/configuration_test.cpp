@@ -45,7 +45,7 @@ TEST(Configuration, ArrivesToTheBit) {
   Board board;
   for (int i = 0; i < 50; ++i) {
     const Configuration sent = any_configuration(random);
-    ASSERT_EQ(control::problem(sent.spine), nullptr);
+    ASSERT_EQ(control::problem(sent.joint_controller), nullptr);
     EXPECT_EQ(board.receive(ConfigurationSender(sent)).code, Code::done);
     EXPECT_EQ(bytes_of(board.has), bytes_of(sent));
   }
@@ -71,7 +71,7 @@ TEST(Configuration, NothingButHolesIsLeftOut) {
     std::vector<bool> changed(sizeof(M));
     for (int i = 0; i < 64; ++i) {
       M other = default_value;
-      Anything io(random);
+      RandomFields io(random);
       fields(io, other);
       Bytes a(sizeof(M)), b(sizeof(M));
       std::memcpy(a.data(), &default_value, sizeof(M));
@@ -93,10 +93,10 @@ TEST(Configuration, NothingButHolesIsLeftOut) {
 TEST(Configuration, ValuesThatCannotBeAreNotSent) {
   Configuration c{control::test_leg(), {}};
   EXPECT_TRUE(ConfigurationSender(c).ok());
-  c.spine.joint[1].flexor.effectiveness[2] = std::numeric_limits<float>::quiet_NaN();
+  c.joint_controller.joint[1].flexor.effectiveness[2] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(ConfigurationSender(c).ok());
   c = {control::test_leg(), {}};
-  c.spine.joints = 9;
+  c.joint_controller.joints = 9;
   EXPECT_FALSE(ConfigurationSender(c).ok());
   c = {control::test_leg(), {}};
   c.limits.sensor[31].joint = 8;
@@ -109,10 +109,10 @@ TEST(Configuration, PartsThatContradictEachOtherAreRefusedInWords) {
   EXPECT_EQ(board.receive(ConfigurationSender(good)).code, Code::done);
 
   Configuration bad = good;
-  bad.spine.joint[control::hip].law_tick = 8;
+  bad.joint_controller.joint[control::hip].law_tick = 8;
   Refusal refusal = board.receive(ConfigurationSender(bad));
   EXPECT_EQ(refusal.code, Code::configuration);
-  EXPECT_STREQ(refusal.words, control::problem(bad.spine));
+  EXPECT_STREQ(refusal.words, control::problem(bad.joint_controller));
 
   bad = good;
   bad.limits.gap_shut = 0;
@@ -127,17 +127,17 @@ TEST(Configuration, PartsThatContradictEachOtherAreRefusedInWords) {
   EXPECT_STREQ(refusal.words, control::problem(bad.safety));
 
   bad = good;
-  bad.spine.timing.closing[50] = 2;
+  bad.joint_controller.timing.closing[50] = 2;
   refusal = board.receive(ConfigurationSender(bad));
   EXPECT_EQ(refusal.code, Code::configuration);
-  EXPECT_STREQ(refusal.words, control::safety_problem(bad.spine));
+  EXPECT_STREQ(refusal.words, control::safety_problem(bad.joint_controller));
 }
 
 TEST(Configuration, EachProblemFitsAnAnswer) {
   Configuration bad{control::test_leg(), {}};
-  bad.spine.joint[control::hip].flexor.exhaust_inverted = true;  // the longest text
-  ASSERT_NE(control::problem(bad.spine), nullptr);
-  EXPECT_LE(std::string(control::problem(bad.spine)).size(), max_text);
+  bad.joint_controller.joint[control::hip].flexor.exhaust_inverted = true;  // the longest text
+  ASSERT_NE(control::problem(bad.joint_controller), nullptr);
+  EXPECT_LE(std::string(control::problem(bad.joint_controller)).size(), max_text);
 }
 
 TEST(Configuration, AnotherLayoutIsRefused) {

@@ -44,14 +44,14 @@ std::size_t Decoder::push(std::span<const std::uint8_t> bytes) noexcept {
 }
 
 const Frame* Decoder::next() noexcept {
-  while (begin_ < end_) switch (look()) {
-      case Look::wait:
+  while (begin_ < end_) switch (search()) {
+      case FrameSearch::wait:
         return nullptr;
-      case Look::skip:
+      case FrameSearch::skip:
         ++begin_;
         ++line_.skipped;
         break;
-      case Look::frame:
+      case FrameSearch::frame:
         ++line_.frames;
         begin_ += header_size + buffer_[begin_ + 4] + crc16_size;
         return &frame_;
@@ -60,26 +60,28 @@ const Frame* Decoder::next() noexcept {
 }
 
 // Checks the position at which the next frame may begin.
-Decoder::Look Decoder::look() noexcept {
+Decoder::FrameSearch Decoder::search() noexcept {
   const std::uint8_t* at = buffer_.data() + begin_;
-  if (at[0] != sync_first) return Look::skip;
-  if (const Look l = reach(2); l != Look::frame) return l == Look::skip ? failed(line_.half) : l;
-  if (at[1] != sync_second) return Look::skip;
-  if (const Look l = reach(header_size); l != Look::frame)
-    return l == Look::skip ? failed(line_.half) : l;
+  if (at[0] != sync_first) return FrameSearch::skip;
+  if (const FrameSearch l = reach(2); l != FrameSearch::frame)
+    return l == FrameSearch::skip ? failed(line_.half) : l;
+  if (at[1] != sync_second) return FrameSearch::skip;
+  if (const FrameSearch l = reach(header_size); l != FrameSearch::frame)
+    return l == FrameSearch::skip ? failed(line_.half) : l;
   if (at[4] < min_payload) return failed(line_.length);
   const std::size_t size = header_size + at[4] + crc16_size;
-  if (const Look l = reach(size); l != Look::frame) return l == Look::skip ? failed(line_.half) : l;
-  return judge({at, size});
+  if (const FrameSearch l = reach(size); l != FrameSearch::frame)
+    return l == FrameSearch::skip ? failed(line_.half) : l;
+  return check({at, size});
 }
 
 // Checks whether that many bytes are present without a silence between them.
-Decoder::Look Decoder::reach(std::size_t bytes) const noexcept {
-  if (begin_ < silence_ && begin_ + bytes > silence_) return Look::skip;
-  return end_ - begin_ < bytes ? Look::wait : Look::frame;
+Decoder::FrameSearch Decoder::reach(std::size_t bytes) const noexcept {
+  if (begin_ < silence_ && begin_ + bytes > silence_) return FrameSearch::skip;
+  return end_ - begin_ < bytes ? FrameSearch::wait : FrameSearch::frame;
 }
 
-Decoder::Look Decoder::judge(std::span<const std::uint8_t> frame) noexcept {
+Decoder::FrameSearch Decoder::check(std::span<const std::uint8_t> frame) noexcept {
   const std::size_t body_end = frame.size() - crc32_size - crc16_size;
   if (signals::crc16(frame.subspan(2, frame.size() - 4)) !=
       number_at<std::uint16_t>(frame, frame.size() - crc16_size))
@@ -91,12 +93,12 @@ Decoder::Look Decoder::judge(std::span<const std::uint8_t> frame) noexcept {
             .version = frame[5],
             .envelope = {.board = frame[6], .sequence = frame[3]},
             .body = frame.subspan(body_at, body_end - body_at)};
-  return Look::frame;
+  return FrameSearch::frame;
 }
 
-Decoder::Look Decoder::failed(std::uint32_t& reason) noexcept {
+Decoder::FrameSearch Decoder::failed(std::uint32_t& reason) noexcept {
   ++reason;
-  return Look::skip;
+  return FrameSearch::skip;
 }
 
 }  // namespace sinew::link

@@ -88,12 +88,12 @@ class Decoder {
   const LineCount& line() const noexcept { return line_; }
 
  private:
-  enum class Look : std::uint8_t { wait, skip, frame };
+  enum class FrameSearch : std::uint8_t { wait, skip, frame };
 
-  Look look() noexcept;
-  Look reach(std::size_t bytes) const noexcept;
-  Look judge(std::span<const std::uint8_t> frame) noexcept;
-  Look failed(std::uint32_t& reason) noexcept;
+  FrameSearch search() noexcept;
+  FrameSearch reach(std::size_t bytes) const noexcept;
+  FrameSearch check(std::span<const std::uint8_t> frame) noexcept;
+  FrameSearch failed(std::uint32_t& reason) noexcept;
 
   std::array<std::uint8_t, 2 * max_frame> buffer_{};
   std::size_t begin_ = 0, end_ = 0;  // unprocessed bytes

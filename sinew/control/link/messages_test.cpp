@@ -122,7 +122,7 @@ TEST(Messages, CountsBeyondTheRoomAreNotSent) {
   EXPECT_TRUE(frame_of(CommandFor{.joints = 255}).empty());
   EXPECT_TRUE(frame_of(ConfigureChunk{.count = 255}).empty());
   EXPECT_TRUE(frame_of(ConfigureChunk{.count = 0}).empty());
-  EXPECT_TRUE(frame_of(Answer{.letters = 255}).empty());
+  EXPECT_TRUE(frame_of(Reply{.letters = 255}).empty());
   EXPECT_TRUE(frame_of(Readings{.count = 255}).empty());
   EXPECT_TRUE(frame_of(Counters{.count = 255}).empty());
   EXPECT_TRUE(frame_of(Joints{.count = 255}).empty());

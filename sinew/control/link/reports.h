@@ -1,15 +1,15 @@
 // control/link/reports.h - reports of a board to a host (docs/reference/wire.md has the bytes).
 //
 // The telemetry of a period is several messages with the same tick and numbered parts: together
-// they contain all of control::Seen and control::Supervised, bit for bit, for the board's joints
-// and channels (telemetry.h splits and joins them). A lost message leaves a gap.
+// they contain all of control::ControllerState and control::Supervised, bit for bit, for the
+// board's joints and channels (telemetry.h splits and joins them). A lost message leaves a gap.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "sinew/control/joint/seen.h"
+#include "sinew/control/joint/state.h"
 #include "sinew/control/link/messages.h"
 #include "sinew/control/supervise/safety.h"
 
@@ -34,7 +34,7 @@ struct Identity {
 
 inline constexpr std::size_t max_text = 100;
 // Reply to a message.
-struct Answer {
+struct Reply {
   static constexpr Type type = Type::answer;
   std::uint8_t to = 0, sequence = 0;  // type and sequence of the message
   Code code = Code::done;
@@ -44,14 +44,14 @@ struct Answer {
 };
 
 // Counts of frames that the board has discarded.
-struct LinkSeen {
+struct LinkStatistics {
   LineCount line;
   std::uint32_t refused = 0;   // messages that were refused with a code
   std::uint32_t lost = 0;      // frames, by gaps in the sequence
   std::uint32_t repeated = 0;  // repeated frames
   std::uint32_t late = 0;      // commands that came too late
 
-  friend constexpr bool operator==(const LinkSeen&, const LinkSeen&) = default;
+  friend constexpr bool operator==(const LinkStatistics&, const LinkStatistics&) = default;
 };
 
 // Part of the telemetry of one tick: 0 .. parts - 1.
@@ -61,16 +61,16 @@ struct Part {
 };
 inline constexpr std::size_t max_parts = 8;
 
-// Seen and Supervised without their arrays.
+// ControllerState and Supervised without their arrays.
 struct State {
   static constexpr Type type = Type::state;
   Part of;
   control::BoardState state = control::BoardState::fault;
   control::BoardFault fault = control::BoardFault::none;
   std::uint8_t joints = 0, channels = 0;
-  control::Seen seen;              // without joints and readings
-  control::Supervised supervised;  // without sensors
-  LinkSeen link;
+  control::ControllerState controller;  // without joints and readings
+  control::Supervised supervised;       // without sensors
+  LinkStatistics link;
 };
 // A State that refers to its parts, since a board's stack has no room for copies.
 struct StateView {
@@ -78,13 +78,13 @@ struct StateView {
   control::BoardState state;
   control::BoardFault fault;
   std::uint8_t joints, channels;
-  const control::Seen& seen;
+  const control::ControllerState& controller;
   const control::Supervised& supervised;
-  const LinkSeen& link;
+  const LinkStatistics& link;
 };
 
 // A channel of a board.
-struct ChannelSeen {
+struct ChannelReading {
   signals::Reading reading;
   std::uint16_t counts = 0;  // last conversion, accepted or not
 };
@@ -93,7 +93,7 @@ struct Readings {
   static constexpr Type type = Type::readings;
   Part of;
   std::uint8_t count = 0;
-  std::array<ChannelSeen, control::max_channels> channel;
+  std::array<ChannelReading, control::max_channels> channel;
 };
 
 inline constexpr std::size_t counters_in_message = 16;
@@ -102,7 +102,7 @@ struct Counters {
   static constexpr Type type = Type::counters;
   Part of;
   std::uint8_t first = 0, count = 0;
-  std::array<control::SensorSeen, counters_in_message> sensor;  // without counts
+  std::array<control::SensorStatistics, counters_in_message> sensor;  // without counts
 };
 
 inline constexpr std::size_t joints_in_message = 4;
@@ -111,7 +111,7 @@ struct Joints {
   static constexpr Type type = Type::joints;
   Part of;
   std::uint8_t first = 0, count = 0;
-  std::array<control::JointSeen, joints_in_message> joint;
+  std::array<control::JointState, joints_in_message> joint;
 };
 
 // A start of the board or a change of its state.
@@ -128,7 +128,7 @@ struct Event {
 };
 
 // A driven edge of a valve.
-struct EdgeSeen {
+struct ReportedEdge {
   std::uint16_t offset = 0;  // since `tick` [ticks]
   std::uint8_t valve = 0;
   bool open = false;
@@ -140,7 +140,7 @@ struct Edges {
   static constexpr Type type = Type::edges;
   signals::Tick tick = 0;
   std::uint8_t count = 0;
-  std::array<EdgeSeen, max_edges> edge;
+  std::array<ReportedEdge, max_edges> edge;
 };
 
 // A message of the telemetry of the last 200 ms before a fault: its type and its body.
@@ -167,10 +167,10 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.channels, 254);
   count(io, m.conversions, 254);
   tick(io, m.tick);
-  choice(io, m.fault, control::BoardFault::asked);
+  choice(io, m.fault, control::BoardFault::requested);
   flag(io, m.active_low);
 }
-template <class Io, Is<Answer> M>
+template <class Io, Is<Reply> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.to);
   io.whole(m.sequence);
@@ -179,7 +179,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.letters, max_text);
   first_of(m.text, m.letters, [&](auto& x) { number_as<std::uint8_t>(io, x, 1, 126); });
 }
-template <class Io, Is<LinkSeen> M>
+template <class Io, Is<LinkStatistics> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.line.frames);
   io.whole(m.line.length);
@@ -200,7 +200,7 @@ constexpr void fields(Io& io, M& m) noexcept {
 }
 template <class Io, Is<control::Trip> M>
 constexpr void fields(Io& io, M& m) noexcept {
-  choice(io, m.cause, control::Trip::Cause::asked);
+  choice(io, m.cause, control::Trip::Cause::requested);
   tick(io, m.at);
   io.whole(m.channel.index);
   io.whole(m.counts);
@@ -213,16 +213,16 @@ template <class Io, class M>
 requires(Is<M, State> || Is<M, StateView>) constexpr void fields(Io& io, M& m) noexcept {
   fields(io, m.of);
   choice(io, m.state, control::BoardState::dump);
-  choice(io, m.fault, control::BoardFault::asked);
+  choice(io, m.fault, control::BoardFault::requested);
   count(io, m.joints, control::max_joints);
   count(io, m.channels, control::max_channels);
-  choice(io, m.seen.phase, control::Phase::off);
-  io.whole(m.seen.late);
-  io.whole(m.seen.invalid);
-  io.whole(m.seen.missed);
-  io.whole(m.seen.overruns);
-  choice(io, m.seen.fault, signals::Status::fault);
-  io.whole(m.seen.fault_channel.index);
+  choice(io, m.controller.phase, control::Phase::off);
+  io.whole(m.controller.late);
+  io.whole(m.controller.invalid);
+  io.whole(m.controller.missed);
+  io.whole(m.controller.overruns);
+  choice(io, m.controller.fault, signals::Status::fault);
+  io.whole(m.controller.fault_channel.index);
   io.whole(m.supervised.rejected);
   io.whole(m.supervised.rejected_commands);
   io.whole(m.supervised.gaps);
@@ -232,7 +232,7 @@ requires(Is<M, State> || Is<M, StateView>) constexpr void fields(Io& io, M& m) n
   fields(io, m.supervised.trip);
   fields(io, m.link);
 }
-template <class Io, Is<ChannelSeen> M>
+template <class Io, Is<ChannelReading> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.reading.counts);
   choice(io, m.reading.status, signals::Status::fault);
@@ -245,7 +245,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   first_of(m.channel, m.count, [&](auto& x) { fields(io, x); });
 }
 // `counts` is sent with the readings.
-template <class Io, Is<control::SensorSeen> M>
+template <class Io, Is<control::SensorStatistics> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.rejected);
   io.whole(m.frozen);
@@ -258,7 +258,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.count, counters_in_message);
   first_of(m.sensor, m.count, [&](auto& x) { fields(io, x); });
 }
-template <class Io, Is<control::JointSeen> M>
+template <class Io, Is<control::JointState> M>
 constexpr void fields(Io& io, M& m) noexcept {
   tick(io, m.law_at);
   io.whole(m.stiffness);
@@ -284,9 +284,9 @@ constexpr void fields(Io& io, M& m) noexcept {
   tick(io, m.tick);
   choice(io, m.what, Event::What::state);
   choice(io, m.state, control::BoardState::dump);
-  choice(io, m.fault, control::BoardFault::asked);
+  choice(io, m.fault, control::BoardFault::requested);
 }
-template <class Io, Is<EdgeSeen> M>
+template <class Io, Is<ReportedEdge> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.offset);
   io.whole(m.valve);

@@ -6,8 +6,8 @@ namespace sinew::link {
 namespace {
 
 // These detect added fields, which have to be listed in reports.h.
-static_assert(members<control::Seen>() == 9 && members<control::JointSeen>() == 10);
-static_assert(members<control::Supervised>() == 8 && members<control::SensorSeen>() == 4);
+static_assert(members<control::ControllerState>() == 9 && members<control::JointState>() == 10);
+static_assert(members<control::Supervised>() == 8 && members<control::SensorStatistics>() == 4);
 static_assert(members<control::Trip>() == 8 && members<control::Levels>() == 2);
 
 // A part after state and readings.
@@ -33,7 +33,7 @@ StateView state_of(const Telemetry& t, const Part& part) noexcept {
           .fault = t.fault,
           .joints = t.joints,
           .channels = t.channels,
-          .seen = t.seen,
+          .controller = t.controller,
           .supervised = t.supervised,
           .link = t.link};
 }
@@ -41,7 +41,7 @@ StateView state_of(const Telemetry& t, const Part& part) noexcept {
 Readings readings_of(const Telemetry& t, const Part& part) noexcept {
   Readings out{.of = part, .count = t.channels};
   for (std::size_t i = 0; i < t.channels; ++i)
-    out.channel[i] = {t.seen.reading[i], t.supervised.sensor[i].counts};
+    out.channel[i] = {t.controller.reading[i], t.supervised.sensor[i].counts};
   return out;
 }
 
@@ -58,7 +58,7 @@ Joints joints_of(const Telemetry& t, const Part& part, const Place& place) noexc
   Joints out{.of = part,
              .first = static_cast<std::uint8_t>(place.first),
              .count = static_cast<std::uint8_t>(place.count)};
-  for (std::size_t i = 0; i < place.count; ++i) out.joint[i] = t.seen.joint[place.first + i];
+  for (std::size_t i = 0; i < place.count; ++i) out.joint[i] = t.controller.joint[place.first + i];
   return out;
 }
 
@@ -117,7 +117,7 @@ bool TelemetryJoiner::begin(std::span<const std::uint8_t> body) noexcept {
           .fault = state.fault,
           .joints = state.joints,
           .channels = state.channels,
-          .seen = state.seen,
+          .controller = state.controller,
           .supervised = state.supervised,
           .link = state.link};
   return true;
@@ -140,7 +140,7 @@ bool TelemetryJoiner::add_readings(std::span<const std::uint8_t> body) noexcept 
   Readings m;
   if (read(body, m) != Code::done || !continues(m.of) || m.count != now_.channels) return false;
   for (std::size_t i = 0; i < m.count; ++i) {
-    now_.seen.reading[i] = m.channel[i].reading;
+    now_.controller.reading[i] = m.channel[i].reading;
     now_.supervised.sensor[i].counts = m.channel[i].counts;
   }
   return true;
@@ -153,7 +153,7 @@ bool TelemetryJoiner::add_counters(std::span<const std::uint8_t> body) noexcept 
       m.count != place.count)
     return false;
   for (std::size_t i = 0; i < m.count; ++i) {
-    control::SensorSeen& to = now_.supervised.sensor[m.first + i];
+    control::SensorStatistics& to = now_.supervised.sensor[m.first + i];
     const std::uint16_t counts = to.counts;  // came with the readings
     to = m.sensor[i];
     to.counts = counts;
@@ -167,7 +167,7 @@ bool TelemetryJoiner::add_joints(std::span<const std::uint8_t> body) noexcept {
   if (read(body, m) != Code::done || !continues(m.of) || m.first != place.first ||
       m.count != place.count)
     return false;
-  for (std::size_t i = 0; i < m.count; ++i) now_.seen.joint[m.first + i] = m.joint[i];
+  for (std::size_t i = 0; i < m.count; ++i) now_.controller.joint[m.first + i] = m.joint[i];
   return true;
 }
 

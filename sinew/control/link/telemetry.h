@@ -19,9 +19,9 @@ struct Telemetry {
   control::BoardState state = control::BoardState::fault;
   control::BoardFault fault = control::BoardFault::none;
   std::uint8_t joints = 0, channels = 0;  // numbers of the board; only these are sent
-  control::Seen seen;
+  control::ControllerState controller;
   control::Supervised supervised;
-  LinkSeen link;
+  LinkStatistics link;
 };
 
 // Returns the highest converted channel plus one.

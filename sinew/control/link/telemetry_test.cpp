@@ -32,16 +32,16 @@ Telemetry any_telemetry(std::mt19937& random, signals::Tick tick) {
                 .fault = state.fault,
                 .joints = state.joints,
                 .channels = state.channels,
-                .seen = state.seen,
+                .controller = state.controller,
                 .supervised = state.supervised,
                 .link = state.link};
-  Anything io(random);
-  for (std::size_t j = 0; j < out.joints; ++j) fields(io, out.seen.joint[j]);
+  RandomFields io(random);
+  for (std::size_t j = 0; j < out.joints; ++j) fields(io, out.controller.joint[j]);
   for (std::size_t c = 0; c < out.channels; ++c) {
-    const auto seen = any<ChannelSeen>(random);
+    const auto channel = any<ChannelReading>(random);
     fields(io, out.supervised.sensor[c]);
-    out.seen.reading[c] = seen.reading;
-    out.supervised.sensor[c].counts = seen.counts;
+    out.controller.reading[c] = channel.reading;
+    out.supervised.sensor[c].counts = channel.counts;
   }
   return out;
 }
@@ -75,7 +75,7 @@ TEST(Telemetry, ArrivesToTheBit) {
 // padding).
 TEST(Telemetry, OfASupervisedLegIsWhatItHasSeen) {
   control::Stand stand;
-  stand.lie = control::lying(control::hip_angle, 4095, 40, 2);
+  stand.replace_reading = control::constant_reading(control::hip_angle, 4095, 40, 2);
   stand.fill();
   TelemetryJoiner joiner(period);
   for (int i = 0; i < 100; ++i) {
@@ -83,14 +83,14 @@ TEST(Telemetry, OfASupervisedLegIsWhatItHasSeen) {
     const Telemetry sent{.tick = 100 * i,
                          .state = control::BoardState::armed,
                          .joints = 3,
-                         .channels = channels_of(stand.spine.config()),
-                         .seen = stand.spine.seen(),
-                         .supervised = stand.spine.supervised()};
+                         .channels = channels_of(stand.supervisor.config()),
+                         .controller = stand.supervisor.state(),
+                         .supervised = stand.supervisor.supervised()};
     ASSERT_EQ(sent.channels, 7);
     const Telemetry* got = carry(joiner, sent);
     ASSERT_NE(got, nullptr);
     for (std::size_t j = 0; j < control::max_joints; ++j) {
-      const control::JointSeen &a = sent.seen.joint[j], &b = got->seen.joint[j];
+      const control::JointState &a = sent.controller.joint[j], &b = got->controller.joint[j];
       EXPECT_EQ(a.law_at, b.law_at);
       EXPECT_EQ(std::memcmp(&a.stiffness, &b.stiffness, 4 * sizeof(float)), 0);
       EXPECT_EQ(a.duties, b.duties);

@@ -26,7 +26,7 @@ void each_host_message(Use use) {
 }
 template <class Use>
 void each_board_message(Use use) {
-  use(Identity{}), use(Answer{}), use(State{}), use(Readings{}), use(Counters{}), use(Joints{});
+  use(Identity{}), use(Reply{}), use(State{}), use(Readings{}), use(Counters{}), use(Joints{});
   use(Event{}), use(Edges{}), use(FaultLog{});
 }
 template <class Use>
@@ -37,11 +37,11 @@ void each_message(Use use) {
 
 // Visitor that fills a message with random valid values; floats that need not be finite have any
 // bits.
-class Anything {
+class RandomFields {
  public:
   static constexpr bool reads = true;
 
-  explicit Anything(std::mt19937& random, bool most = false) : random_(&random), most_(most) {}
+  explicit RandomFields(std::mt19937& random, bool most = false) : random_(&random), most_(most) {}
 
   template <class T>
   void whole(T& x) {
@@ -65,7 +65,7 @@ class Anything {
 template <class M>
 M any(std::mt19937& random, bool most = false) {
   M out;
-  Anything io(random, most);
+  RandomFields io(random, most);
   fields(io, out);
   return out;
 }

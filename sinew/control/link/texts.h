@@ -1,4 +1,4 @@
-// control/link/words.h - texts for refusals and for faults of a board, for a host's messages.
+// control/link/texts.h - texts for refusals and for faults of a board, for a host's messages.
 #pragma once
 
 #include "sinew/control/link/messages.h"
@@ -7,7 +7,7 @@
 namespace sinew::link {
 
 // Returns the meaning of a code that a board replies with.
-constexpr const char* in_words(Code code) noexcept {
+constexpr const char* to_text(Code code) noexcept {
   switch (code) {
     case Code::done:
       return "nothing is wrong";
@@ -48,7 +48,7 @@ constexpr const char* in_words(Code code) noexcept {
 }
 
 // Returns what a fault of a board is.
-constexpr const char* in_words(control::BoardFault fault) noexcept {
+constexpr const char* to_text(control::BoardFault fault) noexcept {
   using control::BoardFault;
   switch (fault) {
     case BoardFault::none:
@@ -71,7 +71,7 @@ constexpr const char* in_words(control::BoardFault fault) noexcept {
       return "the state in its memory has changed";
     case BoardFault::not_empty:
       return "something was still under pressure after the longest vent";
-    case BoardFault::asked:
+    case BoardFault::requested:
       return "a host has requested it";
   }
   return "an unknown reason";

@@ -1,10 +1,10 @@
-#include "sinew/control/link/thesis_words.h"
+#include "sinew/control/link/thesis_bytes.h"
 
 #include "sinew/control/link/frame.h"
 
 namespace sinew::link {
 
-using What = WordStep::What;
+using What = ThesisByteResult::What;
 
 namespace {
 
@@ -28,7 +28,7 @@ constexpr std::uint8_t pots = 3, gages = 4;
 constexpr std::uint16_t no_value = 0xffff;
 constexpr std::uint16_t max_hundredths = 0x7fff;  // of lbf in/rad
 
-WordStep readings(std::uint8_t first, std::uint8_t count) noexcept {
+ThesisByteResult readings(std::uint8_t first, std::uint8_t count) noexcept {
   return {.what = What::readings, .first = first, .count = count};
 }
 
@@ -59,36 +59,37 @@ ThesisJoints thesis_joints(const control::JointControllerConfig& config) noexcep
   return out;
 }
 
-void WordStep::apply(control::Command& command) const noexcept {
+void ThesisByteResult::apply(control::Command& command) const noexcept {
   for (std::uint8_t j = 0; j < control::max_joints; ++j) {
     if (angles & bit(j)) command.joint[j].angle = angle[j];
     if (stiffnesses & bit(j)) command.joint[j].stiffness = stiffness[j];
   }
 }
 
-std::size_t write_readings(const WordStep& step, const ThesisJoints& joints,
-                           const control::JointControllerConfig& config, const control::Seen& seen,
+std::size_t write_readings(const ThesisByteResult& step, const ThesisJoints& joints,
+                           const control::JointControllerConfig& config,
+                           const control::ControllerState& state,
                            std::span<std::uint8_t> out) noexcept {
   Writer to(out);
   for (std::size_t i = 0; i < step.count; ++i)
-    to.whole(seen.reading[channel_of(step.first + i, joints, config).index].counts);
+    to.whole(state.reading[channel_of(step.first + i, joints, config).index].counts);
   to.whole(static_cast<std::uint8_t>(finished));
   return to.ok() ? to.size() : 0;
 }
 
-WordStep WordReader::take(std::uint8_t byte) noexcept {
+ThesisByteResult ThesisByteReader::take(std::uint8_t byte) noexcept {
   if (framed_ > 0) return frame_byte(byte);
   return wanted_ > 0 ? value_byte(byte) : word(byte);
 }
 
-bool WordReader::silent() noexcept {
+bool ThesisByteReader::silent() noexcept {
   framed_ = 0;
   const bool waited = wanted_ > 0;
   wanted_ = 0;
   return waited;
 }
 
-WordStep WordReader::frame_byte(std::uint8_t byte) noexcept {
+ThesisByteResult ThesisByteReader::frame_byte(std::uint8_t byte) noexcept {
   if (framed_ == 1 && byte != sync_second) {  // not a frame
     framed_ = 0;
     return word(byte);
@@ -99,7 +100,7 @@ WordStep WordReader::frame_byte(std::uint8_t byte) noexcept {
   return {.what = What::frame};
 }
 
-WordStep WordReader::word(std::uint8_t byte) noexcept {
+ThesisByteResult ThesisByteReader::word(std::uint8_t byte) noexcept {
   if (byte < sendpot + pots) return readings(byte, 1);
   if (byte == sendallpots) return readings(0, pots);
   if (byte >= sendgage && byte < sendgage + gages)
@@ -126,7 +127,7 @@ WordStep WordReader::word(std::uint8_t byte) noexcept {
   return {.what = What::bad};
 }
 
-WordStep WordReader::expect(std::uint8_t word, std::uint8_t values) noexcept {
+ThesisByteResult ThesisByteReader::expect(std::uint8_t word, std::uint8_t values) noexcept {
   word_ = word;
   wanted_ = values;
   got_ = 0;
@@ -134,12 +135,12 @@ WordStep WordReader::expect(std::uint8_t word, std::uint8_t values) noexcept {
   return {.what = What::ready};
 }
 
-WordStep WordReader::give_up(What what) noexcept {
+ThesisByteResult ThesisByteReader::give_up(What what) noexcept {
   wanted_ = 0;
   return {.what = what};
 }
 
-WordStep WordReader::value_byte(std::uint8_t byte) noexcept {
+ThesisByteResult ThesisByteReader::value_byte(std::uint8_t byte) noexcept {
   if (!half_) {
     low_ = byte;
     half_ = true;
@@ -155,34 +156,34 @@ WordStep WordReader::value_byte(std::uint8_t byte) noexcept {
   return values();
 }
 
-bool WordReader::possible(std::uint16_t value) const noexcept {
+bool ThesisByteReader::possible(std::uint16_t value) const noexcept {
   if (word_ == recvffdc) return value <= signals::max_duty;
   const bool is_stiffness =
       word_ == recvstiffdes || word_ == recvstiffdes + 1 || (word_ == recvalldes && got_ >= 3);
   return value <= (is_stiffness ? max_hundredths : signals::max_counts);
 }
 
-void WordReader::desire_angle(WordStep& step, std::size_t thesis_joint,
-                              std::uint16_t value) const noexcept {
+void ThesisByteReader::desire_angle(ThesisByteResult& step, std::size_t thesis_joint,
+                                    std::uint16_t value) const noexcept {
   const std::uint8_t j = joints_.joint[thesis_joint];
   step.angles = static_cast<std::uint8_t>(step.angles | bit(j));
   step.angle[j] = value;
 }
 
-void WordReader::desire_stiffness(WordStep& step, std::size_t thesis_joint,
-                                  std::uint16_t value) const noexcept {
+void ThesisByteReader::desire_stiffness(ThesisByteResult& step, std::size_t thesis_joint,
+                                        std::uint16_t value) const noexcept {
   const std::uint8_t j = joints_.joint[thesis_joint];
   step.stiffnesses = static_cast<std::uint8_t>(step.stiffnesses | bit(j));
   step.stiffness[j] = static_cast<float>(value) / 100.0f;
 }
 
 // Returns the result of a word with all its values.
-WordStep WordReader::values() noexcept {
+ThesisByteResult ThesisByteReader::values() noexcept {
   if (word_ == recvffdc)
     return {.what = What::feedforward,
             .feedforward = {.joint = joints_.joint[0],
                             .duties = {value_[0], value_[1], value_[2], value_[3]}}};
-  WordStep out{.what = What::desired};
+  ThesisByteResult out{.what = What::desired};
   if (word_ == recvalldes) {
     for (std::size_t j = 0; j < 3; ++j) desire_angle(out, j, value_[j]);
     for (std::size_t j = 1; j < 3; ++j) desire_stiffness(out, j, value_[2 + j]);

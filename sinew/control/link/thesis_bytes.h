@@ -1,4 +1,4 @@
-// control/link/thesis_words.h - the bytes that the thesis's two computers exchange [B.2].
+// control/link/thesis_bytes.h - the bytes that the thesis's two computers exchange [B.2].
 //
 //   0-2  sendpot        3   sendallpots    5-8  sendgage     9     sendallgages   10  sendallsnrs
 //   20-22 enablejoint   23  enableall      24   disableall
@@ -25,7 +25,7 @@
 #include <span>
 
 #include "sinew/control/joint/config.h"
-#include "sinew/control/joint/seen.h"
+#include "sinew/control/joint/state.h"
 #include "sinew/control/link/messages.h"
 
 namespace sinew::link {
@@ -40,7 +40,7 @@ struct ThesisJoints {
 ThesisJoints thesis_joints(const control::JointControllerConfig& config) noexcept;
 
 // Result of a byte.
-struct WordStep {
+struct ThesisByteResult {
   // Kind of result.
   enum class What : std::uint8_t {
     nothing,   // more bytes are needed, no reply
@@ -68,18 +68,19 @@ struct WordStep {
 };
 
 // Writes the requested readings and F. Returns the size; 0 if `out` is too short.
-std::size_t write_readings(const WordStep& step, const ThesisJoints& joints,
-                           const control::JointControllerConfig& config, const control::Seen& seen,
+std::size_t write_readings(const ThesisByteResult& step, const ThesisJoints& joints,
+                           const control::JointControllerConfig& config,
+                           const control::ControllerState& state,
                            std::span<std::uint8_t> out) noexcept;
 
 // Interprets the thesis's bytes one by one.
-class WordReader {
+class ThesisByteReader {
  public:
   // joints.found must be true.
-  explicit WordReader(const ThesisJoints& joints) noexcept : joints_(joints) {}
+  explicit ThesisByteReader(const ThesisJoints& joints) noexcept : joints_(joints) {}
 
   // Takes the next byte.
-  WordStep take(std::uint8_t byte) noexcept;
+  ThesisByteResult take(std::uint8_t byte) noexcept;
 
   // Discards an unfinished value or frame after silence on the line. Returns whether to reply B.
   bool silent() noexcept;
@@ -87,15 +88,16 @@ class WordReader {
  private:
   static constexpr std::size_t max_values = 5;
 
-  WordStep frame_byte(std::uint8_t byte) noexcept;
-  WordStep word(std::uint8_t byte) noexcept;
-  WordStep expect(std::uint8_t word, std::uint8_t values) noexcept;
-  WordStep value_byte(std::uint8_t byte) noexcept;
-  WordStep values() noexcept;
+  ThesisByteResult frame_byte(std::uint8_t byte) noexcept;
+  ThesisByteResult word(std::uint8_t byte) noexcept;
+  ThesisByteResult expect(std::uint8_t word, std::uint8_t values) noexcept;
+  ThesisByteResult value_byte(std::uint8_t byte) noexcept;
+  ThesisByteResult values() noexcept;
   bool possible(std::uint16_t value) const noexcept;
-  WordStep give_up(WordStep::What what) noexcept;
-  void desire_angle(WordStep& step, std::size_t thesis_joint, std::uint16_t value) const noexcept;
-  void desire_stiffness(WordStep& step, std::size_t thesis_joint,
+  ThesisByteResult give_up(ThesisByteResult::What what) noexcept;
+  void desire_angle(ThesisByteResult& step, std::size_t thesis_joint,
+                    std::uint16_t value) const noexcept;
+  void desire_stiffness(ThesisByteResult& step, std::size_t thesis_joint,
                         std::uint16_t value) const noexcept;
 
   ThesisJoints joints_;

@@ -1,6 +1,6 @@
 // Tests that the bytes of B.2 have the effects of its table, and that two bytes 255 always shut
 // down.
-#include "sinew/control/link/thesis_words.h"
+#include "sinew/control/link/thesis_bytes.h"
 
 #include <gtest/gtest.h>
 
@@ -14,19 +14,19 @@
 namespace sinew::link::thesis_words_test {
 namespace {
 
-using What = WordStep::What;
+using What = ThesisByteResult::What;
 using control::cylinder, control::hip, control::knee;
 
 const control::JointControllerConfig leg = control::test_leg();
 
 struct Words : ::testing::Test {
-  WordStep take(std::initializer_list<int> bytes) {
-    WordStep out;
+  ThesisByteResult take(std::initializer_list<int> bytes) {
+    ThesisByteResult out;
     for (const int b : bytes) out = reader.take(static_cast<std::uint8_t>(b));
     return out;
   }
   const ThesisJoints joints = thesis_joints(leg);
-  WordReader reader{joints};
+  ThesisByteReader reader{joints};
 };
 
 TEST_F(Words, JointsAreCylinderHipAndKnee) {
@@ -53,19 +53,20 @@ TEST_F(Words, AreThoseOfTheTable) {
     What expected = What::bad;
     for (const auto& row : table)
       if (byte >= row.first && byte <= row.last) expected = row.what;
-    EXPECT_EQ(WordReader(joints).take(static_cast<std::uint8_t>(byte)).what, expected) << byte;
+    EXPECT_EQ(ThesisByteReader(joints).take(static_cast<std::uint8_t>(byte)).what, expected)
+        << byte;
   }
 }
 
 TEST_F(Words, SensorsAreSentLowByteFirst) {
-  control::Seen seen;
+  control::ControllerState state;
   for (std::uint16_t i = 0; i < 7; ++i)
-    seen.reading[i].counts = static_cast<std::uint16_t>(0x100 + i);
+    state.reading[i].counts = static_cast<std::uint16_t>(0x100 + i);
   const auto sent = [&](int word) {
     Bytes out(20);
-    const WordStep step = take({word});
+    const ThesisByteResult step = take({word});
     EXPECT_EQ(step.what, What::readings);
-    out.resize(write_readings(step, joints, leg, seen, out));
+    out.resize(write_readings(step, joints, leg, state, out));
     return out;
   };
   const auto low = [](const control::JointConfig& j) { return j.angle.index; };
@@ -76,7 +77,7 @@ TEST_F(Words, SensorsAreSentLowByteFirst) {
   EXPECT_EQ(sent(6), (Bytes{4, 1, 'F'}));
   EXPECT_EQ(sent(9), (Bytes{3, 1, 4, 1, 5, 1, 6, 1, 'F'}));
   EXPECT_EQ(sent(10), (Bytes{0, 1, 1, 1, 2, 1, 3, 1, 4, 1, 5, 1, 6, 1, 'F'}));
-  EXPECT_EQ(write_readings(take({10}), joints, leg, seen, std::span<std::uint8_t>{}), 0u);
+  EXPECT_EQ(write_readings(take({10}), joints, leg, state, std::span<std::uint8_t>{}), 0u);
 }
 
 TEST_F(Words, JointsAreEnabledAndDisabled) {
@@ -90,7 +91,7 @@ TEST_F(Words, JointsAreEnabledAndDisabled) {
 
 TEST_F(Words, ValuesChangeWhatTheyNameAndNothingElse) {
   control::Command command = control::rest_command(leg);
-  WordStep step = take({31, 0x34, 0x02});
+  ThesisByteResult step = take({31, 0x34, 0x02});
   ASSERT_EQ(step.what, What::desired);
   step.apply(command);
   EXPECT_EQ(command.joint[hip].angle, 0x234);
@@ -115,7 +116,7 @@ TEST_F(Words, ValuesChangeWhatTheyNameAndNothingElse) {
 }
 
 TEST_F(Words, FeedforwardIsTheCylinders) {
-  const WordStep step = take({25, 55, 0, 56, 0, 45, 0, 46, 0});
+  const ThesisByteResult step = take({25, 55, 0, 56, 0, 45, 0, 46, 0});
   ASSERT_EQ(step.what, What::feedforward);
   EXPECT_EQ(step.feedforward.joint, cylinder);
   EXPECT_EQ(step.feedforward.duties, (control::Duties{55, 56, 45, 46}));
@@ -145,7 +146,7 @@ TEST_F(Words, TwoBytes255ShutDown) {
   constexpr std::uint8_t words[] = {0, 3, 10, 21, 25, 30, 31, 32, 41, 42, 50, 77, 255};
   int within_values = 0;
   for (int i = 0; i < 100'000; ++i) {
-    WordReader any(joints);
+    ThesisByteReader any(joints);
     bool framed = false, waits = false;
     for (unsigned k = random() % 12; k > 0; --k) {
       const std::uint8_t byte =

@@ -176,7 +176,7 @@ std::vector<Section> sections() {
           section<ThesisWords>("thesis_words"),
           section<ShutDown>("shut_down"),
           section<Identity>("identity"),
-          section("answer", Answer{}, Answer{.letters = 1}),
+          section("answer", Reply{}, Reply{.letters = 1}),
           section<State>("state"),
           section("readings", Readings{}, Readings{.count = 1}),
           section("counters", Counters{}, Counters{.count = 1}),
@@ -203,10 +203,10 @@ TEST(WirePage, HasEachMessageByteForByte) {
 
 TEST(WirePage, HasWhatIsRepeatedByteForByte) {
   EXPECT_EQ(places_under("a joint's command"), places_of(control::JointCommand{}));
-  EXPECT_EQ(places_under("a channel"), places_of(ChannelSeen{}));
-  EXPECT_EQ(places_under("a channel's counters"), places_of(control::SensorSeen{}));
-  EXPECT_EQ(places_under("a joint"), places_of(control::JointSeen{}));
-  EXPECT_EQ(places_under("an edge"), places_of(EdgeSeen{}));
+  EXPECT_EQ(places_under("a channel"), places_of(ChannelReading{}));
+  EXPECT_EQ(places_under("a channel's counters"), places_of(control::SensorStatistics{}));
+  EXPECT_EQ(places_under("a joint"), places_of(control::JointState{}));
+  EXPECT_EQ(places_under("an edge"), places_of(ReportedEdge{}));
   EXPECT_EQ(places_under("Telemetry"), places_of(Part{}));
 }
 
@@ -249,8 +249,8 @@ CommandFor walking() {
   return out;
 }
 
-Answer refusal() {
-  Answer out{.to = 4, .sequence = 30, .code = Code::configuration, .letters = 24};
+Reply refusal() {
+  Reply out{.to = 4, .sequence = 30, .code = Code::configuration, .letters = 24};
   const std::string words = "the period must not be 0";
   std::copy(words.begin(), words.end(), out.text.begin());
   return out;

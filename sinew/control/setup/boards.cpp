@@ -28,7 +28,8 @@ std::vector<Board> boards(const Installation& in) {
   Installation of_board = in;
   for (std::size_t b = 0; b < parts.size(); ++b) {
     of_board.robot = robot::only_board(in.robot, parts, b);
-    Board board{.spine = joint_controller_config(of_board), .limits = supervise_config(of_board)};
+    Board board{.joint_controller = joint_controller_config(of_board),
+                .limits = supervise_config(of_board)};
     board.joint = numbers(parts[b].joints);
     board.channel = numbers(parts[b].sensors);
     for (const int muscle : parts[b].muscles)
@@ -46,10 +47,10 @@ std::vector<Board> boards(const Installation& in) {
 
 Board stand_board(const robot::Stand& stand, bool three_way, std::uint16_t period) {
   Board out;
-  out.spine.period = period;
-  out.spine.timing = signals::identity_timing(period);
+  out.joint_controller.period = period;
+  out.joint_controller.timing = signals::identity_timing(period);
   if (stand.charge.mode == robot::Stand::Charge::Mode::valves) {
-    JointConfig& joint = out.spine.joint[out.spine.joints++];
+    JointConfig& joint = out.joint_controller.joint[out.joint_controller.joints++];
     joint.kind = three_way ? JointKind::timed_three_way : JointKind::timed;
     joint.flexor.inlet = {0};
     joint.flexor.exhaust = {1};
@@ -64,10 +65,10 @@ Board stand_board(const robot::Stand& stand, bool three_way, std::uint16_t perio
     const auto read = static_cast<std::uint16_t>(period - (sensors - i));
     const auto channel = static_cast<std::uint8_t>(i);
     out.channel.push_back(channel);
-    out.spine.conversion[out.spine.conversions++] = {
+    out.joint_controller.conversion[out.joint_controller.conversions++] = {
         {channel}, static_cast<std::uint16_t>(read - 1), read};
   }
-  if (const char* wrong = problem(out.spine)) throw std::invalid_argument(wrong);
+  if (const char* wrong = problem(out.joint_controller)) throw std::invalid_argument(wrong);
   return out;
 }
 

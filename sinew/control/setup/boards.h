@@ -14,7 +14,7 @@ namespace sinew::control {
 
 // Configuration of a board of the low level.
 struct Board {
-  JointControllerConfig spine;
+  JointControllerConfig joint_controller;
   SuperviseConfig limits;
 
   // Numbers of the machine, by the board's own numbers: joints in the robot's order, then the

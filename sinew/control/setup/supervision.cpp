@@ -131,7 +131,7 @@ void set_rate(const Installation& in, const robot::Sensor& s, SensorLimits& out)
 
 // Sets the joint whose valves move the quantity; regulated muscles have none. A cylinder's valves
 // work all the time, even at its stop, so its position is checked only if the file requests it.
-void set_driver(const robot::Robot& robot, const JointControllerConfig& spine,
+void set_driver(const robot::Robot& robot, const JointControllerConfig& joint_controller,
                 const robot::Sensor& s, SensorLimits& out) {
   int joint = -1;
   if (s.kind == Kind::angle) joint = robot::find_joint(robot, s.of);
@@ -144,7 +144,8 @@ void set_driver(const robot::Robot& robot, const JointControllerConfig& spine,
     out.of_extensor = !out.of_flexor;
     out.rests_at_ends = true;
   }
-  if (joint < 0 || spine.joint[static_cast<std::size_t>(joint)].kind == JointKind::regulated)
+  if (joint < 0 ||
+      joint_controller.joint[static_cast<std::size_t>(joint)].kind == JointKind::regulated)
     return;
   out.joint = static_cast<std::int8_t>(joint);
   if (std::isfinite(s.frozen_limit)) {
@@ -191,11 +192,11 @@ std::string sensor_text(const Trip& trip) {
 
 SuperviseConfig supervise_config(const Installation& in) {
   SuperviseConfig out;
-  const JointControllerConfig spine = joint_controller_config(in);
+  const JointControllerConfig joint_controller = joint_controller_config(in);
   for (std::size_t i = 0; i < in.robot.sensors.size() && i < out.sensor.size(); ++i) {
     set_plausible(in, in.robot.sensors[i], out.sensor[i]);
     set_rate(in, in.robot.sensors[i], out.sensor[i]);
-    set_driver(in.robot, spine, in.robot.sensors[i], out.sensor[i]);
+    set_driver(in.robot, joint_controller, in.robot.sensors[i], out.sensor[i]);
   }
   set_commands(in, out);
   if (const char* wrong = problem(out)) throw std::invalid_argument(wrong);
@@ -218,7 +219,7 @@ std::string to_text(const Trip& trip, const robot::Robot& robot, int board) {
     return fmt::format(
         "the board{} at {:.4f} s: all valves were shut for {:g} s, as long as they may be", on, at,
         limit);
-  if (trip.cause == asked) return fmt::format("shut down{} at {:.4f} s, as requested", on, at);
+  if (trip.cause == requested) return fmt::format("shut down{} at {:.4f} s, as requested", on, at);
   if (trip.cause == command) {
     const std::size_t j = trip.joint;
     const std::string name =

@@ -37,28 +37,28 @@ void OutputStage::drive(const signals::Edge& edge) noexcept {
   const OpenMask valve = bit(edge.valve);
   if (valve == 0) return;
   const bool open = edge.open != ((inverted_ & valve) != 0);
-  asked_ = open ? asked_ | valve : asked_ & ~valve;
+  requested_ = open ? requested_ | valve : requested_ & ~valve;
   level_[edge.valve.index] = edge.level;
 }
 
 void OutputStage::shut_all() noexcept {
-  asked_ = 0;
+  requested_ = 0;
   for (std::uint16_t& level : level_) level = 0;
 }
 
 void OutputStage::vent(signals::Tick now) noexcept {
   shut_all();
-  asked_ = exhausts_;
+  requested_ = exhausts_;
   has_shut_ &= ~exhausts_;  // without a refractory time
   (void)at(now);
 }
 
 OpenMask OutputStage::at(signals::Tick now) noexcept {
-  if (asked_ == worked_off_ && kept_ == 0) return open_;
-  worked_off_ = asked_;
-  OpenMask allowed = asked_, locked = 0, kept = 0;
+  if (requested_ == processed_ && kept_ == 0) return open_;
+  processed_ = requested_;
+  OpenMask allowed = requested_, locked = 0, kept = 0;
   for (std::size_t i = 0; i < pairs_; ++i)
-    if (asked_ & pair_[i].exhaust) locked |= allowed & pair_[i].inlet;
+    if (requested_ & pair_[i].exhaust) locked |= allowed & pair_[i].inlet;
   allowed &= ~locked;
   for (std::size_t v = 0; v < max_valves && refractory_ > 0; ++v) {
     const OpenMask one = OpenMask{1} << v;

@@ -68,7 +68,7 @@ class OutputStage {
   OpenMask inverted_ = 0, exhausts_ = 0;
   std::uint32_t refractory_ = 0;  // [ticks]
 
-  OpenMask asked_ = 0, worked_off_ = 0, open_ = 0;
+  OpenMask requested_ = 0, processed_ = 0, open_ = 0;
   OpenMask kept_ = 0, locked_ = 0;  // requested valves that were kept shut in the last tick
   std::array<signals::Tick, max_valves> shut_at_{};
   OpenMask has_shut_ = 0;  // valves that have been open

@@ -51,9 +51,9 @@ const char* safety_problem(const JointControllerConfig& machine) noexcept {
   return nullptr;
 }
 
-Safety::Safety(bool bitten) noexcept {
-  if (bitten) fault_ = BoardFault::watchdog;
-  enter(bitten ? BoardState::dump : BoardState::fault);
+Safety::Safety(bool reset_by_watchdog) noexcept {
+  if (reset_by_watchdog) fault_ = BoardFault::watchdog;
+  enter(reset_by_watchdog ? BoardState::dump : BoardState::fault);
 }
 
 void Safety::enter(BoardState state) noexcept {
@@ -82,9 +82,9 @@ const char* Safety::configure(const JointControllerConfig& machine, const Superv
 
 // --- requests of a host -------------------------------------------------------------------------
 
-bool Safety::clear(bool wish, Tick) noexcept {
-  const bool rises = wish && !wished_;
-  wished_ = wish;
+bool Safety::clear(bool requested, Tick) noexcept {
+  const bool rises = requested && !clear_requested_;
+  clear_requested_ = requested;
   if (!rises || (state_ != BoardState::fault && state_ != BoardState::dump)) return false;
   if (configured_ && !sensors_good()) return false;
   fault_ = BoardFault::none;
@@ -108,7 +108,7 @@ bool Safety::sensors_good() const noexcept {
 }
 
 bool Safety::arm_first(Tick now) noexcept {
-  if (state_ != BoardState::idle || !configured_ || !known_yet_) return false;
+  if (state_ != BoardState::idle || !configured_ || !has_checksum_) return false;
   armed_at_ = now;
   return first_frame_ = true;
 }
@@ -117,7 +117,7 @@ bool Safety::arm_second(Tick now) noexcept {
   const bool in_time = first_frame_ && now - armed_at_ <= static_cast<Tick>(config_.arm_window);
   first_frame_ = false;
   if (state_ != BoardState::idle || !in_time || !sensors_good()) return false;
-  heard_at_ = now;
+  host_alive_at_ = now;
   // This takes more time than a tick of a run has.
   run_.emplace(machine_, limits_).expect_every_tick();
   out_.shut_all();
@@ -133,7 +133,7 @@ bool Safety::command(const Command& command, Tick now) noexcept {
     enter(BoardState::running);
   }
   if (state_ != BoardState::running && state_ != BoardState::hold) return false;
-  heard_at_ = now;
+  host_alive_at_ = now;
   run_->command(command);
   const bool holds = run_->supervised().holding;
   if (holds && state_ == BoardState::running) {
@@ -149,13 +149,13 @@ void Safety::shut_down(Tick now) noexcept {
   first_frame_ = false;
   if (state_ == BoardState::armed) enter(BoardState::idle);
   if (state_ == BoardState::running || state_ == BoardState::hold)
-    vent(BoardFault::asked, Trip::Cause::asked, 0, now);
+    vent(BoardFault::requested, Trip::Cause::requested, 0, now);
 }
 
 void Safety::finish(Tick now) noexcept {
   if (state_ != BoardState::running && state_ != BoardState::hold) return;
   run_->shut_down(now - start_);
-  fail(BoardState::vent, BoardFault::asked, now);
+  fail(BoardState::vent, BoardFault::requested, now);
 }
 
 // --- faults -------------------------------------------------------------------------------------
@@ -183,7 +183,7 @@ void Safety::dump(BoardFault fault) noexcept {
 }
 
 void Safety::watch_host(Tick now) noexcept {
-  const Tick silent = now - heard_at_;
+  const Tick silent = now - host_alive_at_;
   if (state_ == BoardState::armed) {
     if (silent < static_cast<Tick>(config_.host_vent)) return;
     fault_ = BoardFault::host_silent;
@@ -202,14 +202,14 @@ void Safety::watch_host(Tick now) noexcept {
 
 // Changes to vent if the controller has ended the run by itself.
 void Safety::watch_run(Tick now) noexcept {
-  const Phase phase = run_->seen().phase;
+  const Phase phase = run_->state().phase;
   if (phase != Phase::venting && phase != Phase::off) return;
   const bool supervisor = run_->supervised().trip.cause != Trip::Cause::none;
   fail(BoardState::vent, supervisor ? BoardFault::supervisor : BoardFault::controller, now);
 }
 
 void Safety::watch_vent(Tick now) noexcept {
-  const bool over = run_->seen().phase == Phase::off;
+  const bool over = run_->state().phase == Phase::off;
   if (!watches_empty()) {
     if (over) end_vent();
     return;
@@ -229,7 +229,7 @@ void Safety::watch_vent(Tick now) noexcept {
 void Safety::end_vent() noexcept {
   out_.shut_all();
   forget_sensors();
-  enter(fault_ == BoardFault::asked ? BoardState::idle : BoardState::fault);
+  enter(fault_ == BoardFault::requested ? BoardState::idle : BoardState::fault);
 }
 
 // --- parameters ---------------------------------------------------------------------------------
@@ -247,7 +247,7 @@ Safety::Span Safety::parameters(std::uint8_t which) const noexcept {
 void Safety::restart_check() noexcept {
   span_ = 0;
   place_ = sum_ = 0;
-  known_yet_ = false;
+  has_checksum_ = false;
   std::uint32_t total = 0;
   for (std::uint8_t i = 0; i < spans; ++i) total += parameters(i).size;
   per_tick_ = total / config_.check_every + 1;
@@ -271,9 +271,9 @@ void Safety::check_parameters() noexcept {
     if (place_ == span.size) next_parameters();
   }
   if (span_ < spans) return;
-  if (known_yet_ && sum_ != known_) return dump(BoardFault::parameters);
-  known_ = sum_;
-  known_yet_ = true;
+  if (has_checksum_ && sum_ != checksum_) return dump(BoardFault::parameters);
+  checksum_ = sum_;
+  has_checksum_ = true;
   span_ = 0;
   sum_ = 0;
 }

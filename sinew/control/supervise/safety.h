@@ -46,13 +46,13 @@ enum class BoardFault : std::uint8_t {
   power_up,
   watchdog,    // it had expired before this start
   supervisor,  // a reading, a command or the clock; see Supervised::trip
-  controller,  // missing readings; see Seen::fault
+  controller,  // missing readings; see ControllerState::fault
   host_silent,
   held_too_long,
   parameters,  // constants in memory have changed
   state,       // the state in memory has changed
   not_empty,   // a channel was still above its limit after the longest vent
-  asked,       // a host requested it, at once or at its plan's end
+  requested,   // a host requested it, at once or at its plan's end
 };
 
 struct SafetyConfig {
@@ -78,8 +78,8 @@ const char* safety_problem(const JointControllerConfig&) noexcept;
 
 class Safety {
  public:
-  // State after a reset; `bitten`: the watchdog caused it.
-  explicit Safety(bool bitten = false) noexcept;
+  // State after a reset; `reset_by_watchdog`: the watchdog caused it.
+  explicit Safety(bool reset_by_watchdog = false) noexcept;
 
   // Sets a machine's constants, in fault, idle or dump only. Returns nullptr, or the reason for
   // refusing; then the previous constants stay in effect.
@@ -91,15 +91,15 @@ class Safety {
 
   // --- requests of a host; false: not permitted in this state ---
 
-  // Leaves fault or dump for idle when `wish` becomes true and no fault is present.
-  bool clear(bool wish, signals::Tick now) noexcept;
+  // Leaves fault or dump for idle when `requested` becomes true and no fault is present.
+  bool clear(bool requested, signals::Tick now) noexcept;
   bool arm_first(signals::Tick now) noexcept;
   bool arm_second(signals::Tick now) noexcept;
   // Sets the command, at a period's start or while armed; the first one starts the run.
   bool command(const Command&, signals::Tick now) noexcept;
   // Notes that the host is alive; an armed board requires this if no command comes.
-  void heard(signals::Tick now) noexcept {
-    if (state_ == BoardState::armed) heard_at_ = now;
+  void note_host_alive(signals::Tick now) noexcept {
+    if (state_ == BoardState::armed) host_alive_at_ = now;
   }
   void shut_down(signals::Tick now) noexcept;
   // Ends the plan at a period's start: vents as the controller does by itself, after a law's delay.
@@ -170,7 +170,7 @@ class Safety {
   BoardState state_ = BoardState::fault;
   std::uint8_t inverse_ = 0xff;  // complement of the state, to detect changed memory
   BoardFault fault_ = BoardFault::power_up;
-  bool configured_ = false, wished_ = true, first_frame_ = false;
+  bool configured_ = false, clear_requested_ = true, first_frame_ = false;
 
   JointControllerConfig machine_;
   SuperviseConfig limits_;
@@ -179,7 +179,7 @@ class Safety {
   OutputStage out_;
 
   signals::Tick start_ = 0;  // start of the run
-  signals::Tick heard_at_ = 0, armed_at_ = 0, held_since_ = 0, vent_since_ = 0;
+  signals::Tick host_alive_at_ = 0, armed_at_ = 0, held_since_ = 0, vent_since_ = 0;
 
   std::array<signals::Reading, max_channels> last_{};
   std::array<std::uint32_t, max_channels> empty_{};  // consecutive scans with an empty channel
@@ -188,9 +188,9 @@ class Safety {
   std::uint16_t scan_tick_ = 0;  // tick of the scan outside a run
 
   // Check of the parameters: position, sum so far, and sum of the last complete check.
-  std::uint32_t place_ = 0, sum_ = 0, known_ = 0, per_tick_ = 1;
+  std::uint32_t place_ = 0, sum_ = 0, checksum_ = 0, per_tick_ = 1;
   std::uint8_t span_ = 0;
-  bool known_yet_ = false;
+  bool has_checksum_ = false;
 
   signals::Tick begun_ = -1, driven_ = -1, opened_ = -1;
   bool waiting_ = false;  // a reading is due

@@ -25,7 +25,9 @@ TEST(Safety, ASensorThatFailsVentsInThreeScans) {
     b.start();
     b.run(1'000);
     const Tick from = b.now;
-    b.lie = [&](std::uint8_t channel, Tick, Reading r) { return channel == hip_angle ? wrong : r; };
+    b.replace_reading = [&](std::uint8_t channel, Tick, Reading r) {
+      return channel == hip_angle ? wrong : r;
+    };
     ASSERT_TRUE(b.reaches(BoardState::vent, 1'000));
     EXPECT_LE(b.entered - from, 301 + 5);
     b.run(5);
@@ -49,9 +51,9 @@ TEST(Safety, OneMissedTickIsCountedTwoShutTheInletsAndTenMillisecondsVent) {
     ASSERT_NE(b.open & inlets, 0u);
     b.now += missed;
     b.tick();
-    const Supervised& seen = b.board.controller()->supervised();
-    EXPECT_EQ(seen.gaps, 1u);
-    EXPECT_EQ(seen.worst_gap, missed);
+    const Supervised& statistics = b.board.controller()->supervised();
+    EXPECT_EQ(statistics.gaps, 1u);
+    EXPECT_EQ(statistics.worst_gap, missed);
     if (missed == 1) {
       EXPECT_NE(b.open & inlets, 0u);
     } else {
@@ -140,7 +142,7 @@ TEST(Safety, AVentLastsUntilTheMusclesAreEmptyAndAsLongAsTheControllersOwn) {
     b.run(500);
     b.board.shut_down(b.now);
     const Tick from = b.now;
-    b.lie = [&](std::uint8_t channel, Tick now, Reading r) {
+    b.replace_reading = [&](std::uint8_t channel, Tick now, Reading r) {
       if (channel >= 3 && now - from >= empty_after) r.counts = 200;
       return r;
     };

@@ -42,12 +42,14 @@ TEST(Safety, AFaultIsNotClearedWhileASensorIsMissing) {
   for (const Reading wrong :
        {Reading{0, Status::late}, Reading{4095, Status::ok}, Reading{1895, Status::invalid}}) {
     SupervisedBench b;
-    b.lie = [&](std::uint8_t channel, Tick, Reading r) { return channel == hip_angle ? wrong : r; };
+    b.replace_reading = [&](std::uint8_t channel, Tick, Reading r) {
+      return channel == hip_angle ? wrong : r;
+    };
     b.board.clear(false, b.now);
     b.run(1'000);
     EXPECT_FALSE(b.board.clear(true, b.now));
     EXPECT_EQ(b.board.state(), BoardState::fault);
-    b.lie = nullptr;
+    b.replace_reading = nullptr;
     b.run(200);
     EXPECT_FALSE(b.board.clear(true, b.now)) << "the line was high all the time";
     b.board.clear(false, b.now);
@@ -86,7 +88,7 @@ TEST(Safety, AnArmedBoardWithoutAHostIsIdleAfterASecond) {
   ASSERT_TRUE(b.board.arm_second(b.now));
   const Tick armed = b.now;
   b.run(5'000);
-  b.board.heard(b.now);
+  b.board.note_host_alive(b.now);
   ASSERT_TRUE(b.reaches(BoardState::idle, 20'000));
   EXPECT_EQ(b.now - 1 - armed, 15'000);
   EXPECT_EQ(b.board.fault(), BoardFault::host_silent);
@@ -136,7 +138,7 @@ TEST(Safety, WithoutAFaultItIsTheSupervisedController) {
     SupervisedBench b({}, anything, leg);
     std::vector<Edge> edges;
     b.on_edge = [&](const Edge& e) { edges.push_back(e); };
-    b.lie = [&](std::uint8_t channel, Tick now, Reading) {
+    b.replace_reading = [&](std::uint8_t channel, Tick now, Reading) {
       const Tick t = b.board.run_tick(now);
       return reads(channel, t < 0 ? now : t);
     };
@@ -165,7 +167,7 @@ TEST(Safety, WithoutAFaultItIsTheSupervisedController) {
       ASSERT_EQ(edges[i].valve.index, expected[i].valve.index);
       ASSERT_EQ(edges[i].open, expected[i].open);
     }
-    const Seen &ours = b.board.controller()->seen(), &theirs = alone.seen();
+    const ControllerState &ours = b.board.controller()->state(), &theirs = alone.state();
     for (std::size_t j = 0; j < leg.joints; ++j) {
       EXPECT_EQ(ours.joint[j].angle_output, theirs.joint[j].angle_output);
       EXPECT_EQ(ours.joint[j].stiffness, theirs.joint[j].stiffness);
@@ -257,7 +259,7 @@ TEST(Safety, ShutDownVentsInTheSameTickAndEndsIdle) {
   EXPECT_EQ(b.open & leg_exhausts, leg_exhausts);
   ASSERT_TRUE(b.reaches(BoardState::idle, 20'000));
   EXPECT_EQ(b.open, 0u);
-  EXPECT_EQ(b.board.fault(), BoardFault::asked);
+  EXPECT_EQ(b.board.fault(), BoardFault::requested);
 }
 
 // --- random inputs ------------------------------------------------------------------------------
@@ -286,7 +288,7 @@ TEST(Safety, WhateverComesAirGoesInOnlyWhileItRuns) {
     if (trial % 4 == 1) config.empty_at[3] = 900;
     if (trial % 4 == 2) config.empty_at[3] = 100, config.vent_limit = 2'000;
     SupervisedBench b(config);
-    b.lie = [&](std::uint8_t, Tick, Reading r) {
+    b.replace_reading = [&](std::uint8_t, Tick, Reading r) {
       if (one_in(400)) r.counts = static_cast<std::uint16_t>(random() % 4096);
       if (one_in(400)) r.status = Status::late;
       return r;

@@ -57,18 +57,18 @@ const char* problem(const SuperviseConfig& config) noexcept {
   return nullptr;
 }
 
-Supervisor::Supervisor(const JointControllerConfig& spine, const SuperviseConfig& limits) noexcept
-    : spine_(spine), limits_(limits), good_(rest_command(spine)) {}
+Supervisor::Supervisor(const JointControllerConfig& machine, const SuperviseConfig& limits) noexcept
+    : controller_(machine), limits_(limits), good_(rest_command(machine)) {}
 
 // Returns whether the run has not ended yet.
 bool Supervisor::active() const noexcept {
-  return seen().phase == Phase::startup || seen().phase == Phase::running;
+  return state().phase == Phase::startup || state().phase == Phase::running;
 }
 
 void Supervisor::trip(const Trip& trip, Tick vent_at) noexcept {
   if (!active()) return;
   supervised_.trip = trip;
-  spine_.trip(Status::fault, trip.channel, vent_at);
+  controller_.trip(Status::fault, trip.channel, vent_at);
 }
 
 void Supervisor::end_run(Trip::Cause cause, std::uint32_t limit, Tick t) noexcept {
@@ -80,7 +80,7 @@ void Supervisor::end_run(Trip::Cause cause, std::uint32_t limit, Tick t) noexcep
 // Checks, at the first call of a new tick, that it is the announced one.
 void Supervisor::enter(Tick t) noexcept {
   if (t <= now_) return;
-  const Tick announced = now_ < 0 ? t : every_tick_ ? now_ + 1 : spine_.next_event(now_);
+  const Tick announced = now_ < 0 ? t : every_tick_ ? now_ + 1 : controller_.next_event(now_);
   now_ = t;
   if (t > announced) gap(announced, t);
 }
@@ -91,34 +91,34 @@ void Supervisor::gap(Tick announced, Tick t) noexcept {
   ++supervised_.gaps;
   if (late > supervised_.worst_gap) supervised_.worst_gap = late;
 
-  spine_.skip_to(t);
+  controller_.skip_to(t);
   if (late >= limits_.gap_vent) {
     trip({.cause = Trip::Cause::gap, .at = t, .high = shown(limits_.gap_vent)}, t);
     return;
   }
   if (!active()) return;
-  if (late >= limits_.gap_shut) spine_.shut_inlets(t);
+  if (late >= limits_.gap_shut) controller_.shut_inlets(t);
   for (Tick skipped = announced; skipped < t; ++skipped)
-    if (const Conversion* c = spine_.due(skipped)) skip(*c, t);
+    if (const Conversion* c = controller_.due(skipped)) skip(*c, t);
 }
 
 // Handles a reading that was not taken in time. If it should have started a joint's law, the
 // joint's valves are shut, since they would otherwise keep their state for a period.
 void Supervisor::skip(const Conversion& conversion, Tick t) noexcept {
   count_scan(conversion.channel);
-  if (seen().phase != Phase::running) return;
+  if (state().phase != Phase::running) return;
   for (std::size_t j = 0; j < config().joints; ++j)
-    if (config().joint[j].law_tick == conversion.read) spine_.shut_valves(j, t);
+    if (config().joint[j].law_tick == conversion.read) controller_.shut_valves(j, t);
 }
 
 Tick Supervisor::next_event(Tick t) noexcept {
   enter(t);
-  return spine_.next_event(t);
+  return controller_.next_event(t);
 }
 
 bool Supervisor::starts_period(Tick t) noexcept {
   enter(t);
-  return spine_.starts_period(t);
+  return controller_.starts_period(t);
 }
 
 std::span<const Edge> Supervisor::edges(Tick t) noexcept {
@@ -129,15 +129,15 @@ std::span<const Edge> Supervisor::edges(Tick t) noexcept {
           .high = shown(limits_.vent_commands),
           .joint = bad_joint_},
          t);
-  } else if (supervised_.holding && seen().phase == Phase::running) {
-    for (std::size_t j = 0; j < config().joints; ++j) spine_.shut_valves(j, t);
+  } else if (supervised_.holding && state().phase == Phase::running) {
+    for (std::size_t j = 0; j < config().joints; ++j) controller_.shut_valves(j, t);
   }
-  return spine_.edges(t);
+  return controller_.edges(t);
 }
 
 const Conversion* Supervisor::due(Tick t) noexcept {
   enter(t);
-  return spine_.due(t);
+  return controller_.due(t);
 }
 
 // --- readings -----------------------------------------------------------------------------------
@@ -150,17 +150,17 @@ void Supervisor::take(const Conversion& conversion, Reading reading, Tick t) noe
   const bool judged = supervised_.trip.cause == Trip::Cause::none;
   if (judged && i < max_channels && reading.status == Status::ok) {
     supervised_.sensor[i].counts = reading.counts;
-    const Trip::Cause wrong = judge(i, reading.counts);
+    const Trip::Cause wrong = violated_limit(i, reading.counts);
     if (wrong == Trip::Cause::none) {
       watch_frozen(conversion.channel, reading.counts, t);
-      believe(i, reading.counts);
+      accept(i, reading.counts);
     } else {
       reject(conversion.channel, reading.counts, wrong, t);
       reading.status = Status::invalid;
     }
   }
   if (reading.status != Status::ok) count_scan(conversion.channel);
-  spine_.take(conversion, reading, t);
+  controller_.take(conversion, reading, t);
 }
 
 // Counts a scan without a good reading.
@@ -170,7 +170,7 @@ void Supervisor::count_scan(Channel channel) noexcept {
   if (scans < signals::max_counts) ++scans;
 }
 
-Trip::Cause Supervisor::judge(std::size_t i, std::uint16_t counts) const noexcept {
+Trip::Cause Supervisor::violated_limit(std::size_t i, std::uint16_t counts) const noexcept {
   const SensorLimits& limit = limits_.sensor[i];
   const Watch& watch = watch_[i];
   if (counts < limit.low || counts > limit.high) return Trip::Cause::range;
@@ -179,7 +179,7 @@ Trip::Cause Supervisor::judge(std::size_t i, std::uint16_t counts) const noexcep
                                                                      : Trip::Cause::none;
 }
 
-void Supervisor::believe(std::size_t i, std::uint16_t counts) noexcept {
+void Supervisor::accept(std::size_t i, std::uint16_t counts) noexcept {
   Watch& watch = watch_[i];
   if (watch.agreed < limits_.bad_readings) ++watch.agreed;
   watch.good = counts;
@@ -208,8 +208,8 @@ void Supervisor::reject(Channel channel, std::uint16_t counts, Trip::Cause cause
 
 // Returns whether the last law has opened a valve that moves the measured quantity.
 bool Supervisor::driven(const SensorLimits& limit) const noexcept {
-  if (limit.joint < 0 || seen().phase != Phase::running) return false;
-  const JointSeen& joint = seen().joint[static_cast<std::size_t>(limit.joint)];
+  if (limit.joint < 0 || state().phase != Phase::running) return false;
+  const JointState& joint = state().joint[static_cast<std::size_t>(limit.joint)];
   if (!joint.enabled) return false;
   const Duties& d = joint.duties;
   return (limit.of_flexor && d.flexor_inlet + d.flexor_exhaust > 0) ||
@@ -226,10 +226,10 @@ void Supervisor::watch_frozen(Channel channel, std::uint16_t counts, Tick t) noe
     return;
   }
   ++watch.equal;
-  SensorSeen& seen = supervised_.sensor[channel.index];
+  SensorStatistics& statistics = supervised_.sensor[channel.index];
   if (watch.equal >= limits_.frozen_scans) {
-    seen.frozen += watch.equal == limits_.frozen_scans ? watch.equal : 1;
-    if (watch.equal > seen.longest) seen.longest = watch.equal;
+    statistics.frozen += watch.equal == limits_.frozen_scans ? watch.equal : 1;
+    if (watch.equal > statistics.longest) statistics.longest = watch.equal;
   }
   if (limit.frozen_limit > 0 && watch.equal == limit.frozen_limit)
     trip({.cause = Trip::Cause::frozen,
@@ -271,7 +271,7 @@ void Supervisor::command(const Command& command) noexcept {
   supervised_.holding = false;
   good_ = command;
   commanded_ = true;
-  spine_.command(command);
+  controller_.command(command);
 }
 
 // Keeps the last good command; from the third rejected one in a row all valves are shut.
@@ -288,7 +288,7 @@ void Supervisor::hold() noexcept {
   ++supervised_.holds;
   Command shut = good_;
   for (JointCommand& j : shut.joint) j.enabled = false;
-  spine_.command(shut);
+  controller_.command(shut);
 }
 
 }  // namespace sinew::control

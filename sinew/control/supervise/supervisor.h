@@ -35,7 +35,7 @@ namespace sinew::control {
 
 // Counts of the supervisor and its reason for ending a run, for the log and the summary.
 
-struct SensorSeen {
+struct SensorStatistics {
   std::uint16_t counts = 0;    // last conversion, accepted or not
   std::uint32_t rejected = 0;  // rejected readings
   std::uint32_t frozen = 0;    // scans in which it was equal for too long
@@ -53,9 +53,9 @@ struct Trip {
     frozen,
     gap,
     command,
-    host,   // silent for too long
-    held,   // all valves were shut for the longest permitted time
-    asked,  // shutdown was requested
+    host,       // silent for too long
+    held,       // all valves were shut for the longest permitted time
+    requested,  // shutdown was requested
   };
 
   Cause cause = Cause::none;
@@ -70,7 +70,7 @@ struct Trip {
 
 // Counts of a run.
 struct Supervised {
-  std::array<SensorSeen, max_channels> sensor;
+  std::array<SensorStatistics, max_channels> sensor;
   std::uint32_t rejected = 0;  // readings of all sensors
   std::uint32_t rejected_commands = 0;
   std::uint32_t gaps = 0;       // number of ticks that came later than announced
@@ -83,22 +83,24 @@ struct Supervised {
 class Supervisor {
  public:
   // Requires that problem() of both is nullptr.
-  Supervisor(const JointControllerConfig& spine, const SuperviseConfig& limits) noexcept;
+  Supervisor(const JointControllerConfig& machine, const SuperviseConfig& limits) noexcept;
 
   // As in JointController; the first of these calls in a tick checks whether the tick is later than
   // announced.
-  signals::Scan scan() const noexcept { return spine_.scan(); }
+  signals::Scan scan() const noexcept { return controller_.scan(); }
   signals::Tick next_event(signals::Tick t) noexcept;
   bool starts_period(signals::Tick t) noexcept;
   void command(const Command& command) noexcept;
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;
   const signals::Conversion* due(signals::Tick t) noexcept;
-  const signals::Conversion* begins(signals::Tick t) const noexcept { return spine_.begins(t); }
+  const signals::Conversion* begins(signals::Tick t) const noexcept {
+    return controller_.begins(t);
+  }
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
-  const Seen& seen() const noexcept { return spine_.seen(); }
-  const JointControllerConfig& config() const noexcept { return spine_.config(); }
-  void missed(signals::Tick t) noexcept { spine_.missed(t); }
-  void shut_down(signals::Tick t) noexcept { spine_.shut_down(t); }
+  const ControllerState& state() const noexcept { return controller_.state(); }
+  const JointControllerConfig& config() const noexcept { return controller_.config(); }
+  void missed(signals::Tick t) noexcept { controller_.missed(t); }
+  void shut_down(signals::Tick t) noexcept { controller_.shut_down(t); }
 
   // --- for a caller with further checks (safety.h) ---
 
@@ -136,8 +138,8 @@ class Supervisor {
 
   // Readings
   void count_scan(signals::Channel) noexcept;
-  Trip::Cause judge(std::size_t channel, std::uint16_t counts) const noexcept;
-  void believe(std::size_t channel, std::uint16_t counts) noexcept;
+  Trip::Cause violated_limit(std::size_t channel, std::uint16_t counts) const noexcept;
+  void accept(std::size_t channel, std::uint16_t counts) noexcept;
   void reject(signals::Channel, std::uint16_t counts, Trip::Cause, signals::Tick t) noexcept;
   bool driven(const SensorLimits&) const noexcept;
   void watch_frozen(signals::Channel, std::uint16_t counts, signals::Tick t) noexcept;
@@ -147,7 +149,7 @@ class Supervisor {
   bool possible(const Openings&) const noexcept;
   void reject_command(std::uint8_t joint) noexcept;
 
-  JointController spine_;
+  JointController controller_;
   SuperviseConfig limits_;
   Supervised supervised_;
 

@@ -18,7 +18,7 @@ namespace {
 TEST(Supervisor, ThreeReadingsOutOfRangeVentWithinHalfAMillisecond) {
   for (const std::uint16_t counts : {0, 99, 4001, 4095, 65535}) {
     Stand stand;
-    stand.lie = lying(hip_angle, counts, 20);
+    stand.replace_reading = constant_reading(hip_angle, counts, 20);
     stand.run(60);
     EXPECT_EQ(stand.trip().cause, Trip::Cause::range);
     EXPECT_EQ(stand.trip().channel.index, hip_angle);
@@ -30,7 +30,7 @@ TEST(Supervisor, ThreeReadingsOutOfRangeVentWithinHalfAMillisecond) {
     EXPECT_EQ(stand.trip().at, third);
     ASSERT_TRUE(stand.vented.has_value());
     EXPECT_LE(*stand.vented - third, 5);
-    EXPECT_EQ(stand.spine.seen().fault, Status::fault);
+    EXPECT_EQ(stand.supervisor.state().fault, Status::fault);
   }
 }
 
@@ -38,7 +38,7 @@ TEST(Supervisor, EvenWhereALawsOutputTakesAPeriod) {
   JointControllerConfig leg = test_leg();
   leg.output_delay = 100;
   Stand stand(limits(), leg);
-  stand.lie = lying(hip_angle, 4095, 20);
+  stand.replace_reading = constant_reading(hip_angle, 4095, 20);
   stand.run(60);
   ASSERT_TRUE(stand.vented.has_value());
   EXPECT_LE(*stand.vented - 2203, 5);
@@ -48,19 +48,19 @@ TEST(Supervisor, AMachineWithoutAVentTimeIsVentedForASecond) {
   JointControllerConfig leg = test_leg();
   leg.shutdown_vent = 0;
   Stand stand(limits(), leg);
-  stand.lie = lying(hip_angle, 4095, 20);
+  stand.replace_reading = constant_reading(hip_angle, 4095, 20);
   stand.run(121);
   EXPECT_EQ(stand.vented.value_or(0), 2204);
-  EXPECT_EQ(stand.spine.seen().phase, Phase::venting);
+  EXPECT_EQ(stand.supervisor.state().phase, Phase::venting);
   stand.run(3);
-  EXPECT_EQ(stand.spine.seen().phase, Phase::off);
+  EXPECT_EQ(stand.supervisor.state().phase, Phase::off);
   EXPECT_FALSE(stand.valves.an_exhaust_open());
 }
 
 // The laws continue with the last good counts: the edges are those of a leg at rest.
 TEST(Supervisor, SingleBadSamplesNeverEndARun) {
   Stand honest, stand;
-  stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+  stand.replace_reading = [](std::uint8_t c, int scan, signals::Reading r) {
     if (c == hip_angle && scan > 3 && scan % 2) r.counts = scan % 4 == 1 ? 4095 : 1895 + 120;
     return r;
   };
@@ -69,14 +69,14 @@ TEST(Supervisor, SingleBadSamplesNeverEndARun) {
   EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
   EXPECT_EQ(stand.supervised().sensor[hip_angle].rejected, 248u);
   EXPECT_EQ(stand.supervised().rejected, 248u);
-  EXPECT_EQ(stand.spine.seen().reading[hip_angle].counts, 1895);
-  EXPECT_EQ(stand.spine.seen().joint[hip].angle_output,
-            honest.spine.seen().joint[hip].angle_output);
+  EXPECT_EQ(stand.supervisor.state().reading[hip_angle].counts, 1895);
+  EXPECT_EQ(stand.supervisor.state().joint[hip].angle_output,
+            honest.supervisor.state().joint[hip].angle_output);
 }
 
 TEST(Supervisor, TwoInARowDoNotEndARunEither) {
   Stand stand;
-  stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+  stand.replace_reading = [](std::uint8_t c, int scan, signals::Reading r) {
     if (c == hip_angle && scan % 3) r.counts = 0;
     return r;
   };
@@ -87,7 +87,8 @@ TEST(Supervisor, TwoInARowDoNotEndARunEither) {
 
 TEST(Supervisor, FasterThanItCanMoveThreeTimesVents) {
   Stand stand;
-  stand.lie = lying(hip_angle, 1895 + 151, 20);  // 50, 100, 150 would have been possible
+  stand.replace_reading =
+      constant_reading(hip_angle, 1895 + 151, 20);  // 50, 100, 150 would have been possible
   stand.run(40);
   EXPECT_EQ(stand.trip().cause, Trip::Cause::rate);
   EXPECT_EQ(stand.trip().at, 2203);
@@ -95,7 +96,7 @@ TEST(Supervisor, FasterThanItCanMoveThreeTimesVents) {
   EXPECT_LE(stand.vented.value_or(1'000'000) - 2203, 5);
 
   Stand possible;
-  possible.lie = lying(hip_angle, 1895 + 150, 20);
+  possible.replace_reading = constant_reading(hip_angle, 1895 + 150, 20);
   possible.run(40);
   EXPECT_EQ(possible.trip().cause, Trip::Cause::none);
   EXPECT_EQ(possible.supervised().rejected, 2u);
@@ -104,7 +105,7 @@ TEST(Supervisor, FasterThanItCanMoveThreeTimesVents) {
 // At the limit's rate, for as long as the range allows, no reading is rejected.
 TEST(Supervisor, AsFastAsItCanIsFine) {
   Stand stand;
-  stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+  stand.replace_reading = [](std::uint8_t c, int scan, signals::Reading r) {
     const int phase = scan % 80;  // 0 .. 2000 and back
     if (c == hip_angle) r.counts = static_cast<std::uint16_t>(200 + 50 * std::abs(phase - 40));
     return r;
@@ -116,16 +117,16 @@ TEST(Supervisor, AsFastAsItCanIsFine) {
 // A false reading in the first scan does not make later good ones bad.
 TEST(Supervisor, TheFirstReadingMayLie) {
   Stand stand;
-  stand.lie = lying(hip_angle, 3900, 0, 1);
+  stand.replace_reading = constant_reading(hip_angle, 3900, 0, 1);
   stand.run(50);
   EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
-  EXPECT_EQ(stand.spine.seen().reading[hip_angle].counts, 1895);
+  EXPECT_EQ(stand.supervisor.state().reading[hip_angle].counts, 1895);
 }
 
 TEST(Supervisor, AGaugeMayStandAtEitherEnd) {
   for (const std::uint16_t counts : {0, 4095}) {
     Stand stand;
-    stand.lie = lying(hip_tension, counts, 0);
+    stand.replace_reading = constant_reading(hip_tension, counts, 0);
     stand.run(300);
     EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
     EXPECT_EQ(stand.supervised().rejected, 0u);
@@ -143,7 +144,7 @@ TEST(Supervisor, AFrozenReadingIsCountedAndNamed) {
   EXPECT_EQ(stand.supervised().sensor[hip_tension].frozen, 199u);
 
   Stand moves;
-  moves.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+  moves.replace_reading = [](std::uint8_t c, int scan, signals::Reading r) {
     if (c == hip_angle) r.counts = static_cast<std::uint16_t>(r.counts + scan / 40 % 2);
     return r;
   };
@@ -204,8 +205,8 @@ TEST(Supervisor, NeverBothOpenAmongSkippedTicks) {
   const FuzzOptions options{.gap_every = 40, .late_every = 50};
   for (int trial = 0; trial < 60; ++trial) {
     const JointControllerConfig leg = any_leg(random);
-    JointController spine(leg);
-    fuzz(spine, 300, options, random, alone);
+    JointController unsupervised(leg);
+    fuzz(unsupervised, 300, options, random, alone);
     SuperviseConfig config;
     config.gap_vent = 1'000'000;
     Supervisor supervisor(leg, config);
@@ -232,21 +233,22 @@ TEST(Supervisor, WhatShouldHaveShutInAGapShutsAtTheFirstTickAfterIt) {
     c.duties = {pulse, 0, 0, pulse};
   }
   int gaps = 0, edges = 0;
-  Supervisor spine(leg, config);
+  Supervisor supervisor(leg, config);
   ValveWatch valves(leg);
   std::array<Tick, 12> opened{};
   for (Tick t = 0; t < 2'000'000;) {
-    if (spine.starts_period(t)) spine.command(command);
-    for (const signals::Edge& e : spine.edges(t)) {
+    if (supervisor.starts_period(t)) supervisor.command(command);
+    for (const signals::Edge& e : supervisor.edges(t)) {
       valves.drive(e);
       if (e.open) opened[e.valve.index] = t;
       ++edges;
     }
-    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, {1000, Status::ok}, t);
+    if (const signals::Conversion* c = supervisor.due(t))
+      supervisor.take(*c, {1000, Status::ok}, t);
     for (int v = 0; v < 12; ++v)
       ASSERT_FALSE(valves.is_open(v) && t >= opened[static_cast<std::size_t>(v)] + pulse)
           << "valve " << v << " at " << t;
-    t = spine.next_event(t);
+    t = supervisor.next_event(t);
     if (random() % 20 != 0) continue;
     t += any_gap(random);
     ++gaps;

@@ -37,7 +37,7 @@ struct SupervisedBench {
     if (const signals::Conversion* c = board.due(now)) {
       const std::uint8_t channel = c->channel.index;
       signals::Reading r{Stand::rest(channel), signals::Status::ok};
-      if (lie) r = lie(channel, now, r);
+      if (replace_reading) r = replace_reading(channel, now, r);
       board.take(*c, r, now);
     }
     const OpenMask before = open;
@@ -75,7 +75,8 @@ struct SupervisedBench {
   Safety board;
   Command command;
   bool commands = false;  // the host sends a command for each period
-  std::function<signals::Reading(std::uint8_t channel, signals::Tick, signals::Reading)> lie;
+  std::function<signals::Reading(std::uint8_t channel, signals::Tick, signals::Reading)>
+      replace_reading;
   std::function<void(const signals::Edge&)> on_edge;
   signals::Tick now = 0;
   OpenMask open = 0;

@@ -122,7 +122,7 @@ struct FuzzCount {
   std::int64_t periods = 0, both_open = 0, not_finite = 0, edges = 0, gaps = 0;
 };
 
-inline bool finite(const JointSeen& s) {
+inline bool finite(const JointState& s) {
   return std::isfinite(s.stiffness) && std::isfinite(s.stiffness_output) &&
          std::isfinite(s.angle_output) && std::isfinite(s.velocity);
 }
@@ -135,7 +135,7 @@ void fuzz(Controller& controller, int periods, const FuzzOptions& options, std::
   ValveWatch valves(config);
   const auto one_in = [&](unsigned n) { return n > 0 && random() % n == 0; };
   const signals::Tick end = static_cast<signals::Tick>(periods) * config.period;
-  for (signals::Tick t = 0; t < end && controller.seen().phase != Phase::off;) {
+  for (signals::Tick t = 0; t < end && controller.state().phase != Phase::off;) {
     if (controller.starts_period(t)) {
       ++count.periods;
       controller.command(any_command(random, config, one_in(options.impossible_every)));
@@ -150,7 +150,7 @@ void fuzz(Controller& controller, int periods, const FuzzOptions& options, std::
       controller.take(*c, {static_cast<std::uint16_t>(random() % options.counts), status}, t);
     }
     for (std::size_t j = 0; j < config.joints; ++j)
-      count.not_finite += !finite(controller.seen().joint[j]);
+      count.not_finite += !finite(controller.state().joint[j]);
     t = controller.next_event(t);
     if (one_in(options.gap_every)) {
       ++count.gaps;

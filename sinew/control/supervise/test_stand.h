@@ -33,11 +33,11 @@ inline SuperviseConfig limits() {
   return out;
 }
 
-// A supervised leg at its rest angles. `lie` changes its readings.
+// A supervised leg at its rest angles. `replace_reading` changes its readings.
 struct Stand {
   explicit Stand(const SuperviseConfig& config = limits(),
                  const JointControllerConfig& leg = test_leg())
-      : spine(leg, config), valves(leg) {
+      : supervisor(leg, config), valves(leg) {
     EXPECT_EQ(problem(config), nullptr);
     command = rest_command(leg);
     for (JointCommand& c : command.joint) {
@@ -48,21 +48,21 @@ struct Stand {
 
   // Runs one tick and returns the loop's next one.
   Tick visit(Tick t) {
-    if (spine.starts_period(t)) spine.command(command);
-    for (const signals::Edge& e : spine.edges(t)) {
+    if (supervisor.starts_period(t)) supervisor.command(command);
+    for (const signals::Edge& e : supervisor.edges(t)) {
       valves.drive(e);
       EXPECT_FALSE(valves.both_open()) << t;
     }
-    if (const signals::Conversion* c = spine.due(t)) {
+    if (const signals::Conversion* c = supervisor.due(t)) {
       const int scan = static_cast<int>(t / 100);
       signals::Reading r{rest(c->channel.index), Status::ok};
-      if (lie) r = lie(c->channel.index, scan, r);
-      spine.take(*c, r, t);
+      if (replace_reading) r = replace_reading(c->channel.index, scan, r);
+      supervisor.take(*c, r, t);
     }
-    if (!vented && spine.seen().phase == Phase::venting && valves.all_exhausts_open() &&
+    if (!vented && supervisor.state().phase == Phase::venting && valves.all_exhausts_open() &&
         !valves.an_inlet_open())
       vented = t;
-    return spine.next_event(t);
+    return supervisor.next_event(t);
   }
   void run(int periods) {
     for (const Tick end = now + 100 * periods; now < end;) now = visit(now);
@@ -76,19 +76,20 @@ struct Stand {
   void fill() {
     for (JointCommand& c : command.joint) c.duties = {100, 0, 0, 100};
   }
-  const Supervised& supervised() const { return spine.supervised(); }
+  const Supervised& supervised() const { return supervisor.supervised(); }
   const Trip& trip() const { return supervised().trip; }
 
-  Supervisor spine;
+  Supervisor supervisor;
   ValveWatch valves;
   Command command;
-  std::function<signals::Reading(std::uint8_t channel, int scan, signals::Reading)> lie;
+  std::function<signals::Reading(std::uint8_t channel, int scan, signals::Reading)> replace_reading;
   Tick now = 0;
   std::optional<Tick> vented;  // first tick with all exhausts open and all inlets shut after a trip
 };
 
 // Returns a function that falsifies one channel from a scan on, for a number of scans.
-inline auto lying(std::uint8_t channel, std::uint16_t counts, int from, int scans = 1'000'000) {
+inline auto constant_reading(std::uint8_t channel, std::uint16_t counts, int from,
+                             int scans = 1'000'000) {
   return [=](std::uint8_t c, int scan, signals::Reading r) {
     if (c == channel && scan >= from && scan < from + scans) r.counts = counts;
     return r;

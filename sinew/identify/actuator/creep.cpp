@@ -7,15 +7,15 @@
 
 #include "sinew/actuator/hysteresis.h"
 #include "sinew/identify/actuator/static_settled.h"
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
 namespace {
 
-const Wanted creep_wanted[] = {
+const ColumnSpec creep_specs[] = {
     {.name = "time", .unit = "s", .doc = "from before the pressure rises"},
     {.name = "force", .unit = "N", .least = 0.05, .most = 2e4, .doc = "tension of the muscle"},
     {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
@@ -52,7 +52,7 @@ struct Held {
 };
 
 // Returns the effective pressure at every row: the output of a play operator.
-std::vector<double> felt(std::span<const double> pressure, double half_width) {
+std::vector<double> effective_pressures(std::span<const double> pressure, double half_width) {
   std::vector<double> out;
   double f = pressure[0];
   for (const double p : pressure) out.push_back(f = actuator::play(f, p, half_width));
@@ -60,7 +60,8 @@ std::vector<double> felt(std::span<const double> pressure, double half_width) {
 }
 
 // Returns the delayed pressure at every row. The pressure is linear between rows, so this is exact.
-std::vector<double> late(std::span<const double> t, std::span<const double> p, double tau) {
+std::vector<double> delayed_pressures(std::span<const double> t, std::span<const double> p,
+                                      double tau) {
   std::vector<double> z{p[0]};
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double dt = t[i] - t[i - 1];
@@ -74,11 +75,11 @@ std::vector<double> late(std::span<const double> t, std::span<const double> p, d
 // Returns the force at every row. `x` holds A, P0, w if there is friction, then c and tau of each
 // element.
 std::vector<double> force(const Held& held, const Form& form, std::span<const double> x) {
-  const std::vector<double> f = felt(held.pressure, form.friction ? x[2] : 0.0);
+  const std::vector<double> f = effective_pressures(held.pressure, form.friction ? x[2] : 0.0);
   std::vector<double> out;
   for (const double each : f) out.push_back(x[0] * std::max(each - x[1], 0.0));
   for (std::size_t k = form.friction ? 3 : 2; k + 1 < x.size(); k += 2) {
-    const std::vector<double> z = late(held.time, f, x[k + 1]);
+    const std::vector<double> z = delayed_pressures(held.time, f, x[k + 1]);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += x[0] * x[k] * std::max(z[i] - x[1], 0.0);
   }
   return out;
@@ -152,7 +153,7 @@ Trial trial_of(const Held& held) {
   for (int parity = 0; parity < 2; ++parity) {
     Split& split = out.splits.emplace_back();
     for (const std::size_t row : held.rows)
-      (held.stretch(row) % 2 == parity ? split.unseen : split.fitted).push_back(row);
+      (held.stretch(row) % 2 == parity ? split.held_out : split.fitted).push_back(row);
   }
   return out;
 }
@@ -205,7 +206,7 @@ Held held_of(const Measured& data, Report& report) {
 
 }  // namespace
 
-std::span<const Wanted> creep_columns() { return creep_wanted; }
+std::span<const ColumnSpec> creep_columns() { return creep_specs; }
 
 std::vector<std::string> creep_models() {
   std::vector<std::string> out;
@@ -230,8 +231,8 @@ CreepResult identify_creep(const Measured& data, host::Tally* done) {
   std::vector<Candidate> tried;
   for (const Form& form : forms)
     if (both || !form.friction) tried.push_back(candidate_of(held, form));
-  contend(tried, trial_of(held), report, done);
-  report.unseen = {"creep and friction at other lengths"};
+  fit_candidates(tried, trial_of(held), report, done);
+  report.not_shown = {"creep and friction at other lengths"};
   report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
   conclude(report);
   refuse_unexplained(report, 15, "the columns and their units, or a longer record");

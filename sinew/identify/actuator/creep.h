@@ -21,13 +21,13 @@
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/data/measured.h"
-#include "sinew/identify/fit/fit.h"
 
 namespace sinew::identify {
 
 // Returns the columns that are used: time, force, pressure.
-std::span<const Wanted> creep_columns();
+std::span<const ColumnSpec> creep_columns();
 
 // Creep and friction that were identified, and the quality of the fit.
 struct CreepResult {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sinew/actuator/creep.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::creep_test {
 namespace {

@@ -6,21 +6,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
 namespace {
 
-constexpr std::array geometry_wanted{
-    Wanted{.name = "length",
-           .unit = "m",
-           .least = 5e-3,
-           .most = 5,
-           .doc = "of the mesh between its ends"},
-    Wanted{.name = "diameter", .unit = "m", .least = 5e-4, .most = 0.5, .doc = "of the mesh"}};
+constexpr std::array geometry_specs{
+    ColumnSpec{.name = "length",
+               .unit = "m",
+               .least = 5e-3,
+               .most = 5,
+               .doc = "of the mesh between its ends"},
+    ColumnSpec{.name = "diameter", .unit = "m", .least = 5e-4, .most = 0.5, .doc = "of the mesh"}};
 
 struct Line {
   double at_zero = 0, slope = 0;
@@ -93,7 +93,7 @@ Candidate candidate_of(const std::vector<double>& length, const std::vector<doub
 
 }  // namespace
 
-std::span<const Wanted> geometry_columns() { return geometry_wanted; }
+std::span<const ColumnSpec> geometry_columns() { return geometry_specs; }
 
 GeometryResult identify_geometry(const Measured& data, double thread_thickness) {
   refuse_poor(data);
@@ -116,9 +116,10 @@ GeometryResult identify_geometry(const Measured& data, double thread_thickness) 
   report.unit = "m";
   report.full_scale = largest(diameter);
   report.full_scale_is = "the largest diameter";
-  report.unseen = {"how the threads stretch under load, and how thick they are between the ends"};
-  contend({candidate_of(length, diameter, std::max(thread, 1.001 * largest(length)), turns)},
-          {.measured = diameter}, report);
+  report.not_shown = {
+      "how the threads stretch under load, and how thick they are between the ends"};
+  fit_candidates({candidate_of(length, diameter, std::max(thread, 1.001 * largest(length)), turns)},
+                 {.measured = diameter}, report);
   report.rows = {.x = "length", .x_unit = "m", .at = length, .measured = diameter};
   report.notes = data.notes;
   conclude(report);

@@ -13,13 +13,13 @@
 #include <span>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/data/measured.h"
-#include "sinew/identify/fit/fit.h"
 
 namespace sinew::identify {
 
 // Returns the columns that are used: `length` and `diameter`.
-std::span<const Wanted> geometry_columns();
+std::span<const ColumnSpec> geometry_columns();
 
 // The identified braid, and the quality of the fit.
 struct GeometryResult {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::geometry_test {
 namespace {

@@ -18,11 +18,11 @@
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
+#include "sinew/identify/actuator/static_law_fitter.h"
 #include "sinew/identify/actuator/static_model.h"
 #include "sinew/identify/actuator/static_shown.h"
-#include "sinew/identify/actuator/static_tried.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -49,25 +49,26 @@ constexpr double near_scatters = 3, near_share = 0.01;  // share of the largest 
 constexpr double other_mount = 0.004;  // share of the longest length; closer: same mount
 
 // A possible error of a recorded value.
-struct Slip {
+struct RecordingError {
   double factor;
   std::string_view words;
 };
 
 // The recorded force is the true one multiplied with this factor.
-constexpr Slip of_force[] = {{-1, "its sign is the other one"},
-                             {10, "ten times what the law has: a slipped decimal"},
-                             {0.1, "a tenth of what the law has: a slipped decimal"},
-                             {100, "a hundred times what the law has: a slipped decimal"},
-                             {0.01, "a hundredth of what the law has: a slipped decimal"},
-                             {2, "twice what the law has: counted double"},
-                             {0.5, "half of what the law has: counted for one of two"},
-                             {4.4482216, "4.45 times what the law has: N in place of lbf"},
-                             {1 / 4.4482216, "what the law has over 4.45: lbf in place of N"},
-                             {1 / 9.80665, "what the law has over 9.81: kg in place of N"}};
+constexpr RecordingError force_errors[] = {
+    {-1, "its sign is the other one"},
+    {10, "ten times what the law has: a slipped decimal"},
+    {0.1, "a tenth of what the law has: a slipped decimal"},
+    {100, "a hundred times what the law has: a slipped decimal"},
+    {0.01, "a hundredth of what the law has: a slipped decimal"},
+    {2, "twice what the law has: counted double"},
+    {0.5, "half of what the law has: counted for one of two"},
+    {4.4482216, "4.45 times what the law has: N in place of lbf"},
+    {1 / 4.4482216, "what the law has over 4.45: lbf in place of N"},
+    {1 / 9.80665, "what the law has over 9.81: kg in place of N"}};
 
 // The recorded pressure is the true one multiplied with this factor.
-constexpr Slip of_pressure[] = {
+constexpr RecordingError pressure_errors[] = {
     {10, "as at a tenth of its pressure: a slipped decimal"},
     {0.1, "as at ten times its pressure: a slipped decimal"},
     {2, "as at half its pressure"},
@@ -76,15 +77,15 @@ constexpr Slip of_pressure[] = {
     {1 / 6.894757, "as at 6.89 times its pressure: psi in place of kPa"}};
 
 // Finds the cause that explains a reading best.
-class SlipSearch {
+class CauseSearch {
  public:
   // `within`: largest distance from the law that counts as explained [N].
-  SlipSearch(const StaticFit& fit, const StaticScales& scales, double within)
+  CauseSearch(const StaticFit& fit, const StaticScales& scales, double within)
       : fit_(fit), scales_(scales), within_(within), least_(within) {}
 
   // Compares the law at the point `as` with a force [N], and keeps `words` if it is the nearest so
   // far.
-  void ask(const StaticPoint& as, double force, std::string words) {
+  void compare(const StaticPoint& as, double force, std::string words) {
     const double law = predicted(fit_.setting, scales_, as);
     if (law < 2 * within_) return;  // near zero force every cause fits
     const double off = std::abs(law - force);
@@ -110,14 +111,14 @@ std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
   const double within = std::max(near_scatters * scatter, near_share * scales.full_scale);
   if (std::abs(point.force) < within)
     return "no force where the law pulls: slack, not connected, or not measured";
-  SlipSearch search(fit, scales, within);
-  for (const Slip& slip : of_force)
-    search.ask(point, point.force / slip.factor, std::string(slip.words));
-  for (const Slip& slip : of_pressure) {
+  CauseSearch search(fit, scales, within);
+  for (const RecordingError& cause : force_errors)
+    search.compare(point, point.force / cause.factor, std::string(cause.words));
+  for (const RecordingError& cause : pressure_errors) {
     StaticPoint as = point;
-    as.pressure /= slip.factor;
+    as.pressure /= cause.factor;
     if (as.pressure < 1.5 * scales.top_pressure)
-      search.ask(as, point.force, std::string(slip.words));
+      search.compare(as, point.force, std::string(cause.words));
   }
   double longest = 0;
   for (const StaticPoint& p : points) longest = std::max(longest, p.length);
@@ -126,8 +127,8 @@ std::string explanation_of(const StaticPoint& point, const StaticFit& fit,
     if (std::abs(p.length - point.length) < other_mount * longest) continue;
     StaticPoint as = point;
     as.length = p.length;
-    search.ask(as, point.force,
-               fmt::format("as at {:.4g} mm, another mount of these data", 1e3 * p.length));
+    search.compare(as, point.force,
+                   fmt::format("as at {:.4g} mm, another mount of these data", 1e3 * p.length));
   }
   return search.words().empty() ? "nothing in these data explains it" : search.words();
 }
@@ -136,38 +137,40 @@ constexpr double scatters = 8, share_of_scale = 0.05, most_left_out = 0.1;
 
 std::vector<double> distances(const StaticFit& fit, const StaticScales& scales,
                               const std::vector<StaticPoint>& points) {
-  std::vector<double> out = misses(fit.setting, scales, points);
+  std::vector<double> out = residuals_of(fit.setting, scales, points);
   for (double& r : out) r = std::abs(r);
   return out;
 }
 
 // Every other law is a special case of one of these, or similar to one (series).
-constexpr std::string_view freest[] = {"wall",
-                                       "taper",
-                                       "elastic-linear",
-                                       "elastic-cubic",
-                                       "saturating-effectiveness",
-                                       "saturating-end-caps"};
+constexpr std::string_view flexible_laws[] = {"wall",
+                                              "taper",
+                                              "elastic-linear",
+                                              "elastic-cubic",
+                                              "saturating-effectiveness",
+                                              "saturating-end-caps"};
 
 // A fitted law, and the distance of each point from it.
-struct Closest {
+struct ClosestLaw {
   StaticFit fit;
   std::vector<double> distances;  // empty: no law could be fitted
 };
 
 // Returns the law with the smallest median distance, among the freest laws or among all others.
-Closest closest_of(bool free, const std::vector<StaticPoint>& points, const StaticScales& scales) {
+ClosestLaw closest_law_of(bool free, const std::vector<StaticPoint>& points,
+                          const StaticScales& scales) {
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
-  Closest closest;
+  ClosestLaw closest;
   for (const StaticModel& model : static_models()) {
     if (model.name == "effectiveness-by-ratio") continue;
-    if ((std::ranges::find(freest, model.name) != std::end(freest)) != free) continue;
-    std::vector<Knob> knobs = knobs_of(model, scales);
-    if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;
-    if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
+    if ((std::ranges::find(flexible_laws, model.name) != std::end(flexible_laws)) != free) continue;
+    std::vector<FreeParameter> free_parameters = free_parameters_of(model, scales);
+    if (std::ranges::find(free_parameters, FreeParameter::series) != free_parameters.end())
+      continue;
+    if (muscles.size() > 1) free_parameters.push_back(FreeParameter::end_loss);
     try {
-      const StaticFit fit = fit_static(knobs, points, scales, nullptr, 1e-7);
+      const StaticFit fit = fit_static(free_parameters, points, scales, nullptr, 1e-7);
       const std::vector<double> d = distances(fit, scales, points);
       if (closest.distances.empty() || median(d) < median(closest.distances)) closest = {fit, d};
     } catch (const Refusal&) {
@@ -178,9 +181,9 @@ Closest closest_of(bool free, const std::vector<StaticPoint>& points, const Stat
 }
 
 // Returns the closest of the freest laws, or of the simpler ones if the data are too few for those.
-Closest the_closest(const std::vector<StaticPoint>& points, const StaticScales& scales) {
-  const Closest free = closest_of(true, points, scales);
-  return free.distances.empty() ? closest_of(false, points, scales) : free;
+ClosestLaw closest_law(const std::vector<StaticPoint>& points, const StaticScales& scales) {
+  const ClosestLaw free = closest_law_of(true, points, scales);
+  return free.distances.empty() ? closest_law_of(false, points, scales) : free;
 }
 
 // Returns the 90th percentile of the forces, which single wild points do not change.
@@ -200,7 +203,7 @@ Outliers gross_outliers(const std::vector<StaticPoint>& points, const StaticScal
   StaticScales common = scales;
   common.full_scale = common_force(points);
   if (!(common.full_scale > 0)) return {};
-  const auto [fit, d] = the_closest(points, common);
+  const auto [fit, d] = closest_law(points, common);
   Outliers out{.points = {}, .scatter = d.empty() ? 0 : 1.4826 * median(d)};
   out.limit = std::max(scatters * out.scatter, share_of_scale * common.full_scale);
   for (std::size_t i = 0; i < d.size(); ++i)
@@ -255,7 +258,7 @@ void refuse_falling(const StaticFit& fit, const StaticScales& scales) {
 }
 
 // Notes the muscles whose fitted rest length differs from their label.
-void tell_labels(const StaticFit& fit, Fit& out) {
+void add_label_notes(const StaticFit& fit, Fit& out) {
   for (const RestLengthError& r : fit.setting.rest_lengths) {
     const Estimate* e = rest_length_estimate(fit, r.labelled);
     if (!e) continue;
@@ -280,9 +283,9 @@ void tell_labels(const StaticFit& fit, Fit& out) {
 
 void describe(const StaticFit& fit, Fit& out) {
   out.parameters = fit.solution.estimates;
-  for (const Knob knob : fit.unknown)
-    for (std::size_t i = 0; i < fit.knobs.size(); ++i)
-      if (fit.knobs[i] == knob)
+  for (const FreeParameter free_parameter : fit.unknown)
+    for (std::size_t i = 0; i < fit.free_parameters.size(); ++i)
+      if (fit.free_parameters[i] == free_parameter)
         out.notes.push_back(
             fmt::format("{} is taken from other muscles: these data hardly determine it",
                         out.parameters[i].name));
@@ -291,9 +294,9 @@ void describe(const StaticFit& fit, Fit& out) {
       out.notes.push_back(
           "thread_length is at the shortest that a braid can have: the law holds for the "
           "lengths that were measured, and shows little of the air in the muscle");
-  tell_labels(fit, out);
-  for (const std::string& unseen : fit.solution.unseen)
-    out.notes.push_back("not determined: " + unseen);
+  add_label_notes(fit, out);
+  for (const std::string& direction : fit.solution.undetermined)
+    out.notes.push_back("not determined: " + direction);
   if (fit.outliers > 0)
     out.notes.push_back(
         fmt::format("{} of {} points are beyond 4 times the scatter of {:.3g} N "
@@ -303,9 +306,9 @@ void describe(const StaticFit& fit, Fit& out) {
 
 // Returns the score of what was held out: the points that were marked so, every second pressure, or
 // each length or muscle in turn.
-std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const StaticSplit& s,
-                              const std::vector<LeftOut>& muscles, HoldOut which,
-                              double full_scale) {
+std::optional<Score> held_out(const StaticLawFitter& model, const StaticFit& fit,
+                              const StaticSplit& s, const std::vector<LeftOut>& muscles,
+                              HoldOut which, double full_scale) {
   if (which == HoldOut::length) {
     const std::vector<int> group = length_groups(s.fitted);
     return score(model.cross(s.fitted, group, count_of(group), fit).residuals, full_scale);
@@ -313,13 +316,13 @@ std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const St
   if (which == HoldOut::muscle) {
     std::vector<double> shares;
     for (const LeftOut& m : muscles) {
-      for (const double r : m.unseen.residuals) shares.push_back(r * full_scale / m.largest);
+      for (const double r : m.errors.residuals) shares.push_back(r * full_scale / m.largest);
     }
     if (shares.empty()) return std::nullopt;
     return score(shares, full_scale);
   }
   if (s.held_out.empty()) return std::nullopt;
-  return score(misses(fit.setting, model.scales_of_fit(fit), s.held_out), full_scale);
+  return score(residuals_of(fit.setting, model.scales_of_fit(fit), s.held_out), full_scale);
 }
 
 struct Best {
@@ -336,17 +339,17 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
   try {
     if (model.name == "effectiveness" && !scales.braid)
       throw Refusal("braid", "no geometry", "a braid that is known: here only turns are", "");
-    const Tried tried(model, scales, s.fitted);
+    const StaticLawFitter tried(model, scales, s.fitted);
     const StaticFit fit = tried.fit(s.fitted);
     refuse_falling(fit, scales);
     describe(fit, out);
     const StaticScales own = tried.scales_of_fit(fit);
     if (model.name != "effectiveness-by-ratio")
-      out.again = std::make_shared<Refit>(refit_of(fit, s.fitted, own));
-    out.residuals = misses(fit.setting, own, s.fitted);
+      out.refit = std::make_shared<Refit>(refit_of(fit, s.fitted, own));
+    out.residuals = residuals_of(fit.setting, own, s.fitted);
     out.fit = score(out.residuals, full_scale);
-    const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
-    out.residuals.insert(out.residuals.end(), unseen.begin(), unseen.end());
+    const std::vector<double> held_out_residuals = residuals_of(fit.setting, own, s.held_out);
+    out.residuals.insert(out.residuals.end(), held_out_residuals.begin(), held_out_residuals.end());
     const std::vector<LeftOut> muscles = tried.leave_out_muscles(s.fitted);
     out.held_out = held_out(tried, fit, s, muscles, hold_out, full_scale);
     const StaticSpread spread = cross_validate(tried, s.fitted, fit, muscles, full_scale, out);
@@ -410,11 +413,12 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
 StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
   const Outliers wild =
       gross_outliers(points, scales_of(points, options.atmosphere, options.braid));
-  StaticOmitted out{.reason = "outlier",
-                    .told_by = fmt::format("further than {:.3g} N from the law that the others lie "
-                                           "on, which scatter by {:.2g} N",
-                                           wild.limit, wild.scatter),
-                    .count = wild.points.size()};
+  StaticOmitted out{
+      .reason = "outlier",
+      .criterion = fmt::format("further than {:.3g} N from the law that the others lie "
+                               "on, which scatter by {:.2g} N",
+                               wild.limit, wild.scatter),
+      .count = wild.points.size()};
   if (wild.points.empty()) return out;
   std::string list;
   for (const Outlier& o : wild.points) {
@@ -492,7 +496,7 @@ void note_files(const StaticResult& found, Report& report) {
     for (const StaticPoint& p : found.points)
       if (p.rest_length == m.rest_length) own.push_back(p);
     const double full = std::ranges::max(own, {}, &StaticPoint::force).force;
-    const Score fit = score(misses(found.fit.setting, found.scales, own), full);
+    const Score fit = score(residuals_of(found.fit.setting, found.scales, own), full);
     if (!(100 * m.rms / full > more * fit.rmse_percent)) continue;
     report.notes.push_back(fmt::format(
         "the file of the muscle labelled {:.4g} mm has a rest length of {:.4g} mm and misses its "
@@ -515,7 +519,7 @@ void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points
         own.push_back(p);
         full = std::max(full, p.force);
       }
-    const Score s = score(misses(fit.setting, scales, own), full);
+    const Score s = score(residuals_of(fit.setting, scales, own), full);
     report.notes.push_back(fmt::format(
         "one model for all: the muscle of {:.4g} mm {:.2f} % rmse, {:.2f} % at most, of its own "
         "largest force",
@@ -576,7 +580,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   report.full_scale_is = "the largest force";
   report.notes = data.notes;
   report.warnings = data.warnings;
-  report.unseen = {"how the muscle moves: losses in motion, creep and fatigue"};
+  report.not_shown = {"how the muscle moves: losses in motion, creep and fatigue"};
 
   Points points = data.points;
   give_rest_length(points, report);

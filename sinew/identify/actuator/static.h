@@ -19,7 +19,7 @@
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_spread.h"
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 
 namespace sinew::identify {
 

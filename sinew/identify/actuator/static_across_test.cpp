@@ -150,7 +150,7 @@ TEST(AcrossMuscles, OneReadingCorrectsAMuscleThatWasNotFitted) {
         if (q.force < 0.3 * other.largest) continue;
         const ReadingFactor factor =
             reading_factor(law, {q.length, q.pressure, q.force}, units::atmosphere);
-        const double after = error_of(stronger(law, factor.law));
+        const double after = error_of(scale_force(law, factor.law));
         most = std::max(most, after);
         if (q.length < rest.length || q.pressure < 0.9 * top.pressure) continue;
         sum += after;
@@ -326,7 +326,7 @@ TEST(AcrossMuscles, TheMountAtRestIsNotToldFromShorterOnes) {
   const StaticForce at_rest =
       predict(found, {.length = 0.25, .pressure = 3e5, .rest_length = 0.25});
   EXPECT_TRUE(std::isinf(at_rest.half_95));
-  EXPECT_EQ(at_rest.guess, Guess::beyond);
+  EXPECT_EQ(at_rest.kind, PredictionKind::beyond);
   EXPECT_TRUE(std::isfinite(
       predict(found, {.length = 0.196, .pressure = 5e5, .rest_length = 0.25}).half_95));
   const actuator::Prediction file = prediction_of(found, found.muscles[0]);

@@ -72,7 +72,7 @@ TEST(StaticAir, AThickWallIsAirThatIsNotThere) {
     EXPECT_NEAR(actuator::volume_slope(a, l) / actuator::volume_slope(test_muscle().actuator, l), 1,
                 0.02);
   // A muscle of twice the length has twice the air.
-  EXPECT_NEAR(actuator::volume(like(a, rest, 2 * rest), 2 * rest), braid, 1e-10);
+  EXPECT_NEAR(actuator::volume(scaled_actuator(a, rest, 2 * rest), 2 * rest), braid, 1e-10);
 }
 
 // A known braid keeps its turns.

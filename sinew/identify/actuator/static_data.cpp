@@ -12,8 +12,8 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/identify/actuator/static_settled.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -33,7 +33,7 @@ constexpr std::size_t most_omitted = 60;  // samples of a recording that are kep
 constexpr std::pair<std::string_view, double> branch_words[] = {
     {"fill", 1.0}, {"vent", -1.0}, {"auf", 1.0}, {"ab", -1.0}};
 
-const Wanted static_wanted[] = {
+const ColumnSpec static_specs[] = {
     {.name = "force",
      .unit = "N",
      .least = 0.05,
@@ -311,8 +311,8 @@ void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
     rows.force.push_back(f[i]);
   }
   StaticOmitted few{.reason = "too few samples at a length",
-                    .told_by = fmt::format("fewer than {} at rest in a step of 1/{} of the lengths",
-                                           fewest, bins)};
+                    .criterion = fmt::format(
+                        "fewer than {} at rest in a step of 1/{} of the lengths", fewest, bins)};
   for (const auto& [step, rows] : steps) {
     const StaticPoint point{.length = median(rows.length),
                             .pressure = median(rows.pressure),
@@ -332,7 +332,7 @@ void add_sweep(const Measured& m, const StaticInput& input, StaticData& data) {
                               fewest, bins),
                   "a slower sweep, or a table of points at rest, without the time");
   if (few.count > 0) {
-    StaticOmitted& all = data.omitted(few.reason, few.told_by);
+    StaticOmitted& all = data.omitted(few.reason, few.criterion);
     all.count += few.count;
     all.points.insert(all.points.end(), few.points.begin(), few.points.end());
   }
@@ -421,13 +421,13 @@ Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
 
 }  // namespace
 
-StaticOmitted& StaticData::omitted(const std::string& reason, const std::string& told_by) {
+StaticOmitted& StaticData::omitted(const std::string& reason, const std::string& criterion) {
   const auto at = std::ranges::find(left_out, reason, &StaticOmitted::reason);
   if (at != left_out.end()) return *at;
-  return left_out.emplace_back(StaticOmitted{.reason = reason, .told_by = told_by});
+  return left_out.emplace_back(StaticOmitted{.reason = reason, .criterion = criterion});
 }
 
-std::span<const Wanted> static_columns() { return static_wanted; }
+std::span<const ColumnSpec> static_columns() { return static_specs; }
 
 Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
   if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");

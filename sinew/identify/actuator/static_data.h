@@ -36,7 +36,7 @@ struct Zero {
 
 // Readings that are not among the points, for one reason.
 struct StaticOmitted {
-  std::string reason, told_by;      // as in identify/fit/evidence.h
+  std::string reason, criterion;    // as in identify/contest/evidence.h
   std::size_t count = 0;            // number of readings
   std::vector<StaticPoint> points;  // these readings, or a selection
   std::vector<std::string> why;     // cause for each of `points`; may be empty
@@ -48,7 +48,7 @@ struct StaticData {
   std::vector<std::string> notes, warnings;
 
   // Returns the readings left out for a reason, adding an entry if it is new.
-  StaticOmitted& omitted(const std::string& reason, const std::string& told_by);
+  StaticOmitted& omitted(const std::string& reason, const std::string& criterion);
 };
 
 // Properties of a file's points that are not in its columns.
@@ -59,7 +59,7 @@ struct StaticInput {
 
 // Returns the columns that are used: force or load, pressure; length or contraction, and
 // rest_length, branch and time if present.
-std::span<const Wanted> static_columns();
+std::span<const ColumnSpec> static_columns();
 
 // Adds a file's points. Throws Refusal for files that cannot give a static model: a clipped sensor,
 // a constant pressure, no length.

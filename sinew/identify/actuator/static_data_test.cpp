@@ -13,7 +13,7 @@
 
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_groups.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::static_data_test {
 namespace {
@@ -101,7 +101,7 @@ TEST(StaticData, ZerosDoNotMatterToTheParameters) {
     return identify_static(data, {.model = "saturating"});
   };
   const StaticResult clean = identify(0, 0), off = identify(-27, 9);
-  for (std::size_t i = 0; i < clean.fit.knobs.size(); ++i) {
+  for (std::size_t i = 0; i < clean.fit.free_parameters.size(); ++i) {
     const Estimate& e = clean.fit.solution.estimates[i];
     EXPECT_NEAR(off.fit.solution.values[i], e.value, e.high - e.low) << e.name;
   }

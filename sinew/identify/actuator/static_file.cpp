@@ -7,8 +7,8 @@
 #include "sinew/actuator/series.h"
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_predict.h"
-#include "sinew/identify/fit/provenance.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/provenance.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -17,8 +17,8 @@ namespace {
 // Returns the source text of the polynomial with its uncertainty: one key holds up to three values.
 std::string polynomial_source(const StaticFit& fit, const std::string& source) {
   std::string out = source;
-  for (std::size_t i = 0; i < fit.knobs.size(); ++i) {
-    if (key_of(fit.knobs[i]) != "effectiveness.polynomial") continue;
+  for (std::size_t i = 0; i < fit.free_parameters.size(); ++i) {
+    if (key_of(fit.free_parameters[i]) != "effectiveness.polynomial") continue;
     const Estimate& e = fit.solution.estimates[i];
     out += fmt::format("; {} +- {:.2g} {}", e.name, 0.5 * (e.high - e.low), e.unit);
   }
@@ -74,12 +74,13 @@ std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
   Provenance provenance;
 
   StaticSetting own{.actuator = a};
-  for (std::size_t i = 0; i < result.fit.knobs.size(); ++i) {
-    const Knob knob = result.fit.knobs[i];
-    const std::string key(key_of(knob));
+  for (std::size_t i = 0; i < result.fit.free_parameters.size(); ++i) {
+    const FreeParameter free_parameter = result.fit.free_parameters[i];
+    const std::string key(key_of(free_parameter));
     if (key.empty() || key == "effectiveness.polynomial") continue;
     provenance.fitted(
-        path + key, scaled_estimate(result.fit.solution.estimates[i], value_of(own, knob)), source);
+        path + key,
+        scaled_estimate(result.fit.solution.estimates[i], value_of(own, free_parameter)), source);
   }
   if (result.scales.braid)
     for (const char* key : {"braid.thread_length", "braid.turns"})

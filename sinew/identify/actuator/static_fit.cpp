@@ -14,10 +14,10 @@
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_slopes.h"
+#include "sinew/identify/contest/least_squares.h"
+#include "sinew/identify/contest/matrix.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/least_squares.h"
-#include "sinew/identify/fit/matrix.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -41,7 +41,7 @@ void widen(const Slopes& slopes, std::span<const Parameter> parameters, std::siz
   slopes(solution.values, left, {j.column(0).data(), count * n});
   for (std::size_t i = 0; i < n; ++i)
     for (double& x : j.column(i)) x *= solution.estimates[i].at_bound ? 0 : parameters[i].scale;
-  const Matrix pull = product(j, inverse_where_seen(transposed_product(j, j)));
+  const Matrix pull = product(j, inverse_where_determined(transposed_product(j, j)));
   const std::size_t points = settings.size();
   const auto setting = [&](std::size_t r) {
     return r < points ? static_cast<std::size_t>(settings[r]) : r;
@@ -81,12 +81,15 @@ constexpr double prior_rules = 0.6;  // share of the prior deviation; larger: no
 
 class Problem {
  public:
-  Problem(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
+  Problem(const std::vector<FreeParameter>& free_parameters, std::span<const StaticPoint> points,
           const StaticScales& scales)
-      : knobs_(knobs), points_(points), scales_(scales), labels_(labels_of(points)) {
-    for (const Knob knob : knobs) {
-      parameters_.push_back(parameter_of(knob, scales));
-      priors_.push_back(prior_of(knob, scales));
+      : free_parameters_(free_parameters),
+        points_(points),
+        scales_(scales),
+        labels_(labels_of(points)) {
+    for (const FreeParameter free_parameter : free_parameters) {
+      parameters_.push_back(parameter_of(free_parameter, scales));
+      priors_.push_back(prior_of(free_parameter, scales));
     }
     for (const RestLengthError& label : labels_) {
       if (!label.doubted()) continue;
@@ -101,9 +104,10 @@ class Problem {
 
   StaticSetting setting(std::span<const double> values) const {
     StaticSetting out = setting_of(scales_);
-    for (std::size_t i = 0; i < knobs_.size(); ++i) value_of(out, knobs_[i]) = values[i];
+    for (std::size_t i = 0; i < free_parameters_.size(); ++i)
+      value_of(out, free_parameters_[i]) = values[i];
     out.rest_lengths = labels_;
-    std::size_t i = knobs_.size();
+    std::size_t i = free_parameters_.size();
     for (RestLengthError& label : out.rest_lengths)
       if (label.doubted()) label.error = values[i++];
     return out;
@@ -113,7 +117,8 @@ class Problem {
   std::vector<double> values(const StaticSetting& setting) const {
     std::vector<double> out;
     StaticSetting from = setting;
-    for (const Knob knob : knobs_) out.push_back(value_of(from, knob));
+    for (const FreeParameter free_parameter : free_parameters_)
+      out.push_back(value_of(from, free_parameter));
     for (const RestLengthError& r : labels_)
       if (r.doubted())
         out.push_back(std::clamp(rest_length_of(setting, r.labelled) - r.labelled, r.low, r.high));
@@ -138,12 +143,12 @@ class Problem {
   }
 
  private:
-  bool has_labels() const { return parameters_.size() > knobs_.size(); }
+  bool has_labels() const { return parameters_.size() > free_parameters_.size(); }
 
   // Returns the sum of e_L/L_0.
   double in_common(std::span<const double> values) const {
     double sum = 0;
-    std::size_t i = knobs_.size();
+    std::size_t i = free_parameters_.size();
     for (const RestLengthError& label : labels_)
       if (label.doubted()) sum += values[i++] / label.labelled;
     return sum;
@@ -163,7 +168,7 @@ class Problem {
     }
     if (!has_labels()) return;
     r.back() = scatter * in_common(values) / common_deviation;
-    std::size_t i = knobs_.size();
+    std::size_t i = free_parameters_.size();
     for (const RestLengthError& label : labels_)
       if (label.doubted() && !by.empty())
         by[++i * r.size() - 1] = scatter / (label.labelled * common_deviation);
@@ -175,7 +180,9 @@ class Problem {
                    std::span<double> by) const {
     const StaticSetting at = setting(values);
     ForceSlopes slopes;
-    std::size_t i = 0, own = knobs_.size();  // parameter index of the error of the muscle's label
+    std::size_t i = 0,
+                own =
+                    free_parameters_.size();  // parameter index of the error of the muscle's label
     for (const RestLengthError& label : labels_) {
       const MuscleLaw law(at, scales_, label.labelled);
       for (; i < points_.size() && points_[i].rest_length == label.labelled; ++i) {
@@ -185,15 +192,15 @@ class Problem {
         r[i] = (counts ? f : 0.0) - point.force;
         if (by.empty() || !counts) continue;
         law.write_slopes(length, point, f, slopes);
-        for (std::size_t k = 0; k < knobs_.size(); ++k)
-          by[k * r.size() + i] = value_of(slopes.by_knob, knobs_[k]);
+        for (std::size_t k = 0; k < free_parameters_.size(); ++k)
+          by[k * r.size() + i] = value_of(slopes.by_parameter, free_parameters_[k]);
         if (label.doubted()) by[own * r.size() + i] = slopes.by_label(point);
       }
       own += label.doubted() ? 1 : 0;
     }
   }
 
-  const std::vector<Knob>& knobs_;
+  const std::vector<FreeParameter>& free_parameters_;
   std::span<const StaticPoint> points_;
   const StaticScales& scales_;
   std::vector<RestLengthError> labels_;
@@ -213,11 +220,11 @@ double scatter_of(std::span<const double> residuals, std::span<const StaticPoint
 
 // Returns the start values: the likely ones, with braids of two angles.
 std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters,
-                                           const std::vector<Knob>& knobs) {
+                                           const std::vector<FreeParameter>& free_parameters) {
   std::vector<double> likely;
   for (const Parameter& p : parameters) likely.push_back(p.start);
   std::vector<std::vector<double>> out{likely};
-  if (knobs.empty() || knobs[0] != Knob::thread_length) return out;
+  if (free_parameters.empty() || free_parameters[0] != FreeParameter::thread_length) return out;
   out.push_back(likely);
   out.back()[0] *= 1.2;
   out.back()[1] *= 0.8;
@@ -228,10 +235,10 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
 // data show only how the muscles differ. If one is at its bound, the others absorb a part of its
 // error, and their intervals are unknown.
 void judge_labels(StaticFit& fit) {
-  const bool wrong =
-      std::any_of(fit.solution.estimates.begin() + static_cast<std::ptrdiff_t>(fit.knobs.size()),
-                  fit.solution.estimates.end(), [](const Estimate& e) { return e.at_bound; });
-  std::size_t i = fit.knobs.size();
+  const bool wrong = std::any_of(
+      fit.solution.estimates.begin() + static_cast<std::ptrdiff_t>(fit.free_parameters.size()),
+      fit.solution.estimates.end(), [](const Estimate& e) { return e.at_bound; });
+  std::size_t i = fit.free_parameters.size();
   for (const RestLengthError& label : fit.setting.rest_lengths) {
     if (!label.doubted()) continue;
     Estimate& e = fit.solution.estimates[i++];
@@ -250,7 +257,7 @@ void judge_labels(StaticFit& fit) {
 }  // namespace
 
 const Estimate* rest_length_estimate(const StaticFit& fit, double labelled) {
-  std::size_t i = fit.knobs.size();
+  std::size_t i = fit.free_parameters.size();
   for (const RestLengthError& r : fit.setting.rest_lengths) {
     if (!r.doubted()) continue;
     if (r.labelled == labelled) return &fit.solution.estimates[i];
@@ -273,18 +280,19 @@ double predicted(const StaticSetting& setting, const StaticScales& scales,
                                  fitted_length(setting, point), point, scales.atmosphere));
 }
 
-std::vector<double> misses(const StaticSetting& setting, const StaticScales& scales,
-                           std::span<const StaticPoint> points) {
+std::vector<double> residuals_of(const StaticSetting& setting, const StaticScales& scales,
+                                 std::span<const StaticPoint> points) {
   std::vector<double> out;
   for (const StaticPoint& point : points)
     out.push_back(predicted(setting, scales, point) - point.force);
   return out;
 }
 
-StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
-                     const StaticScales& scales, const StaticFit* start, double tolerance) {
-  StaticFit out{.knobs = knobs};
-  Problem problem(out.knobs, points, scales);
+StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
+                     std::span<const StaticPoint> points, const StaticScales& scales,
+                     const StaticFit* start, double tolerance) {
+  StaticFit out{.free_parameters = free_parameters};
+  Problem problem(out.free_parameters, points, scales);
   const std::size_t parameters = problem.parameters().size();
   const std::vector<int> settings = setting_groups({points.begin(), points.end()});
   const auto distinct = static_cast<std::size_t>(count_of(settings));
@@ -303,7 +311,7 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   } else {
     const Solution first =
         least_squares_from(problem.residuals(first_scatter * scales.full_scale), problem.count(),
-                           from, starts_of(from, knobs),
+                           from, starts_of(from, free_parameters),
                            {.tolerance = std::max(tolerance, 1e-9),
                             .slopes = problem.slopes(first_scatter * scales.full_scale)});
     out.scatter = scatter_of(first.residuals, points, scales);
@@ -321,13 +329,13 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   out.solution.residuals.resize(points.size());
   for (const double r : out.solution.residuals) out.outliers += std::abs(r) > outlier * out.scatter;
 
-  for (std::size_t i = 0; i < knobs.size(); ++i) {
+  for (std::size_t i = 0; i < free_parameters.size(); ++i) {
     Estimate& e = out.solution.estimates[i];
     const auto& prior = problem.prior(i);
     if (!prior || e.at_bound) continue;
     if (e.standard_error < prior_rules * prior->deviation_at(e.value)) continue;
     e.identifiable = false;
-    out.unknown.push_back(knobs[i]);
+    out.unknown.push_back(free_parameters[i]);
   }
   judge_labels(out);
   return out;
@@ -336,17 +344,17 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
 Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
                const StaticScales& scales) {
   struct Held {
-    std::vector<Knob> knobs;
+    std::vector<FreeParameter> free_parameters;
     std::vector<StaticPoint> points;
     StaticScales scales;
-    Problem problem{knobs, points, scales};
+    Problem problem{free_parameters, points, scales};
   };
-  const auto held =
-      std::make_shared<const Held>(fit.knobs, std::vector(points.begin(), points.end()), scales);
+  const auto held = std::make_shared<const Held>(fit.free_parameters,
+                                                 std::vector(points.begin(), points.end()), scales);
   FitProblem out{.count = held->problem.count(),
                  .parameters = held->problem.parameters(),
                  .options = {.outlier = outlier * fit.scatter},
-                 .wishes = {},
+                 .constraints = {},
                  .data = points.size()};
   out.residuals = [held, residuals = held->problem.residuals(fit.scatter)](
                       std::span<const double> p, std::span<double> r) { return residuals(p, r); };
@@ -360,7 +368,9 @@ Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,
 StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& scales) {
   StaticScales of_braid = scales;
   StaticSetting ideal = setting_of(scales);
-  if (!scales.braid) ideal = fit_static({Knob::thread_length, Knob::turns}, points, scales).setting;
+  if (!scales.braid)
+    ideal =
+        fit_static({FreeParameter::thread_length, FreeParameter::turns}, points, scales).setting;
   of_braid.braid = ideal.actuator.braid;
   ideal.rest_lengths.clear();  // the thesis does not correct labels
 
@@ -383,9 +393,11 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
     ++s.count;
   }
 
-  StaticFit out{.knobs = {Knob::eff_constant, Knob::eff_linear, Knob::eff_quadratic}};
+  StaticFit out{.free_parameters = {FreeParameter::eff_constant, FreeParameter::eff_linear,
+                                    FreeParameter::eff_quadratic}};
   std::vector<Parameter> parameters;
-  for (const Knob knob : out.knobs) parameters.push_back(parameter_of(knob, of_braid));
+  for (const FreeParameter free_parameter : out.free_parameters)
+    parameters.push_back(parameter_of(free_parameter, of_braid));
   const Residuals off = [&](std::span<const double> c, std::span<double> r) {
     std::size_t i = 0;
     for (const auto& [g, s] : sums) {
@@ -398,9 +410,9 @@ StaticFit fit_by_ratio(std::span<const StaticPoint> points, const StaticScales& 
   out.setting = setting_of(of_braid);
   for (const RestLengthError& r : labels_of(points))
     out.setting.rest_lengths.push_back({.labelled = r.labelled});
-  for (std::size_t i = 0; i < out.knobs.size(); ++i)
-    value_of(out.setting, out.knobs[i]) = out.solution.values[i];
-  out.solution.residuals = misses(out.setting, of_braid, points);
+  for (std::size_t i = 0; i < out.free_parameters.size(); ++i)
+    value_of(out.setting, out.free_parameters[i]) = out.solution.values[i];
+  out.solution.residuals = residuals_of(out.setting, of_braid, points);
   out.scatter = scatter_of(out.solution.residuals, points, scales);
   return out;
 }

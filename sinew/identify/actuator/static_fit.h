@@ -15,17 +15,17 @@
 
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_model.h"
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 
 namespace sinew::identify {
 
 struct StaticFit {
   StaticSetting setting;
-  std::vector<Knob> knobs;
+  std::vector<FreeParameter> free_parameters;
   Solution solution;   // free parameters, then doubted rest lengths; residuals of points alone
   double scatter = 0;  // sigma [N]
-  std::size_t outliers = 0;   // points beyond 4 sigma
-  std::vector<Knob> unknown;  // not determined by the data, at their prior
+  std::size_t outliers = 0;            // points beyond 4 sigma
+  std::vector<FreeParameter> unknown;  // not determined by the data, at their prior
 };
 
 // Returns the estimate of a muscle's rest length error; null if its label is not doubted.
@@ -41,14 +41,14 @@ double predicted(const StaticSetting& setting, const StaticScales& scales,
                  const StaticPoint& point);
 
 // Returns predicted - measured force of every point [N].
-std::vector<double> misses(const StaticSetting& setting, const StaticScales& scales,
-                           std::span<const StaticPoint> points);
+std::vector<double> residuals_of(const StaticSetting& setting, const StaticScales& scales,
+                                 std::span<const StaticPoint> points);
 
 // Fits the free parameters to the points. `start`: a solution with the same parameters.
 // `tolerance`: see SolverOptions. Throws Refusal if there are too few points.
-StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
-                     const StaticScales& scales, const StaticFit* start = nullptr,
-                     double tolerance = 1e-14);
+StaticFit fit_static(const std::vector<FreeParameter>& free_parameters,
+                     std::span<const StaticPoint> points, const StaticScales& scales,
+                     const StaticFit* start = nullptr, double tolerance = 1e-14);
 
 // Returns the problem that such a fit has solved, for its profiles.
 Refit refit_of(const StaticFit& fit, std::span<const StaticPoint> points,

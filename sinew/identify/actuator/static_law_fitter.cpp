@@ -1,4 +1,4 @@
-#include "sinew/identify/actuator/static_tried.h"
+#include "sinew/identify/actuator/static_law_fitter.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sinew/identify/actuator/static_groups.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -27,10 +27,10 @@ double mean_square(const std::vector<double>& residuals) {
 }
 
 // Returns the mean square over points at which the muscle pulls; 0 if it pulls nowhere.
-double mean_square_of_pull(const Unseen& unseen) {
+double mean_square_of_pull(const HeldOutErrors& errors) {
   std::vector<double> pull;
-  for (std::size_t i = 0; i < unseen.residuals.size(); ++i)
-    if (std::isfinite(unseen.widths[i])) pull.push_back(unseen.residuals[i]);
+  for (std::size_t i = 0; i < errors.residuals.size(); ++i)
+    if (std::isfinite(errors.widths[i])) pull.push_back(errors.residuals[i]);
   return mean_square(pull);
 }
 
@@ -95,15 +95,15 @@ std::vector<int> end_pressures(const Points& points) {
 
 // Lengths that were left out one by one.
 struct LeftOutLengths {
-  Unseen all;
+  HeldOutErrors all;
   // Lengths at which the muscle pulls, with the mean square of each.
-  std::vector<MissedLength> missed;
+  std::vector<LengthError> missed;
   std::string each;  // text of the error of each length
 };
 
 // Predicts each end length, or each length between, from all other lengths.
-LeftOutLengths cross_lengths(const Tried& model, const Points& points, const StaticFit& whole,
-                             bool at_end, double full_scale) {
+LeftOutLengths cross_lengths(const StaticLawFitter& model, const Points& points,
+                             const StaticFit& whole, bool at_end, double full_scale) {
   const std::vector<int> group = length_groups(points);
   LeftOutLengths out;
   for (const Mount& mount : mounts_of(points, group)) {
@@ -111,7 +111,7 @@ LeftOutLengths cross_lengths(const Tried& model, const Points& points, const Sta
     std::vector<int> mine(points.size(), 1);
     for (std::size_t i = 0; i < points.size(); ++i)
       if (group[i] == mount.group) mine[i] = 0;
-    const Unseen one = model.cross(points, mine, 1, whole);
+    const HeldOutErrors one = model.cross(points, mine, 1, whole);
     const Score s = score(one.residuals, full_scale);
     out.each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", out.each.empty() ? "" : ", ",
                             1e3 * mount.length, s.rmse_percent, s.max_percent);
@@ -123,12 +123,12 @@ LeftOutLengths cross_lengths(const Tried& model, const Points& points, const Sta
 }
 
 // Writes the quantiles of the muscle with the largest errors.
-void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
+void add_worst_muscle(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
   for (const LeftOut& m : muscles) {
-    const Quantiles q = quantiles(m.unseen);
+    const Quantiles q = quantiles(m.errors);
     Quantiles& worst = spread.other_muscle;
     worst = worst.points == 0 ? q : wider(worst, q);
-    Unseen shares = m.unseen;
+    HeldOutErrors shares = m.errors;
     for (double& w : shares.widths) w = std::isfinite(w) ? m.largest : w;
     const Quantiles share = quantiles(shares);
     spread.other_share_68 = std::max(spread.other_share_68, share.q68);
@@ -143,7 +143,8 @@ void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
 
 // Notes the errors on muscles that were left out. Returns the mean square, each muscle as a
 // share of its own largest force [-].
-double tell_muscles(const std::vector<LeftOut>& muscles, const std::set<double>& all, Fit& fit) {
+double add_muscle_notes(const std::vector<LeftOut>& muscles, const std::set<double>& all,
+                        Fit& fit) {
   for (const double muscle : all)
     if (all.size() > 1 &&
         std::ranges::find(muscles, muscle, &LeftOut::rest_length) == muscles.end())
@@ -165,8 +166,9 @@ double tell_muscles(const std::vector<LeftOut>& muscles, const std::set<double>&
 
 }  // namespace
 
-Tried::Tried(const StaticModel& model, const StaticScales& scales, const Points& points)
-    : model_(model), scales_(scales), knobs_(knobs_of(model, scales)) {
+StaticLawFitter::StaticLawFitter(const StaticModel& model, const StaticScales& scales,
+                                 const Points& points)
+    : model_(model), scales_(scales), free_parameters_(free_parameters_of(model, scales)) {
   std::set<double> muscles;
   bool fill = false, vent = false;
   for (const StaticPoint& p : points) {
@@ -174,51 +176,56 @@ Tried::Tried(const StaticModel& model, const StaticScales& scales, const Points&
     fill |= p.branch == Branch::fill;
     vent |= p.branch == Branch::vent;
   }
-  const bool gives_way = std::ranges::find(knobs_, Knob::series) != knobs_.end();
-  if (muscles.size() > 1 && !gives_way) knobs_.push_back(Knob::end_loss);
-  if (fill && vent) knobs_.insert(knobs_.end(), {Knob::half_width, Knob::width_per_pressure});
+  const bool gives_way =
+      std::ranges::find(free_parameters_, FreeParameter::series) != free_parameters_.end();
+  if (muscles.size() > 1 && !gives_way) free_parameters_.push_back(FreeParameter::end_loss);
+  if (fill && vent)
+    free_parameters_.insert(free_parameters_.end(),
+                            {FreeParameter::half_width, FreeParameter::width_per_pressure});
   if (count_of(length_groups(points)) > 1) return;
   if (!scales.braid)
     throw Refusal("lengths", "one length only", "several lengths, or a braid that is known",
                   "measure at other lengths, or actuator=FILE with the braid's geometry");
-  for (const Knob knob : knobs_)
-    if (needs_lengths(knob)) throw Refusal("lengths", "one length only", "several for this", "");
+  for (const FreeParameter free_parameter : free_parameters_)
+    if (needs_lengths(free_parameter))
+      throw Refusal("lengths", "one length only", "several for this", "");
 }
 
-bool Tried::by_ratio() const { return model_.name == "effectiveness-by-ratio"; }
+bool StaticLawFitter::by_ratio() const { return model_.name == "effectiveness-by-ratio"; }
 
-StaticFit Tried::fit(const Points& points, const StaticFit* start) const {
+StaticFit StaticLawFitter::fit(const Points& points, const StaticFit* start) const {
   if (by_ratio()) return fit_by_ratio(points, scales_);
-  return fit_static(knobs_, points, scales_, start, start ? left_out_tolerance : whole_tolerance);
+  return fit_static(free_parameters_, points, scales_, start,
+                    start ? left_out_tolerance : whole_tolerance);
 }
 
-Unseen Tried::cross(const Points& points, const std::vector<int>& part, int parts,
-                    const StaticFit& whole) const {
-  Unseen out;
+HeldOutErrors StaticLawFitter::cross(const Points& points, const std::vector<int>& part, int parts,
+                                     const StaticFit& whole) const {
+  HeldOutErrors out;
   for (int k = 0; k < parts; ++k) {
     const StaticSplit s = split(points, [&](std::size_t i) { return part[i] != k; });
     if (s.held_out.empty()) continue;
     const StaticFit one = fit(s.fitted, &whole);
     const StaticScales own = scales_of_fit(one);
-    out.add(unseen_by(one, own, s.held_out));
+    out.add(held_out_errors(one, own, s.held_out));
   }
   return out;
 }
 
-LeftOut Tried::leave_out(const Points& points, double muscle) const {
+LeftOut StaticLawFitter::leave_out(const Points& points, double muscle) const {
   const StaticSplit s =
       split(points, [&](std::size_t i) { return points[i].rest_length != muscle; });
   const StaticScales scales = scales_of(s.fitted, scales_.atmosphere, scales_.braid);
-  const Tried others(model_, scales, s.fitted);
+  const StaticLawFitter others(model_, scales, s.fitted);
   const StaticFit one = others.fit(s.fitted);
   const StaticScales own = others.scales_of_fit(one);
-  LeftOut left{.rest_length = muscle, .unseen = unseen_by(one, own, s.held_out)};
+  LeftOut left{.rest_length = muscle, .errors = held_out_errors(one, own, s.held_out)};
   for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
-  left.score = score(left.unseen.residuals, left.largest);
+  left.score = score(left.errors.residuals, left.largest);
   return left;
 }
 
-std::vector<LeftOut> Tried::leave_out_muscles(const Points& points) const {
+std::vector<LeftOut> StaticLawFitter::leave_out_muscles(const Points& points) const {
   const std::set<double> muscles = muscles_in(points);
   std::vector<LeftOut> out;
   if (muscles.size() < 2) return out;
@@ -232,17 +239,18 @@ std::vector<LeftOut> Tried::leave_out_muscles(const Points& points) const {
   return out;
 }
 
-StaticScales Tried::scales_of_fit(const StaticFit& fit) const {
+StaticScales StaticLawFitter::scales_of_fit(const StaticFit& fit) const {
   StaticScales out = scales_;
   if (by_ratio()) out.braid = fit.setting.actuator.braid;
   return out;
 }
 
-StaticSpread cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
-                            const std::vector<LeftOut>& muscles, double full_scale, Fit& fit) {
+StaticSpread cross_validate(const StaticLawFitter& model, const Points& points,
+                            const StaticFit& whole, const std::vector<LeftOut>& muscles,
+                            double full_scale, Fit& fit) {
   const std::vector<int> part = interior_pressures(points);
   const int parts = 1 + *std::max_element(part.begin(), part.end());
-  Unseen inside = model.cross(points, part, parts, whole);
+  HeldOutErrors inside = model.cross(points, part, parts, whole);
   std::vector<double> squares;
   if (!inside.residuals.empty()) {
     squares.push_back(mean_square(inside.residuals));
@@ -254,7 +262,7 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
   out.inside = quantiles(inside);
   LeftOutLengths lengths = cross_lengths(model, points, whole, false, full_scale);
   const double of_pressures = mean_square_of_pull(inside) / (full_scale * full_scale);
-  for (MissedLength& m : lengths.missed) m.square -= of_pressures;
+  for (LengthError& m : lengths.missed) m.square -= of_pressures;
   add_between(lengths.missed, full_scale, out);
   if (!lengths.each.empty()) {
     fit.notes.push_back("lengths between the ends that it did not see, rmse/max %: " +
@@ -264,14 +272,14 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
     if (squares.size() == 1) out.inside = quantiles(inside);  // one pressure only
   }
   const double of_muscles =
-      tell_muscles(muscles, muscles_in(points), fit) * full_scale * full_scale;
+      add_muscle_notes(muscles, muscles_in(points), fit) * full_scale * full_scale;
   if (!muscles.empty()) squares.push_back(of_muscles);
 
   for (const double square : squares) fit.kinds.push_back(100 * std::sqrt(square) / full_scale);
   fit.cross_validated = score(inside.residuals, full_scale);
   fit.cross_validated->rmse = std::sqrt(mean(squares));
   fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;
-  add_the_worst(muscles, out);
+  add_worst_muscle(muscles, out);
 
   if (count_of(length_groups(points)) < 3) return out;
   LeftOutLengths ends = cross_lengths(model, points, whole, true, full_scale);

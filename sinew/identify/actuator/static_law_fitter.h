@@ -1,4 +1,5 @@
-// identify/actuator/static_tried.h - fit and cross-validation of one static law on some points.
+// identify/actuator/static_law_fitter.h - fit and cross-validation of one static law on some
+// points.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,7 @@
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_model.h"
 #include "sinew/identify/actuator/static_spread.h"
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 
 namespace sinew::identify {
 
@@ -15,26 +16,26 @@ namespace sinew::identify {
 struct LeftOut {
   double rest_length = 0;  // [m]
   double largest = 0;      // force [N]
-  Unseen unseen;
+  HeldOutErrors errors;
   Score score;  // in % of its own largest force
 };
 
 // A static law, to be fitted to points of these muscles by its own method. Keeps references to
 // model and scales.
-class Tried {
+class StaticLawFitter {
  public:
   // Frees the additional parameters that several muscles and both branches require. Throws Refusal
   // if the points have too few lengths for the law.
-  Tried(const StaticModel& model, const StaticScales& scales,
-        const std::vector<StaticPoint>& points);
+  StaticLawFitter(const StaticModel& model, const StaticScales& scales,
+                  const std::vector<StaticPoint>& points);
 
   // Returns the fit. `start` is a fit to more points, whose scatter is kept.
   StaticFit fit(const std::vector<StaticPoint>& points, const StaticFit* start = nullptr) const;
 
   // Predicts every part 0 ... parts - 1 of the points by a fit to all others. `part` is the part of
   // each point; points with -1 are always fitted.
-  Unseen cross(const std::vector<StaticPoint>& points, const std::vector<int>& part, int parts,
-               const StaticFit& whole) const;
+  HeldOutErrors cross(const std::vector<StaticPoint>& points, const std::vector<int>& part,
+                      int parts, const StaticFit& whole) const;
 
   // Predicts each muscle by a fit to all others, except those for which the others have too few
   // points or lengths. Scales and free parameters are set up from the others alone.
@@ -50,7 +51,7 @@ class Tried {
 
   const StaticModel& model_;
   const StaticScales& scales_;
-  std::vector<Knob> knobs_;
+  std::vector<FreeParameter> free_parameters_;
 };
 
 // Writes the cross-validation errors of the law into `fit`, in % of full_scale: pressures between
@@ -58,7 +59,7 @@ class Tried {
 // several, each muscle in turn; all kinds have equal weight (cross_validated). Ends that are left
 // out are extrapolations, reported separately. `muscles` are those of leave_out_muscles(). Returns
 // the distribution of the errors.
-StaticSpread cross_validate(const Tried& model, const std::vector<StaticPoint>& points,
+StaticSpread cross_validate(const StaticLawFitter& model, const std::vector<StaticPoint>& points,
                             const StaticFit& whole, const std::vector<LeftOut>& muscles,
                             double full_scale, Fit& fit);
 

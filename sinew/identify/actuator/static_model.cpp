@@ -8,7 +8,7 @@ namespace sinew::identify {
 
 namespace {
 
-using enum Knob;
+using enum FreeParameter;
 
 const StaticModel models[] = {
     {"ideal", "F = p f (3 L^2 - b^2)", "[22]; Chou & Hannaford 1996", {}},
@@ -108,7 +108,9 @@ constexpr std::array infos = {
     Info{"toe_tension", "toe.tension", "N"},
 };
 
-const Info& info(Knob knob) { return infos[static_cast<std::size_t>(knob)]; }
+const Info& info(FreeParameter free_parameter) {
+  return infos[static_cast<std::size_t>(free_parameter)];
+}
 
 // Returns n of a braid that has the full scale force at its rest length and the highest pressure.
 double likely_turns(const StaticScales& s, double thread_length) {
@@ -121,22 +123,24 @@ double likely_turns(const StaticScales& s, double thread_length) {
 
 std::span<const StaticModel> static_models() { return models; }
 
-std::vector<Knob> knobs_of(const StaticModel& model, const StaticScales& scales) {
-  std::vector<Knob> out;
+std::vector<FreeParameter> free_parameters_of(const StaticModel& model,
+                                              const StaticScales& scales) {
+  std::vector<FreeParameter> out;
   if (!scales.braid) {
     out = {thread_length, turns};
-  } else if (model.name != "ideal" && (model.knobs.empty() || model.knobs[0] != eff_constant)) {
+  } else if (model.name != "ideal" &&
+             (model.free_parameters.empty() || model.free_parameters[0] != eff_constant)) {
     out = {eff_constant};
   }
-  out.insert(out.end(), model.knobs.begin(), model.knobs.end());
+  out.insert(out.end(), model.free_parameters.begin(), model.free_parameters.end());
   return out;
 }
 
-std::string_view key_of(Knob knob) { return info(knob).key; }
+std::string_view key_of(FreeParameter free_parameter) { return info(free_parameter).key; }
 
-double& value_of(StaticSetting& setting, Knob knob) {
+double& value_of(StaticSetting& setting, FreeParameter free_parameter) {
   actuator::Actuator& a = setting.actuator;
-  switch (knob) {
+  switch (free_parameter) {
     case thread_length:
       return a.braid.thread_length;
     case turns:
@@ -185,18 +189,18 @@ double& value_of(StaticSetting& setting, Knob knob) {
   return setting.end_loss;
 }
 
-Parameter parameter_of(Knob knob, const StaticScales& s) {
+Parameter parameter_of(FreeParameter free_parameter, const StaticScales& s) {
   const double l = s.rest_length, f = s.full_scale, p = s.top_pressure;
   const auto make = [&](double start, double low, double high, double scale) {
-    return Parameter{.name = std::string(info(knob).name),
-                     .unit = std::string(info(knob).unit),
+    return Parameter{.name = std::string(info(free_parameter).name),
+                     .unit = std::string(info(free_parameter).unit),
                      .start = start,
                      .low = low,
                      .high = high,
                      .scale = scale};
   };
   const double n = likely_turns(s, 1.15 * l);
-  switch (knob) {
+  switch (free_parameter) {
     case thread_length:
       return make(1.15 * l, 1.04 * l, 1.7 * l, 0.1 * l);
     case turns:
@@ -245,8 +249,8 @@ Parameter parameter_of(Knob knob, const StaticScales& s) {
   return {};
 }
 
-std::optional<Prior> prior_of(Knob knob, const StaticScales& s) {
-  switch (knob) {
+std::optional<Prior> prior_of(FreeParameter free_parameter, const StaticScales& s) {
+  switch (free_parameter) {
     case thread_length:
       return Prior{1.15 * s.rest_length, 0.15 * s.rest_length};
     case threshold:
@@ -272,8 +276,8 @@ double rest_length_of(const StaticSetting& setting, double labelled) {
   return labelled;
 }
 
-bool needs_lengths(Knob knob) {
-  switch (knob) {
+bool needs_lengths(FreeParameter free_parameter) {
+  switch (free_parameter) {
     case thread_length:
     case stiffness:
     case bladder_rest_length:
@@ -307,7 +311,7 @@ StaticSetting setting_of(const StaticScales& s) {
   return out;
 }
 
-actuator::Actuator like(const actuator::Actuator& actuator, double from, double to) {
+actuator::Actuator scaled_actuator(const actuator::Actuator& actuator, double from, double to) {
   actuator::Actuator a = actuator;
   const double r = to / from;
   if (r == 1) return a;
@@ -328,7 +332,7 @@ actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scal
                           double rest_length) {
   actuator::Actuator a = setting.actuator;
   a.effectiveness.scale = 1 - setting.end_loss / scales.rest_length;
-  return like(a, scales.rest_length, rest_length_of(setting, rest_length));
+  return scaled_actuator(a, scales.rest_length, rest_length_of(setting, rest_length));
 }
 
 }  // namespace sinew::identify

@@ -28,12 +28,12 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 
 namespace sinew::identify {
 
 // A parameter that a model may set free.
-enum class Knob {
+enum class FreeParameter {
   thread_length,
   turns,
   eff_constant,
@@ -99,7 +99,7 @@ struct Prior {
 
 struct StaticModel {
   std::string_view name, law, source;
-  std::vector<Knob> knobs;  // in addition to the braid's
+  std::vector<FreeParameter> free_parameters;  // in addition to the braid's
 };
 
 // Returns all models.
@@ -107,25 +107,25 @@ std::span<const StaticModel> static_models();
 
 // Returns the free parameters of a model for these data: those of the braid (or, if it is given, of
 // the effectiveness), and the model's own.
-std::vector<Knob> knobs_of(const StaticModel& model, const StaticScales& scales);
+std::vector<FreeParameter> free_parameters_of(const StaticModel& model, const StaticScales& scales);
 
 // Returns the key of a parameter in a file, below "actuator.<name>."; end_loss has no key.
-std::string_view key_of(Knob knob);
-double& value_of(StaticSetting& setting, Knob knob);
-Parameter parameter_of(Knob knob, const StaticScales& scales);
-std::optional<Prior> prior_of(Knob knob, const StaticScales& scales);
+std::string_view key_of(FreeParameter free_parameter);
+double& value_of(StaticSetting& setting, FreeParameter free_parameter);
+Parameter parameter_of(FreeParameter free_parameter, const StaticScales& scales);
+std::optional<Prior> prior_of(FreeParameter free_parameter, const StaticScales& scales);
 
 // Returns the fitted rest length of the muscle with this label [m].
 double rest_length_of(const StaticSetting& setting, double labelled);
 
 // Returns whether the parameter affects force over length, so that one length cannot determine it.
-bool needs_lengths(Knob knob);
+bool needs_lengths(FreeParameter free_parameter);
 
 // Returns the setting at which every search starts.
 StaticSetting setting_of(const StaticScales& scales);
 
 // Returns an actuator scaled from the rest length `from` to the rest length `to` [m].
-actuator::Actuator like(const actuator::Actuator& actuator, double from, double to);
+actuator::Actuator scaled_actuator(const actuator::Actuator& actuator, double from, double to);
 
 // Returns the reference actuator scaled to the muscle with this labelled rest length [m].
 actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,

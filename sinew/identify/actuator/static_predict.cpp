@@ -9,7 +9,7 @@
 #include "sinew/actuator/prediction.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static_labels.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -60,12 +60,12 @@ std::vector<double> some_of(const std::vector<double>& lengths) {
 }
 
 // Points at which the half-widths in a muscle's file are evaluated.
-struct Places {
+struct IntervalPoints {
   std::vector<StaticPoint> inside, between, beyond, above;
 };
 
-Places places_of(const StaticMuscle& m) {
-  Places out;
+IntervalPoints interval_points_of(const StaticMuscle& m) {
+  IntervalPoints out;
   const double range = m.lengths.back() - m.lengths.front(), pressure = m.highest - m.lowest;
   const double gap = actuator::widest_gap(m.lengths);
   const auto add = [&](std::vector<StaticPoint>& to, double length, double up) {
@@ -82,7 +82,7 @@ Places places_of(const StaticMuscle& m) {
         add(out.between, 0.5 * (m.lengths[i] + m.lengths[i - 1]), up);
     if (!(range > 0)) continue;
     add(out.beyond, m.lengths.front() - a_fifth * range, up);
-    if (actuator::first_pull_seen(m.lengths.back(), m.rest_length))
+    if (actuator::is_first_pull_measured(m.lengths.back(), m.rest_length))
       add(out.beyond, m.lengths.back() + a_fifth * range, up);
   }
   return out;
@@ -111,17 +111,18 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
   const bool inside = within(point.length, muscle.lengths.front(), longest) &&
                       within(point.pressure, muscle.lowest, muscle.highest);
   Quantiles q = inside ? spread.inside : spread.beyond;
-  out.guess = inside ? Guess::inside : Guess::beyond;
+  out.kind = inside ? PredictionKind::inside : PredictionKind::beyond;
   // The quantiles of ends and of muscles that were left out already include the error of the law's
   // form.
   double away = 0;
   if (!fitted(result, point.rest_length)) {
     q = wider(q, spread.other_muscle);
-    out.guess = Guess::other_muscle;
+    out.kind = PredictionKind::other_muscle;
   } else if (within(point.length, muscle.lengths.front(), longest)) {
     away = actuator::nearest_length(muscle.lengths, point.length) / muscle.rest_length;
   }
-  if (point.length > longest && !actuator::first_pull_seen(longest, muscle.rest_length)) q = {};
+  if (point.length > longest && !actuator::is_first_pull_measured(longest, muscle.rest_length))
+    q = {};
   const double w = widths(result.fit, result.scales, one)[0];
   out.half_68 = std::hypot(q.q68 * w, spread.between_68 * away);
   out.half_95 = std::hypot(q.q95 * w, spread.between_95 * away);
@@ -129,7 +130,7 @@ StaticForce predict(const StaticResult& result, const StaticPoint& point) {
 }
 
 actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& m) {
-  const Places places = places_of(m);
+  const IntervalPoints places = interval_points_of(m);
   actuator::Prediction out{
       .rest_length = m.file_length, .lengths = m.lengths, .lowest = m.lowest, .highest = m.highest};
   // The errors on its own rows are a lower limit of those on other rows.
@@ -167,7 +168,7 @@ ReadingFactor reading_factor(const actuator::Actuator& a, const ForceReading& r,
   return out;
 }
 
-actuator::Actuator stronger(actuator::Actuator a, double factor) {
+actuator::Actuator scale_force(actuator::Actuator a, double factor) {
   // effectiveness.scale is left: it is the share of the ends, used to scale a file to other
   // lengths.
   for (double* spring :
@@ -184,7 +185,7 @@ actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double r
   if (!(from > 0) || actuator.prediction.lengths.empty())
     throw Refusal("actuator", "no prediction.rest_length", "one, as `identify static` writes it",
                   "a file of `identify static`, or prediction.rest_length in it");
-  actuator::Actuator a = like(actuator, from, rest_length);
+  actuator::Actuator a = scaled_actuator(actuator, from, rest_length);
   const double ratio = rest_length / from;
   const actuator::Prediction old = actuator.prediction;
   actuator::Prediction& p = a.prediction;

@@ -32,7 +32,7 @@ namespace sinew::identify {
 struct StaticForce {
   double force = 0;                 // [N]
   double half_68 = 0, half_95 = 0;  // [N]
-  Guess guess = Guess::inside;
+  PredictionKind kind = PredictionKind::inside;
 };
 
 // Returns the force at a point of a muscle of any rest length.
@@ -65,7 +65,7 @@ ReadingFactor reading_factor(const actuator::Actuator& actuator, const ForceRead
                              double atmosphere);
 
 // Returns the actuator with its force multiplied by a factor at every length and pressure.
-actuator::Actuator stronger(actuator::Actuator actuator, double factor);
+actuator::Actuator scale_force(actuator::Actuator actuator, double factor);
 
 // Returns an identified actuator scaled to another rest length, with its uncertainty: the relative
 // error on muscles that were left out of the fit, larger beyond the tested ratio of lengths,

@@ -7,7 +7,7 @@
 
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/test_muscle.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::static_predict_test {
 namespace {
@@ -36,7 +36,7 @@ double force(const actuator::Actuator& a, double length, double pressure) {
 
 // Returns the muscle after one reading at 250 mm and 6 bar, where it pulls most.
 actuator::Actuator read(const actuator::Actuator& a, double force) {
-  return stronger(a, reading_factor(a, {0.25, 6e5, force}, units::atmosphere).law);
+  return scale_force(a, reading_factor(a, {0.25, 6e5, force}, units::atmosphere).law);
 }
 
 // Force depends on strain, not length: a similar muscle pulls the same at the same share of its

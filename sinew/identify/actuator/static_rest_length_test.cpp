@@ -111,7 +111,7 @@ TEST(RestLength, OneMuscleHasNoError) {
     if (p.rest_length == labels[0]) one.points.push_back(p);
   const StaticResult found = identified(one);
   EXPECT_EQ(rest_length_estimate(found.fit, labels[0]), nullptr);
-  EXPECT_EQ(found.fit.solution.estimates.size(), found.fit.knobs.size());
+  EXPECT_EQ(found.fit.solution.estimates.size(), found.fit.free_parameters.size());
   EXPECT_EQ(found.muscles[0].file_length, labels[0]);
 }
 

@@ -141,7 +141,7 @@ std::string group_near(const StaticPoint& point, const Rows& rows, const Points&
 }
 
 Omitted omitted_of(const StaticOmitted& from, const Rows& rows, const Points& points) {
-  Omitted out{.reason = from.reason, .told_by = from.told_by, .count = from.count, .rows = {}};
+  Omitted out{.reason = from.reason, .criterion = from.criterion, .count = from.count, .rows = {}};
   const std::size_t stride = from.why.empty() ? 1 + from.points.size() / most_shown : 1;
   for (std::size_t i = 0; i < from.points.size(); i += stride) {
     const StaticPoint& p = from.points[i];

@@ -11,9 +11,9 @@ namespace sinew::identify {
 
 // Derivatives of the force of one point.
 struct ForceSlopes {
-  StaticSetting by_knob;      // stored in the place of each parameter (value_of)
-  double by_length = 0;       // at constant rest length [N/m]
-  double by_rest_length = 0;  // at constant length of the muscle [N/m]
+  StaticSetting by_parameter;  // stored in the place of each parameter (value_of)
+  double by_length = 0;        // at constant rest length [N/m]
+  double by_rest_length = 0;   // at constant length of the muscle [N/m]
 
   // Returns the derivative by the error of the label, which also moves the mount at rest [N/m].
   double by_label(const StaticPoint& point) const {
@@ -38,7 +38,7 @@ class MuscleLaw {
   // A parameter whose value depends on the muscle's rest length: its derivative by the logarithm of
   // that, and its ratio to the reference's value.
   struct Multiple {
-    Knob knob;
+    FreeParameter free_parameter;
     double grows = 0, factor = 1;
   };
 

@@ -34,15 +34,16 @@ TEST(StaticSlopes, AreTheDifferencesOfTheForceForEveryLaw) {
   int compared = 0;
   for (const StaticModel& model : static_models())
     for (int trial = 0; trial < 20; ++trial) {
-      std::vector<Knob> knobs = knobs_of(model, scales);
-      knobs.push_back(Knob::end_loss);
-      knobs.insert(knobs.end(), {Knob::half_width, Knob::width_per_pressure});
+      std::vector<FreeParameter> free_parameters = free_parameters_of(model, scales);
+      free_parameters.push_back(FreeParameter::end_loss);
+      free_parameters.insert(free_parameters.end(),
+                             {FreeParameter::half_width, FreeParameter::width_per_pressure});
       StaticSetting at = setting_of(scales);
-      for (const Knob knob : knobs) {
+      for (const FreeParameter free_parameter : free_parameters) {
         // Between the start and 3 scales beyond it, within the bounds.
-        const Parameter p = parameter_of(knob, scales);
-        value_of(at, knob) = std::clamp(p.start + 3 * (share(random) - 0.3) * p.scale,
-                                        p.low + 0.01 * p.scale, p.high);
+        const Parameter p = parameter_of(free_parameter, scales);
+        value_of(at, free_parameter) = std::clamp(p.start + 3 * (share(random) - 0.3) * p.scale,
+                                                  p.low + 0.01 * p.scale, p.high);
       }
       at.rest_lengths = {{.labelled = labelled, .error = 0.003, .low = -0.01, .high = 0.01}};
       const StaticPoint point{.length = labelled * (0.75 + 0.25 * share(random)),
@@ -51,15 +52,15 @@ TEST(StaticSlopes, AreTheDifferencesOfTheForceForEveryLaw) {
       ForceSlopes slopes;
       MuscleLaw(at, scales, labelled)
           .write_slopes(point.length, point, force(at, point.length, point), slopes);
-      for (const Knob knob : knobs) {
-        const double scale = parameter_of(knob, scales).scale;
+      for (const FreeParameter free_parameter : free_parameters) {
+        const double scale = parameter_of(free_parameter, scales).scale;
         const double difference = slope(1e-5 * scale, [&](double step) {
           StaticSetting moved = at;
-          value_of(moved, knob) += step;
+          value_of(moved, free_parameter) += step;
           return force(moved, point.length, point);
         });
-        expect_slope(value_of(slopes.by_knob, knob), difference, scale,
-                     std::string(model.name) + ": " + parameter_of(knob, scales).name);
+        expect_slope(value_of(slopes.by_parameter, free_parameter), difference, scale,
+                     std::string(model.name) + ": " + parameter_of(free_parameter, scales).name);
         ++compared;
       }
       expect_slope(slopes.by_length,

@@ -5,30 +5,30 @@
 
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_slopes.h"
-#include "sinew/identify/fit/score.h"
+#include "sinew/identify/contest/score.h"
 
 namespace sinew::identify {
 
 namespace {
 
-constexpr std::size_t few = 20;          // fewer points give no empirical 95th percentile
-constexpr double slack_share = 0.005;    // share of the largest force; less counts as slack
-constexpr double believed_error = 0.08;  // kappa_d0: share of the largest force per rest length
-constexpr int believed_freedom = 1;      // nu_0
+constexpr std::size_t few = 20;        // fewer points give no empirical 95th percentile
+constexpr double slack_share = 0.005;  // share of the largest force; less counts as slack
+constexpr double prior_error = 0.08;   // kappa_d0: share of the largest force per rest length
+constexpr int prior_freedom = 1;       // nu_0
 
 }  // namespace
 
-void add_between(std::span<const MissedLength> missed, double largest_force, StaticSpread& spread) {
+void add_between(std::span<const LengthError> missed, double largest_force, StaticSpread& spread) {
   double shown = 0;
-  for (const MissedLength& m : missed) shown += m.square / (m.away * m.away);
-  const double squares = believed_freedom * believed_error * believed_error + std::max(0.0, shown);
-  const int freedom = believed_freedom + static_cast<int>(missed.size());
+  for (const LengthError& m : missed) shown += m.square / (m.away * m.away);
+  const double squares = prior_freedom * prior_error * prior_error + std::max(0.0, shown);
+  const int freedom = prior_freedom + static_cast<int>(missed.size());
   const double c = std::sqrt(squares / freedom);
   spread.between_68 = t_quantile_68(freedom) * c * largest_force;
   spread.between_95 = t_quantile(freedom) * c * largest_force;
 }
 
-void Unseen::add(const Unseen& other) {
+void HeldOutErrors::add(const HeldOutErrors& other) {
   residuals.insert(residuals.end(), other.residuals.begin(), other.residuals.end());
   widths.insert(widths.end(), other.widths.begin(), other.widths.end());
 }
@@ -45,7 +45,8 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
     law.write_slopes(length, point, force, slopes);
     const double pulls = force > 0 ? 1 : 0;
     std::vector<double> gradient;
-    for (const Knob knob : fit.knobs) gradient.push_back(pulls * value_of(slopes.by_knob, knob));
+    for (const FreeParameter free_parameter : fit.free_parameters)
+      gradient.push_back(pulls * value_of(slopes.by_parameter, free_parameter));
     bool is_known = known.empty();
     for (const RestLengthError& r : known) {
       const bool mine = r.labelled == point.rest_length;
@@ -67,9 +68,9 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
   return out;
 }
 
-Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,
-                 std::span<const StaticPoint> points) {
-  Unseen out{misses(fit.setting, scales, points), widths(fit, scales, points)};
+HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
+                              std::span<const StaticPoint> points) {
+  HeldOutErrors out{residuals_of(fit.setting, scales, points), widths(fit, scales, points)};
   const double slack = slack_share * scales.full_scale;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].force < slack && points[i].force + out.residuals[i] < slack)
@@ -77,12 +78,12 @@ Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,
   return out;
 }
 
-Quantiles quantiles(const Unseen& unseen) {
+Quantiles quantiles(const HeldOutErrors& errors) {
   std::vector<double> z;
   double square = 0;
-  for (std::size_t i = 0; i < unseen.residuals.size(); ++i) {
-    if (!std::isfinite(unseen.widths[i])) continue;
-    z.push_back(std::abs(unseen.residuals[i]) / unseen.widths[i]);
+  for (std::size_t i = 0; i < errors.residuals.size(); ++i) {
+    if (!std::isfinite(errors.widths[i])) continue;
+    z.push_back(std::abs(errors.residuals[i]) / errors.widths[i]);
     square += z.back() * z.back();
   }
   Quantiles out{.points = z.size()};

@@ -55,7 +55,7 @@ struct Quantiles {
 };
 
 // Kind of a prediction.
-enum class Guess { inside, beyond, other_muscle };
+enum class PredictionKind { inside, beyond, other_muscle };
 
 // Quantiles of all three kinds, for one law on some data.
 struct StaticSpread {
@@ -71,26 +71,26 @@ struct StaticSpread {
 };
 
 // A length that was left out: e_k^2 and eps_dk above [-].
-struct MissedLength {
+struct LengthError {
   double square = 0, away = 0;
 };
 
 // Writes the half-widths between lengths of a law with these errors at lengths that were left out.
 // `largest_force` is F_max [N].
-void add_between(std::span<const MissedLength> missed, double largest_force, StaticSpread& spread);
+void add_between(std::span<const LengthError> missed, double largest_force, StaticSpread& spread);
 
 // Points that were left out of a fit: their errors and their predicted deviations.
-struct Unseen {
+struct HeldOutErrors {
   std::vector<double> residuals, widths;  // predicted - measured; sigma_F [N]
 
   // Appends the points of `other`.
-  void add(const Unseen& other);
+  void add(const HeldOutErrors& other);
 };
 
 // Applies a fit to points that were left out of it. A point that is slack both measured and
 // predicted has no width (NaN): its small error is not evidence about points that pull.
-Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,
-                 std::span<const StaticPoint> points);
+HeldOutErrors held_out_errors(const StaticFit& fit, const StaticScales& scales,
+                              std::span<const StaticPoint> points);
 
 // Returns sigma_F of each point [N]. Directions that the data do not determine are left out; q
 // includes their effect.
@@ -99,7 +99,7 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
 
 // Returns the quantiles of |residual|/sigma_F, of points that have a width. Fewer than 20 points:
 // Student's factor times the root mean square.
-Quantiles quantiles(const Unseen& unseen);
+Quantiles quantiles(const HeldOutErrors& errors);
 
 // Returns the larger value of each quantile.
 Quantiles wider(const Quantiles& a, const Quantiles& b);

@@ -42,7 +42,7 @@ StaticResult fit_of(const std::vector<StaticPoint>& points, const std::string& m
 TEST(Spread, QuantilesAreThoseOfTheNormalDistribution) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0, 3);
-  Unseen u;
+  HeldOutErrors u;
   for (int i = 0; i < 20000; ++i) {
     u.residuals.push_back(normal(random));
     u.widths.push_back(3);
@@ -62,7 +62,7 @@ TEST(Spread, FewPointsTakeStudentsFactorAndNoneAreInfinite) {
 // Without lengths that were left out, only the prior counts; errors equal to the prior leave it
 // unchanged and reduce Student's factor; smaller errors narrow it further.
 TEST(Spread, BetweenLengthsItGrowsWithWhatLengthsWereMissedBy) {
-  const auto half_95 = [](const std::vector<MissedLength>& missed) {
+  const auto half_95 = [](const std::vector<LengthError>& missed) {
     StaticSpread spread;
     add_between(missed, 1000, spread);
     EXPECT_GT(spread.between_95, spread.between_68);
@@ -126,10 +126,10 @@ TEST(Spread, IntervalsGrowOutsideTheData) {
   };
   const StaticForce inside = half(0.23, 3e5);
   double before = inside.half_95;
-  EXPECT_EQ(inside.guess, Guess::inside);
+  EXPECT_EQ(inside.kind, PredictionKind::inside);
   for (const double length : {0.255, 0.265, 0.28}) {
     const StaticForce f = half(length, 3e5);
-    EXPECT_EQ(f.guess, Guess::beyond);
+    EXPECT_EQ(f.kind, PredictionKind::beyond);
     EXPECT_GT(f.half_95, before);
     EXPECT_GT(f.half_95, f.half_68);
     before = f.half_95;
@@ -154,7 +154,7 @@ TEST(Spread, MusclesOfOneMakePredictEachOther) {
   int in = 0;
   for (const StaticPoint& p : unseen) {
     const StaticForce f = predict(found, p);
-    EXPECT_EQ(f.guess, Guess::other_muscle);
+    EXPECT_EQ(f.kind, PredictionKind::other_muscle);
     in += std::abs(f.force - p.force) <= f.half_95;
   }
   EXPECT_GE(in, 65);  // of 70

@@ -11,7 +11,7 @@
 
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/test_muscle.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::static_test {
 namespace {
@@ -54,9 +54,9 @@ StaticScales scales_for(const std::vector<StaticPoint>& points) {
   return out;
 }
 
-std::vector<Knob> knobs_named(const std::string& name) {
+std::vector<FreeParameter> free_parameters_named(const std::string& name) {
   for (const StaticModel& m : static_models())
-    if (m.name == name) return knobs_of(m, {});
+    if (m.name == name) return free_parameters_of(m, {});
   return {};
 }
 
@@ -64,17 +64,19 @@ std::vector<Knob> knobs_named(const std::string& name) {
 
 TEST(Static, WithoutNoiseTheLawComesBack) {
   const std::vector<StaticPoint> points = measured(truth(), 1, {}, many);
-  const StaticFit fit = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
+  const StaticFit fit =
+      fit_static(free_parameters_named("saturating-elastic"), points, scales_for(points));
   StaticSetting found = fit.setting, right = truth();
-  for (const Knob knob : fit.knobs)
-    EXPECT_NEAR(value_of(found, knob) / value_of(right, knob), 1, 0.02) << key_of(knob);
-  EXPECT_LT(score(misses(fit.setting, scales_for(points), points), 540).max_percent, 0.1);
+  for (const FreeParameter free_parameter : fit.free_parameters)
+    EXPECT_NEAR(value_of(found, free_parameter) / value_of(right, free_parameter), 1, 0.02)
+        << key_of(free_parameter);
+  EXPECT_LT(score(residuals_of(fit.setting, scales_for(points), points), 540).max_percent, 0.1);
 }
 
 // A constant setting that a logger reads 30 times is one reading: the intervals are those of the
 // settings, within a fifth.
 TEST(Static, AHeldSettingIsOneReading) {
-  const std::vector<Knob> knobs = knobs_named("saturating-elastic");
+  const std::vector<FreeParameter> free_parameters = free_parameters_named("saturating-elastic");
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const std::vector<StaticPoint> once = measured(truth(), seed, real_noise(), many);
     std::mt19937_64 random(seed);
@@ -87,13 +89,15 @@ TEST(Static, AHeldSettingIsOneReading) {
         held.back().pressure += 20 * normal(random);
         held.back().length += 1e-6 * normal(random);
       }
-    const StaticFit few = fit_static(knobs, once, scales_for(once)),
-                    all = fit_static(knobs, held, scales_for(held));
-    for (std::size_t i = 0; i < knobs.size(); ++i) {
+    const StaticFit few = fit_static(free_parameters, once, scales_for(once)),
+                    all = fit_static(free_parameters, held, scales_for(held));
+    for (std::size_t i = 0; i < free_parameters.size(); ++i) {
       const Estimate &one = few.solution.estimates[i], &many_times = all.solution.estimates[i];
       if (!one.identifiable || !many_times.identifiable) continue;
-      EXPECT_GT(many_times.high - many_times.low, 0.8 * (one.high - one.low)) << key_of(knobs[i]);
-      EXPECT_LT(many_times.high - many_times.low, 1.25 * (one.high - one.low)) << key_of(knobs[i]);
+      EXPECT_GT(many_times.high - many_times.low, 0.8 * (one.high - one.low))
+          << key_of(free_parameters[i]);
+      EXPECT_LT(many_times.high - many_times.low, 1.25 * (one.high - one.low))
+          << key_of(free_parameters[i]);
     }
   }
 }
@@ -102,39 +106,42 @@ TEST(Static, AHeldSettingIsOneReading) {
 // identifiable parameters contain the truth in 90 to 99 % of 200 trials, and the mean is correct
 // within 1 %.
 TEST(Static, IntervalsCoverTheTruth) {
-  const std::vector<Knob> knobs = knobs_named("saturating-elastic");
-  std::vector<int> covered(knobs.size()), seen(knobs.size());
-  std::vector<double> sum(knobs.size());
+  const std::vector<FreeParameter> free_parameters = free_parameters_named("saturating-elastic");
+  std::vector<int> covered(free_parameters.size()), seen(free_parameters.size());
+  std::vector<double> sum(free_parameters.size());
   StaticSetting right = truth();
   constexpr int trials = 200;
   for (int trial = 0; trial < trials; ++trial) {
     const auto points = measured(truth(), 100 + static_cast<unsigned>(trial), real_noise(), many);
-    const StaticFit fit = fit_static(knobs, points, scales_for(points));
-    for (std::size_t i = 0; i < knobs.size(); ++i) {
+    const StaticFit fit = fit_static(free_parameters, points, scales_for(points));
+    for (std::size_t i = 0; i < free_parameters.size(); ++i) {
       const Estimate& e = fit.solution.estimates[i];
-      const double value = value_of(right, knobs[i]);
+      const double value = value_of(right, free_parameters[i]);
       seen[i] += e.identifiable;
       covered[i] += e.identifiable && e.low <= value && value <= e.high;
       sum[i] += e.value;
     }
   }
-  for (std::size_t i = 0; i < knobs.size(); ++i) {
-    const double value = value_of(right, knobs[i]);
-    ASSERT_GT(seen[i], trials / 2) << key_of(knobs[i]);
-    EXPECT_GE(covered[i], 0.90 * seen[i]) << key_of(knobs[i]);
-    EXPECT_LE(covered[i], 0.99 * seen[i]) << key_of(knobs[i]);
-    EXPECT_NEAR(sum[i] / trials / value, 1, 0.01) << key_of(knobs[i]);
+  for (std::size_t i = 0; i < free_parameters.size(); ++i) {
+    const double value = value_of(right, free_parameters[i]);
+    ASSERT_GT(seen[i], trials / 2) << key_of(free_parameters[i]);
+    EXPECT_GE(covered[i], 0.90 * seen[i]) << key_of(free_parameters[i]);
+    EXPECT_LE(covered[i], 0.99 * seen[i]) << key_of(free_parameters[i]);
+    EXPECT_NEAR(sum[i] / trials / value, 1, 0.01) << key_of(free_parameters[i]);
   }
 }
 
 // Two lengths do not determine the saturation of a bladder: it stays at its prior, which is noted.
 TEST(Static, WhatTheDataDoNotSayIsNotIdentifiable) {
   const auto points = measured(truth(), 3, real_noise(), {0.08, 0.12, 0.16});
-  const StaticFit fit = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
-  const auto at = std::find(fit.knobs.begin(), fit.knobs.end(), Knob::saturation_length);
-  const Estimate& e = fit.solution.estimates[static_cast<std::size_t>(at - fit.knobs.begin())];
+  const StaticFit fit =
+      fit_static(free_parameters_named("saturating-elastic"), points, scales_for(points));
+  const auto at = std::find(fit.free_parameters.begin(), fit.free_parameters.end(),
+                            FreeParameter::saturation_length);
+  const Estimate& e =
+      fit.solution.estimates[static_cast<std::size_t>(at - fit.free_parameters.begin())];
   EXPECT_FALSE(e.identifiable);
-  EXPECT_NE(std::find(fit.unknown.begin(), fit.unknown.end(), Knob::saturation_length),
+  EXPECT_NE(std::find(fit.unknown.begin(), fit.unknown.end(), FreeParameter::saturation_length),
             fit.unknown.end());
 }
 
@@ -159,23 +166,27 @@ TEST(Static, OrderOfTheRowsDoesNotMatter) {
 TEST(Static, SlackPointsSayNoMoreThanThat) {
   std::vector<StaticPoint> points = measured(truth(), 6, real_noise(), many);
   const auto fit = [&] {
-    return fit_static(knobs_named("saturating-elastic"), points, scales_for(points)).setting;
+    return fit_static(free_parameters_named("saturating-elastic"), points, scales_for(points))
+        .setting;
   };
   StaticSetting before = fit();
   for (int i = 0; i < 200; ++i)
     points.push_back({.length = rest * 0.75, .pressure = 0.5 * bar + 500 * i, .rest_length = rest});
   StaticSetting after = fit();
-  for (const Knob knob : knobs_named("saturating-elastic"))
-    EXPECT_NEAR(value_of(after, knob) / value_of(before, knob), 1, 0.01) << key_of(knob);
+  for (const FreeParameter free_parameter : free_parameters_named("saturating-elastic"))
+    EXPECT_NEAR(value_of(after, free_parameter) / value_of(before, free_parameter), 1, 0.01)
+        << key_of(free_parameter);
 }
 
 TEST(Static, OutliersCountLittle) {
   std::vector<StaticPoint> points = measured(truth(), 7, real_noise(), many);
-  const StaticFit clean = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
+  const StaticFit clean =
+      fit_static(free_parameters_named("saturating-elastic"), points, scales_for(points));
   for (std::size_t i = 5; i < points.size(); i += 12) points[i].force += 80;
-  const StaticFit fit = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
+  const StaticFit fit =
+      fit_static(free_parameters_named("saturating-elastic"), points, scales_for(points));
   EXPECT_GE(fit.outliers, points.size() / 13);
-  for (std::size_t i = 0; i < fit.knobs.size(); ++i) {
+  for (std::size_t i = 0; i < fit.free_parameters.size(); ++i) {
     const Estimate& e = clean.solution.estimates[i];
     EXPECT_NEAR(fit.solution.values[i], e.value, 1.5 * (e.high - e.low)) << e.name;
   }

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "sinew/identify/check/plausible.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -20,11 +20,11 @@ Check repeated(const std::vector<CheckedTable>& tables) {
       const Measured &a = tables[i].table, &b = tables[k].table;
       const bool force = a.has("force") && b.has("force") && a["force"] == b["force"];
       if (force && a["pressure"] == b["pressure"])
-        return {"files differ", Light::red,
+        return {"files differ", TrafficLight::red,
                 fmt::format("{} has the readings of {}.", a.file, b.file),
                 "Give each recording once, under its own length."};
     }
-  return {"files differ", Light::green, "No file repeats another.", ""};
+  return {"files differ", TrafficLight::green, "No file repeats another.", ""};
 }
 
 // Checks for forces in whole numbers, which are converter counts.
@@ -34,16 +34,16 @@ Check whole_numbers(const std::vector<CheckedTable>& tables) {
     if (t.table.has("force"))
       for (const double f : t.table["force"]) {
         if (f != std::round(f))
-          return {"counts", Light::green, "The forces are no counts of a converter.", ""};
+          return {"counts", TrafficLight::green, "The forces are no counts of a converter.", ""};
         seen.insert(f);
       }
-  if (seen.empty()) return {"counts", Light::green, "The forces are those of loads.", ""};
+  if (seen.empty()) return {"counts", TrafficLight::green, "The forces are those of loads.", ""};
   if (seen.size() < 20 || *seen.rbegin() < 1000)
     return {
-        "counts", Light::grey,
+        "counts", TrafficLight::grey,
         "Not checked: too few different forces to distinguish counts of a converter from newtons.",
         "If they are counts, `sinew identify sensor` makes newtons of them."};
-  return {"counts", Light::yellow,
+  return {"counts", TrafficLight::yellow,
           fmt::format("All forces are whole numbers, up to {:.5g}.", *seen.rbegin()),
           "If they are counts, `sinew identify sensor` makes newtons of them."};
 }
@@ -61,11 +61,11 @@ void CheckInput::add(CheckedTable table) {
   tables.push_back(std::move(table));
 }
 
-void CheckInput::add_or_tell(CheckedTable table) try {
+void CheckInput::add_or_report(CheckedTable table) try {
   add(table);
 } catch (const Refusal& refusal) {
   unreadable.push_back(
-      {"readable", Light::red, refusal.what(), "Nothing can be fitted to it.", false});
+      {"readable", TrafficLight::red, refusal.what(), "Nothing can be fitted to it.", false});
   tables.push_back(std::move(table));
 }
 
@@ -73,12 +73,12 @@ std::vector<Check> check_static(const CheckInput& input) {
   std::vector<Check> out = input.unreadable;
   const StaticData& data = input.data;
   if (out.empty())
-    out.push_back({"readable", Light::green,
+    out.push_back({"readable", TrafficLight::green,
                    fmt::format("{} points; files: {}.", data.points.size(), input.tables.size()),
                    ""});
   for (const std::string& warning : data.warnings)
-    out.push_back(
-        {"recording", Light::yellow, warning, "Examine the beginning of the recording.", true});
+    out.push_back({"recording", TrafficLight::yellow, warning,
+                   "Examine the beginning of the recording.", true});
   out.push_back(repeated(input.tables));
   out.push_back(whole_numbers(input.tables));
   if (data.points.empty()) return out;
@@ -89,20 +89,21 @@ std::vector<Check> check_static(const CheckInput& input) {
   return out;
 }
 
-std::string_view word(Light light) {
+std::string_view word(TrafficLight light) {
   constexpr std::string_view words[] = {"green", "grey", "yellow", "red"};
   return words[static_cast<std::size_t>(light)];
 }
 
 bool has_red(const std::vector<Check>& checks) {
-  return std::ranges::any_of(checks, [](const Check& c) { return c.light == Light::red; });
+  return std::ranges::any_of(checks, [](const Check& c) { return c.light == TrafficLight::red; });
 }
 
-void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string>& warnings) {
+void apply_checks(const std::vector<Check>& checks, bool anyway,
+                  std::vector<std::string>& warnings) {
   std::string reds;
   int count = 0;
   for (const Check& c : checks)
-    if (c.light == Light::red) {
+    if (c.light == TrafficLight::red) {
       reds += all_words(c) + "\n";
       ++count;
     }
@@ -113,7 +114,7 @@ void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string
                               "it is",
                               count));
   for (const Check& c : checks)
-    if (c.light == Light::red || (c.light == Light::yellow && !c.told_by_fit))
+    if (c.light == TrafficLight::red || (c.light == TrafficLight::yellow && !c.shown_by_fit))
       warnings.push_back(all_words(c));
 }
 

@@ -28,18 +28,18 @@ namespace sinew::identify {
 
 // green: checked and correct. grey: not possible with these data. yellow: a suspicion, or too few
 // data for a good fit. red: a fit would be wrong.
-enum class Light { green, grey, yellow, red };
+enum class TrafficLight { green, grey, yellow, red };
 
 // Result of one check.
 struct Check {
   std::string name;  // "pressure unit"
-  Light light = Light::green;
+  TrafficLight light = TrafficLight::green;
   std::string evidence;  // a sentence
   std::string advice;    // what to do; may be empty if green or grey
 
   // A fit does not repeat this as a warning: its own notes and intervals show it, or these data
   // give no reason for doubt.
-  bool told_by_fit = false;
+  bool shown_by_fit = false;
 };
 
 // One file, and its properties that are not in the columns.
@@ -62,7 +62,7 @@ struct CheckInput {
   void add(CheckedTable table);
 
   // Adds a table like add(), but turns a Refusal into a red check, "readable".
-  void add_or_tell(CheckedTable table);
+  void add_or_report(CheckedTable table);
 };
 
 // Makes every check that the points allow. Points that are held out are included, except where the
@@ -70,7 +70,7 @@ struct CheckInput {
 std::vector<Check> check_static(const CheckInput& input);
 
 // Returns "green", "grey", "yellow" or "red".
-std::string_view word(Light light);
+std::string_view word(TrafficLight light);
 
 // Returns whether a check is red.
 bool has_red(const std::vector<Check>& checks);
@@ -78,6 +78,7 @@ bool has_red(const std::vector<Check>& checks);
 // Throws Refusal if checks are red, with the evidence and advice of each, unless `anyway`:
 // then they are added to the warnings of the fit's report. Yellow checks are added too, except
 // those that the report itself shows.
-void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string>& warnings);
+void apply_checks(const std::vector<Check>& checks, bool anyway,
+                  std::vector<std::string>& warnings);
 
 }  // namespace sinew::identify

@@ -78,14 +78,14 @@ std::vector<Check> checked(const Input& in) {
     const auto add = [&](const Input& one, const std::string& name) {
       Source source;
       source.path = name;
-      asked.add_or_tell({parse_measured(text_of(one), source, static_columns()),
-                         {.rest_length = one.known_rest}});
+      asked.add_or_report({parse_measured(text_of(one), source, static_columns()),
+                           {.rest_length = one.known_rest}});
     };
     add(in, "rig.csv");
     for (std::size_t i = 0; i < in.others.size(); ++i)
       add(in.others[i], fmt::format("rig{}.csv", i));
   } catch (const config::Error& error) {
-    return {{"readable", Light::red, error.what(), ""}};
+    return {{"readable", TrafficLight::red, error.what(), ""}};
   }
   return check_static(asked);
 }
@@ -93,7 +93,7 @@ std::vector<Check> checked(const Input& in) {
 std::string words(const std::vector<Check>& checks) {
   std::string out;
   for (const Check& c : checks)
-    if (c.light != Light::green)
+    if (c.light != TrafficLight::green)
       out += fmt::format("{}: {}: {}\n", word(c.light), c.name, c.evidence);
   return out;
 }
@@ -101,7 +101,7 @@ std::string words(const std::vector<Check>& checks) {
 struct Broken {
   const char* what;
   const char* check;
-  Light at_least;
+  TrafficLight at_least;
   std::function<void(Input&)> make;
 };
 
@@ -110,107 +110,109 @@ void each(Input& in, const std::function<void(Row&)>& change) {
 }
 
 const Broken broken[] = {
-    {"kPa called psi", "pressure unit", Light::red, [](Input& i) { i.pressure = "psi gauge"; }},
-    {"psi called kPa", "pressure unit", Light::yellow,
+    {"kPa called psi", "pressure unit", TrafficLight::red,
+     [](Input& i) { i.pressure = "psi gauge"; }},
+    {"psi called kPa", "pressure unit", TrafficLight::yellow,
      [](Input& i) { each(i, [](Row& r) { r.pressure /= 6.894757; }); }},
-    {"gauge called absolute", "pressure unit", Light::red,
+    {"gauge called absolute", "pressure unit", TrafficLight::red,
      [](Input& i) { i.pressure = "kPa abs"; }},
-    {"absolute called gauge", "gauge or absolute", Light::red,
+    {"absolute called gauge", "gauge or absolute", TrafficLight::red,
      [](Input& i) {
        i = rig(1, 1, 250, 0);
        i.known_rest = rest;
        each(i, [](Row& r) { r.pressure += 101.3; });
      }},
-    {"bar called kPa", "readable", Light::red,
+    {"bar called kPa", "readable", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.pressure /= 100; }); }},
-    {"Pa called kPa", "readable", Light::red,
+    {"Pa called kPa", "readable", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.pressure *= 1000; }); }},
-    {"lbf called N, diameter known", "force unit", Light::red,
+    {"lbf called N, diameter known", "force unit", TrafficLight::red,
      [](Input& i) {
        each(i, [](Row& r) { r.force /= 4.448; });
        i.diameter = 0.01;
      }},
-    {"N called lbf, diameter known", "force unit", Light::red,
+    {"N called lbf, diameter known", "force unit", TrafficLight::red,
      [](Input& i) {
        i.force = "lbf";
        i.diameter = 0.01;
      }},
-    {"kilonewtons called newtons", "force unit", Light::red,
+    {"kilonewtons called newtons", "force unit", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.force /= 1000; }); }},
-    {"counts with their offset", "zero of force", Light::red,
+    {"counts with their offset", "zero of force", TrafficLight::red,
      [](Input& i) {
        i = rig(1, 1, 250, 0);
        i.known_rest = rest;
        each(i, [](Row& r) { r.force = std::round(2048 + 3 * r.force); });
      }},
-    {"counts", "counts", Light::yellow,
+    {"counts", "counts", TrafficLight::yellow,
      [](Input& i) { each(i, [](Row& r) { r.force = std::round(3 * r.force); }); }},
-    {"another muscle's diameter", "force unit", Light::red, [](Input& i) { i.diameter = 0.04; }},
-    {"a negative force", "readable", Light::red,
+    {"another muscle's diameter", "force unit", TrafficLight::red,
+     [](Input& i) { i.diameter = 0.04; }},
+    {"a negative force", "readable", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.force = -r.force; }); }},
-    {"a force with a sign per branch", "sign of force", Light::red,
+    {"a force with a sign per branch", "sign of force", TrafficLight::red,
      [](Input& i) {
        each(i, [](Row& r) {
          if (r.branch == "vent") r.force = -0.7 * r.force;
        });
      }},
-    {"a zero that was not taken off", "zero of force", Light::yellow,
+    {"a zero that was not taken off", "zero of force", TrafficLight::yellow,
      [](Input& i) {
        i = rig(1, 1, 250, 0);
        i.known_rest = rest;
        each(i, [](Row& r) { r.force += 27; });
      }},
-    {"mm called m", "readable", Light::red, [](Input& i) { i.length = "m"; }},
-    {"mm called inch", "readable", Light::red, [](Input& i) { i.length = "in"; }},
-    {"cm called mm", "length unit", Light::red,
+    {"mm called m", "readable", TrafficLight::red, [](Input& i) { i.length = "m"; }},
+    {"mm called inch", "readable", TrafficLight::red, [](Input& i) { i.length = "in"; }},
+    {"cm called mm", "length unit", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.length /= 10; }); }},
-    {"inch called mm", "length unit", Light::red,
+    {"inch called mm", "length unit", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.length /= 25.4; }); }},
-    {"a rest length shorter than a mount", "rest length", Light::red,
+    {"a rest length shorter than a mount", "rest length", TrafficLight::red,
      [](Input& i) { i.known_rest = 0.2; }},
-    {"a rest length that is a little short", "rest length", Light::yellow,
+    {"a rest length that is a little short", "rest length", TrafficLight::yellow,
      [](Input& i) { i.known_rest = 0.246; }},
-    {"muscles of two lengths pooled", "contraction", Light::red,
+    {"muscles of two lengths pooled", "contraction", TrafficLight::red,
      [](Input& i) {
        i.others = {rig(1, 2, 110)};
        i.others[0].known_rest = rest;
      }},
-    {"two mounts exchanged", "mounts in order", Light::red,
+    {"two mounts exchanged", "mounts in order", TrafficLight::red,
      [](Input& i) {
        each(i, [](Row& r) {
          r.length = r.length == 245 ? 227.5 : r.length == 227.5 ? 245 : r.length;
        });
      }},
-    {"another muscle at one mount", "mounts in order", Light::red,
+    {"another muscle at one mount", "mounts in order", TrafficLight::red,
      [](Input& i) {
        each(i, [](Row& r) {
          if (r.length == 245) r.force *= 0.4;
        });
      }},
-    {"fill and vent exchanged", "branches", Light::red,
+    {"fill and vent exchanged", "branches", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.branch = r.branch == "fill" ? "vent" : "fill"; }); }},
-    {"vent rows called fill", "branches", Light::yellow,
+    {"vent rows called fill", "branches", TrafficLight::yellow,
      [](Input& i) { each(i, [](Row& r) { r.branch = "fill"; }); }},
-    {"only the way up", "both ways", Light::yellow,
+    {"only the way up", "both ways", TrafficLight::yellow,
      [](Input& i) { std::erase_if(i.rows, [](const Row& r) { return r.branch == "vent"; }); }},
-    {"a clipped force", "clipped sensor", Light::red,
+    {"a clipped force", "clipped sensor", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.force = std::min(r.force, 250.0); }); }},
-    {"one length", "lengths", Light::red,
+    {"one length", "lengths", TrafficLight::red,
      [](Input& i) { std::erase_if(i.rows, [](const Row& r) { return r.length < 250; }); }},
-    {"two lengths", "lengths", Light::yellow,
+    {"two lengths", "lengths", TrafficLight::yellow,
      [](Input& i) { std::erase_if(i.rows, [](const Row& r) { return r.length < 240; }); }},
-    {"two pressures", "pressures", Light::red,
+    {"two pressures", "pressures", TrafficLight::red,
      [](Input& i) {
        std::erase_if(i.rows, [](const Row& r) {
          return std::abs(r.pressure - 300) > 5 && std::abs(r.pressure - 600) > 5;
        });
      }},
-    {"one pressure", "readable", Light::red,
+    {"one pressure", "readable", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.pressure = 600; }); }},
-    {"a constant force", "force unit", Light::red,
+    {"a constant force", "force unit", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { r.force = 0.06; }); }},
-    {"a file given twice", "files differ", Light::red, [](Input& i) { i.others = {i}; }},
-    {"length and pressure exchanged", "contraction", Light::red,
+    {"a file given twice", "files differ", TrafficLight::red, [](Input& i) { i.others = {i}; }},
+    {"length and pressure exchanged", "contraction", TrafficLight::red,
      [](Input& i) { each(i, [](Row& r) { std::swap(r.pressure, r.length); }); }},
 };
 
@@ -227,7 +229,8 @@ TEST(Check, ThirtyBrokenInputsAreCaughtByName) {
                                 << words(checks);
     for (const Check& c : checks) {
       EXPECT_FALSE(c.evidence.empty()) << c.name;
-      EXPECT_TRUE(c.light == Light::green || c.name == "readable" || !c.advice.empty()) << c.name;
+      EXPECT_TRUE(c.light == TrafficLight::green || c.name == "readable" || !c.advice.empty())
+          << c.name;
     }
   }
 }
@@ -240,7 +243,7 @@ TEST(Check, GoodRigsHaveNoRed) {
     const std::vector<Check> checks = checked(in);
     // It begins at a pressure, so the cell's zero is unknown.
     for (const Check& c : checks)
-      EXPECT_EQ(c.light, c.name == "zero of force" ? Light::grey : Light::green)
+      EXPECT_EQ(c.light, c.name == "zero of force" ? TrafficLight::grey : TrafficLight::green)
           << seed << ": " << c.name << ": " << c.evidence;
   }
   EXPECT_FALSE(has_red(checked(rig(1, 6, 250, 100))))
@@ -256,7 +259,7 @@ TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
     in.known_rest = rest;
     for (const Check& c : checked(in))
       if (c.name == "force unit") {
-        EXPECT_EQ(c.light, Light::yellow);
+        EXPECT_EQ(c.light, TrafficLight::yellow);
         EXPECT_NE(c.advice.find("diameter"), std::string::npos) << c.advice;
         return c.evidence;
       }
@@ -272,7 +275,7 @@ TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
 std::vector<Check> checked_file(const std::string& path, Source source) {
   source.path = path;
   CheckInput asked;
-  asked.add_or_tell({read_measured(source, static_columns()), {}});
+  asked.add_or_report({read_measured(source, static_columns()), {}});
   return check_static(asked);
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "sinew/identify/actuator/static_groups.h"
-#include "sinew/identify/actuator/static_tried.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/actuator/static_law_fitter.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -76,7 +76,7 @@ Determined one_determined(const Estimate& e, bool leans) {
 }
 
 // Returns the result for a parameter on which no measurement depends.
-Determined unasked(const char* name, const char* unit, const char* words) {
+Determined without_measurement(const char* name, const char* unit, const char* words) {
   return {.name = name,
           .unit = unit,
           .half_width = unbounded,
@@ -99,14 +99,14 @@ std::vector<StaticPoint> fitted_points(const CheckInput& input) {
 
 void add_parameters(const StaticFit& fit, DeterminedLaw& out) {
   bool branches = false;
-  for (std::size_t i = 0; i < fit.knobs.size(); ++i) {
-    const bool leans = std::ranges::find(fit.unknown, fit.knobs[i]) != fit.unknown.end();
+  for (std::size_t i = 0; i < fit.free_parameters.size(); ++i) {
+    const bool leans = std::ranges::find(fit.unknown, fit.free_parameters[i]) != fit.unknown.end();
     out.parameters.push_back(one_determined(fit.solution.estimates[i], leans));
-    branches = branches || fit.knobs[i] == Knob::half_width;
+    branches = branches || fit.free_parameters[i] == FreeParameter::half_width;
   }
   if (!branches)
-    out.parameters.push_back(
-        unasked("half_width", "Pa diff", "no: there is one branch, or the branch is not given"));
+    out.parameters.push_back(without_measurement(
+        "half_width", "Pa diff", "no: there is one branch, or the branch is not given"));
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ DeterminedLaw determine(const CheckInput& input) {
   try {
     if (points.empty()) throw Refusal("data", "no points", "some", "");
     const StaticScales scales = scales_of(points, input.atmosphere, input.braid);
-    add_parameters(Tried(model, scales, points).fit(points), out);
+    add_parameters(StaticLawFitter(model, scales, points).fit(points), out);
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
   }
@@ -133,7 +133,7 @@ std::string_view word(Determination by) {
       return "priors";
     case Determination::at_bound:
       return "bound";
-    case Determination::not_at_all:
+    case Determination::undetermined:
       break;
   }
   return "nothing";

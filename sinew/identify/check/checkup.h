@@ -13,17 +13,17 @@ namespace sinew::identify {
 
 // Source of a parameter's value.
 enum class Determination {
-  by_data,     // interval less than half of the value
-  by_priors,   // value near that of other muscles
-  at_bound,    // end of its range: the data show no such effect
-  not_at_all,  // compatible with zero, or no measurement depends on it
+  by_data,       // interval less than half of the value
+  by_priors,     // value near that of other muscles
+  at_bound,      // end of its range: the data show no such effect
+  undetermined,  // compatible with zero, or no measurement depends on it
 };
 
 // One parameter of the law.
 struct Determined {
   std::string name, unit;
   double value = 0, half_width = 0;  // half of its 95 % interval [unit]; infinite: unknown
-  Determination by = Determination::not_at_all;
+  Determination by = Determination::undetermined;
   std::string words;   // "to +-3.1 %"
   std::string advice;  // measurement that would determine it; empty if the data do
 };

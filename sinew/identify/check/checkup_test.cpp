@@ -8,7 +8,7 @@
 
 #include "sinew/identify/check/recognised.h"
 #include "sinew/identify/check/test_rig.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify::checkup_test {
@@ -118,7 +118,7 @@ TEST(Checkup, SaysWhatWouldTellTheRest) {
   EXPECT_NE(parameter(law, "saturation_length").by, Determination::by_data);
   EXPECT_NE(parameter(law, "saturation_length").advice.find("1, 2 and 4 %"), std::string::npos);
   const Determined& hysteresis = parameter(law, "half_width");
-  EXPECT_EQ(hysteresis.by, Determination::not_at_all);
+  EXPECT_EQ(hysteresis.by, Determination::undetermined);
   EXPECT_NE(hysteresis.advice.find("on the way up and on the way down"), std::string::npos);
 }
 
@@ -126,7 +126,7 @@ TEST(Checkup, SaysWhatWouldTellTheRest) {
 // give none.
 TEST(Checkup, RefusesWhatIsRedUnlessItIsToBeFittedAnyway) {
   std::vector<std::string> warnings;
-  heed(check_static(table_of(TestRig{})), false, warnings);
+  apply_checks(check_static(table_of(TestRig{})), false, warnings);
   EXPECT_TRUE(warnings.empty()) << warnings.at(0);
 
   CheckInput wrong = table_of(TestRig{.contractions = {0}});
@@ -134,7 +134,7 @@ TEST(Checkup, RefusesWhatIsRedUnlessItIsToBeFittedAnyway) {
   const std::vector<Check> checks = check_static(wrong);
   std::string said;
   try {
-    heed(checks, false, warnings);
+    apply_checks(checks, false, warnings);
   } catch (const Refusal& refusal) {
     said = refusal.what();
   }
@@ -142,7 +142,7 @@ TEST(Checkup, RefusesWhatIsRedUnlessItIsToBeFittedAnyway) {
        {"force unit: ", "1 lbf is 4.448 N", "\nlengths: There is one length only.", "actuator=FILE",
         "check: found 2 red", "anyway=true"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " is not in " << said;
-  heed(checks, true, warnings);
+  apply_checks(checks, true, warnings);
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0].substr(0, 11), "force unit:");
 }
@@ -171,7 +171,7 @@ TEST(Checkup, WeightsOnAMuscleAreGoodData) {
   input.add(
       {parse_measured(text, {.path = "weights.csv"}, static_columns()), {.rest_length = 0.25}});
   std::vector<std::string> warnings;
-  heed(check_static(input), false, warnings);
+  apply_checks(check_static(input), false, warnings);
   EXPECT_TRUE(warnings.empty()) << warnings.at(0);
 }
 
@@ -190,7 +190,7 @@ TEST(Checkup, LengthsBelowZeroAreRed) {
       table.lines.push_back(1 + static_cast<int>(table.lines.size()));
     }
     CheckInput input;
-    input.add_or_tell({table, {}});
+    input.add_or_report({table, {}});
     EXPECT_TRUE(has_red(check_up(input).checks)) << sign;
   }
 }

@@ -10,7 +10,7 @@
 #include "sinew/identify/actuator/static_labels.h"
 #include "sinew/identify/actuator/static_slopes.h"
 #include "sinew/identify/check/curves.h"
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 
 namespace sinew::identify {
 
@@ -26,15 +26,17 @@ constexpr double widest_shift = 0.1;    // share of the rest length
 // Residuals over free parameters, shift and gains, in this order.
 class LabelProblem {
  public:
-  LabelProblem(const std::vector<StaticPoint>& points, const std::vector<Knob>& knobs,
-               double atmosphere, const std::optional<DoubtedLabel>& doubted)
-      : points_(points), knobs_(knobs), doubted_(doubted) {
+  LabelProblem(const std::vector<StaticPoint>& points,
+               const std::vector<FreeParameter>& free_parameters, double atmosphere,
+               const std::optional<DoubtedLabel>& doubted)
+      : points_(points), free_parameters_(free_parameters), doubted_(doubted) {
     scales_ = scales_of(points, atmosphere, {});
     for (const StaticPoint& p : points) {
       double& largest = full_[p.rest_length];
       largest = std::max(largest, p.force);
     }
-    for (const Knob knob : knobs_) parameters_.push_back(parameter_of(knob, scales_));
+    for (const FreeParameter free_parameter : free_parameters_)
+      parameters_.push_back(parameter_of(free_parameter, scales_));
     if (doubted_) {
       const double l = doubted_->rest_length, most = widest_shift * l;
       parameters_.push_back(
@@ -71,10 +73,11 @@ class LabelProblem {
   bool operator()(std::span<const double> values, std::span<double> r, std::span<double> by) const {
     std::ranges::fill(by, 0);
     StaticSetting setting = setting_of(scales_);
-    for (std::size_t i = 0; i < knobs_.size(); ++i) value_of(setting, knobs_[i]) = values[i];
-    const double shift = doubted_ ? values[knobs_.size()] : 0;
+    for (std::size_t i = 0; i < free_parameters_.size(); ++i)
+      value_of(setting, free_parameters_[i]) = values[i];
+    const double shift = doubted_ ? values[free_parameters_.size()] : 0;
     ForceSlopes slopes;
-    std::size_t at = 0, gain = knobs_.size() + (doubted_ ? 1 : 0);
+    std::size_t at = 0, gain = free_parameters_.size() + (doubted_ ? 1 : 0);
     for (const auto& [rest, largest] : full_) {
       const bool mine = doubted_ && doubted_->rest_length == rest;
       const bool is_rest_doubted = mine && !doubted_->mount;
@@ -90,10 +93,10 @@ class LabelProblem {
         if (by.empty() || !counts) continue;
         law.write_slopes(length, point, force, slopes);
         const auto column = [&](std::size_t k) -> double& { return by[k * r.size() + at]; };
-        for (std::size_t k = 0; k < knobs_.size(); ++k)
-          column(k) = factor * value_of(slopes.by_knob, knobs_[k]) / largest;
+        for (std::size_t k = 0; k < free_parameters_.size(); ++k)
+          column(k) = factor * value_of(slopes.by_parameter, free_parameters_[k]) / largest;
         if (mine)
-          column(knobs_.size()) =
+          column(free_parameters_.size()) =
               factor *
               ((is_rest_doubted ? slopes.by_rest_length : 0) + (moves ? slopes.by_length : 0)) /
               largest;
@@ -110,7 +113,7 @@ class LabelProblem {
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       std::optional<Prior> prior;
       if (parameters_[i].name == "gain") prior = Prior{0, gain_deviation};
-      if (i < knobs_.size()) prior = prior_of(knobs_[i], scales_);
+      if (i < free_parameters_.size()) prior = prior_of(free_parameters_[i], scales_);
       const std::size_t row = points_.size() + i;
       r[row] = prior ? usual_misfit * prior->away(values[i]) / prior->deviation : 0;
       if (prior && !by.empty())
@@ -119,7 +122,7 @@ class LabelProblem {
   }
 
   const std::vector<StaticPoint>& points_;  // sorted by rest length
-  std::vector<Knob> knobs_;
+  std::vector<FreeParameter> free_parameters_;
   std::optional<DoubtedLabel> doubted_;
   StaticScales scales_;
   std::map<double, double> full_;  // largest force of each muscle [N]
@@ -127,7 +130,7 @@ class LabelProblem {
 };
 
 LabelFit solved_labels(const LabelProblem& problem, const std::vector<std::vector<double>>& starts,
-                       std::size_t points, std::size_t knobs, bool doubted) {
+                       std::size_t points, std::size_t free_parameters, bool doubted) {
   const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
     return problem(p, r, {});
   };
@@ -138,11 +141,11 @@ LabelFit solved_labels(const LabelProblem& problem, const std::vector<std::vecto
   double square = 0;
   for (std::size_t i = 0; i < points; ++i) square += found.residuals[i] * found.residuals[i];
   out.rms = std::sqrt(square / static_cast<double>(points));
-  const auto middle = found.values.begin() + static_cast<std::ptrdiff_t>(knobs);
+  const auto middle = found.values.begin() + static_cast<std::ptrdiff_t>(free_parameters);
   out.law.assign(found.values.begin(), middle);
   out.gains.assign(middle + (doubted ? 1 : 0), found.values.end());
   if (!doubted) return out;
-  const Estimate& e = found.estimates[knobs];
+  const Estimate& e = found.estimates[free_parameters];
   out.shift = e.value;
   out.error = e.at_bound ? unbounded : e.standard_error;
   return out;
@@ -166,16 +169,17 @@ std::vector<StaticPoint> few_points(const std::vector<StaticPoint>& points) {
   return out;
 }
 
-LabelFit fit_labels(const std::vector<StaticPoint>& points, const std::vector<Knob>& knobs,
-                    double atmosphere) {
-  const LabelProblem problem(points, knobs, atmosphere, {});
-  return solved_labels(problem, problem.starts(), points.size(), knobs.size(), false);
+LabelFit fit_labels(const std::vector<StaticPoint>& points,
+                    const std::vector<FreeParameter>& free_parameters, double atmosphere) {
+  const LabelProblem problem(points, free_parameters, atmosphere, {});
+  return solved_labels(problem, problem.starts(), points.size(), free_parameters.size(), false);
 }
 
-LabelFit fit_labels(const std::vector<StaticPoint>& points, const std::vector<Knob>& knobs,
-                    double atmosphere, const DoubtedLabel& doubted, const LabelFit& from) {
-  const LabelProblem problem(points, knobs, atmosphere, doubted);
-  return solved_labels(problem, problem.starts(from), points.size(), knobs.size(), true);
+LabelFit fit_labels(const std::vector<StaticPoint>& points,
+                    const std::vector<FreeParameter>& free_parameters, double atmosphere,
+                    const DoubtedLabel& doubted, const LabelFit& from) {
+  const LabelProblem problem(points, free_parameters, atmosphere, doubted);
+  return solved_labels(problem, problem.starts(from), points.size(), free_parameters.size(), true);
 }
 
 }  // namespace sinew::identify

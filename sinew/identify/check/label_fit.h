@@ -35,11 +35,12 @@ std::vector<StaticPoint> few_points(const std::vector<StaticPoint>& points);
 
 // Fits the law to the points of one or several muscles, in the order of few_points(). Throws
 // Refusal if there are fewer points than unknowns.
-LabelFit fit_labels(const std::vector<StaticPoint>& points, const std::vector<Knob>& knobs,
-                    double atmosphere);
+LabelFit fit_labels(const std::vector<StaticPoint>& points,
+                    const std::vector<FreeParameter>& free_parameters, double atmosphere);
 
 // Fits the law with a doubted label, starting from the fit without doubt.
-LabelFit fit_labels(const std::vector<StaticPoint>& points, const std::vector<Knob>& knobs,
-                    double atmosphere, const DoubtedLabel& doubted, const LabelFit& from);
+LabelFit fit_labels(const std::vector<StaticPoint>& points,
+                    const std::vector<FreeParameter>& free_parameters, double atmosphere,
+                    const DoubtedLabel& doubted, const LabelFit& from);
 
 }  // namespace sinew::identify

@@ -34,10 +34,11 @@ TEST(Label, AMuscleIsNamedByItsOwnMounts) {
       std::vector<StaticPoint> points;
       add_rig({.label = 0.25 + wrong, .noise = 2, .seed = seed}, points);
       const std::vector<StaticPoint> few = few_points(points);
-      const std::vector<Knob> law = {Knob::thread_length,      Knob::turns,
-                                     Knob::threshold,          Knob::stiffness,
-                                     Knob::saturating_tension, Knob::saturation_length,
-                                     Knob::half_width};
+      const std::vector<FreeParameter> law = {
+          FreeParameter::thread_length,      FreeParameter::turns,
+          FreeParameter::threshold,          FreeParameter::stiffness,
+          FreeParameter::saturating_tension, FreeParameter::saturation_length,
+          FreeParameter::half_width};
       const LabelFit believed = fit_labels(few, law, outside);
       const LabelFit fit = fit_labels(few, law, outside, {.rest_length = 0.25 + wrong}, believed);
       EXPECT_LT(fit.rms, believed.rms);
@@ -45,7 +46,7 @@ TEST(Label, AMuscleIsNamedByItsOwnMounts) {
       EXPECT_LT(fit.error, 1e-3);
 
       const Check check = only_check(points);
-      EXPECT_EQ(check.light, Light::yellow) << check.evidence;
+      EXPECT_EQ(check.light, TrafficLight::yellow) << check.evidence;
       EXPECT_NE(check.evidence.find(wrong < 0 ? "labelled 246 mm" : "labelled 254 mm"),
                 std::string::npos)
           << check.evidence;
@@ -61,7 +62,7 @@ TEST(Label, AMountIsNamedByTheOthers) {
     for (StaticPoint& p : points)
       if (std::abs(p.length - 0.235) < 1e-6) p.length += wrong;
     const Check check = only_check(points);
-    EXPECT_EQ(check.light, Light::yellow) << check.evidence;
+    EXPECT_EQ(check.light, TrafficLight::yellow) << check.evidence;
     EXPECT_NE(check.evidence.find(wrong < 0 ? "mount labelled 230 mm behaves like 23"
                                             : "mount labelled 240 mm behaves like 23"),
               std::string::npos)
@@ -81,7 +82,7 @@ TEST(Label, AMuscleIsNamedAmongItsMake) {
                .seed = ++seed},
               points);
     const Check check = only_check(points);
-    EXPECT_EQ(check.light, Light::yellow) << check.evidence;
+    EXPECT_EQ(check.light, TrafficLight::yellow) << check.evidence;
     EXPECT_NE(check.evidence.find(wrong < 1 ? "labelled 242.5 mm behaves like 2"
                                             : "labelled 257.5 mm behaves like 2"),
               std::string::npos)
@@ -106,7 +107,7 @@ TEST(Label, RightOnesOfAMuscleAreLeftInPeace) {
       std::vector<StaticPoint> points;
       add_rig({.setting = setting, .seed = seed}, points);
       const Check one = only_check(points);
-      EXPECT_EQ(one.light, Light::green) << one.evidence;
+      EXPECT_EQ(one.light, TrafficLight::green) << one.evidence;
     }
 }
 
@@ -123,16 +124,16 @@ TEST(Label, RightOnesOfAMakeAreLeftInPeace) {
                .seed = ++seed},
               points);
     const Check make = only_check(points);
-    EXPECT_EQ(make.light, Light::green) << make.evidence;
+    EXPECT_EQ(make.light, TrafficLight::green) << make.evidence;
   }
 }
 
 TEST(Label, WhatCannotBeAskedIsGrey) {
   std::vector<StaticPoint> points;
   add_rig({.contractions = {0, 0.1}}, points);
-  EXPECT_EQ(only_check(points).light, Light::grey);
+  EXPECT_EQ(only_check(points).light, TrafficLight::grey);
   for (StaticPoint& p : points) p.rest_length = 0;
-  EXPECT_EQ(only_check(points).light, Light::grey);
+  EXPECT_EQ(only_check(points).light, TrafficLight::grey);
 }
 
 // With and without a rest length, and with and without a mount at rest.
@@ -154,7 +155,7 @@ TEST(Label, AMountThatIsOffAmongSixIsNamed) {
           if (!labelled) p.rest_length = 0;
         }
         const Check one = only_check(points);
-        EXPECT_EQ(one.light, Light::yellow) << longest << labelled << seed << one.evidence;
+        EXPECT_EQ(one.light, TrafficLight::yellow) << longest << labelled << seed << one.evidence;
         EXPECT_NE(one.evidence.find(fmt::format("The mount labelled {:.4g}", 1e3 * (off + by))),
                   std::string::npos)
             << longest << labelled << seed << one.evidence;
@@ -192,12 +193,12 @@ TEST(Label, TheMeasuredMuscleThatIsProbably228MmIsNamedAndNoOther) {
   const std::string wide = std::string(shared) + "/psu_20mm/isometric_bins.csv",
                     thin = std::string(shared) + "/psu_10mm/isometric_bins.csv";
   const Check named = only_check(bins(wide));
-  EXPECT_EQ(named.light, Light::yellow);
+  EXPECT_EQ(named.light, TrafficLight::yellow);
   EXPECT_NE(named.evidence.find("labelled 225 mm behaves like 228"), std::string::npos)
       << named.evidence;
   const Check right = only_check(bins(wide, 0.225, 0.228)), others = only_check(bins(thin));
-  EXPECT_EQ(right.light, Light::green) << right.evidence;
-  EXPECT_EQ(others.light, Light::green) << others.evidence;
+  EXPECT_EQ(right.light, TrafficLight::green) << right.evidence;
+  EXPECT_EQ(others.light, TrafficLight::green) << others.evidence;
 }
 
 }  // namespace

@@ -47,19 +47,20 @@ Between between(const ForceCurve& first, const ForceCurve& second, double least)
 // Checks that a muscle pulls less where it is shorter, at every pressure.
 Check mounts_in_order(const std::vector<ForceCurve>& curves) {
   const double least = 0.02 * strongest(curves);
-  Check worst{"mounts in order", Light::grey,
+  Check worst{"mounts in order", TrafficLight::grey,
               "Not checked: no two mounts of a muscle have pressures in common.",
               "Measure every mount at the same pressures."};
   for (std::size_t i = 0; i + 1 < curves.size(); ++i) {
     const ForceCurve &a = curves[i], &b = curves[i + 1];
     if (a.rest_length != b.rest_length || a.branch != b.branch) continue;
     const Between d = between(a, b, least);
-    if (d.shared > 0 && worst.light == Light::grey)
-      worst = {"mounts in order", Light::green, "At every pressure a longer mount pulls more.", ""};
+    if (d.shared > 0 && worst.light == TrafficLight::grey)
+      worst = {"mounts in order", TrafficLight::green,
+               "At every pressure a longer mount pulls more.", ""};
     if (d.below == 0) continue;
     const bool swapped = 2 * d.below > d.shared;
-    if (worst.light == Light::red) continue;
-    worst = {"mounts in order", swapped ? Light::red : Light::yellow,
+    if (worst.light == TrafficLight::red) continue;
+    worst = {"mounts in order", swapped ? TrafficLight::red : TrafficLight::yellow,
              fmt::format("The mount of {:.4g} mm pulls less than that of {:.4g} mm at {} of {} "
                          "pressures.",
                          1e3 * b.length, 1e3 * a.length, d.below, d.shared),
@@ -87,12 +88,12 @@ Check contraction(const std::vector<ForceCurve>& curves) {
   const std::string text =
       fmt::format("The muscle still pulls when it is {:.3g} % shorter than at rest.", 100 * most);
   if (most > 0.42)
-    return {"contraction", Light::red, text,
+    return {"contraction", TrafficLight::red, text,
             "No braid contracts by that much: give muscles of different lengths a rest_length "
             "column, and check the unit of the lengths."};
   if (most > 0.36)
-    return {"contraction", Light::yellow, text, "Check the lengths and the rest length."};
-  return {"contraction", Light::green, text, ""};
+    return {"contraction", TrafficLight::yellow, text, "Check the lengths and the rest length."};
+  return {"contraction", TrafficLight::green, text, ""};
 }
 
 // Checks that venting pulls more than filling at the same pressure.
@@ -109,7 +110,7 @@ Check branches(const std::vector<ForceCurve>& curves) {
         ++pairs;
       }
   if (pairs > 0 && difference / pairs < -0.005 * strongest(curves))
-    return {"branches", Light::red,
+    return {"branches", TrafficLight::red,
             fmt::format("Rows called vent pull {:.3g} N less than those called fill; friction of "
                         "the braid does the opposite.",
                         -difference / pairs),
@@ -119,20 +120,20 @@ Check branches(const std::vector<ForceCurve>& curves) {
     for (std::size_t i = 0; i < c.gap.size(); ++i)
       if (c.gap[i] > 0 && c.force[i] > 0) gap += c.gap[i], force += c.force[i];
   if (pairs == 0 && force == 0)
-    return {"branches", Light::grey,
+    return {"branches", TrafficLight::grey,
             "Not checked: no reading is repeated, and no length was measured on both branches.",
             "Read some points twice, or measure on the way up and down."};
   // If both branches are given, readings differ by noise alone.
   const double usual = pairs > 0 ? 0.15 : 0.03;
   if (gap > usual * force)
-    return {"branches", Light::yellow,
+    return {"branches", TrafficLight::yellow,
             fmt::format("Readings of one length, pressure and branch are {:.2g} % apart.",
                         100 * gap / force),
             pairs > 0
                 ? "Check whether all of them are of one muscle, and of the branch that is given."
                 : "Add a column branch with fill or vent in each row."};
   return {
-      "branches", Light::green,
+      "branches", TrafficLight::green,
       force > 0 ? "Readings of one branch agree." : "Rows called vent pull no less than others.",
       ""};
 }
@@ -149,16 +150,16 @@ Check curves_rise(const std::vector<ForceCurve>& curves) {
     flat += ends >= 3 && 4 * ends >= c.force.size();
   }
   if (flat > 0)
-    return {"clipped sensor", Light::red,
+    return {"clipped sensor", TrafficLight::red,
             fmt::format("In {} of {} curves the force stays at its highest value while the "
                         "pressure rises.",
                         flat, told),
             "The sensor or its converter is at its end: leave those rows out."};
   if (told == 0)
-    return {"clipped sensor", Light::grey,
+    return {"clipped sensor", TrafficLight::grey,
             "Not checked: no curve has four pressures and a fifth of the largest force.",
             "Measure at least four pressures at the longest mount."};
-  return {"clipped sensor", Light::green, "The force rises up to the highest pressure.", ""};
+  return {"clipped sensor", TrafficLight::green, "The force rises up to the highest pressure.", ""};
 }
 
 auto is_of(Branch branch) {
@@ -178,12 +179,15 @@ std::size_t pressures_of(const std::vector<StaticPoint>& points) {
 
 Check count(const char* name, std::size_t n, std::size_t red, std::size_t yellow,
             const char* advice) {
-  const Light light = n < red ? Light::red : n < yellow ? Light::yellow : Light::green;
+  const TrafficLight light = n < red      ? TrafficLight::red
+                             : n < yellow ? TrafficLight::yellow
+                                          : TrafficLight::green;
   std::string_view one = name;  // "lengths"
   one.remove_suffix(1);
   const std::string text =
       n == 1 ? fmt::format("There is one {} only.", one) : fmt::format("There are {} {}.", n, name);
-  return {name, light, text, light == Light::green ? "" : advice, light == Light::yellow};
+  return {name, light, text, light == TrafficLight::green ? "" : advice,
+          light == TrafficLight::yellow};
 }
 
 }  // namespace
@@ -211,9 +215,9 @@ void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<C
   out.push_back(
       count("pressures", pressures_of(fitted), 3, 5, "Measure more pressures: ten are good."));
   if (fill && vent)
-    out.push_back({"both ways", Light::green, "It was filled and vented.", ""});
+    out.push_back({"both ways", TrafficLight::green, "It was filled and vented.", ""});
   else
-    out.push_back({"both ways", Light::yellow,
+    out.push_back({"both ways", TrafficLight::yellow,
                    fill   ? "It was only filled."
                    : vent ? "It was only vented."
                           : "No column states whether it was filled or vented.",
@@ -252,23 +256,23 @@ Reach reach_of(const StaticData& data) {
 Check pressure_unit(const Reach& r) {
   const double kpa = r.top / 1e3;
   if (r.top > highest_pressure)
-    return {"pressure unit", Light::red,
+    return {"pressure unit", TrafficLight::red,
             fmt::format("The pressure goes up to {:.4g} kPa; pneumatic muscles are used up to "
                         "1000 kPa, and {:.4g} psi is that number.",
                         kpa, kpa / 6.894757),
             "If the numbers are kPa, try units.COLUMN=\"kPa gauge\"."};
   if (r.lowest < -2e4)
-    return {"pressure unit", Light::red,
+    return {"pressure unit", TrafficLight::red,
             fmt::format("The gauge pressure goes down to {:.4g} kPa, which no muscle holds.",
                         r.lowest / 1e3),
             "If a column is gauge and is called abs, try units.COLUMN=\"kPa gauge\"."};
   if (r.top < low_pressure)
-    return {"pressure unit", Light::yellow,
+    return {"pressure unit", TrafficLight::yellow,
             fmt::format("The pressure only goes up to {:.4g} kPa; {:.3g} psi would be {:.4g} kPa.",
                         kpa, kpa, kpa * 6.894757),
             "If the numbers are psi, try units.COLUMN=\"psi gauge\"."};
-  return {"pressure unit", Light::green, fmt::format("The pressure goes up to {:.4g} kPa.", kpa),
-          ""};
+  return {"pressure unit", TrafficLight::green,
+          fmt::format("The pressure goes up to {:.4g} kPa.", kpa), ""};
 }
 
 // Checks for absolute pressures: readings, and the force, then begin at the atmosphere.
@@ -283,20 +287,20 @@ Check gauge_or_absolute(const StaticData& data, const Reach& r) {
     }
   if (r.lowest >= 0.8 * ambient && threshold < 0 && first <= 0.02 * r.strongest)
     return {
-        "gauge or absolute", Light::grey,
+        "gauge or absolute", TrafficLight::grey,
         fmt::format("Not checked: the pressure never falls below {:.4g} kPa, and where the force "
                     "begins is not to be seen.",
                     r.lowest / 1e3),
         "Read the force at the lowest pressures, too."};
   if (r.lowest < 0.8 * ambient || threshold < 0.85 * ambient || first > 0.02 * r.strongest)
-    return {"gauge or absolute", Light::green,
+    return {"gauge or absolute", TrafficLight::green,
             r.lowest < 0.8 * ambient
                 ? fmt::format("The lowest pressure is {:.4g} kPa, as of a gauge.", r.lowest / 1e3)
                 : std::string(
                       "The force begins below the pressure of the atmosphere, as with a gauge."),
             ""};
   const bool sure = std::abs(r.lowest - ambient) < 5e3 && rest > 0 && longest > 0.98 * rest;
-  return {"gauge or absolute", sure ? Light::red : Light::yellow,
+  return {"gauge or absolute", sure ? TrafficLight::red : TrafficLight::yellow,
           fmt::format("The pressure never falls below {:.4g} kPa, and the force begins at {:.4g} "
                       "kPa: both stand at the atmosphere, 101 kPa.",
                       r.lowest / 1e3, threshold / 1e3),
@@ -307,19 +311,19 @@ Check sign_of_force(const StaticData& data, const Reach& r) {
   std::size_t negative = 0;
   for (const StaticPoint& p : data.points) negative += p.force < 0;
   if (r.strongest <= 0 || -r.weakest > 0.5 * r.strongest)
-    return {"sign of force", Light::red,
+    return {"sign of force", TrafficLight::red,
             fmt::format("{} of {} forces are negative, down to {:.4g} N; a muscle pulls, and its "
                         "tension is positive.",
                         negative, data.points.size(), r.weakest),
             "Turn the sign of the force column."};
-  return {"sign of force", Light::green, "The muscle pulls.", ""};
+  return {"sign of force", TrafficLight::green, "The muscle pulls.", ""};
 }
 
 // Checks the zero: at the lowest pressure a muscle hardly pulls, so a force there is an offset.
 Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   if (std::abs(taken_off) > 0.02 * (r.strongest - r.weakest))
     return {
-        "zero of force", Light::yellow,
+        "zero of force", TrafficLight::yellow,
         fmt::format("The force cell read {:.4g} N where the muscle is slack; that is taken off.",
                     taken_off),
         "Zero the cell before a measurement, and check whether it drifts.", true};
@@ -327,7 +331,7 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   for (const StaticPoint& p : data.points)
     if (p.pressure < 0.03 * r.top) sum += p.force, n += 1;
   if (n == 0)
-    return {"zero of force", Light::grey,
+    return {"zero of force", TrafficLight::grey,
             "Not checked: no reading without pressure, and none of a slack muscle, shows what the "
             "cell reads without force.",
             "Read the force once with the muscle vented and slack."};
@@ -337,10 +341,10 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
       "range.",
       zero, 100 * share);
   if (share > 0.2)
-    return {"zero of force", Light::red, text,
+    return {"zero of force", TrafficLight::red, text,
             "Take the zero off; counts of a converter are no newtons."};
-  if (share > 0.02) return {"zero of force", Light::yellow, text, "Take the zero off."};
-  return {"zero of force", Light::green, text, ""};
+  if (share > 0.02) return {"zero of force", TrafficLight::yellow, text, "Take the zero off."};
+  return {"zero of force", TrafficLight::green, text, ""};
 }
 
 // Compares the force of the longest mount at the highest pressure with the ideal law at full
@@ -359,13 +363,14 @@ Check cross_section(const Reach& r, double diameter) {
     const double ratio = std::pow(implied / diameter, 2);
     const std::string against = fmt::format(
         "{}; that of {:.3g} mm would pull {:.3g} times as much.", text, 1e3 * diameter, 1 / ratio);
-    if (ratio > 2.5 || ratio < 0.33) return {"force unit", Light::red, against, advice};
-    if (ratio > 1.8 || ratio < 0.5) return {"force unit", Light::yellow, against, advice};
-    return {"force unit", Light::green, against, ""};
+    if (ratio > 2.5 || ratio < 0.33) return {"force unit", TrafficLight::red, against, advice};
+    if (ratio > 1.8 || ratio < 0.5) return {"force unit", TrafficLight::yellow, against, advice};
+    return {"force unit", TrafficLight::green, against, ""};
   }
-  if (implied < 0.002 || implied > 0.09) return {"force unit", Light::red, text + ".", advice};
+  if (implied < 0.002 || implied > 0.09)
+    return {"force unit", TrafficLight::red, text + ".", advice};
   // Only the diameter distinguishes a thick muscle in lbf from a thin one in N: see check.h.
-  return {"force unit", Light::yellow,
+  return {"force unit", TrafficLight::yellow,
           fmt::format("{}, of {:.3g} mm if the numbers are lbf; nothing here decides which.", text,
                       1e3 * implied * std::sqrt(newtons_per_lbf)),
           "Give the muscle's diameter, diameter=LENGTH, and it is compared.", true};
@@ -382,9 +387,9 @@ Check length_unit(const Reach& r, double diameter) {
       "{:.3g} times as long as it is wide.",
       1e3 * r.longest, 1e3 * d, slender);
   constexpr auto advice = "Check the unit of the lengths: try units.COLUMN=mm.";
-  if (slender < 2.5) return {"length unit", Light::red, text, advice};
-  if (slender > 100) return {"length unit", Light::yellow, text, advice};
-  return {"length unit", Light::green, text, ""};
+  if (slender < 2.5) return {"length unit", TrafficLight::red, text, advice};
+  if (slender > 100) return {"length unit", TrafficLight::yellow, text, advice};
+  return {"length unit", TrafficLight::green, text, ""};
 }
 
 Check rest_length(const StaticData& data) {
@@ -393,7 +398,7 @@ Check rest_length(const StaticData& data) {
     if (p.rest_length > 0 && p.length / p.rest_length > most)
       most = p.length / p.rest_length, length = p.length, rest = p.rest_length;
   if (most == 0)
-    return {"rest length", Light::yellow,
+    return {"rest length", TrafficLight::yellow,
             "No rest length is given; the longest length is taken for it.",
             "Measure it, and give it as rest_length, a setting or a column.", true};
   const std::string text = fmt::format(
@@ -403,13 +408,13 @@ Check rest_length(const StaticData& data) {
   // Makers permit a stretch of 3 % in a frame.
   if (most > 1.03)
     return {
-        "rest length", Light::red, text,
+        "rest length", TrafficLight::red, text,
         "No muscle is stretched by more than 3 %: measure its rest length again, and check whether "
         "all lengths are of this muscle."};
   if (most > 1.005)
-    return {"rest length", Light::yellow, text,
+    return {"rest length", TrafficLight::yellow, text,
             "Where it was not stretched so far, measure the rest length again.", true};
-  return {"rest length", Light::green, text, ""};
+  return {"rest length", TrafficLight::green, text, ""};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/wish.h"
+#include "sinew/identify/contest/constraint.h"
 
 #include <fmt/format.h>
 
@@ -16,47 +16,50 @@ namespace {
 constexpr std::string_view names_of_kinds[] = {"freeze", "prior", "tie"};
 constexpr std::string_view forms[] = {"NAME=VALUE", "NAME=VALUE±DEVIATION", "NAME=OTHER NAME"};
 
-std::string setting_of(Wish::Kind kind) {
+std::string setting_of(Constraint::Kind kind) {
   return std::string(names_of_kinds[static_cast<std::size_t>(kind)]);
 }
 
-[[noreturn]] void fail_wish(const Wish& wish, const std::string& expected,
-                            const std::string& try_this = "") {
-  config::fail({setting_of(wish.kind), 0, 0}, "", config::in_quotes(wish.text), expected, try_this);
+[[noreturn]] void fail_constraint(const Constraint& constraint, const std::string& expected,
+                                  const std::string& try_this = "") {
+  config::fail({setting_of(constraint.kind), 0, 0}, "", config::in_quotes(constraint.text),
+               expected, try_this);
 }
 
 // Splits value and deviation: "3.5±0.2 N s/m" and "3.5 N s/m ± 0.2 N s/m" are equivalent.
-void split_prior(Wish& wish) {
+void split_prior(Constraint& constraint) {
   for (const std::string_view mark : {"±", "+-", "+/-"}) {
-    const std::size_t at = wish.value.find(mark);
-    if (at == wish.value.npos) continue;
-    wish.deviation = config::trimmed(std::string_view(wish.value).substr(at + mark.size()));
-    wish.value = config::trimmed(std::string_view(wish.value).substr(0, at));
-    const std::size_t unit = wish.deviation.find_first_not_of("0123456789.eE+-");
-    if (wish.value.find_first_not_of("0123456789.eE+-") == wish.value.npos &&
-        unit != wish.deviation.npos)
-      wish.value += wish.deviation.substr(unit);
+    const std::size_t at = constraint.value.find(mark);
+    if (at == constraint.value.npos) continue;
+    constraint.deviation =
+        config::trimmed(std::string_view(constraint.value).substr(at + mark.size()));
+    constraint.value = config::trimmed(std::string_view(constraint.value).substr(0, at));
+    const std::size_t unit = constraint.deviation.find_first_not_of("0123456789.eE+-");
+    if (constraint.value.find_first_not_of("0123456789.eE+-") == constraint.value.npos &&
+        unit != constraint.deviation.npos)
+      constraint.value += constraint.deviation.substr(unit);
     return;
   }
 }
 
-Wish parse_wish(Wish::Kind kind, const std::string& text) {
-  Wish out{.kind = kind, .text = text};
+Constraint parse_constraint(Constraint::Kind kind, const std::string& text) {
+  Constraint out{.kind = kind, .text = text};
   const std::string form(forms[static_cast<std::size_t>(kind)]);
   const std::size_t equals = text.find('=');
-  if (equals == text.npos) fail_wish(out, form);
+  if (equals == text.npos) fail_constraint(out, form);
   out.name = config::trimmed(std::string_view(text).substr(0, equals));
   out.value = config::trimmed(std::string_view(text).substr(equals + 1));
-  if (kind == Wish::Kind::prior) split_prior(out);
-  const bool incomplete = kind == Wish::Kind::prior && (out.deviation.empty() || out.value.empty());
-  if (out.name.empty() || out.value.empty() || incomplete) fail_wish(out, form);
+  if (kind == Constraint::Kind::prior) split_prior(out);
+  const bool incomplete =
+      kind == Constraint::Kind::prior && (out.deviation.empty() || out.value.empty());
+  if (out.name.empty() || out.value.empty() || incomplete) fail_constraint(out, form);
   return out;
 }
 
 // Returns the number in SI; "0.3 SI" is in the SI unit already.
-double number_of(const Wish& wish, const std::string& text, std::string_view unit,
+double number_of(const Constraint& constraint, const std::string& text, std::string_view unit,
                  const config::Range& range) {
-  const std::string name = setting_of(wish.kind);
+  const std::string name = setting_of(constraint.kind);
   try {
     if (text.ends_with(" SI"))
       return config::number_setting(
@@ -64,17 +67,18 @@ double number_of(const Wish& wish, const std::string& text, std::string_view uni
     return config::quantity_setting(name, text, unit, units::atmosphere, range);
   } catch (const config::Error& e) {
     const config::Problem& p = e.problems().front();
-    config::fail({name, 0, 0}, "", fmt::format("{} for {}", p.found, wish.name), p.expected,
+    config::fail({name, 0, 0}, "", fmt::format("{} for {}", p.found, constraint.name), p.expected,
                  p.try_this);
   }
 }
 
-double value_of(const Wish& wish, const Parameter& p) {
-  return number_of(wish, wish.value, p.unit, {p.low, p.high, "the range of the parameter"});
+double value_of(const Constraint& constraint, const Parameter& p) {
+  return number_of(constraint, constraint.value, p.unit,
+                   {p.low, p.high, "the range of the parameter"});
 }
 
-double deviation_of(const Wish& wish, const Parameter& p) {
-  return number_of(wish, wish.deviation, config::difference_unit(p.unit),
+double deviation_of(const Constraint& constraint, const Parameter& p) {
+  return number_of(constraint, constraint.deviation, config::difference_unit(p.unit),
                    config::above_zero(unbounded, "a standard deviation"));
 }
 
@@ -84,13 +88,14 @@ bool names(std::string_view name, std::string_view parameter) {
          (parameter.starts_with(name) && parameter.substr(name.size()).starts_with(" of "));
 }
 
-const Parameter& named(const Wish& wish, std::string_view name, std::span<const Parameter> all) {
+const Parameter& named(const Constraint& constraint, std::string_view name,
+                       std::span<const Parameter> all) {
   for (const Parameter& p : all)
     if (names(name, p.name)) return p;
   std::vector<std::string_view> there;
   for (const Parameter& p : all)
     if (std::ranges::find(there, p.name) == there.end()) there.push_back(p.name);
-  config::fail({setting_of(wish.kind), 0, 0}, "", config::in_quotes(name),
+  config::fail({setting_of(constraint.kind), 0, 0}, "", config::in_quotes(name),
                "a parameter: " + config::either(there), config::closest_in_quotes(name, there));
 }
 
@@ -114,8 +119,9 @@ struct Reduced {
   }
 };
 
-void add_prior(const Wish& wish, Parameter p, std::size_t i, Reduced& out) {
-  const Reduced::Prior prior{out.parameters.size(), value_of(wish, p), deviation_of(wish, p)};
+void add_prior(const Constraint& constraint, Parameter p, std::size_t i, Reduced& out) {
+  const Reduced::Prior prior{out.parameters.size(), value_of(constraint, p),
+                             deviation_of(constraint, p)};
   out.priors.push_back(prior);
   out.known[i] = fmt::format("prior {:.4g} +- {:.2g}", prior.value, prior.deviation);
   p.start = prior.value;
@@ -123,7 +129,7 @@ void add_prior(const Wish& wish, Parameter p, std::size_t i, Reduced& out) {
   out.parameters.push_back(std::move(p));
 }
 
-Reduced reduce(std::span<const Parameter> parameters, const Wishes& wishes) {
+Reduced reduce(std::span<const Parameter> parameters, const Constraints& constraints) {
   const std::size_t n = parameters.size();
   Reduced out{.place = std::vector<int>(n, -1),
               .frozen = std::vector<double>(n),
@@ -134,22 +140,23 @@ Reduced reduce(std::span<const Parameter> parameters, const Wishes& wishes) {
     return n;
   };
   for (std::size_t i = 0; i < n; ++i) {
-    const Wish* wish = wishes.of(parameters[i].name);
-    const bool alone = wish && wish->kind == Wish::Kind::tie && index_of(wish->value) == n;
-    if (!wish || alone) {
+    const Constraint* constraint = constraints.of(parameters[i].name);
+    const bool alone =
+        constraint && constraint->kind == Constraint::Kind::tie && index_of(constraint->value) == n;
+    if (!constraint || alone) {
       out.place[i] = static_cast<int>(out.parameters.size());
       out.parameters.push_back(parameters[i]);
-    } else if (wish->kind == Wish::Kind::freeze) {
-      out.frozen[i] = value_of(*wish, parameters[i]);
+    } else if (constraint->kind == Constraint::Kind::freeze) {
+      out.frozen[i] = value_of(*constraint, parameters[i]);
       out.known[i] = "frozen";
-    } else if (wish->kind == Wish::Kind::prior) {
-      add_prior(*wish, parameters[i], i, out);
+    } else if (constraint->kind == Constraint::Kind::prior) {
+      add_prior(*constraint, parameters[i], i, out);
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const Wish* wish = wishes.of(parameters[i].name);
-    if (!wish || wish->kind != Wish::Kind::tie) continue;
-    const std::size_t other = index_of(wish->value);
+    const Constraint* constraint = constraints.of(parameters[i].name);
+    if (!constraint || constraint->kind != Constraint::Kind::tie) continue;
+    const std::size_t other = index_of(constraint->value);
     if (other == n) continue;
     out.place[i] = out.place[other];
     out.frozen[i] = out.frozen[other];
@@ -239,56 +246,57 @@ Solution restored(Solution s, std::size_t count, std::span<const Parameter> para
 
 }  // namespace
 
-Wishes::Wishes(const WishTexts& texts) {
+Constraints::Constraints(const ConstraintTexts& texts) {
   const std::vector<std::string>* lists[] = {&texts.freeze, &texts.prior, &texts.tie};
   for (std::size_t kind = 0; kind < std::size(lists); ++kind)
     for (const std::string& text : *lists[kind]) {
-      Wish wish = parse_wish(static_cast<Wish::Kind>(kind), text);
-      if (std::ranges::find(all_, wish.name, &Wish::name) != all_.end())
-        fail_wish(wish, "one setting for a parameter");
-      all_.push_back(std::move(wish));
+      Constraint constraint = parse_constraint(static_cast<Constraint::Kind>(kind), text);
+      if (std::ranges::find(all_, constraint.name, &Constraint::name) != all_.end())
+        fail_constraint(constraint, "one setting for a parameter");
+      all_.push_back(std::move(constraint));
     }
 }
 
-void Wishes::check(std::span<const Parameter> all) const {
-  for (const Wish& wish : all_) {
-    const Parameter& p = named(wish, wish.name, all);
-    if (wish.kind != Wish::Kind::tie) {
-      (void)value_of(wish, p);
-      if (wish.kind == Wish::Kind::prior) (void)deviation_of(wish, p);
+void Constraints::check(std::span<const Parameter> all) const {
+  for (const Constraint& constraint : all_) {
+    const Parameter& p = named(constraint, constraint.name, all);
+    if (constraint.kind != Constraint::Kind::tie) {
+      (void)value_of(constraint, p);
+      if (constraint.kind == Constraint::Kind::prior) (void)deviation_of(constraint, p);
       continue;
     }
-    const Parameter& other = named(wish, wish.value, all);
-    if (other.unit != p.unit) fail_wish(wish, "another parameter in " + p.unit);
-    if (names(wish.name, other.name) || names(wish.value, p.name))
-      fail_wish(wish, "another parameter");
-    if (const Wish* more = of(other.name); more && more->kind == Wish::Kind::tie)
-      fail_wish(wish, "a parameter that is not tied itself");
+    const Parameter& other = named(constraint, constraint.value, all);
+    if (other.unit != p.unit) fail_constraint(constraint, "another parameter in " + p.unit);
+    if (names(constraint.name, other.name) || names(constraint.value, p.name))
+      fail_constraint(constraint, "another parameter");
+    if (const Constraint* more = of(other.name); more && more->kind == Constraint::Kind::tie)
+      fail_constraint(constraint, "a parameter that is not tied itself");
   }
 }
 
-Wishes Wishes::with_frozen(const std::string& parameter, double value) const {
-  Wishes out = *this;
-  std::erase_if(out.all_, [&](const Wish& wish) { return wish.name == parameter; });
+Constraints Constraints::with_frozen(const std::string& parameter, double value) const {
+  Constraints out = *this;
+  std::erase_if(out.all_,
+                [&](const Constraint& constraint) { return constraint.name == parameter; });
   out.all_.push_back(
       {.name = parameter, .value = fmt::format("{:.17g} SI", value), .deviation = ""});
   return out;
 }
 
-const Wish* Wishes::of(std::string_view parameter) const {
-  const Wish* of_kind = nullptr;
-  for (const Wish& wish : all_) {
-    if (wish.name == parameter) return &wish;
-    if (names(wish.name, parameter)) of_kind = &wish;
+const Constraint* Constraints::of(std::string_view parameter) const {
+  const Constraint* of_kind = nullptr;
+  for (const Constraint& constraint : all_) {
+    if (constraint.name == parameter) return &constraint;
+    if (names(constraint.name, parameter)) of_kind = &constraint;
   }
   return of_kind;
 }
 
 Solution least_squares(const Residuals& residuals, std::size_t count,
-                       std::span<const Parameter> parameters, const Wishes& wishes,
+                       std::span<const Parameter> parameters, const Constraints& constraints,
                        const SolverOptions& options) {
-  if (wishes.empty()) return least_squares(residuals, count, parameters, options);
-  const Reduced reduced = reduce(parameters, wishes);
+  if (constraints.empty()) return least_squares(residuals, count, parameters, options);
+  const Reduced reduced = reduce(parameters, constraints);
   Solution s = solve_reduced(residuals, count, reduced, 0, options);
   // The scatter of the data, which sets the weight of a prior, follows from a fit without it.
   const double weight = s.standard_deviation * std::sqrt(s.inflation);

@@ -1,4 +1,5 @@
-// identify/fit/wish.h - constraints and priors of parameters that are known before the fit.
+// identify/contest/constraint.h - constraints and priors of parameters that are known before the
+// fit.
 //
 //   freeze   p = value                     not a free parameter
 //   tie      p = q                         one parameter for both
@@ -17,19 +18,19 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 
 namespace sinew::identify {
 
 // Constraints as users write them.
-struct WishTexts {
+struct ConstraintTexts {
   std::vector<std::string> freeze;  // "viscous=3.5 N s/m"
   std::vector<std::string> prior;   // "viscous=3.5 N s/m ± 0.2 N s/m", or +- for ±
   std::vector<std::string> tie;     // "delay of b.csv=delay of a.csv"
 };
 
 // One constraint. A value is a quantity with its unit, or "0.3 SI" in the parameter's SI unit.
-struct Wish {
+struct Constraint {
   // A fixed value, a prior, or equality with another parameter.
   enum class Kind { freeze, prior, tie };
   Kind kind = Kind::freeze;
@@ -40,33 +41,33 @@ struct Wish {
 };
 
 // Constraints on the parameters of a method, for all of its laws.
-class Wishes {
+class Constraints {
  public:
-  Wishes() = default;
+  Constraints() = default;
   // Throws config::Error for a text that is not a constraint, and for two of one parameter.
-  explicit Wishes(const WishTexts& texts);
+  explicit Constraints(const ConstraintTexts& texts);
 
   // Throws config::Error if a constraint names none of `all`, the parameters of all laws, or if its
   // value has another unit or is outside the parameter's range.
   void check(std::span<const Parameter> all) const;
 
   // Returns the constraint on the parameter: its own, else that of its kind; null: none.
-  const Wish* of(std::string_view parameter) const;
+  const Constraint* of(std::string_view parameter) const;
 
   // Returns the same constraints with the parameter frozen at the value [SI].
-  Wishes with_frozen(const std::string& parameter, double value) const;
+  Constraints with_frozen(const std::string& parameter, double value) const;
 
   bool empty() const { return all_.empty(); }
 
  private:
-  std::vector<Wish> all_;
+  std::vector<Constraint> all_;
 };
 
 // Minimises the residuals under constraints. Estimates, values and covariance are those of all
 // parameters; frozen and tied ones have `free` = false. A constraint on a parameter that does not
 // exist is ignored.
 Solution least_squares(const Residuals& residuals, std::size_t count,
-                       std::span<const Parameter> parameters, const Wishes& wishes,
+                       std::span<const Parameter> parameters, const Constraints& constraints,
                        const SolverOptions& options = {});
 
 // Returns the number of free estimates.

@@ -1,6 +1,6 @@
 // Constraints: frozen and tied parameters compared with closed forms, a prior compared with a
 // measurement of its weight, and invalid constraints.
-#include "sinew/identify/fit/wish.h"
+#include "sinew/identify/contest/constraint.h"
 
 #include <gtest/gtest.h>
 
@@ -29,12 +29,12 @@ struct Data {
     }
   }
 
-  Solution solve(const Wishes& wishes) const {
+  Solution solve(const Constraints& constraints) const {
     const auto residuals = [this](std::span<const double> p, std::span<double> r) {
       for (std::size_t i = 0; i < x.size(); ++i) r[i] = p[0] + p[1] * x[i] - y[i];
       return true;
     };
-    return least_squares(residuals, x.size(), two, wishes);
+    return least_squares(residuals, x.size(), two, constraints);
   }
 
   double sum(const std::function<double(double, double)>& of) const {
@@ -53,13 +53,13 @@ std::string told(const std::function<void()>& ask) {
   return "nothing";
 }
 
-std::string checked(const WishTexts& texts) {
-  return told([&] { Wishes(texts).check(two); });
+std::string checked(const ConstraintTexts& texts) {
+  return told([&] { Constraints(texts).check(two); });
 }
 
-TEST(Wish, AFrozenParameterLeavesTheClosedFormOfTheOther) {
+TEST(Constraint, AFrozenParameterLeavesTheClosedFormOfTheOther) {
   const Data data(1);
-  const Solution s = data.solve(Wishes({.freeze = {"a=1.5 N"}}));
+  const Solution s = data.solve(Constraints({.freeze = {"a=1.5 N"}}));
   const double xx = data.sum([](double x, double) { return x * x; });
   const double b = data.sum([](double x, double y) { return x * (y - 1.5); }) / xx;
   EXPECT_EQ(s.values[0], 1.5);
@@ -74,14 +74,14 @@ TEST(Wish, AFrozenParameterLeavesTheClosedFormOfTheOther) {
   EXPECT_EQ(free_count(s.estimates), 1u);
 }
 
-TEST(Wish, TiedParametersAreOne) {
+TEST(Constraint, TiedParametersAreOne) {
   const Parameter pair[] = {{.name = "a", .unit = "N"}, {.name = "b", .unit = "N"}};
   const Data data(2);
   const auto residuals = [&](std::span<const double> p, std::span<double> r) {
     for (std::size_t i = 0; i < data.x.size(); ++i) r[i] = p[0] + p[1] * data.x[i] - data.y[i];
     return true;
   };
-  const Solution s = least_squares(residuals, data.x.size(), pair, Wishes({.tie = {"b=a"}}));
+  const Solution s = least_squares(residuals, data.x.size(), pair, Constraints({.tie = {"b=a"}}));
   const double a = data.sum([](double x, double y) { return (1 + x) * y; }) /
                    data.sum([](double x, double) { return (1 + x) * (1 + x); });
   EXPECT_NEAR(s.values[0], a, 1e-8);
@@ -92,9 +92,9 @@ TEST(Wish, TiedParametersAreOne) {
 }
 
 // Equals one more point that measures a, with the standard deviation of the prior.
-TEST(Wish, APriorWeighsAsAMeasurementOfItsDeviation) {
+TEST(Constraint, APriorWeighsAsAMeasurementOfItsDeviation) {
   const Data data(3);
-  const Solution s = data.solve(Wishes({.prior = {"a=1.7±0.02 N"}}));
+  const Solution s = data.solve(Constraints({.prior = {"a=1.7±0.02 N"}}));
   const double alone = data.solve({}).standard_deviation;  // for the data without the prior
   const double n = 40, w = alone * alone / (0.02 * 0.02), s2 = std::pow(s.standard_deviation, 2);
   const double mx = data.sum([](double x, double) { return x; }),
@@ -109,26 +109,27 @@ TEST(Wish, APriorWeighsAsAMeasurementOfItsDeviation) {
   EXPECT_TRUE(s.estimates[0].free);
 }
 
-TEST(Wish, APriorThatTheDataContradictOrDoNotNarrowIsTold) {
+TEST(Constraint, APriorThatTheDataContradictOrDoNotNarrowIsTold) {
   const Data data(4);
-  EXPECT_NE(data.solve(Wishes({.prior = {"a=30 N ± 0.1 N"}})).estimates[0].known.find("away"),
+  EXPECT_NE(data.solve(Constraints({.prior = {"a=30 N ± 0.1 N"}})).estimates[0].known.find("away"),
             std::string::npos);
-  EXPECT_EQ(data.solve(Wishes({.prior = {"a=1.5 N +- 0.001 N"}})).estimates[0].known,
+  EXPECT_EQ(data.solve(Constraints({.prior = {"a=1.5 N +- 0.001 N"}})).estimates[0].known,
             "prior 1.5 +- 0.001, which the data do not narrow");
 }
 
-TEST(Wish, NamesStandForAllOfTheirKind) {
-  const Wishes wishes({.freeze = {"b=0.3 SI"}});
-  EXPECT_EQ(Data(5).solve(wishes).values[1], 0.3);
+TEST(Constraint, NamesStandForAllOfTheirKind) {
+  const Constraints constraints({.freeze = {"b=0.3 SI"}});
+  EXPECT_EQ(Data(5).solve(constraints).values[1], 0.3);
   EXPECT_EQ(checked({.freeze = {"b=-2 N/m"}}), "nothing");
-  EXPECT_EQ(wishes.of("bx"), nullptr);
+  EXPECT_EQ(constraints.of("bx"), nullptr);
 }
 
-TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
-  EXPECT_EQ(told([] { Wishes({.freeze = {"a"}}); }), "freeze: found \"a\"; expected NAME=VALUE");
-  EXPECT_EQ(told([] { Wishes({.prior = {"a=3 N"}}); }),
+TEST(Constraint, WhatIsNoneIsToldBySettingAndName) {
+  EXPECT_EQ(told([] { Constraints({.freeze = {"a"}}); }),
+            "freeze: found \"a\"; expected NAME=VALUE");
+  EXPECT_EQ(told([] { Constraints({.prior = {"a=3 N"}}); }),
             "prior: found \"a=3 N\"; expected NAME=VALUE±DEVIATION");
-  EXPECT_EQ(told([] { Wishes({.freeze = {"a=3 N"}, .tie = {"a=b"}}); }),
+  EXPECT_EQ(told([] { Constraints({.freeze = {"a=3 N"}, .tie = {"a=b"}}); }),
             "tie: found \"a=b\"; expected one setting for a parameter");
   EXPECT_EQ(checked({.freeze = {"c=3 N"}}),
             "freeze: found \"c\"; expected a parameter: a or b of x.csv");
@@ -143,7 +144,7 @@ TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
 }
 
 // With frozen and tied parameters and priors, closed-form derivatives match numerical ones.
-TEST(Wishes, TakeDerivativesInClosedFormAlong) {
+TEST(Constraints, TakeDerivativesInClosedFormAlong) {
   const std::vector<Parameter> parameters = {{.name = "a", .unit = "1", .start = 1},
                                              {.name = "b", .unit = "1", .start = 1},
                                              {.name = "c", .unit = "1", .start = 1},
@@ -167,13 +168,14 @@ TEST(Wishes, TakeDerivativesInClosedFormAlong) {
     }
     return true;
   };
-  for (const WishTexts& texts :
-       {WishTexts{.freeze = {"b=0.3 SI"}, .prior = {}, .tie = {}},
-        WishTexts{.freeze = {"c=0 SI"}, .prior = {}, .tie = {"d=a"}},
-        WishTexts{.freeze = {}, .prior = {"b=0.5 SI +- 0.1 SI"}, .tie = {"c=d"}}}) {
-    const Wishes wishes(texts);
-    const Solution without = least_squares(residuals, rows, parameters, wishes);
-    const Solution with = least_squares(residuals, rows, parameters, wishes, {.slopes = slopes});
+  for (const ConstraintTexts& texts :
+       {ConstraintTexts{.freeze = {"b=0.3 SI"}, .prior = {}, .tie = {}},
+        ConstraintTexts{.freeze = {"c=0 SI"}, .prior = {}, .tie = {"d=a"}},
+        ConstraintTexts{.freeze = {}, .prior = {"b=0.5 SI +- 0.1 SI"}, .tie = {"c=d"}}}) {
+    const Constraints constraints(texts);
+    const Solution without = least_squares(residuals, rows, parameters, constraints);
+    const Solution with =
+        least_squares(residuals, rows, parameters, constraints, {.slopes = slopes});
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       EXPECT_NEAR(with.values[i], without.values[i], 1e-6);
       EXPECT_NEAR(with.estimates[i].high, without.estimates[i].high, 1e-5);

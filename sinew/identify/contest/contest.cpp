@@ -1,10 +1,10 @@
-#include "sinew/identify/fit/contest.h"
+#include "sinew/identify/contest/contest.h"
 
 #include <algorithm>
 #include <memory>
 #include <numeric>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -26,7 +26,7 @@ FitProblem problem_of(const Candidate& candidate, const std::vector<double>& mea
           .count = rows.size(),
           .parameters = candidate.parameters,
           .options = candidate.options,
-          .wishes = {}};
+          .constraints = {}};
 }
 
 void start_at(const Solution& solution, FitProblem& problem) {
@@ -51,8 +51,8 @@ std::vector<double> at(const std::vector<double>& values, const Rowset& rows) {
 
 // Returns the residuals of the rows that each split leaves out. A split that leaves out no fitted
 // row needs no fit.
-std::vector<double> unseen(const Candidate& candidate, const Trial& trial, const Rowset& rows,
-                           const Solution& whole) {
+std::vector<double> left_out_residuals(const Candidate& candidate, const Trial& trial,
+                                       const Rowset& rows, const Solution& whole) {
   std::vector<double> out;
   for (const Split& split : trial.splits) {
     Solution part = whole;
@@ -62,7 +62,7 @@ std::vector<double> unseen(const Candidate& candidate, const Trial& trial, const
       problem.options.tolerance = std::max(problem.options.tolerance, 1e-12);
       part = least_squares(problem.residuals, problem.count, problem.parameters, problem.options);
     }
-    const auto left = at(misses(candidate, trial.measured, part.values), split.unseen);
+    const auto left = at(misses(candidate, trial.measured, part.values), split.held_out);
     out.insert(out.end(), left.begin(), left.end());
   }
   return out;
@@ -92,12 +92,12 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
     out.fit = score(found.residuals, full_scale);
     out.residuals = misses(candidate, trial.measured, found.values);
     if (!trial.splits.empty()) {
-      const std::vector<double> left = unseen(candidate, trial, rows, found);
+      const std::vector<double> left = left_out_residuals(candidate, trial, rows, found);
       (trial.cross_validates ? out.cross_validated : out.held_out) = score(left, full_scale);
       out.band = band_of(left, trial.band_where);
     }
     keep_off_bounds(out, candidate.may_be_at_bound);
-    out.again = std::make_shared<Refit>(std::move(problem), std::move(found));
+    out.refit = std::make_shared<Refit>(std::move(problem), std::move(found));
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
   }
@@ -106,26 +106,26 @@ Fit fit_of(const Candidate& candidate, const Trial& trial, double full_scale) {
 
 }  // namespace
 
-std::vector<Split> each_part_unseen(std::span<const int> part) {
+std::vector<Split> each_part_held_out(std::span<const int> part) {
   std::vector<Split> out;
   const int parts = part.empty() ? 0 : 1 + *std::ranges::max_element(part);
   for (int k = 0; k < parts; ++k) {
     Split split;
     for (std::size_t i = 0; i < part.size(); ++i)
-      (part[i] == k ? split.unseen : split.fitted).push_back(i);
+      (part[i] == k ? split.held_out : split.fitted).push_back(i);
     out.push_back(std::move(split));
   }
   return out;
 }
 
-std::vector<Split> each_row_unseen(std::size_t rows) {
+std::vector<Split> each_row_held_out(std::size_t rows) {
   std::vector<int> part(rows);
   std::iota(part.begin(), part.end(), 0);
-  return each_part_unseen(part);
+  return each_part_held_out(part);
 }
 
-void contend(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
-             host::Tally* done) {
+void fit_candidates(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
+                    host::Tally* done) {
   const std::size_t before = report.fits.size();
   report.fits.resize(before + candidates.size());
   host::side_by_side(

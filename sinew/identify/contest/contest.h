@@ -1,5 +1,5 @@
-// identify/fit/contest.h - comparison of the laws of a method: each is fitted to the rows, predicts
-// rows that it was not fitted to, and is scored on both.
+// identify/contest/contest.h - comparison of the laws of a method: each is fitted to the rows,
+// predicts rows that it was not fitted to, and is scored on both.
 //
 // A candidate is a formula over the rows with its free parameters. All else is common to the
 // methods and is here: the search from several starts, the scores, the band that contains rows left
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "sinew/host/side_by_side.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/least_squares.h"
 
 namespace sinew::identify {
 
@@ -35,13 +35,13 @@ struct Candidate {
 
 // Indices of rows that a law is fitted to, and of rows that it then predicts.
 struct Split {
-  std::vector<std::size_t> fitted, unseen;
+  std::vector<std::size_t> fitted, held_out;
 };
 
 // Returns a split for each part that leaves out its rows. `part` is the part of each row.
-std::vector<Split> each_part_unseen(std::span<const int> part);
+std::vector<Split> each_part_held_out(std::span<const int> part);
 // Returns a split for each row that leaves it out.
-std::vector<Split> each_row_unseen(std::size_t rows);
+std::vector<Split> each_row_held_out(std::size_t rows);
 
 // Rows that all candidates are fitted to and tested on.
 struct Trial {
@@ -57,7 +57,7 @@ struct Trial {
 
 // Fits the candidates on all cores and appends them to the report, whose full scale is set. A
 // candidate that throws Refusal is entered as refused. `done` counts the laws that have been tried.
-void contend(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
-             host::Tally* done = nullptr);
+void fit_candidates(const std::vector<Candidate>& candidates, const Trial& trial, Report& report,
+                    host::Tally* done = nullptr);
 
 }  // namespace sinew::identify

@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/contest.h"
+#include "sinew/identify/contest/contest.h"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,8 @@ Report report_of(const Line& data) {
 TEST(Contest, LeavesEachRowOutOnce) {
   const Line data = line(10);
   Report report = report_of(data);
-  contend({polynomial(data.x, 0)}, {.measured = data.y, .splits = each_row_unseen(10)}, report);
+  fit_candidates({polynomial(data.x, 0)}, {.measured = data.y, .splits = each_row_held_out(10)},
+                 report);
   const Fit& fit = report.fits[0];
   EXPECT_NEAR(fit.held_out->rmse, fit.fit.rmse / (1 - 0.1), 1e-7);
   EXPECT_FALSE(fit.cross_validated.has_value());
@@ -57,17 +58,19 @@ TEST(Contest, LeavesEachRowOutOnce) {
 TEST(Contest, TheSimplestLawThatPredictsIsChosenAndPinned) {
   const Line data = line(60);
   Report report = report_of(data);
-  Trial trial{.measured = data.y, .splits = each_row_unseen(60)};
+  Trial trial{.measured = data.y, .splits = each_row_held_out(60)};
   trial.cross_validates = true;
-  contend({polynomial(data.x, 0), polynomial(data.x, 1), polynomial(data.x, 2)}, trial, report);
+  fit_candidates({polynomial(data.x, 0), polynomial(data.x, 1), polynomial(data.x, 2)}, trial,
+                 report);
   conclude(report);
   EXPECT_EQ(report.best().model, "degree 1");
   EXPECT_TRUE(not_pinned(report).empty());
   EXPECT_NEAR(report.best().band->half_68, 0.05, 0.02);
-  const std::vector<std::string> unseen = does_not_show(report);
-  ASSERT_EQ(unseen.size(), 3u);
-  EXPECT_EQ(unseen[0], "whether degree 1 is the true law, as degree 2 misses at most a tenth more");
-  EXPECT_EQ(unseen[1], "what happens outside the x that was measured, 0 to 5.9");
+  const std::vector<std::string> not_shown = does_not_show(report);
+  ASSERT_EQ(not_shown.size(), 3u);
+  EXPECT_EQ(not_shown[0],
+            "whether degree 1 is the true law, as degree 2 misses at most a tenth more");
+  EXPECT_EQ(not_shown[1], "what happens outside the x that was measured, 0 to 5.9");
 }
 
 // Rows that are not fitted are predicted too, and a split that leaves out no fitted row uses the
@@ -76,11 +79,11 @@ TEST(Contest, ScoresRowsOfItsOwnThatNoFitSees) {
   const Line data = line(20);
   Trial trial{.measured = data.y};
   Split split;
-  for (std::size_t i = 0; i < 20; ++i) (i < 12 ? split.fitted : split.unseen).push_back(i);
+  for (std::size_t i = 0; i < 20; ++i) (i < 12 ? split.fitted : split.held_out).push_back(i);
   trial.rows = split.fitted;
   trial.splits = {split};
   Report report = report_of(data);
-  contend({polynomial(data.x, 1)}, trial, report);
+  fit_candidates({polynomial(data.x, 1)}, trial, report);
   const Fit& fit = report.fits[0];
   EXPECT_EQ(fit.fit.points, 12u);
   EXPECT_EQ(fit.residuals.size(), 20u);
@@ -96,14 +99,15 @@ TEST(Contest, RefusesAndFreezesWithAReason) {
   bound.parameters[1].high = 1.5;
   silent.predict = [](std::span<const double>, std::span<double>) { return false; };
   Report report = report_of(data);
-  contend({known, bound, silent}, {.measured = data.y}, report);
+  fit_candidates({known, bound, silent}, {.measured = data.y}, report);
   EXPECT_EQ(report.fits[0].refused, "it takes four pressures");
   EXPECT_EQ(report.fits[1].not_chosen, "b at the bound of its range");
   EXPECT_NE(report.fits[2].refused.find("no value at its start values"), std::string::npos);
   conclude(report);
   EXPECT_EQ(not_pinned(report), std::vector<std::string>{"b"});
-  const std::vector<std::string> unseen = does_not_show(report);
-  EXPECT_EQ(unseen[1], "how large errors are where nothing was measured, as no row was left out");
+  const std::vector<std::string> not_shown = does_not_show(report);
+  EXPECT_EQ(not_shown[1],
+            "how large errors are where nothing was measured, as no row was left out");
 }
 
 TEST(Contest, WarnsOfASearchThatHasNotSettled) {
@@ -111,7 +115,7 @@ TEST(Contest, WarnsOfASearchThatHasNotSettled) {
   Candidate hasty = polynomial(data.x, 1);
   hasty.options.most_steps = 0;
   Report report = report_of(data);
-  contend({hasty}, {.measured = data.y}, report);
+  fit_candidates({hasty}, {.measured = data.y}, report);
   conclude(report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(report.warnings[0].find("before it had settled"), std::string::npos);

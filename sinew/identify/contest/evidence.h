@@ -1,4 +1,4 @@
-// identify/fit/evidence.h - additional parts of a report: intervals of the chosen model,
+// identify/contest/evidence.h - additional parts of a report: intervals of the chosen model,
 // measurements that were left out, and the benefit of further measurements.
 #pragma once
 
@@ -25,7 +25,7 @@ struct OmittedRow {
 // Measurements left out for one reason.
 struct Omitted {
   std::string reason;            // e.g. "pressure still moving"
-  std::string told_by;           // criterion
+  std::string criterion;         // by which they were recognised
   std::size_t count = 0;         // number left out
   std::vector<OmittedRow> rows;  // all of them, or an even selection
 };

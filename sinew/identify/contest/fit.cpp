@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"
 #include "sinew/units/shown.h"
 
@@ -141,26 +141,27 @@ namespace {
 // loss or priors, which minimise another quantity.
 bool finds_better(const FitProblem& problem, const std::optional<Profile>& profile) {
   constexpr double less = 0.99;
-  return profile && problem.data == 0 && problem.options.outlier == 0 && problem.wishes.empty() &&
+  return profile && problem.data == 0 && problem.options.outlier == 0 &&
+         problem.constraints.empty() &&
          std::ranges::any_of(profile->error, [](double error) { return error < less; });
 }
 
 void add_profiles(Report& report) {
   Fit& fit = report.fits[report.chosen];
-  if (fit.again) {
-    bool is_settled = fit.again->solution.converged;
+  if (fit.refit) {
+    bool is_settled = fit.refit->solution.converged;
     if (!is_settled)
       report.warnings.push_back(
           fmt::format("the search for the values of {} ended after {} steps before it had settled: "
                       "better ones may exist",
-                      fit.model, fit.again->solution.steps));
+                      fit.model, fit.refit->solution.steps));
     const std::vector<std::optional<Profile>> profiles =
-        profiles_of(fit.again->problem, fit.again->solution);
+        profiles_of(fit.refit->problem, fit.refit->solution);
     for (std::size_t i = 0; i < profiles.size(); ++i) {
-      const std::string& name = fit.again->problem.parameters[i].name;
+      const std::string& name = fit.refit->problem.parameters[i].name;
       const auto estimate = std::ranges::find(fit.parameters, name, &Estimate::name);
       if (estimate != fit.parameters.end()) estimate->profile = profiles[i];
-      if (is_settled && finds_better(fit.again->problem, profiles[i])) {
+      if (is_settled && finds_better(fit.refit->problem, profiles[i])) {
         is_settled = false;
         report.warnings.push_back(fmt::format(
             "with {} at another value the law misses the data less: the search has not found the "
@@ -169,7 +170,7 @@ void add_profiles(Report& report) {
       }
     }
   }
-  for (Fit& each : report.fits) each.again.reset();
+  for (Fit& each : report.fits) each.refit.reset();
 }
 
 // Writes the errors by group, in the order of their first rows, if there are at least two groups.
@@ -218,7 +219,7 @@ std::vector<std::string> not_pinned(const Report& report) {
 }
 
 std::vector<std::string> does_not_show(const Report& report) {
-  std::vector<std::string> out = report.unseen;
+  std::vector<std::string> out = report.not_shown;
   const Fit& best = report.best();
   std::vector<std::string> names, at_bounds;
   for (const Estimate& e : best.parameters)
@@ -343,7 +344,7 @@ Json to_json(const ErrorBy& by) {
 // Writes the number of omitted rows, and each row that has an explanation.
 Json to_json(const Omitted& omitted, const Report& report) {
   Json out{{"reason", omitted.reason},
-           {"told_by", omitted.told_by},
+           {"told_by", omitted.criterion},
            {"count", omitted.count},
            {"shown", omitted.rows.size()}};
   for (const OmittedRow& row : omitted.rows)

@@ -1,4 +1,4 @@
-// identify/fit/fit.h - result of an identification: every model that was tried, its errors on
+// identify/contest/fit.h - result of an identification: every model that was tried, its errors on
 // fitted and on left-out data, and the choice with its rule.
 #pragma once
 
@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/evidence.h"
-#include "sinew/identify/fit/least_squares.h"
-#include "sinew/identify/fit/profile.h"
-#include "sinew/identify/fit/score.h"
+#include "sinew/identify/contest/evidence.h"
+#include "sinew/identify/contest/least_squares.h"
+#include "sinew/identify/contest/profile.h"
+#include "sinew/identify/contest/score.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -45,7 +45,7 @@ struct Fit {
   std::vector<std::string> notes;  // remarks about this fit
   std::string refused;             // why the data cannot give this model; empty: fitted
   std::string not_chosen;          // why it is shown but not chosen, e.g. a parameter at its bound
-  std::shared_ptr<const Refit> again;  // until the choice; null: no profiles
+  std::shared_ptr<const Refit> refit;  // until the choice; null: no profiles
 };
 
 // Measured data as shown in a figure: the report's quantity over another one.
@@ -82,7 +82,7 @@ struct Report {
   std::vector<ErrorBy> errors;         // chosen model, over all rows
   std::vector<Further> further;        // for each muscle that can be planned
   std::vector<std::string> notes, warnings;
-  std::vector<std::string> unseen;  // not shown by such data, e.g. "how fast the valve switches"
+  std::vector<std::string> not_shown;  // not shown by such data, e.g. "how fast the valve switches"
 
   // Returns the chosen fit.
   const Fit& best() const { return fits[chosen]; }

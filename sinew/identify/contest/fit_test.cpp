@@ -1,9 +1,9 @@
 // The choice among models follows its rule, and each reason of refusals is given once.
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 
 #include <gtest/gtest.h>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::fit_test {
 namespace {

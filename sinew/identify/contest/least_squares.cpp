@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 
 #include <ceres/cost_function.h>
 #include <ceres/problem.h>
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "sinew/host/stop.h"
-#include "sinew/identify/fit/matrix.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/matrix.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -102,7 +102,7 @@ class Scaled {
 };
 
 // A direction counts as undetermined if its singular value is below this share of the largest.
-constexpr double unseen_below = 1e-8;
+constexpr double undetermined_below = 1e-8;
 
 // Returns 1 + 2 sum of the autocorrelation, up to the lag at which noise dominates.
 double inflation_of(std::span<const double> r) {
@@ -193,17 +193,17 @@ class Uncertainty {
     Matrix cov(n, n);
     if (n == 0) return cov;
     // The triangle of a QR decomposition is used: squaring J would lose half the digits.
-    const Axes seen = singular_axes(triangle_of(jacobian));
+    const Axes svd = singular_axes(triangle_of(jacobian));
     const double s2 = out.standard_deviation * out.standard_deviation * out.inflation;
     for (std::size_t k = 0; k < n; ++k) {
-      const std::span<const double> v = seen.axes.column(k);
-      if (seen.values[k] > unseen_below * seen.values[0]) {
-        const double variance = s2 / (seen.values[k] * seen.values[k]);
+      const std::span<const double> v = svd.axes.column(k);
+      if (svd.values[k] > undetermined_below * svd.values[0]) {
+        const double variance = s2 / (svd.values[k] * svd.values[k]);
         for (std::size_t i = 0; i < n; ++i)
           for (std::size_t l = 0; l < n; ++l) cov(i, l) += variance * v[i] * v[l];
         continue;
       }
-      out.unseen.push_back(combination(v, free));
+      out.undetermined.push_back(combination(v, free));
       for (std::size_t i = 0; i < n; ++i)
         if (std::abs(v[i]) > 1e-3) cov(i, i) = unbounded;
     }

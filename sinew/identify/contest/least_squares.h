@@ -1,4 +1,4 @@
-// identify/fit/least_squares.h - least squares fit of parameters, with their uncertainty.
+// identify/contest/least_squares.h - least squares fit of parameters, with their uncertainty.
 //
 //   minimise  sum rho(r_i(p)^2)/2     by Levenberg-Marquardt (Ceres), p within bounds
 //
@@ -93,13 +93,14 @@ Estimate scaled(Estimate e, std::string name, std::string unit, double factor);
 struct Solution {
   std::vector<Estimate> estimates;  // in the parameters' order
   std::vector<double> values;
-  std::vector<double> residuals;    // at the solution, without the loss
-  std::vector<double> covariance;   // row by row; 0 for fixed parameters
-  std::vector<std::string> unseen;  // combinations of parameters that the data do not determine
-  double rms = 0;                   // root mean square of the residuals
-  double standard_deviation = 0;    // s
-  double inflation = 1;             // factor of the variance due to correlation
-  int freedom = 0;                  // n - k
+  std::vector<double> residuals;   // at the solution, without the loss
+  std::vector<double> covariance;  // row by row; 0 for fixed parameters
+  std::vector<std::string>
+      undetermined;               // combinations of parameters that the data do not determine
+  double rms = 0;                 // root mean square of the residuals
+  double standard_deviation = 0;  // s
+  double inflation = 1;           // factor of the variance due to correlation
+  int freedom = 0;                // n - k
   int steps = 0;
   bool converged = false;
 

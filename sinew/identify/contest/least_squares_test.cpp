@@ -1,5 +1,5 @@
 // Estimates, intervals and undetermined parameters, compared with closed forms and by counting.
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "sinew/host/side_by_side.h"
 #include "sinew/host/stop.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::least_squares_test {
 namespace {
@@ -92,8 +92,8 @@ TEST(LeastSquares, AProductDoesNotTellItsFactors) {
   EXPECT_FALSE(s["arm"].identifiable);
   EXPECT_FALSE(s["gain"].identifiable);
   EXPECT_TRUE(s["offset"].identifiable);
-  ASSERT_EQ(s.unseen.size(), 1u);
-  EXPECT_NE(s.unseen[0].find("arm"), std::string::npos) << s.unseen[0];
+  ASSERT_EQ(s.undetermined.size(), 1u);
+  EXPECT_NE(s.undetermined[0].find("arm"), std::string::npos) << s.undetermined[0];
 }
 
 TEST(LeastSquares, OutliersDoNotMoveARobustFit) {

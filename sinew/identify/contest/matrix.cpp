@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/matrix.h"
+#include "sinew/identify/contest/matrix.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -138,7 +138,7 @@ std::optional<Matrix> inverse_of_positive(const Matrix& symmetric, double least)
   return copy(Dense(factors.solve(Dense::Identity(a.rows(), a.cols()))));
 }
 
-Matrix inverse_where_seen(const Matrix& symmetric) {
+Matrix inverse_where_determined(const Matrix& symmetric) {
   const std::size_t n = symmetric.rows();
   const auto [values, axes] = singular_axes(symmetric);
   Matrix out(n, n);

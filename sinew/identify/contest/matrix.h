@@ -1,4 +1,4 @@
-// identify/fit/matrix.h - matrices and the operations that fits need. Eigen computes them; only
+// identify/contest/matrix.h - matrices and the operations that fits need. Eigen computes them; only
 // matrix.cpp includes it because its templates compile slowly.
 #pragma once
 
@@ -98,6 +98,6 @@ std::optional<Matrix> inverse_of_positive(const Matrix& symmetric, double least)
 
 // Returns the Moore-Penrose inverse of a symmetric positive semidefinite matrix: eigenvalues above
 // the rounding error of the largest are inverted, the others are set to 0.
-Matrix inverse_where_seen(const Matrix& symmetric);
+Matrix inverse_where_determined(const Matrix& symmetric);
 
 }  // namespace sinew::identify

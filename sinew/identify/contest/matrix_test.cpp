@@ -1,5 +1,5 @@
 // Matrix functions of fits satisfy their defining equations on seeded random matrices.
-#include "sinew/identify/fit/matrix.h"
+#include "sinew/identify/contest/matrix.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(Matrix, WithoutNumbersThereAreNoAxes) {
   Matrix a = random_matrix(3, 3, 1);
   a(1, 1) = INFINITY;
   EXPECT_TRUE(std::isnan(singular_axes(a).values[2]));
-  EXPECT_TRUE(std::isnan(inverse_where_seen(a)(0, 0)));
+  EXPECT_TRUE(std::isnan(inverse_where_determined(a)(0, 0)));
 }
 
 TEST(Matrix, WhatIsNotDeterminedHasNoInverse) {
@@ -93,7 +93,7 @@ TEST(Matrix, ThePseudoInverseKeepsItsFourConditions) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Matrix factor = random_matrix(5, 3, seed);
     const Matrix a = product(factor, transposed(factor));
-    const Matrix b = inverse_where_seen(a), ab = product(a, b), ba = product(b, a);
+    const Matrix b = inverse_where_determined(a), ab = product(a, b), ba = product(b, a);
     expect_same(product(ab, a), a, 1e-9);
     expect_same(product(ba, b), b, 1e-9);
     expect_same(transposed(ab), ab, 1e-9);

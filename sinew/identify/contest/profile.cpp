@@ -1,11 +1,11 @@
-#include "sinew/identify/fit/profile.h"
+#include "sinew/identify/contest/profile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "sinew/host/side_by_side.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -50,7 +50,7 @@ constexpr int first_steps = 8, more_steps = 60;
 double loss_with(const FitProblem& problem, std::size_t which, double value, double limit,
                  std::vector<double>& values) {
   std::vector<Parameter> parameters = problem.parameters;
-  const Wishes wishes = problem.wishes.with_frozen(parameters[which].name, value);
+  const Constraints constraints = problem.constraints.with_frozen(parameters[which].name, value);
   SolverOptions options = problem.options;
   options.correlated = false;
   double loss = unbounded;
@@ -59,7 +59,7 @@ double loss_with(const FitProblem& problem, std::size_t which, double value, dou
       parameters[i].start = std::clamp(values[i], parameters[i].low, parameters[i].high);
     options.most_steps = std::min(problem.options.most_steps, steps);
     options.tolerance = tolerance;
-    Solution s = least_squares(problem.residuals, problem.count, parameters, wishes, options);
+    Solution s = least_squares(problem.residuals, problem.count, parameters, constraints, options);
     values = std::move(s.values);
     loss = loss_of(problem, s.residuals);
   };

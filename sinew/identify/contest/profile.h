@@ -1,5 +1,5 @@
-// identify/fit/profile.h - profiles of parameters: growth of a law's error when one parameter is
-// held at another value and all others are fitted again.
+// identify/contest/profile.h - profiles of parameters: growth of a law's error when one parameter
+// is held at another value and all others are fitted again.
 //
 //   error at x   sqrt(S(x)/S)            S(x): smallest sum of squares with the parameter at x,
 //                                        S: the smallest of all
@@ -19,8 +19,8 @@
 #include <optional>
 #include <vector>
 
-#include "sinew/identify/fit/least_squares.h"
-#include "sinew/identify/fit/wish.h"
+#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/least_squares.h"
 
 namespace sinew::identify {
 
@@ -30,7 +30,7 @@ struct FitProblem {
   std::size_t count = 0;
   std::vector<Parameter> parameters;
   SolverOptions options;
-  Wishes wishes;
+  Constraints constraints;
   std::size_t data = 0;  // number of residuals of data, the rest are priors; 0: all are data
 };
 

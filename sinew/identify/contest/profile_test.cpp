@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/profile.h"
+#include "sinew/identify/contest/profile.h"
 
 #include <gtest/gtest.h>
 
@@ -88,9 +88,10 @@ TEST(Profiles, CountNoPriors) {
 
 TEST(Profiles, AreNoneOfFrozenValuesAndOfNoFreedom) {
   FitProblem problem = line(0.3, 0.2);
-  problem.wishes = Wishes(WishTexts{.freeze = {"a=0.3 SI"}, .prior = {}, .tie = {}});
+  problem.constraints =
+      Constraints(ConstraintTexts{.freeze = {"a=0.3 SI"}, .prior = {}, .tie = {}});
   const Solution s = least_squares(problem.residuals, problem.count, problem.parameters,
-                                   problem.wishes, problem.options);
+                                   problem.constraints, problem.options);
   const auto profiles = profiles_of(problem, s);
   EXPECT_FALSE(profiles[0].has_value());
   EXPECT_TRUE(profiles[1].has_value());

@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/contest/provenance.h"
 
 #include <fmt/format.h>
 

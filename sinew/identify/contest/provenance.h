@@ -1,4 +1,4 @@
-// identify/fit/provenance.h - identified values as parameter files, each with its source and
+// identify/contest/provenance.h - identified values as parameter files, each with its source and
 // uncertainty as the origins that config::Writer prints.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/config/node.h"
 #include "sinew/config/origin.h"
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 
 namespace sinew::identify {
 

@@ -1,5 +1,5 @@
 // Identified values as files: in SI units, and read back unchanged.
-#include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/contest/provenance.h"
 
 #include <gtest/gtest.h>
 

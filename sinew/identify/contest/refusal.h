@@ -1,5 +1,5 @@
-// identify/fit/refusal.h - error for data that cannot support a model: the file is well-formed, but
-// a result would be useless.
+// identify/contest/refusal.h - error for data that cannot support a model: the file is well-formed,
+// but a result would be useless.
 #pragma once
 
 #include <stdexcept>

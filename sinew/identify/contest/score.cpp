@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/score.h"
+#include "sinew/identify/contest/score.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +52,10 @@ double half_width_of(std::span<const double> residuals, double chance) {
   return sorted[std::min(static_cast<std::size_t>(rank), sorted.size()) - 1];
 }
 
-std::optional<Band> band_of(std::span<const double> unseen, std::string where) {
+std::optional<Band> band_of(std::span<const double> left_out, std::string where) {
   constexpr std::size_t least = 19;
-  if (unseen.size() < least) return std::nullopt;
-  return Band{half_width_of(unseen, 0.68), half_width_of(unseen, 0.95), std::move(where)};
+  if (left_out.size() < least) return std::nullopt;
+  return Band{half_width_of(left_out, 0.68), half_width_of(left_out, 0.95), std::move(where)};
 }
 
 ErrorBy error_by(std::string what, std::string unit, std::span<const double> residuals,

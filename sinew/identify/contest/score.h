@@ -1,4 +1,4 @@
-// identify/fit/score.h - size of residuals, in total and by parts: a large error at one length
+// identify/contest/score.h - size of residuals, in total and by parts: a large error at one length
 // shows where the problem is.
 #pragma once
 
@@ -49,7 +49,7 @@ struct Band {
 
 // Returns the band of residuals that were left out of a fit; empty for fewer than 19, whose largest
 // contains less than 95 %.
-std::optional<Band> band_of(std::span<const double> unseen, std::string where = "");
+std::optional<Band> band_of(std::span<const double> left_out, std::string where = "");
 
 // Error of one part of the rows: those of one length, or of a named branch.
 struct PartError {

@@ -1,4 +1,4 @@
-#include "sinew/identify/fit/score.h"
+#include "sinew/identify/contest/score.h"
 
 #include <gtest/gtest.h>
 

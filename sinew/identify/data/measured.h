@@ -7,11 +7,11 @@
 namespace sinew::identify {
 
 using recording::Column;
+using recording::ColumnSpec;
 using recording::Measured;
 using recording::parse_measured;
 using recording::read_measured;
 using recording::Source;
 using recording::text_of;
-using recording::Wanted;
 
 }  // namespace sinew::identify

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sinew/config/quantity.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 

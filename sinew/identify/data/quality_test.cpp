@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::quality_test {
 namespace {
@@ -47,7 +47,7 @@ TEST(Quality, AnOutlierIsOneAmongManyAndNoiseHasNone) {
 }
 
 TEST(Quality, ConstantsAreRefusedWithTheReason) {
-  constexpr Wanted wanted[] = {
+  constexpr ColumnSpec wanted[] = {
       {.name = "pressure", .unit = "Pa gauge", .least = 1e3, .most = 2e6, .doc = "inside"},
       {.name = "force", .unit = "N", .least = 1, .most = 1e5, .doc = "it pulls with"}};
   const Measured m = parse_measured("pressure [kPa gauge],force [N]\n100,10\n100.1,20\n",

@@ -15,12 +15,12 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/least_squares.h"
+#include "sinew/identify/contest/matrix.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/least_squares.h"
-#include "sinew/identify/fit/matrix.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/joint/torque.h"
 
 namespace sinew::identify {
@@ -31,7 +31,7 @@ namespace {
 
 // Converts residuals, which are sums of the load's and the muscles' torques, to predicted -
 // measured.
-std::vector<double> told_from(std::vector<double> sums) {
+std::vector<double> predicted_minus_measured(std::vector<double> sums) {
   for (double& sum : sums) sum = -sum;
   return sums;
 }
@@ -189,7 +189,7 @@ std::vector<Combination> combinations_of(const Solution& s) {
           s.covariance[which[i] * n + which[k]] / (s.values[which[i]] * s.values[which[k]]);
   std::vector<Combination> out;
   if (!relative.is_finite()) {
-    for (const std::string& text : s.unseen) out.push_back({text, unbounded});
+    for (const std::string& text : s.undetermined) out.push_back({text, unbounded});
     return out;
   }
   const Axes axes = axes_of_positive(relative);
@@ -210,25 +210,25 @@ std::vector<Combination> combinations_of(const Solution& s) {
 }
 
 constexpr std::array columns{
-    Wanted{.name = "angle", .unit = "rad", .least = 0.01, .most = 7, .doc = "of the joint"},
-    Wanted{.name = "flexor_pressure",
-           .unit = "Pa abs",
-           .least = 5e4,
-           .most = 5e6,
-           .optional = true,
-           .doc = "in the muscle that flexes"},
-    Wanted{.name = "extensor_pressure",
-           .unit = "Pa abs",
-           .least = 5e4,
-           .most = 5e6,
-           .optional = true,
-           .doc = "in the muscle that extends"},
-    Wanted{.name = "torque",
-           .unit = "N m",
-           .optional = true,
-           .doc = "of all loads on the joint, raises the angle > 0"},
-    Wanted{.name = "load", .unit = "kg", .optional = true, .doc = "hanging at the lever"},
-    Wanted{.name = "time", .unit = "s", .optional = true, .doc = "of a joint that moves"}};
+    ColumnSpec{.name = "angle", .unit = "rad", .least = 0.01, .most = 7, .doc = "of the joint"},
+    ColumnSpec{.name = "flexor_pressure",
+               .unit = "Pa abs",
+               .least = 5e4,
+               .most = 5e6,
+               .optional = true,
+               .doc = "in the muscle that flexes"},
+    ColumnSpec{.name = "extensor_pressure",
+               .unit = "Pa abs",
+               .least = 5e4,
+               .most = 5e6,
+               .optional = true,
+               .doc = "in the muscle that extends"},
+    ColumnSpec{.name = "torque",
+               .unit = "N m",
+               .optional = true,
+               .doc = "of all loads on the joint, raises the angle > 0"},
+    ColumnSpec{.name = "load", .unit = "kg", .optional = true, .doc = "hanging at the lever"},
+    ColumnSpec{.name = "time", .unit = "s", .optional = true, .doc = "of a joint that moves"}};
 
 // A parameter with a wider 95 % interval, relative to its value, is not determined.
 constexpr double widest_interval = 0.25;
@@ -250,18 +250,19 @@ using Law = JointLaw;
 using Values = JointValues;
 
 // Throws config::Error for a constraint on a parameter that no law has.
-void check_wishes(const JointTorque& joint, const JointSetup& setup, const Wishes& wishes) {
+void check_constraints(const JointTorque& joint, const JointSetup& setup,
+                       const Constraints& constraints) {
   std::vector<Parameter> all;
   for (const Law& law : laws)
     for (JointSlot& slot : joint_slots(law, joint, setup)) all.push_back(std::move(slot.parameter));
-  if (!wishes.empty()) wishes.check(all);
+  if (!constraints.empty()) constraints.check(all);
 }
 
 struct Solved {
   Values values;
   Solution solution;
   std::string ambiguous;  // another solution that fits as well
-  std::shared_ptr<const Refit> again;
+  std::shared_ptr<const Refit> refit;
 };
 
 // Returns whether the parameter affects a muscle's force or arm.
@@ -277,7 +278,7 @@ double square_sum(const Solution& s) {
 
 // Returns a description of another solution with a different muscle parameter, if the residuals do
 // not exclude it: by less than ten times the noise's variance. Empty if no other exists.
-std::string another_answer(const Solution& best, const Solution& other) {
+std::string other_solution(const Solution& best, const Solution& other) {
   const double s2 = best.standard_deviation * best.standard_deviation;
   if (square_sum(other) - square_sum(best) > 10 * s2 + 1e-9 * square_sum(best)) return "";
   for (const Estimate& e : best.estimates) {
@@ -291,7 +292,7 @@ std::string another_answer(const Solution& best, const Solution& other) {
 }
 
 Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
-             const Wishes& wishes) {
+             const Constraints& constraints) {
   const std::vector<JointSlot> slots = joint_slots(law, joint, setup);
   std::vector<Parameter> parameters;
   for (const JointSlot& s : slots) parameters.push_back(s.parameter);
@@ -301,7 +302,7 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
       .options = {.correlated = setup.moving,
                   .widest_interval = widest_interval,
                   .difference = setup.moving ? across_kinks : SolverOptions{}.difference},
-      .wishes = wishes};
+      .constraints = constraints};
   problem.residuals = [&law, &joint, slots, known](std::span<const double> p, std::span<double> r) {
     joint.residuals(law, joint_with(known, slots, p), r);
     return true;
@@ -311,7 +312,7 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
     for (std::size_t i = 0; i < parameters.size(); ++i)
       parameters[i].start = std::clamp(start[i], parameters[i].low, parameters[i].high);
     all.push_back(
-        least_squares(problem.residuals, joint.rows(), parameters, wishes, problem.options));
+        least_squares(problem.residuals, joint.rows(), parameters, constraints, problem.options));
   }
   const auto best = std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) {
     return square_sum(x) < square_sum(y);
@@ -320,7 +321,7 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
   Solved out{joint_with(known, slots, best->values), *best, "",
              std::make_shared<Refit>(std::move(problem), *best)};
   for (const Solution& other : all)
-    if (out.ambiguous.empty()) out.ambiguous = another_answer(*best, other);
+    if (out.ambiguous.empty()) out.ambiguous = other_solution(*best, other);
   return out;
 }
 
@@ -424,20 +425,20 @@ std::vector<double> residuals_of(const Law& law, const JointTorque& joint, const
 
 // Fits one law to all rows and scores it on those that are held out.
 Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
-              const JointTorque& others, bool refit, const JointSetup& setup, const Wishes& wishes,
-              double full_scale, Solved& solved) {
+              const JointTorque& others, bool refit, const JointSetup& setup,
+              const Constraints& constraints, double full_scale, Solved& solved) {
   Fit fit{.model = law.name, .law = law.law, .source = law.source};
   try {
-    solved = solve(law, joint, setup, wishes);
+    solved = solve(law, joint, setup, constraints);
     fit.parameters = solved.solution.estimates;
-    fit.again = solved.again;
+    fit.refit = solved.refit;
     fit.refused = inseparable(solved);
     fit.fit = score(solved.solution.residuals, full_scale);
-    fit.residuals = told_from(solved.solution.residuals);
-    const Values values = refit ? solve(law, some, setup, wishes).values : solved.values;
+    fit.residuals = predicted_minus_measured(solved.solution.residuals);
+    const Values values = refit ? solve(law, some, setup, constraints).values : solved.values;
     const std::vector<double> unseen = residuals_of(law, others, values);
     fit.held_out = score(unseen, full_scale);
-    const std::vector<double> told = told_from(unseen);
+    const std::vector<double> told = predicted_minus_measured(unseen);
     if (!refit) fit.residuals.insert(fit.residuals.end(), told.begin(), told.end());
   } catch (const Refusal& e) {
     fit.refused = e.what();
@@ -446,7 +447,7 @@ Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
 }
 
 // Writes the arms over the measured angles.
-void put_cam(const Measured& data, const JointTorque& joint, const Hinge& cord, double rest,
+void put_cam(const Measured& data, const JointTorque& joint, const Hinge& tendon, double rest,
              JointResult& out) {
   const double low = smallest(data["angle"]), high = largest(data["angle"]);
   constexpr int pieces = 8;
@@ -454,8 +455,8 @@ void put_cam(const Measured& data, const JointTorque& joint, const Hinge& cord, 
     const double angle = low + (high - low) * i / pieces;
     const double q = joint.sign() * (angle - rest);
     out.cam_angle.push_back(angle);
-    out.cam_flexor.push_back(cord.arm(q));
-    out.cam_extensor.push_back(cord.arm(-q));
+    out.cam_flexor.push_back(tendon.arm(q));
+    out.cam_extensor.push_back(tendon.arm(-q));
   }
 }
 
@@ -489,8 +490,8 @@ void refuse_other_columns(const Measured& data, const Measured& held_out) {
 
 }  // namespace
 
-std::span<const Wanted> joint_columns(bool moving) {
-  return std::span<const Wanted>(columns).first(columns.size() - (moving ? 0 : 1));
+std::span<const ColumnSpec> joint_columns(bool moving) {
+  return std::span<const ColumnSpec>(columns).first(columns.size() - (moving ? 0 : 1));
 }
 
 std::vector<std::string> joint_models() {
@@ -500,14 +501,14 @@ std::vector<std::string> joint_models() {
 }
 
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& other,
-                           const JointSetup& setup, std::string_view model, const Wishes& wishes,
-                           host::Tally* done) {
+                           const JointSetup& setup, std::string_view model,
+                           const Constraints& constraints, host::Tally* done) {
   const JointTorque joint(data, setup);
   const std::optional<Measured> held_out = as_another(other, joint.recordings());
   refuse_without_torque(data, setup);
   refuse_unusable(data, joint, setup);
   if (held_out) refuse_other_columns(data, *held_out);
-  check_wishes(joint, setup, wishes);
+  check_constraints(joint, setup, constraints);
   const auto [seen, unseen] = held_out       ? std::pair(data, *held_out)
                               : setup.moving ? last_thirds(data)
                                              : every_third(data);
@@ -525,7 +526,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
                        : setup.moving ? "the last third of each recording"
                                       : "every third row";
   report.notes = data.notes;
-  report.unseen = {"the joint at angles and pressures between which no pose was measured"};
+  report.not_shown = {"the joint at angles and pressures between which no pose was measured"};
 
   std::vector<const Law*> tried;
   for (const Law& law : laws) {
@@ -537,7 +538,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   std::vector<Solved> solved(tried.size());
   report.fits.resize(tried.size());
   const auto attempt = [&](std::size_t k) {
-    report.fits[k] = tried_fit(*tried[k], joint, some, others, !held_out, setup, wishes,
+    report.fits[k] = tried_fit(*tried[k], joint, some, others, !held_out, setup, constraints,
                                report.full_scale, solved[k]);
   };
   host::side_by_side(tried.size(), attempt, done);
@@ -554,11 +555,11 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   out.extensor_length = joint.has_extensor() ? v.extensor_length : to_be_found;
   out.effectiveness = joint.effectiveness(v);
   if (law.hinge) {
-    const Hinge cord = JointTorque::hinge(law, v);
+    const Hinge tendon = JointTorque::hinge(law, v);
     report.fits[report.chosen].notes.push_back(
         fmt::format("the points are {:.4g} m and {:.4g} m from the joint, or the other way round",
-                    cord.origin(), cord.insertion()));
-    put_cam(data, joint, cord, setup.rest_angle, out);
+                    tendon.origin(), tendon.insertion()));
+    put_cam(data, joint, tendon, setup.rest_angle, out);
   }
   return out;
 }

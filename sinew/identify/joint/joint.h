@@ -30,9 +30,9 @@
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/host/side_by_side.h"
+#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/data/measured.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/wish.h"
 
 namespace sinew::identify {
 
@@ -64,7 +64,7 @@ struct JointSetup {
 
 // Returns the columns: angle, flexor_pressure, extensor_pressure (at least one of them), torque or
 // load if present; with `moving` also time, which must ascend only then.
-std::span<const Wanted> joint_columns(bool moving);
+std::span<const ColumnSpec> joint_columns(bool moving);
 
 // A product of powers of parameters, and its uncertainty.
 struct Combination {
@@ -82,13 +82,13 @@ struct JointResult {
 };
 
 // Identifies the joint. Rows of `held_out`, or else every third row, are held out. `model`: the
-// only model to try; empty: all. `wishes` may concern moment_arm, origin_ratio, origin_angle,
+// only model to try; empty: all. `constraints` may concern moment_arm, origin_ratio, origin_angle,
 // flexor_length, extensor_length, c0 and c1. `done` counts the models that have been tried. Throws
 // Refusal, config::Error for a constraint on an unknown parameter, and std::invalid_argument for an
 // unknown model.
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& held_out,
                            const JointSetup& setup, std::string_view model = "",
-                           const Wishes& wishes = {}, host::Tally* done = nullptr);
+                           const Constraints& constraints = {}, host::Tally* done = nullptr);
 std::vector<std::string> joint_models();
 
 }  // namespace sinew::identify

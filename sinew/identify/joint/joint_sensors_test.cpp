@@ -7,7 +7,7 @@
 #include <random>
 
 #include "sinew/actuator/thesis_actuator.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/joint/joint.h"
 
 namespace sinew::identify::joint_sensors_test {

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "sinew/actuator/thesis_actuator.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/joint/hinge.h"
 
 namespace sinew::identify::joint_test {
@@ -205,11 +205,11 @@ TEST(Joint, APriorOnTheArmTellsWhatTorquesCannot) {
   EXPECT_NE(refused(data, setup_of(t), "round"), "not refused");
   const JointResult r = identify_joint(
       data, {}, setup_of(t), "round",
-      Wishes({.prior = {"moment_arm=22 mm ± 0.5 mm", "flexor_length=83 mm ± 0.5 mm"}}));
+      Constraints({.prior = {"moment_arm=22 mm ± 0.5 mm", "flexor_length=83 mm ± 0.5 mm"}}));
   EXPECT_NEAR(r.effectiveness.c0, t.c0, 0.1 * t.c0);
   EXPECT_NEAR(r.moment_arm, t.arm, 1.5e-3);
-  const JointResult frozen = identify_joint(data, {}, setup_of(t), "round",
-                                            Wishes({.freeze = {"moment_arm=22 mm", "c0=0.97"}}));
+  const JointResult frozen = identify_joint(
+      data, {}, setup_of(t), "round", Constraints({.freeze = {"moment_arm=22 mm", "c0=0.97"}}));
   EXPECT_EQ(frozen.moment_arm, 0.022);
   EXPECT_NEAR(frozen.flexor_length, t.flexor, 1e-3 * t.flexor);
 }

@@ -7,9 +7,9 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/data/series.h"
-#include "sinew/identify/fit/least_squares.h"
 
 namespace sinew::identify {
 
@@ -68,15 +68,15 @@ actuator::Effectiveness JointTorque::effectiveness(const JointValues& v) const {
   return out;
 }
 
-double JointTorque::force(const actuator::Actuator& a, const Hinge& cord, double mount, double q,
+double JointTorque::force(const actuator::Actuator& a, const Hinge& tendon, double mount, double q,
                           double pressure) const {
-  const double f = actuator::clamped_tension(a, mount - cord.shortening(q), 0,
+  const double f = actuator::clamped_tension(a, mount - tendon.shortening(q), 0,
                                              pressure - setup_.atmosphere, setup_.atmosphere);
   return std::max(f, 0.0);
 }
 
 void JointTorque::residuals(const JointLaw& law, const JointValues& v, std::span<double> r) const {
-  const Hinge cord = hinge(law, v);
+  const Hinge tendon = hinge(law, v);
   actuator::Actuator a = setup_.actuator;
   a.effectiveness = effectiveness(v);
   a.long_end.stiffness = 0;            // threads that stretch would add a scale
@@ -84,8 +84,9 @@ void JointTorque::residuals(const JointLaw& law, const JointValues& v, std::span
   for (std::size_t i = 0; i < rows(); ++i) {
     const double q = sign_ * (angle_[i] - setup_.rest_angle);
     double pull = 0;
-    if (has_flexor()) pull += cord.arm(q) * force(a, cord, v.flexor_length, q, flexor_[i]);
-    if (has_extensor()) pull -= cord.arm(-q) * force(a, cord, v.extensor_length, -q, extensor_[i]);
+    if (has_flexor()) pull += tendon.arm(q) * force(a, tendon, v.flexor_length, q, flexor_[i]);
+    if (has_extensor())
+      pull -= tendon.arm(-q) * force(a, tendon, v.extensor_length, -q, extensor_[i]);
     needed[i] = -sign_ * setup_.count * pull;
     if (rate_.empty()) continue;
     const double way = rate_[i] > 0 ? 1 : rate_[i] < 0 ? -1 : 0;
@@ -120,14 +121,14 @@ double JointTorque::bias_of(const JointValues& v, std::size_t from, std::size_t 
 
 void JointTorque::warn_of_ends(const JointLaw& law, const JointValues& v,
                                std::vector<std::string>& warnings) const {
-  const Hinge cord = hinge(law, v);
+  const Hinge tendon = hinge(law, v);
   double most = 0, least = unbounded;
   for (const double angle : angle_) {
     const double q = sign_ * (angle - setup_.rest_angle);
     for (const bool flexor : {true, false}) {
       if (flexor ? !has_flexor() : !has_extensor()) continue;
       const double length =
-          (flexor ? v.flexor_length : v.extensor_length) - cord.shortening(flexor ? q : -q);
+          (flexor ? v.flexor_length : v.extensor_length) - tendon.shortening(flexor ? q : -q);
       most = std::max(most, length);
       least = std::min(least, length);
     }

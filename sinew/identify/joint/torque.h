@@ -60,7 +60,7 @@ class JointTorque {
                     std::vector<std::string>& warnings) const;
 
  private:
-  double force(const actuator::Actuator& a, const Hinge& cord, double mount, double q,
+  double force(const actuator::Actuator& a, const Hinge& tendon, double mount, double q,
                double pressure) const;
 
   void put_recordings(const Measured& data);

@@ -141,16 +141,16 @@ std::vector<MachineNumber> machine_numbers(Experiment& e) {
   return std::move(finder.found);
 }
 
-std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::string>& asked) {
+std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::string>& requested) {
   const std::vector<MachineNumber> numbers = machine_numbers(e);
   std::vector<std::string> out;
   const auto add = [&](const std::string& key) {
     if (std::ranges::find(out, key) == out.end()) out.push_back(key);
   };
-  if (asked.empty())
+  if (requested.empty())
     for (const std::string_view group : group_names)
       for (const std::string& key : keys_of_group(group, e)) add(key);
-  for (const std::string& word : asked) {
+  for (const std::string& word : requested) {
     if (std::ranges::find(group_names, word) != group_names.end()) {
       const std::vector<std::string> keys = keys_of_group(word, e);
       if (keys.empty())

@@ -34,11 +34,11 @@ struct MachineNumber {
 // Returns all parameters of the machine and of its start, with pointers into the description.
 std::vector<MachineNumber> machine_numbers(experiment::Experiment& experiment);
 
-// Returns the keys for the words in `asked`: keys, and groups for those of their keys that
+// Returns the keys for the words in `requested`: keys, and groups for those of their keys that
 // the machine has. Empty: all groups. Each key is returned once. Throws config::Error for a
 // word that is neither, and for a group without a key.
 std::vector<std::string> machine_keys(experiment::Experiment& experiment,
-                                      const std::vector<std::string>& asked);
+                                      const std::vector<std::string>& requested);
 
 // Returns the size of a significant change of the parameter, in its unit: a share of its value, or
 // if that is 0 a typical size of its group; > 0.

@@ -9,8 +9,8 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/write/writer.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_search.h"
 #include "sinew/json/json.h"
@@ -85,7 +85,7 @@ void score_channels(const DrivenRun& run, double until, double from,
   if (!held_out.empty()) out.report.fits[0].held_out = score(held_out, 1);
 }
 
-void tell_channels(const RunFitResult& out, Fit& fit) {
+void add_channel_notes(const RunFitResult& out, Fit& fit) {
   for (const ChannelScore& c : out.channels)
     fit.notes.push_back(fmt::format(
         "{}: {:.3g} {} left of {:.3g} {} noise{}", c.name,
@@ -140,21 +140,21 @@ void judge_intervals(const DrivenRun& run, double until, double roughness, RunFi
 }
 
 // Values of the searched parameters, and the residuals there.
-struct RunPlace {
-  std::vector<double> p, left;
-  bool answered = false;
+struct EvaluatedPoint {
+  std::vector<double> p, residuals;
+  bool is_evaluated = false;
 
-  RunPlace(const RunResiduals& residuals, std::vector<double> numbers)
-      : p(std::move(numbers)), left(residuals.count()), answered(residuals(p, left)) {}
+  EvaluatedPoint(const RunResiduals& of, std::vector<double> numbers)
+      : p(std::move(numbers)), residuals(of.count()), is_evaluated(of(p, residuals)) {}
 };
 
 // Returns whether the readings change if parameter i alone is changed.
 bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::size_t i,
-                    const RunPlace& place) {
+                    const EvaluatedPoint& place) {
   constexpr double enough = 0.1;  // sum of squares, in units of the noise
-  if (!place.answered) return false;
+  if (!place.is_evaluated) return false;
   std::vector<double> p = place.p, there(residuals.count());
-  const std::vector<double>& at = place.left;
+  const std::vector<double>& at = place.residuals;
   const double from = p[i];
   for (const double step : {0.3, -0.3, 1.0}) {
     p[i] = from + step * one.scale;
@@ -166,18 +166,19 @@ bool moves_readings(const RunResiduals& residuals, const Parameter& one, std::si
   return false;
 }
 
-// Returns the parameters that affect any reading; the others are listed in `not_felt`. The closing
-// delay of a valve whose pulses are all lost has no effect, so dead times are tested a second time
-// with all of them halved.
-std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Parameter>& all,
-                            std::vector<std::string>& not_felt) {
+// Returns the parameters that affect any reading; the others are listed in `without_effect`. The
+// closing delay of a valve whose pulses are all lost has no effect, so dead times are tested a
+// second time with all of them halved.
+std::vector<Parameter> parameters_with_effect(const RunResiduals& residuals,
+                                              const std::vector<Parameter>& all,
+                                              std::vector<std::string>& without_effect) {
   std::vector<double> p, short_times;
   for (const Parameter& one : all) {
     p.push_back(one.start);
     short_times.push_back(is_dead_time(one) ? std::max(one.low, 0.5 * one.start) : one.start);
   }
-  const RunPlace start(residuals, p), sooner(residuals, short_times);
-  if (!start.answered)
+  const EvaluatedPoint start(residuals, p), sooner(residuals, short_times);
+  if (!start.is_evaluated)
     throw Refusal("the machine at the start of the search",
                   "that it does not get to the end of the run in finite numbers",
                   "a machine that can do what was recorded", "other start values");
@@ -187,7 +188,7 @@ std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Par
         (is_dead_time(all[i]) && moves_readings(residuals, all[i], i, sooner)))
       out.push_back(all[i]);
     else
-      not_felt.push_back(all[i].name + ": no reading depends on it");
+      without_effect.push_back(all[i].name + ": no reading depends on it");
   }
   return out;
 }
@@ -196,7 +197,8 @@ std::vector<Parameter> felt(const RunResiduals& residuals, const std::vector<Par
 // effort of the search. Returns the rms of the residuals there, in units of the noise.
 double search_numbers(const Experiment& e, const DrivenRun& run, const RunFitOptions& options,
                       double until, std::vector<Parameter> parameters, RunFitResult& out) {
-  parameters = felt(RunResiduals(e, run, parameters, options, until), parameters, out.undetermined);
+  parameters = parameters_with_effect(RunResiduals(e, run, parameters, options, until), parameters,
+                                      out.undetermined);
   if (parameters.empty())
     throw Refusal("the run", "readings that depend on none of the numbers",
                   "a run in which they matter", "other numbers to fit");
@@ -236,7 +238,7 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
             .unit = "1",
             .full_scale = 1,
             .full_scale_is = "each sensor's noise"};
-  report.unseen = {"what this run did not excite: other speeds, loads and pressures"};
+  report.not_shown = {"what this run did not excite: other speeds, loads and pressures"};
   if (options.hold_out > 0)
     report.held_out_is = fits ? fmt::format("the run from {:.4g} s on", until)
                               : "all of the run; nothing was fitted";
@@ -251,7 +253,7 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
                   "that it does not reach the end of the run in finite numbers",
                   "a machine that can do what was recorded", "other numbers");
   score_channels(run, until, options.from, mean, out);
-  tell_channels(out, report.fits[0]);
+  add_channel_notes(out, report.fits[0]);
   if (fits)
     report.fits[0].notes.push_back(fmt::format(
         "with the numbers as they stood {:.4g} times the noise was left; {} simulations",

@@ -18,8 +18,8 @@
 //                reports its solution, but no intervals
 //
 // Therefore the search begins with a coarse scan of each parameter, dead times in whole ticks, and
-// continues with Gauss-Newton (fit/least_squares.h); both are repeated while the residuals exceed
-// the noise.
+// continues with Gauss-Newton (contest/least_squares.h); both are repeated while the residuals
+// exceed the noise.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,7 @@
 
 #include "sinew/config/node.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/machine/driven_run.h"
 #include "sinew/json/json.h"
 

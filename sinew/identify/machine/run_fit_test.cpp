@@ -59,7 +59,7 @@ TEST(RunFit, FindsADelayThatOnlyAnotherDelayMakesFelt) {
   const std::string opens = "valve.exhaust.opening_delay", closes = "valve.exhaust.closing_delay";
   const double opening = number_at(start, opens), closing = number_at(start, closes);
   const DrivenRun driven(start, recorded(start), false);
-  const auto is_felt = [&] {
+  const auto has_effect = [&] {
     std::vector<double> at(driven.samples()), there(driven.samples());
     set_number(start, closes, closing);
     EXPECT_TRUE(driven.predict(start, at, driven.duration()));
@@ -69,7 +69,7 @@ TEST(RunFit, FindsADelayThatOnlyAnotherDelayMakesFelt) {
     return at != there;
   };
   double lost = opening;
-  while (is_felt() && lost < 0.01) set_number(start, opens, lost += 1e-4);
+  while (has_effect() && lost < 0.01) set_number(start, opens, lost += 1e-4);
   ASSERT_LT(lost, 0.01);
   const RunFitResult found = fit_run(start, driven, {.fit = {opens, closes}});
   EXPECT_TRUE(found.undetermined.empty());

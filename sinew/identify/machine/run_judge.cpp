@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/identify/fit/matrix.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/matrix.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/machine/run_mixture.h"
 #include "sinew/identify/machine/run_search.h"
 
@@ -67,8 +67,8 @@ RunPiece piece_of(RunTangent& t, std::span<const Parameter> parameters, const Ru
     for (std::size_t l = 0; l < m; ++l) out.spread(k, l) *= p.scale;
     if (out.spread(k, k) < 0)
       for (double& x : out.spread.column(k)) x = -x;
-    out.box.push_back({std::max(p.low, at.cells[i].low - off_the_jump),
-                       std::min(p.high, at.cells[i].high + off_the_jump)});
+    out.box.push_back({std::max(p.low, at.cells[i].low - jump_clearance),
+                       std::min(p.high, at.cells[i].high + jump_clearance)});
   }
   return out;
 }

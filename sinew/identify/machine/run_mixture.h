@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "sinew/identify/fit/matrix.h"
+#include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/machine/run_search.h"
 
 namespace sinew::identify {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/machine/machine_numbers.h"
 
 namespace sinew::identify {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/machine/driven_run.h"
 
 namespace sinew::identify {

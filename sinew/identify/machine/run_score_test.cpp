@@ -14,8 +14,8 @@ using experiment::Experiment;
 
 // Scores `machine` on the recording; returns the rms of each channel in units of its sensor's
 // noise.
-std::vector<double> in_noises(const Experiment& machine, const Experiment& recording,
-                              const DrivenRun& driven) {
+std::vector<double> rms_per_noise(const Experiment& machine, const Experiment& recording,
+                                  const DrivenRun& driven) {
   std::vector<std::string> differing;
   const Experiment scored = scored_machine(machine, recording, {}, "other", differing);
   std::vector<double> out;
@@ -48,9 +48,9 @@ TEST(RunScore, OfWhatWasIdentifiedIsNearlyTheNoise) {
   const RunFitResult found = fit_run(start, DrivenRun(start, recorded(machine), false),
                                      {.fit = {"friction", "damping", "valve.inlet.closing_delay"}});
   const DrivenRun driven(recording, recorded(recording), false);
-  const std::vector<double> truth = in_noises(machine, recording, driven);
-  const std::vector<double> identified = in_noises(found.machine, recording, driven);
-  const std::vector<double> before = in_noises(start, recording, driven);
+  const std::vector<double> truth = rms_per_noise(machine, recording, driven);
+  const std::vector<double> identified = rms_per_noise(found.machine, recording, driven);
+  const std::vector<double> before = rms_per_noise(start, recording, driven);
   for (std::size_t c = 0; c < truth.size(); ++c) {
     const auto n = static_cast<double>(driven.channels()[c].value.size());
     EXPECT_LT(truth[c], 1 + 4 / std::sqrt(2 * n)) << driven.channels()[c].name;

@@ -91,7 +91,7 @@ std::vector<double> places_of(const Parameter& p, double at) {
   return out;
 }
 
-using Places = std::vector<std::vector<double>>;
+using TrialPoints = std::vector<std::vector<double>>;
 
 // Moves each parameter except dead times, one by one, to the best of a few trial values.
 void scan_numbers(const RunResiduals& residuals, std::span<const Parameter> parameters, int threads,
@@ -99,7 +99,7 @@ void scan_numbers(const RunResiduals& residuals, std::span<const Parameter> para
   double best = residuals.cost(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (is_dead_time(parameters[i])) continue;
-    Places tried;
+    TrialPoints tried;
     for (const double x : places_of(parameters[i], p[i])) {
       tried.push_back(p);
       tried.back()[i] = x;
@@ -125,14 +125,14 @@ std::size_t partner_of(std::span<const Parameter> parameters, std::size_t i) {
 // Returns trial points in the cells some ticks around, for one valve after the other. A run
 // best determines how much longer a valve is open than its coil is on, so the difference of the
 // delays is kept where possible.
-Places cells_around(std::span<const Parameter> parameters, const std::vector<double>& p,
-                    int ticks) {
+TrialPoints cells_around(std::span<const Parameter> parameters, const std::vector<double>& p,
+                         int ticks) {
   constexpr double inset = 0.02 * tick;
   const auto cell = [&](std::size_t i, int by) {
     const double low = (std::floor(p[i] / tick) + by) * tick;
     return RunCell{low + inset, low + tick - inset};
   };
-  Places out;
+  TrialPoints out;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!is_dead_time(parameters[i])) continue;
     const std::size_t k = partner_of(parameters, i);
@@ -161,9 +161,9 @@ bool try_cells(const RunResiduals& residuals, std::span<const Parameter> paramet
                RunSearched& best) {
   constexpr std::size_t worth_it = 6;
   constexpr int a_few_steps = 4, far = 3;
-  Places tried = cells_around(parameters, best.p, far);
+  TrialPoints tried = cells_around(parameters, best.p, far);
   if (tried.empty()) return false;
-  const std::vector<double> cost = made_up_costs(residuals, parameters, best, tried, threads);
+  const std::vector<double> cost = linearised_costs(residuals, parameters, best, tried, threads);
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return cost[k]; });
@@ -194,9 +194,9 @@ void settle_cells(const RunResiduals& residuals, std::span<const Parameter> para
                   RunSearched& best) {
   constexpr int few_moves = 3, moves = 20, steps = 6;
   for (int move = 0; move < (best.rms > only_noise ? moves : few_moves); ++move) {
-    const Places tried = cells_around(parameters, best.p, 1);
+    const TrialPoints tried = cells_around(parameters, best.p, 1);
     if (tried.empty()) return;
-    const std::vector<double> cost = made_up_costs(residuals, parameters, best, tried, threads);
+    const std::vector<double> cost = linearised_costs(residuals, parameters, best, tried, threads);
     const auto k = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
     if (cost[k] > half_square(residuals, best) - 1) return;
     const RunSearched there = search_in_cells(residuals, parameters, tried[k], steps, threads);
@@ -213,11 +213,11 @@ bool same_cells(const std::vector<RunCell>& a, const std::vector<RunCell>& b) {
 
 // Returns the neighbouring trial points that the run does not exclude, after adjusting all
 // parameters, the likely ones first.
-Places open_places(const RunResiduals& residuals, std::span<const Parameter> parameters,
-                   int threads, const RunSearched& at, double least) {
-  Places tried = cells_around(parameters, at.p, 1), out;
+TrialPoints open_places(const RunResiduals& residuals, std::span<const Parameter> parameters,
+                        int threads, const RunSearched& at, double least) {
+  TrialPoints tried = cells_around(parameters, at.p, 1), out;
   if (tried.empty()) return out;
-  const std::vector<double> cost = made_up_costs(residuals, parameters, at, tried, threads);
+  const std::vector<double> cost = linearised_costs(residuals, parameters, at, tried, threads);
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return cost[k]; });
@@ -267,7 +267,7 @@ std::vector<RunCell> run_cells(std::span<const Parameter> parameters, std::span<
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!is_dead_time(parameters[i])) continue;
     const double below = std::floor(p[i] / tick) * tick;
-    out[i] = {std::max(parameters[i].low, below + off_the_jump), below + tick - off_the_jump};
+    out[i] = {std::max(parameters[i].low, below + jump_clearance), below + tick - jump_clearance};
   }
   return out;
 }
@@ -276,7 +276,7 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
                        std::span<const Parameter> parameters, const RunFitOptions& options,
                        int threads) {
   constexpr int most_steps = 15;
-  const auto tell = [&](const std::string& what, double rms) {
+  const auto report = [&](const std::string& what, double rms) {
     if (options.progress)
       options.progress(fmt::format("{}: {:.4g} times the noise left, {} + {} simulations", what,
                                    rms, beginning.simulations(), whole.simulations()));
@@ -286,10 +286,10 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
   const auto search_from = [&](std::vector<double> p) {
     scan_numbers(beginning, parameters, threads, p);
     RunSearched found = search_in_cells(beginning, parameters, p, most_steps, threads);
-    tell("scanned and searched in the beginning", found.rms);
+    report("scanned and searched in the beginning", found.rms);
     for (int round = 0; round < options.rounds && found.rms > only_noise; ++round) {
       if (!try_cells(beginning, parameters, threads, found)) break;
-      tell("other dead times", found.rms);
+      report("other dead times", found.rms);
     }
     return found;
   };
@@ -297,8 +297,8 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
   const bool others = std::ranges::any_of(parameters, is_dead_time);
   for (const double times : other_dead_times) {
     if (best.rms < far_above_noise || !others) break;
-    tell(fmt::format("begins again with dead times of {:.3g} times those at the start", times),
-         best.rms);
+    report(fmt::format("begins again with dead times of {:.3g} times those at the start", times),
+           best.rms);
     std::vector<double> p = start;
     for (std::size_t i = 0; i < p.size(); ++i)
       if (is_dead_time(parameters[i]))
@@ -307,10 +307,10 @@ RunSearched search_run(const RunResiduals& beginning, const RunResiduals& whole,
     if (found.rms < best.rms) best = std::move(found);
   }
   best = search_in_cells(whole, parameters, best.p, most_steps, threads);
-  tell("searched in all of the run", best.rms);
+  report("searched in all of the run", best.rms);
   settle_cells(whole, parameters, threads, best);
   search_open_cells(whole, parameters, threads, best);
-  tell("neighbouring dead times", best.rms);
+  report("neighbouring dead times", best.rms);
   return best;
 }
 
@@ -370,7 +370,7 @@ bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> param
                  RunTangent& out, double by) {
   const std::size_t n = parameters.size();
   std::vector<std::vector<double>> moved(n + 1, std::vector<double>(residuals.count()));
-  std::vector<char> answered(n + 1);
+  std::vector<char> evaluated(n + 1);
   std::vector<double> step(n);
   host::side_by_side(
       n + 1,
@@ -382,14 +382,14 @@ bool run_tangent(const RunResiduals& residuals, std::span<const Parameter> param
           if (p[i] + step[i] > high) step[i] = -step[i];
           q[i] += step[i];
         }
-        answered[i] = residuals(q, moved[i]) ? 1 : 0;
+        evaluated[i] = residuals(q, moved[i]) ? 1 : 0;
       },
       nullptr, threads);
-  if (!answered[n]) return false;
+  if (!evaluated[n]) return false;
   out.r = moved[n];
   out.j = Matrix(residuals.count(), n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (!answered[i]) continue;
+    if (!evaluated[i]) continue;
     const double per_scale = parameters[i].scale / step[i];
     const std::span<double> column = out.j.column(i);
     for (std::size_t k = 0; k < column.size(); ++k)
@@ -428,9 +428,9 @@ RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Param
   return out;
 }
 
-std::vector<double> made_up_costs(const RunResiduals& residuals,
-                                  std::span<const Parameter> parameters, const RunSearched& at,
-                                  const std::vector<std::vector<double>>& places, int threads) {
+std::vector<double> linearised_costs(const RunResiduals& residuals,
+                                     std::span<const Parameter> parameters, const RunSearched& at,
+                                     const std::vector<std::vector<double>>& places, int threads) {
   std::vector<double> out(places.size(), unbounded);
   RunTangent t;
   if (!run_tangent(residuals, parameters, at.cells, at.p, threads, t)) return out;

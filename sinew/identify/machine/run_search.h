@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/identify/fit/least_squares.h"
-#include "sinew/identify/fit/matrix.h"
+#include "sinew/identify/contest/least_squares.h"
+#include "sinew/identify/contest/matrix.h"
 #include "sinew/identify/machine/machine_numbers.h"
 #include "sinew/identify/machine/run_fit.h"
 
@@ -32,7 +32,7 @@ struct RunCell {
   double low = -unbounded, high = unbounded;
 };
 
-inline constexpr double off_the_jump = 1e-7;  // simulated distance from a cell's end [s]
+inline constexpr double jump_clearance = 1e-7;  // simulated distance from a cell's end [s]
 
 // Returns whether the parameter is the delay of a valve.
 bool is_dead_time(const Parameter& number);
@@ -94,9 +94,9 @@ RunSearched search_in_cells(const RunResiduals& residuals, std::span<const Param
 
 // Returns for each place half the sum of squares that would remain after all parameters are
 // adjusted along the tangent at `at`: one simulation each shows which cells are worth a search.
-std::vector<double> made_up_costs(const RunResiduals& residuals,
-                                  std::span<const Parameter> parameters, const RunSearched& at,
-                                  const std::vector<std::vector<double>>& places, int threads);
+std::vector<double> linearised_costs(const RunResiduals& residuals,
+                                     std::span<const Parameter> parameters, const RunSearched& at,
+                                     const std::vector<std::vector<double>>& places, int threads);
 
 // Estimates of all parameters after a search. An interval is the middle 95 % over the cells that
 // the run does not exclude (run_mixture.h).

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 

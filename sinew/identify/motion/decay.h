@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/motion/turns.h"
 
 namespace sinew::identify {

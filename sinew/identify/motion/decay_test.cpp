@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/units/constants.h"
 #include "tests/places.h"
 

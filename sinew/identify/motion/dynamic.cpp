@@ -8,8 +8,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -117,8 +117,9 @@ struct Start {
 
 class Dynamic {
  public:
-  Dynamic(std::span<const Swing> swings, std::span<const DecayRecord> records, const Wishes& wishes)
-      : swings_(swings), wishes_(wishes), stiffness_(middle_stiffness(swings)) {
+  Dynamic(std::span<const Swing> swings, std::span<const DecayRecord> records,
+          const Constraints& constraints)
+      : swings_(swings), constraints_(constraints), stiffness_(middle_stiffness(swings)) {
     for (std::size_t i = 0; i < records.size(); ++i)
       (records[i].held_out ? held_out_ : fitted_).push_back(i);
   }
@@ -138,17 +139,17 @@ class Dynamic {
   }
 
   // Throws config::Error for a constraint on a parameter that no law has.
-  void check_wishes() const {
+  void check_constraints() const {
     std::vector<Parameter> all;
     for (const Law& law : laws)
       for (Parameter& p : parameters_of(law, fitted_, start_)) all.push_back(std::move(p));
-    if (!wishes_.empty()) wishes_.check(all);
+    if (!constraints_.empty()) constraints_.check(all);
   }
 
   Fit fit(const Law& law, double full_scale) const {
     Fit out{.model = law.name, .law = law.law, .source = law.source};
-    out.again = std::make_shared<Refit>(solve(law, fitted_, start_));
-    const Solution& s = out.again->solution;
+    out.refit = std::make_shared<Refit>(solve(law, fitted_, start_));
+    const Solution& s = out.refit->solution;
     out.parameters = s.estimates;
     out.fit = score(s.residuals, full_scale);
     out.residuals = s.residuals;
@@ -217,9 +218,9 @@ class Dynamic {
                              .count = trajectories.size(),
                              .parameters = parameters_of(law, which, start),
                              .options = {.correlated = true},
-                             .wishes = wishes_};
-    return {problem, least_squares(problem.residuals, problem.count, problem.parameters, wishes_,
-                                   problem.options)};
+                             .constraints = constraints_};
+    return {problem, least_squares(problem.residuals, problem.count, problem.parameters,
+                                   constraints_, problem.options)};
   }
 
   // Returns the residuals of data that are held out.
@@ -271,7 +272,7 @@ class Dynamic {
   }
 
   std::span<const Swing> swings_;
-  const Wishes& wishes_;
+  const Constraints& constraints_;
   Which fitted_, held_out_;
   double stiffness_;
   Start start_;
@@ -330,7 +331,7 @@ std::vector<std::string> dynamic_models() {
 }
 
 DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model,
-                               const Wishes& wishes) {
+                               const Constraints& constraints) {
   if (records.empty()) throw Refusal("data", "no record", "one free decay at least", "");
   std::vector<Swing> swings;
   std::size_t marked = 0;
@@ -350,14 +351,14 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
   report.unit = "m";
   report.full_scale_is = "the largest first amplitude";
   report.held_out_is = held_out_is(records, marked > 0);
-  report.unseen = {"the losses at other pressures and amplitudes, and in a steady motion"};
+  report.not_shown = {"the losses at other pressures and amplitudes, and in a steady motion"};
   for (const Swing& s : swings) {
     report.full_scale = std::max(report.full_scale, s.amplitude);
     report.notes.insert(report.notes.end(), s.notes.begin(), s.notes.end());
   }
-  Dynamic dynamic(swings, records, wishes);
+  Dynamic dynamic(swings, records, constraints);
   dynamic.start_from(out.records);
-  dynamic.check_wishes();
+  dynamic.check_constraints();
   std::vector<const Law*> tried;
   for (const Law& law : laws)
     if (model.empty() || model == law.name) tried.push_back(&law);

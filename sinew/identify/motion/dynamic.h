@@ -23,8 +23,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/wish.h"
+#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/motion/decay.h"
 #include "sinew/identify/motion/swing.h"
 
@@ -50,13 +50,13 @@ struct DynamicResult {
   std::vector<DecaySummary> records;
 };
 
-// Identifies the losses. `model`: the only law to try; empty: all. `wishes` may concern
+// Identifies the losses. `model`: the only law to try; empty: all. `constraints` may concern
 // the parameters of the laws, viscous and coulomb_length, and those of the fitted records:
 // start_length, start_velocity, offset and tension, each with " of FILE" if there are several.
 // Throws Refusal, config::Error for a constraint on an unknown parameter, and std::invalid_argument
 // for an unknown law.
 DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model = "",
-                               const Wishes& wishes = {});
+                               const Constraints& constraints = {});
 std::vector<std::string> dynamic_models();
 
 }  // namespace sinew::identify

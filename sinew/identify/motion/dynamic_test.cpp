@@ -11,7 +11,7 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/units/constants.h"
 #include "sinew/world/stand.h"
 
@@ -123,7 +123,7 @@ TEST(Dynamic, APressureThatComesLateIsPutRight) {
 TEST(Dynamic, AFrozenLossStaysAndTheOtherIsFound) {
   const DecayRecord r = noisy(record({60, 6}, secant_loss, 1.6), noise, 5);
   const DynamicResult found =
-      identify_dynamic({&r, 1}, "secant", Wishes({.freeze = {"viscous=3.5 N s/m"}}));
+      identify_dynamic({&r, 1}, "secant", Constraints({.freeze = {"viscous=3.5 N s/m"}}));
   EXPECT_EQ(found.loss.viscous, 3.5);
   EXPECT_FALSE(found.report.best().parameters[0].free);
   EXPECT_NEAR(found.loss.coulomb_length, secant_loss.coulomb_length,
@@ -131,7 +131,7 @@ TEST(Dynamic, AFrozenLossStaysAndTheOtherIsFound) {
   const DynamicResult free = identify_dynamic({&r, 1}, "secant");
   EXPECT_LT(found.report.best().parameters[1].standard_error,
             free.report.best().parameters[1].standard_error);
-  EXPECT_THROW(identify_dynamic({&r, 1}, "secant", Wishes({.freeze = {"viscos=3.5 N s/m"}})),
+  EXPECT_THROW(identify_dynamic({&r, 1}, "secant", Constraints({.freeze = {"viscos=3.5 N s/m"}})),
                config::Error);
 }
 

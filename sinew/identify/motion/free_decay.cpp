@@ -74,7 +74,7 @@ bool free_decay(const Hanging& h, double length, double velocity, std::span<cons
 
   const plant::StandSetup setup = stand_of(h, *rest, frequency, steps_per_period);
   plant::Stand stand(setup);
-  stand.steer({length, velocity});
+  stand.set_motion({length, velocity});
   std::size_t next = 0;
   const auto fill_in = [&](double from, const Motion& a, double to, const Motion& b) {
     for (; next < times.size() && times[next] - times[0] <= to; ++next)

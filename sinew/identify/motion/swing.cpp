@@ -10,9 +10,9 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/data/series.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/motion/decay.h"
 
 namespace sinew::identify {
@@ -20,14 +20,14 @@ namespace sinew::identify {
 namespace {
 
 constexpr std::array columns{
-    Wanted{.name = "time", .unit = "s", .doc = "of the sample"},
-    Wanted{.name = "length", .unit = "m", .least = 5e-3, .most = 5, .doc = "of the muscle"},
-    Wanted{.name = "pressure",
-           .unit = "Pa abs",
-           .least = 1e4,
-           .most = 5e6,
-           .optional = true,
-           .doc = "of the trapped air"}};
+    ColumnSpec{.name = "time", .unit = "s", .doc = "of the sample"},
+    ColumnSpec{.name = "length", .unit = "m", .least = 5e-3, .most = 5, .doc = "of the muscle"},
+    ColumnSpec{.name = "pressure",
+               .unit = "Pa abs",
+               .least = 1e4,
+               .most = 5e6,
+               .optional = true,
+               .doc = "of the trapped air"}};
 
 // The static model may miss the rest by this share of the length, and the tension that follows from
 // the period by a factor within these limits.
@@ -54,23 +54,23 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
 }
 
 // Straight line of y over a delayed x.
-struct LateLine {
+struct DelayedLine {
   Line line;
   double delay = 0, left = 0;  // delay [s], and sum of squared residuals [y^2]
 };
 
 // Fits samples that are at least `margin` [s] from either end, as x is unknown before the record.
-LateLine late_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
-                   double delay, double margin) {
-  std::vector<double> late(x.size());
-  delayed(t, x, delay, late);
+DelayedLine delayed_line(std::span<const double> t, std::span<const double> x,
+                         std::span<const double> y, double delay, double margin) {
+  std::vector<double> delayed_x(x.size());
+  delayed(t, x, delay, delayed_x);
   const auto from = std::lower_bound(t.begin(), t.end(), t.front() + margin) - t.begin();
   const auto to = std::upper_bound(t.begin(), t.end(), t.back() - margin) - t.begin();
   const auto n = static_cast<std::size_t>(std::max<std::ptrdiff_t>(to - from, 0));
   const std::span<const double> u =
-      std::span<const double>(late).subspan(static_cast<std::size_t>(from), n);
+      std::span<const double>(delayed_x).subspan(static_cast<std::size_t>(from), n);
   const std::span<const double> v = y.subspan(static_cast<std::size_t>(from), n);
-  LateLine out{line_through(u, v), delay};
+  DelayedLine out{line_through(u, v), delay};
   for (std::size_t i = 0; i < n; ++i)
     out.left += std::pow(v[i] - out.line.at_mean - out.line.slope * (u[i] - out.line.mean), 2);
   return out;
@@ -78,27 +78,27 @@ LateLine late_line(std::span<const double> t, std::span<const double> x, std::sp
 
 // Returns the line with the best delay within a sixth of a period, by golden section; without delay
 // if that gains no more than noise would.
-LateLine best_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
-                   double period) {
+DelayedLine best_line(std::span<const double> t, std::span<const double> x,
+                      std::span<const double> y, double period) {
   constexpr double golden = 0.6180339887498949, significant = 9;  // three standard errors
   const double margin = period / 6;
   double low = -margin, high = margin;
   for (int i = 0; i < 30; ++i) {
     const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (late_line(t, x, y, a, margin).left < late_line(t, x, y, b, margin).left)
+    if (delayed_line(t, x, y, a, margin).left < delayed_line(t, x, y, b, margin).left)
       high = b;
     else
       low = a;
   }
-  const LateLine best = late_line(t, x, y, 0.5 * (low + high), margin);
-  const double gained = late_line(t, x, y, 0, margin).left - best.left;
+  const DelayedLine best = delayed_line(t, x, y, 0.5 * (low + high), margin);
+  const double gained = delayed_line(t, x, y, 0, margin).left - best.left;
   const bool shows = gained > significant * best.left / static_cast<double>(t.size());
-  return shows ? best : late_line(t, x, y, 0, 0);
+  return shows ? best : delayed_line(t, x, y, 0, 0);
 }
 
 }  // namespace
 
-std::span<const Wanted> decay_columns() { return columns; }
+std::span<const ColumnSpec> decay_columns() { return columns; }
 
 Swing::Swing(const DecayRecord& record) : file(record.data.file), stand(record.stand) {
   const std::vector<double>&t = record.data["time"], &x = record.data["length"];
@@ -142,7 +142,7 @@ void Swing::take_pressure(const Measured& data) {
     y.push_back(std::log(data["pressure"][i]));
   }
   // A sensor delay would reduce the slope.
-  const LateLine best = best_line(t, x, y, oscillation.period);
+  const DelayedLine best = best_line(t, x, y, oscillation.period);
   const Line& line = best.line;
   pressure_delay = best.delay;
   if (exponent) stand.polytropic_exponent = -line.slope;

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/data/measured.h"
-#include "sinew/identify/fit/least_squares.h"
 #include "sinew/identify/motion/free_decay.h"
 #include "sinew/identify/motion/turns.h"
 
@@ -27,7 +27,7 @@ struct DecayRecord {
 };
 
 // Returns the columns: time, length, and pressure if present.
-std::span<const Wanted> decay_columns();
+std::span<const ColumnSpec> decay_columns();
 
 class Swing {
  public:

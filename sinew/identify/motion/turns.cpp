@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 
+#include "sinew/identify/contest/matrix.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/matrix.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -156,7 +156,7 @@ std::optional<Turn> refined(const Record& r, Extreme e, double reach) {
 
 // Returns the turn from which a mass was released at about the start of the record. Empty if the
 // record begins during the motion.
-std::optional<Turn> let_go(const Record& r, bool upper, double reach) {
+std::optional<Turn> release_turn(const Record& r, bool upper, double reach) {
   const double begin = r.time[0], level = r.clean[0];
   const Quartic fit = fitted(r, begin, level, reach);
   const auto u = fit.vertex(upper);
@@ -169,7 +169,7 @@ std::optional<Turn> let_go(const Record& r, bool upper, double reach) {
 std::optional<Turn> first_turn(const Record& r, Extreme e, const Oscillation& o, double swing) {
   // After an eighth of its period a cosine has done 15 % of its way from top to bottom.
   const double release = r.time[o.falls] - o.period / 8, reach = o.period * fit_within;
-  if (release - r.time[0] < reach) return let_go(r, e.upper, o.period / 4);
+  if (release - r.time[0] < reach) return release_turn(r, e.upper, o.period / 4);
   Values before;
   for (std::size_t i = 0; r.time[i] < release; ++i)
     if (r.time[i] >= release - o.period / 4) before.push_back(r.clean[i]);

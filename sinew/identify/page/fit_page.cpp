@@ -9,7 +9,7 @@
 #include <set>
 
 #include "sinew/config/compose.h"
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/json/json.h"
 #include "sinew/report/page/fit_page.h"
 

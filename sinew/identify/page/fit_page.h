@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/report/page/charts.h"
 
 namespace sinew::identify {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/fit/wish.h"
 #include "sinew/identify/pair/pair_law.h"
 #include "sinew/identify/pair/pair_rows.h"
 
@@ -40,7 +40,7 @@ class PairProblem {
 
   // Returns the best solution of the starts.
   Refit solve(std::span<const PairRows> rows, std::span<const std::vector<double>> starts,
-              const Wishes& wishes, bool correlated) const;
+              const Constraints& constraints, bool correlated) const;
 
   // Returns all parameters: values of `known` where it has the name, the others fitted.
   std::vector<double> settled(std::span<const PairRows> rows, const Solution& known);
@@ -59,7 +59,7 @@ class PairProblem {
   void add_sensors(double stiffness, std::size_t fitted);
   bool scaled_by_start(std::size_t i) const;
   FitProblem at(std::span<const PairRows> rows, const std::vector<double>& start,
-                const Wishes& wishes, bool correlated) const;
+                const Constraints& constraints, bool correlated) const;
   void simulate(std::span<const double> p, std::size_t record);
 
   const PairLaw& law_;
@@ -306,11 +306,11 @@ bool PairProblem::scaled_by_start(std::size_t i) const {
 
 // Returns the problem at a start, which sets the scales of those parameters.
 FitProblem PairProblem::at(std::span<const PairRows> rows, const std::vector<double>& start,
-                           const Wishes& wishes, bool correlated) const {
+                           const Constraints& constraints, bool correlated) const {
   FitProblem out{
       .parameters = parameters_,
       .options = {.correlated = correlated, .most_steps = most_steps, .difference = smooth},
-      .wishes = wishes};
+      .constraints = constraints};
   for (const PairRows& r : rows) out.count += r.size();
   for (std::size_t i = 0; i < start.size(); ++i) {
     Parameter& p = out.parameters[i];
@@ -328,13 +328,13 @@ FitProblem PairProblem::at(std::span<const PairRows> rows, const std::vector<dou
 }
 
 Refit PairProblem::solve(std::span<const PairRows> rows,
-                         std::span<const std::vector<double>> starts, const Wishes& wishes,
-                         bool correlated) const {
+                         std::span<const std::vector<double>> starts,
+                         const Constraints& constraints, bool correlated) const {
   std::optional<Refit> best;
   for (const std::vector<double>& start : starts) {
-    Refit one{at(rows, start, wishes, correlated), {}};
+    Refit one{at(rows, start, constraints, correlated), {}};
     one.solution = least_squares(one.problem.residuals, one.problem.count, one.problem.parameters,
-                                 wishes, one.problem.options);
+                                 constraints, one.problem.options);
     if (!best || one.solution.rms < best->solution.rms) best = std::move(one);
   }
   return std::move(*best);
@@ -366,7 +366,7 @@ class Pair {
       thinned_rows_.push_back(
           pair_rows(thinned_.back(), options.held_out_from, options.held_out_to, false));
       rows_.push_back(pair_rows(r, options.held_out_from, options.held_out_to, false));
-      unseen_.push_back(pair_rows(r, options.held_out_from, options.held_out_to, true));
+      held_out_rows_.push_back(pair_rows(r, options.held_out_from, options.held_out_to, true));
       refuse_too_few(r, rows_.back());
       for (const double f : r.effort) full_scale_ = std::max(full_scale_, std::abs(f));
     }
@@ -376,16 +376,16 @@ class Pair {
     Fitted out{.fit = {.model = law.name, .law = law.law, .source = law.source}};
     try {
       PairProblem problem(law, fitted_), thinned(law, thinned_);
-      out.fit.again = std::make_shared<Refit>(
-          thinned.solve(thinned_rows_, thinned.starts(), options_.wishes, true));
-      const std::vector<double>& near = out.fit.again->solution.values;
-      out.solution = problem.solve(rows_, {{near}}, options_.wishes, true).solution;
+      out.fit.refit = std::make_shared<Refit>(
+          thinned.solve(thinned_rows_, thinned.starts(), options_.constraints, true));
+      const std::vector<double>& near = out.fit.refit->solution.values;
+      out.solution = problem.solve(rows_, {{near}}, options_.constraints, true).solution;
       out.values = out.solution.values;
       out.fit.parameters = out.solution.estimates;
       out.fit.fit = scored(problem, out.values, fitted_, rows_);
       cross_validate(thinned, out.values, out.fit);
       hold_out(law, problem, out);
-      tell_residuals(law, problem, out);
+      add_residual_notes(law, problem, out);
       judge(law, out.fit);
     } catch (const Refusal& e) {
       out.fit.refused = e.what();
@@ -403,13 +403,13 @@ class Pair {
       Estimate& e = fitted.fit.parameters[i];
       if (!e.name.starts_with("delay") || !e.free || e.at_bound) continue;
       const Solution best =
-          thinned.solve(thinned_rows_, {{fitted.values}}, options_.wishes, true).solution;
+          thinned.solve(thinned_rows_, {{fitted.values}}, options_.constraints, true).solution;
       const double t = t_quantile(std::max(1, best.freedom));
       const double more = t * t * std::pow(best.standard_deviation, 2) * best.inflation;
       for (int k = -5; k <= 5; ++k) {
         const double delay = std::clamp(k * step, -most, most);
         if (delay > e.low && delay < e.high) continue;
-        const Wishes frozen = options_.wishes.with_frozen(e.name, delay);
+        const Constraints frozen = options_.constraints.with_frozen(e.name, delay);
         const Solution at = thinned.solve(thinned_rows_, {{fitted.values}}, frozen, false).solution;
         if (square_sum(at) - square_sum(best) > more) continue;
         e.low = std::min(e.low, delay);
@@ -431,7 +431,7 @@ class Pair {
       for (std::size_t i = 0; unseen && i < unseen->size(); ++i)
         out.held_out[from + (*unseen)[i]] = true;
     };
-    for (std::size_t k = 0; k < fitted_.size(); ++k) add(fitted_[k], &unseen_[k]);
+    for (std::size_t k = 0; k < fitted_.size(); ++k) add(fitted_[k], &held_out_rows_[k]);
     for (const PairRecord& r : others_) add(r, nullptr);
     return out;
   }
@@ -483,7 +483,7 @@ class Pair {
         others.push_back(pair_block(r, b, false));
         block.push_back(pair_block(r, b, true));
       }
-      const Solution s = problem.solve(others, {{from}}, options_.wishes, false).solution;
+      const Solution s = problem.solve(others, {{from}}, options_.constraints, false).solution;
       problem.residuals(s.values, block, some);
       all.insert(all.end(), some.begin(), some.end());
     }
@@ -495,9 +495,9 @@ class Pair {
   // their own parameters - bias, start - are fitted.
   void hold_out(const PairLaw& law, PairProblem& problem, Fitted& out) const {
     std::vector<double> all, measured;
-    problem.residuals(out.values, unseen_, all);
+    problem.residuals(out.values, held_out_rows_, all);
     for (std::size_t k = 0; k < fitted_.size(); ++k)
-      for (const std::size_t i : unseen_[k]) measured.push_back(fitted_[k].effort[i]);
+      for (const std::size_t i : held_out_rows_[k]) measured.push_back(fitted_[k].effort[i]);
     for (const PairRecord& other : others_) {
       const std::vector<double> r = residuals_of_other(law, out, other);
       all.insert(all.end(), r.begin(), r.end());
@@ -521,7 +521,7 @@ class Pair {
     return r;
   }
 
-  void tell_residuals(const PairLaw& law, PairProblem& problem, Fitted& out) const {
+  void add_residual_notes(const PairLaw& law, PairProblem& problem, Fitted& out) const {
     Selection all;
     for (const PairRecord& r : fitted_) all.push_back(pair_rows(r, -unbounded, unbounded, true));
     problem.residuals(out.values, all, out.fit.residuals);
@@ -560,7 +560,7 @@ class Pair {
 
   const PairOptions& options_;
   std::vector<PairRecord> fitted_, others_;
-  Selection rows_, unseen_;  // for the fitted recordings
+  Selection rows_, held_out_rows_;  // for the fitted recordings
   std::vector<PairRecord> thinned_;
   Selection thinned_rows_;
   double full_scale_ = 0;
@@ -576,8 +576,8 @@ std::vector<const PairLaw*> laws_of(std::string_view model, std::span<const Pair
   return out;
 }
 
-void check_wishes(const Pair& pair, const Wishes& wishes, bool pressures) {
-  if (wishes.empty()) return;
+void check_constraints(const Pair& pair, const Constraints& constraints, bool pressures) {
+  if (constraints.empty()) return;
   std::vector<Parameter> all;
   for (const PairLaw& law : pair_laws()) {
     if (law.air && !pressures) continue;
@@ -586,7 +586,7 @@ void check_wishes(const Pair& pair, const Wishes& wishes, bool pressures) {
   }
   if (pressures)
     for (Parameter& p : pair_air_parameters(pair.fitted())) all.push_back(std::move(p));
-  wishes.check(all);
+  constraints.check(all);
 }
 
 // Returns the stiffness with the part that the moving air adds.
@@ -623,7 +623,7 @@ void refuse_mixed(std::span<const PairRecord> records) {
                     "recordings of slides, or of joints", "");
 }
 
-void tell_what_is_apart(const PairResult& found, Report& report) {
+void add_separation_notes(const PairResult& found, Report& report) {
   if (found.sensors.size() == 1 || report.fits.empty())
     report.notes.push_back(
         "gain: that of one rig cannot be separated from its stiffness, friction and losses; it "
@@ -653,7 +653,7 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   const Pair pair(records, options);
   const std::vector<const PairLaw*> laws = laws_of(options.model, records);
   const bool pressures = !records[0].pressure.empty();
-  check_wishes(pair, options.wishes, pressures);
+  check_constraints(pair, options.constraints, pressures);
 
   PairResult out{.rotary = records[0].rotary};
   Report& report = out.report;
@@ -663,7 +663,8 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   report.full_scale = pair.full_scale();
   report.full_scale_is = fmt::format("the largest {}", report.quantity);
   report.held_out_is = pair.held_out_is();
-  report.unseen = {"the pair at other trapped pressures, and faster or slower than it was moved"};
+  report.not_shown = {
+      "the pair at other trapped pressures, and faster or slower than it was moved"};
   for (const PairRecord& r : records)
     report.notes.insert(report.notes.end(), r.notes.begin(), r.notes.end());
   std::vector<Fitted> fitted;
@@ -689,9 +690,10 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   for (std::size_t k = 0; k < pair.fitted().size(); ++k)
     out.sensors.push_back(
         {pair.fitted()[k].file, pair.fitted()[k].rig, problem.sensors(best.values, k)});
-  if (pressures) out.air = identify_pair_air(pair.fitted(), pair.fitted_rows(), options.wishes);
+  if (pressures)
+    out.air = identify_pair_air(pair.fitted(), pair.fitted_rows(), options.constraints);
   out.stiffness = stiffness_of(out.law, best, out.air);
-  tell_what_is_apart(out, report);
+  add_separation_notes(out, report);
   return out;
 }
 

@@ -20,8 +20,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/wish.h"
+#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/pair/pair_air.h"
 #include "sinew/identify/pair/pair_law.h"
 #include "sinew/identify/pair/pair_record.h"
@@ -33,7 +33,7 @@ struct PairOptions {
   std::string model;  // the only law to try; empty: all
   // Samples of these times are not fitted [s]; from > to: none.
   double held_out_from = std::numeric_limits<double>::infinity(), held_out_to = 0;
-  Wishes wishes;
+  Constraints constraints;
 };
 
 // Total stiffness including the moving air, with half a 95 % interval.

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/data/series.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/pair/pair_rows.h"
 
 namespace sinew::identify {
@@ -137,13 +137,13 @@ std::vector<double> signs_of(const TrappedAir& air, const Selection& rows) {
 }
 
 Refit solve_air(const TrappedAir& air, const Selection& rows, bool correlated,
-                const Wishes& wishes) {
+                const Constraints& constraints) {
   std::vector<double> made;
   FitProblem problem{.residuals = {},
                      .count = 0,
                      .parameters = air.parameters(rows),
                      .options = {.correlated = correlated},
-                     .wishes = wishes};
+                     .constraints = constraints};
   problem.residuals = [own = air, rows, signs = signs_of(air, rows), made](
                           std::span<const double> p, std::span<double> out) mutable {
     own.residuals(p, rows, signs, made);
@@ -151,19 +151,19 @@ Refit solve_air(const TrappedAir& air, const Selection& rows, bool correlated,
     return true;
   };
   for (const PairRows& r : rows) problem.count += r.size() * air.muscles();
-  Solution s =
-      least_squares(problem.residuals, problem.count, problem.parameters, wishes, problem.options);
+  Solution s = least_squares(problem.residuals, problem.count, problem.parameters, constraints,
+                             problem.options);
   return {std::move(problem), std::move(s)};
 }
 
-Fit fit_air(const AirLaw& law, Records records, const Selection& rows, const Wishes& wishes,
-            double full_scale) {
+Fit fit_air(const AirLaw& law, Records records, const Selection& rows,
+            const Constraints& constraints, double full_scale) {
   Fit out{.model = law.name, .law = law.law, .source = "P V^n constant, to first order"};
   TrappedAir air(law, records);
   const std::vector<double> signs = signs_of(air, rows);
-  out.again = std::make_shared<Refit>(solve_air(air, rows, true, wishes));
-  out.parameters = out.again->solution.estimates;
-  air.residuals(out.again->solution.values, rows, signs, out.residuals);
+  out.refit = std::make_shared<Refit>(solve_air(air, rows, true, constraints));
+  out.parameters = out.refit->solution.estimates;
+  air.residuals(out.refit->solution.values, rows, signs, out.residuals);
   out.fit = score(out.residuals, full_scale);
   std::vector<double> unseen, some;
   for (std::size_t k = 0; k < pair_blocks; ++k) {
@@ -172,7 +172,7 @@ Fit fit_air(const AirLaw& law, Records records, const Selection& rows, const Wis
       others.push_back(pair_block(r, k, false));
       block.push_back(pair_block(r, k, true));
     }
-    air.residuals(solve_air(air, others, false, wishes).solution.values, block, signs, some);
+    air.residuals(solve_air(air, others, false, constraints).solution.values, block, signs, some);
     unseen.insert(unseen.end(), some.begin(), some.end());
   }
   out.cross_validated = score(unseen, full_scale);
@@ -224,7 +224,8 @@ std::vector<Parameter> pair_air_parameters(Records records) {
   return out;
 }
 
-PairAir identify_pair_air(Records records, std::span<const PairRows> fitted, const Wishes& wishes) {
+PairAir identify_pair_air(Records records, std::span<const PairRows> fitted,
+                          const Constraints& constraints) {
   for (const PairRecord& r : records)
     if (r.pressure.empty() || r.pressure.size() != records[0].pressure.size())
       throw Refusal(r.file, fmt::format("{} pressures", r.pressure.size()),
@@ -244,7 +245,7 @@ PairAir identify_pair_air(Records records, std::span<const PairRows> fitted, con
     throw Refusal(records[0].file, "pressures that do not change",
                   "those of sealed muscles that are moved", "the columns");
   for (const AirLaw& law : air_laws)
-    report.fits.push_back(fit_air(law, records, rows, wishes, report.full_scale));
+    report.fits.push_back(fit_air(law, records, rows, constraints, report.full_scale));
   report.rows = rows_of(records, rows);
   conclude(report);
   read_off(records, rows, out);

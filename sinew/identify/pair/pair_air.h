@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/wish.h"
+#include "sinew/identify/contest/constraint.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/pair/pair_record.h"
 
 namespace sinew::identify {
@@ -33,9 +33,10 @@ struct PairAir {
 // Identifies the air from the samples of `fitted`, one list for each recording. Throws Refusal if
 // no recording has a pressure, or they have different ones.
 PairAir identify_pair_air(std::span<const PairRecord> records,
-                          std::span<const std::vector<std::size_t>> fitted, const Wishes& wishes);
+                          std::span<const std::vector<std::size_t>> fitted,
+                          const Constraints& constraints);
 
-// Returns the parameters of all laws of the air, for Wishes::check().
+// Returns the parameters of all laws of the air, for Constraints::check().
 std::vector<Parameter> pair_air_parameters(std::span<const PairRecord> records);
 
 }  // namespace sinew::identify

@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/contest/least_squares.h"
 #include "sinew/identify/pair/pair_record.h"
 
 namespace sinew::identify {

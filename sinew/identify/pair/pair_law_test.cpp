@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/pair/pair_fixture_test.h"
 
 namespace sinew::identify::pair_law_test {

@@ -7,51 +7,51 @@
 #include <cmath>
 #include <limits>
 
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/data/series.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
 namespace {
 
-constexpr std::array columns{Wanted{.name = "time", .unit = "s", .doc = "of the sample"},
-                             Wanted{.name = "force",
-                                    .unit = "N",
-                                    .least = 1e-3,
-                                    .most = 1e6,
-                                    .optional = true,
-                                    .doc = "that moves the slide, along the displacement"},
-                             Wanted{.name = "displacement",
-                                    .unit = "m",
-                                    .least = 1e-6,
-                                    .most = 2,
-                                    .optional = true,
-                                    .doc = "of the slide from anywhere"},
-                             Wanted{.name = "torque",
-                                    .unit = "N m",
-                                    .least = 1e-5,
-                                    .most = 1e5,
-                                    .optional = true,
-                                    .doc = "that moves the joint, along the angle"},
-                             Wanted{.name = "angle",
-                                    .unit = "rad",
-                                    .least = 1e-5,
-                                    .most = 7,
-                                    .optional = true,
-                                    .doc = "of the joint from anywhere"},
-                             Wanted{.name = "pressure_1",
-                                    .unit = "Pa abs",
-                                    .least = 5e4,
-                                    .most = 5e6,
-                                    .optional = true,
-                                    .doc = "of the trapped air of one muscle"},
-                             Wanted{.name = "pressure_2",
-                                    .unit = "Pa abs",
-                                    .least = 5e4,
-                                    .most = 5e6,
-                                    .optional = true,
-                                    .doc = "of the trapped air of the other"}};
+constexpr std::array columns{ColumnSpec{.name = "time", .unit = "s", .doc = "of the sample"},
+                             ColumnSpec{.name = "force",
+                                        .unit = "N",
+                                        .least = 1e-3,
+                                        .most = 1e6,
+                                        .optional = true,
+                                        .doc = "that moves the slide, along the displacement"},
+                             ColumnSpec{.name = "displacement",
+                                        .unit = "m",
+                                        .least = 1e-6,
+                                        .most = 2,
+                                        .optional = true,
+                                        .doc = "of the slide from anywhere"},
+                             ColumnSpec{.name = "torque",
+                                        .unit = "N m",
+                                        .least = 1e-5,
+                                        .most = 1e5,
+                                        .optional = true,
+                                        .doc = "that moves the joint, along the angle"},
+                             ColumnSpec{.name = "angle",
+                                        .unit = "rad",
+                                        .least = 1e-5,
+                                        .most = 7,
+                                        .optional = true,
+                                        .doc = "of the joint from anywhere"},
+                             ColumnSpec{.name = "pressure_1",
+                                        .unit = "Pa abs",
+                                        .least = 5e4,
+                                        .most = 5e6,
+                                        .optional = true,
+                                        .doc = "of the trapped air of one muscle"},
+                             ColumnSpec{.name = "pressure_2",
+                                        .unit = "Pa abs",
+                                        .least = 5e4,
+                                        .most = 5e6,
+                                        .optional = true,
+                                        .doc = "of the trapped air of the other"}};
 
 constexpr std::size_t least_samples = 100;
 
@@ -76,7 +76,7 @@ double smallest_step(std::span<const double> values) {
 }
 
 // Notes gaps: steps that are much longer than the others.
-void tell_gaps(PairRecord& r) {
+void add_gap_note(PairRecord& r) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < r.size(); ++i) steps.push_back(r.time[i] - r.time[i - 1]);
   const double usual = median(steps);
@@ -87,7 +87,7 @@ void tell_gaps(PairRecord& r) {
 
 }  // namespace
 
-std::span<const Wanted> pair_columns() { return columns; }
+std::span<const ColumnSpec> pair_columns() { return columns; }
 
 PairRecord pair_record(const Measured& data, double window) {
   PairRecord out{.file = data.file, .rotary = is_rotary(data), .notes = data.notes};
@@ -108,7 +108,7 @@ PairRecord pair_record(const Measured& data, double window) {
   Rates rates = rates_of(out.time, out.at, window);
   out.rate = std::move(rates.first);
   out.acceleration = std::move(rates.second);
-  tell_gaps(out);
+  add_gap_note(out);
   return out;
 }
 

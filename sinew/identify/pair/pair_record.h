@@ -15,7 +15,7 @@ namespace sinew::identify {
 
 // Returns the columns: time, force and displacement or torque and angle, pressure_1 and pressure_2
 // if present.
-std::span<const Wanted> pair_columns();
+std::span<const ColumnSpec> pair_columns();
 
 // Samples of a slide (force, displacement) or of a joint (torque, angle).
 struct PairRecord {

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/pair/pair_fixture_test.h"
 
 namespace sinew::identify::pair_test {
@@ -122,7 +122,7 @@ TEST(Pair, AirIsToldFromThePressures) {
   EXPECT_NEAR(found.stiffness.value, air + truth.elastic, 0.01 * air);
 
   const PairResult apart = identify_pair(
-      records, {.model = "both_fading", .wishes = Wishes({.freeze = {"area=0.008 m2"}})});
+      records, {.model = "both_fading", .constraints = Constraints({.freeze = {"area=0.008 m2"}})});
   EXPECT_NEAR(apart.stiffness.air, air, 0.01 * air);
   expect_within(apart, "stiffness", truth.elastic, 0.1);
   EXPECT_FALSE(parameter(apart, "area").free);
@@ -135,7 +135,7 @@ TEST(Pair, IntervalsHoldTheTruthUnderNoiseThatRemembers) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     const PairResult found = identify_pair(
         {{test_record(truth, 100 + seed, false, 4)}},
-        {.model = "spring_viscous_bristle", .wishes = Wishes({.freeze = {"delay=0 s"}})});
+        {.model = "spring_viscous_bristle", .constraints = Constraints({.freeze = {"delay=0 s"}})});
     const std::pair<const char*, double> of[] = {
         {"stiffness", truth.stiffness}, {"viscous", truth.viscous}, {"friction", truth.friction}};
     for (const auto& [name, value] : of) {
@@ -210,9 +210,9 @@ TEST(Pair, WhatCannotBeIsRefusedInWords) {
   EXPECT_EQ(of({.held_out_from = -1, .held_out_to = 100}),
             "a.csv: found 0 samples that are not held out; expected at least 50; try another time "
             "to hold out");
-  EXPECT_NE(
-      of({.wishes = Wishes({.freeze = {"fricton=3 N"}})}).find("\"fricton\"; expected a parameter"),
-      std::string::npos);
+  EXPECT_NE(of({.constraints = Constraints({.freeze = {"fricton=3 N"}})})
+                .find("\"fricton\"; expected a parameter"),
+            std::string::npos);
   EXPECT_THROW((void)identify_pair({{record}}, {.model = "none"}), std::invalid_argument);
 }
 

@@ -76,26 +76,26 @@ const PlannedReading& DesignSpace::candidate(double length, double pressure, Bra
   return readings_.emplace(key, reading(length, pressure, branch)).first->second;
 }
 
-Knowledge DesignSpace::before() const { return Knowledge(deviations_before(muscle_)); }
+Information DesignSpace::before() const { return Information(deviations_before(muscle_)); }
 
-Knowledge DesignSpace::of(double length, std::span<const double> pressures) const {
+Information DesignSpace::of(double length, std::span<const double> pressures) const {
   std::vector<PlannedReading> readings;
   for (const double p : pressures) readings.push_back(candidate(length, p, Branch::fill));
   for (const double p : pressures)
     if (p != pressures.back()) readings.push_back(candidate(length, p, Branch::vent));
-  return Knowledge::of_mount(readings, options_.noise, muscle_.knobs.size());
+  return Information::of_mount(readings, options_.noise, muscle_.free_parameters.size());
 }
 
-Knowledge DesignSpace::of(const MeasuredMount& mount) const {
+Information DesignSpace::of(const MeasuredMount& mount) const {
   std::vector<PlannedReading> readings;
   for (const StaticPoint& p : mount.points)
     readings.push_back(reading(p.length, p.pressure, p.branch));
-  return Knowledge::of_mount(readings, options_.noise, muscle_.knobs.size());
+  return Information::of_mount(readings, options_.noise, muscle_.free_parameters.size());
 }
 
-PlanError DesignSpace::error(const Knowledge& knowledge) const {
+PlanError DesignSpace::error(const Information& information) const {
   double sum = 0, most = 0;
-  for (const double variance : knowledge.variances(places_)) {
+  for (const double variance : information.variances(places_)) {
     sum += variance / static_cast<double>(places_.size());
     most = std::max(most, variance);
   }

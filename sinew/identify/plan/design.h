@@ -29,12 +29,12 @@ class DesignSpace {
 
   // Return the information before any measurement; that of a planned mount with these pressures,
   // rising and falling; and that of a measured mount.
-  Knowledge before() const;
-  Knowledge of(double length, std::span<const double> pressures) const;
-  Knowledge of(const MeasuredMount& mount) const;
+  Information before() const;
+  Information of(double length, std::span<const double> pressures) const;
+  Information of(const MeasuredMount& mount) const;
 
   // Returns the error over the region with this information.
-  PlanError error(const Knowledge& knowledge) const;
+  PlanError error(const Information& information) const;
 
  private:
   PlannedReading reading(double length, double pressure, Branch branch) const;

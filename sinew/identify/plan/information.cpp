@@ -1,4 +1,4 @@
-#include "sinew/identify/plan/knowledge.h"
+#include "sinew/identify/plan/information.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,16 +17,16 @@ Matrix rows_of_slopes(std::span<const PlannedReading> readings, std::size_t colu
 
 }  // namespace
 
-Knowledge::Knowledge(std::span<const double> deviations)
+Information::Information(std::span<const double> deviations)
     : matrix_(deviations.size(), deviations.size()) {
   for (std::size_t i = 0; i < deviations.size(); ++i)
     matrix_(i, i) = 1 / (deviations[i] * deviations[i]);
 }
 
 // S^-1 = (1 - U (s^2 1 + U'U)^-1 U')/s^2, Woodbury's identity.
-Knowledge Knowledge::of_mount(std::span<const PlannedReading> readings, double noise,
-                              std::size_t parameters) {
-  Knowledge out(std::vector<double>(parameters, std::numeric_limits<double>::infinity()));
+Information Information::of_mount(std::span<const PlannedReading> readings, double noise,
+                                  std::size_t parameters) {
+  Information out(std::vector<double>(parameters, std::numeric_limits<double>::infinity()));
   if (readings.empty()) return out;
   const std::size_t errors = readings.front().shared.size();
   const Matrix j = rows_of_slopes(readings, parameters, &PlannedReading::slopes);
@@ -45,13 +45,13 @@ Knowledge Knowledge::of_mount(std::span<const PlannedReading> readings, double n
   return out;
 }
 
-Knowledge& Knowledge::operator+=(const Knowledge& other) {
+Information& Information::operator+=(const Information& other) {
   for (std::size_t i = 0; i < parameters(); ++i)
     for (std::size_t k = 0; k < parameters(); ++k) matrix_(i, k) += other.matrix_(i, k);
   return *this;
 }
 
-std::vector<double> Knowledge::variances(std::span<const std::vector<double>> places) const {
+std::vector<double> Information::variances(std::span<const std::vector<double>> places) const {
   std::vector<double> out(places.size(), std::numeric_limits<double>::infinity());
   const std::optional<Matrix> covariance = inverse_of_positive(matrix_, 1e-14);
   if (!covariance) return out;

@@ -1,4 +1,4 @@
-// identify/plan/knowledge.h - information that planned readings give about parameters.
+// identify/plan/information.h - information that planned readings give about parameters.
 //
 //   Q = P + sum over mounts J' (sigma^2 1 + U U')^-1 J         var F = g' Q^-1 g
 //
@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "sinew/identify/fit/matrix.h"
+#include "sinew/identify/contest/matrix.h"
 
 namespace sinew::identify {
 
@@ -27,17 +27,17 @@ struct PlannedReading {
 };
 
 // Information about the parameters: the inverse of their covariance, in their scales.
-class Knowledge {
+class Information {
  public:
   // Starts from the prior standard deviation of each parameter, in its scale; infinite if unknown.
-  explicit Knowledge(std::span<const double> deviations);
+  explicit Information(std::span<const double> deviations);
 
   // Returns the information from the readings of one mount; `noise` is that of a reading, > 0 [N].
-  static Knowledge of_mount(std::span<const PlannedReading> readings, double noise,
-                            std::size_t parameters);
+  static Information of_mount(std::span<const PlannedReading> readings, double noise,
+                              std::size_t parameters);
 
   // Adds the information from other readings.
-  Knowledge& operator+=(const Knowledge& other);
+  Information& operator+=(const Information& other);
 
   // Returns the number of parameters.
   std::size_t parameters() const { return matrix_.rows(); }

@@ -10,7 +10,7 @@
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_groups.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/plan/design.h"
 
 namespace sinew::identify {
@@ -21,11 +21,11 @@ constexpr std::string_view richest = "saturating-effectiveness";
 constexpr double likely_threshold = 5e4, most_threshold = 0.3;  // [Pa], share of the top pressure
 constexpr double likely_share = 0.2;  // saturating tension, share of the largest force
 
-std::vector<Knob> knobs_to_fit(const StaticScales& scales, bool branches) {
-  std::vector<Knob> out;
+std::vector<FreeParameter> free_parameters_to_fit(const StaticScales& scales, bool branches) {
+  std::vector<FreeParameter> out;
   for (const StaticModel& model : static_models())
-    if (model.name == richest) out = knobs_of(model, scales);
-  if (branches) out.push_back(Knob::half_width);
+    if (model.name == richest) out = free_parameters_of(model, scales);
+  if (branches) out.push_back(FreeParameter::half_width);
   return out;
 }
 
@@ -44,7 +44,7 @@ ExpectedMuscle muscle_by_size(double rest_length, double diameter, double top_pr
   StaticScales& s = out.scales;
   s = {.rest_length = rest_length, .top_pressure = top_pressure, .atmosphere = atmosphere};
   // Braid: the likely thread, and the turns that give the diameter at the rest length.
-  const double b = prior_of(Knob::thread_length, s)->mean;
+  const double b = prior_of(FreeParameter::thread_length, s)->mean;
   const double turns = std::sqrt(b * b - rest_length * rest_length) / (std::numbers::pi * diameter);
   const double acts = std::min(likely_threshold, most_threshold * top_pressure);
   s.full_scale = (top_pressure - acts) * (3 * rest_length * rest_length - b * b) /
@@ -53,11 +53,11 @@ ExpectedMuscle muscle_by_size(double rest_length, double diameter, double top_pr
   actuator::Actuator& a = out.setting.actuator;
   a.braid = {b, turns};
   a.effectiveness.threshold = acts;
-  a.bladder.stiffness = prior_of(Knob::stiffness, s)->mean;
+  a.bladder.stiffness = prior_of(FreeParameter::stiffness, s)->mean;
   a.bladder.saturating_tension = likely_share * s.full_scale;
-  a.bladder.saturation_length = prior_of(Knob::saturation_length, s)->mean;
-  a.hysteresis.half_width = parameter_of(Knob::half_width, s).start;
-  out.knobs = knobs_to_fit(s, true);
+  a.bladder.saturation_length = prior_of(FreeParameter::saturation_length, s)->mean;
+  a.hysteresis.half_width = parameter_of(FreeParameter::half_width, s).start;
+  out.free_parameters = free_parameters_to_fit(s, true);
   return out;
 }
 
@@ -83,7 +83,7 @@ ExpectedMuscle muscle_by_actuator(const actuator::Actuator& actuator, double res
   if (!(a.bladder.saturation_length > 0))
     a.bladder.saturation_length = plain.actuator.bladder.saturation_length;
   out.setting.end_loss = (1 - a.effectiveness.scale) * rest_length;
-  out.knobs = knobs_to_fit(s, true);
+  out.free_parameters = free_parameters_to_fit(s, true);
   return out;
 }
 
@@ -101,8 +101,8 @@ FittedMuscle muscle_by_points(std::span<const StaticPoint> points, double atmosp
   }
   FittedMuscle out;
   out.muscle.scales = scales_of({points.begin(), points.end()}, atmosphere, braid);
-  out.muscle.knobs = knobs_to_fit(out.muscle.scales, branches);
-  const StaticFit fit = fit_static(out.muscle.knobs, points, out.muscle.scales);
+  out.muscle.free_parameters = free_parameters_to_fit(out.muscle.scales, branches);
+  const StaticFit fit = fit_static(out.muscle.free_parameters, points, out.muscle.scales);
   out.muscle.setting = fit.setting;
   out.scatter = fit.scatter;
   return out;
@@ -126,10 +126,10 @@ std::vector<double> slopes_at(const ExpectedMuscle& m, double length, double pre
   const StaticPoint point = point_at(m, length, pressure, branch);
   std::vector<double> out;
   StaticSetting moved = m.setting;
-  for (const Knob knob : m.knobs) {
+  for (const FreeParameter free_parameter : m.free_parameters) {
     constexpr double share = 1e-3;
-    double& value = value_of(moved, knob);
-    const double was = value, step = share * parameter_of(knob, m.scales).scale;
+    double& value = value_of(moved, free_parameter);
+    const double was = value, step = share * parameter_of(free_parameter, m.scales).scale;
     value = was + step;
     const double above = predicted(moved, m.scales, point);
     value = was - step;
@@ -149,11 +149,11 @@ double slope_over_length(const ExpectedMuscle& m, double length, double pressure
 std::vector<double> deviations_before(const ExpectedMuscle& m) {
   std::vector<double> out;
   StaticSetting setting = m.setting;
-  for (const Knob knob : m.knobs) {
-    const Parameter range = parameter_of(knob, m.scales);
+  for (const FreeParameter free_parameter : m.free_parameters) {
+    const Parameter range = parameter_of(free_parameter, m.scales);
     double deviation = (range.high - range.low) / std::sqrt(12.0);  // uniform over the range
-    if (const auto prior = prior_of(knob, m.scales))
-      deviation = prior->deviation_at(value_of(setting, knob));
+    if (const auto prior = prior_of(free_parameter, m.scales))
+      deviation = prior->deviation_at(value_of(setting, free_parameter));
     out.push_back(deviation / range.scale);
   }
   return out;
@@ -167,13 +167,13 @@ constexpr double worth_it = 0.999;  // share of the error; a change that gains l
 // A set of mounts that is improved by exchanges.
 class Search {
  public:
-  Search(const DesignSpace& space, const Knowledge& begin, const PlanOptions& options,
+  Search(const DesignSpace& space, const Information& begin, const PlanOptions& options,
          std::size_t levels)
       : space_(space), begin_(begin), options_(options) {
     for (const double length : space.lengths()) {
       std::vector<double> pressures = space.even_pressures(length, levels);
       if (pressures.size() < 2) continue;  // hardly pulls there
-      const Knowledge own = space.of(length, pressures);
+      const Information own = space.of(length, pressures);
       candidates_.push_back({length, std::move(pressures), own});
     }
   }
@@ -201,7 +201,7 @@ class Search {
   // Returns the mounts in the order of their benefit, so that a user may stop early.
   std::vector<PlannedMount> ordered() const {
     std::vector<Candidate> left = chosen_;
-    Knowledge known = begin_;
+    Information known = begin_;
     std::vector<PlannedMount> out;
     while (!left.empty()) {
       std::size_t best = 0;
@@ -226,24 +226,24 @@ class Search {
   struct Candidate {
     double length = 0;
     std::vector<double> pressures;
-    Knowledge own;
+    Information own;
   };
 
-  static Knowledge sum(Knowledge known, const Candidate& more) { return known += more.own; }
+  static Information sum(Information known, const Candidate& more) { return known += more.own; }
 
-  double value_of(const Knowledge& known) const {
+  double value_of(const Information& known) const {
     return space_.error(known).of(options_.criterion);
   }
 
   double value(const std::vector<Candidate>& set) const {
-    Knowledge known = begin_;
+    Information known = begin_;
     for (const Candidate& c : set) known += c.own;
     return value_of(known);
   }
 
   // Returns the best candidate to add, from lengths that are not in the set.
   std::optional<std::size_t> best_candidate(const std::vector<Candidate>& set) const {
-    Knowledge known = begin_;
+    Information known = begin_;
     for (const Candidate& c : set) known += c.own;
     std::optional<std::size_t> best;
     double least = 0;
@@ -293,13 +293,13 @@ class Search {
   }
 
   const DesignSpace& space_;
-  const Knowledge& begin_;
+  const Information& begin_;
   const PlanOptions& options_;
   std::vector<Candidate> candidates_, chosen_;
 };
 
 // Returns the mounts that reach the error with that many pressures each.
-std::vector<PlannedMount> mounts_with(const DesignSpace& space, const Knowledge& begin,
+std::vector<PlannedMount> mounts_with(const DesignSpace& space, const Information& begin,
                                       const PlanOptions& options, std::size_t levels,
                                       std::size_t fewest) {
   Search search(space, begin, options, levels);
@@ -363,7 +363,7 @@ MeasurementPlan plan_measurements(const ExpectedMuscle& muscle, const PlanRegion
                                   const PlanOptions& options,
                                   std::span<const MeasuredMount> measured) {
   const DesignSpace space(muscle, region, options);
-  Knowledge begin = space.before();
+  Information begin = space.before();
   for (const MeasuredMount& mount : measured) begin += space.of(mount);
   MeasurementPlan best{.region = region, .before = space.error(begin)};
   best.reached = best.before.of(options.criterion) <= options.error &&

@@ -4,7 +4,7 @@
 //   error      = sqrt(mean g' Cov g + law^2)/F_max       over the region, root mean square
 //   half-width = 1.96 sqrt(largest g' Cov g + law^2)/F_max       95 %, its worst place
 //
-//   Cov    covariance of the parameters, from readings and prior information (knowledge.h)
+//   Cov    covariance of the parameters, from readings and prior information (information.h)
 //   law    error of the law itself, which no measurement reduces
 //   F_max  largest force of the muscle
 //
@@ -22,7 +22,7 @@
 
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_model.h"
-#include "sinew/identify/plan/knowledge.h"
+#include "sinew/identify/plan/information.h"
 
 namespace sinew::identify {
 
@@ -34,7 +34,7 @@ namespace sinew::identify {
 struct ExpectedMuscle {
   StaticScales scales;
   StaticSetting setting;
-  std::vector<Knob> knobs;  // free parameters of a later fit
+  std::vector<FreeParameter> free_parameters;  // free parameters of a later fit
 };
 
 // Returns the expected muscle for its sizes [m, Pa gauge], with average properties of three Festo

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "sinew/identify/actuator/static_fit.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/plan/design.h"
 
 namespace sinew::identify::plan_test {
@@ -34,11 +34,11 @@ TEST(Plan, AMuscleBySizeIsThatOfItsBraid) {
 TEST(Plan, SlopesAreThoseOfTheForce) {
   const ExpectedMuscle m = muscle();
   const std::vector<double> slopes = slopes_at(m, 0.22, 4e5, Branch::fill);
-  for (std::size_t i = 0; i < m.knobs.size(); ++i) {
+  for (std::size_t i = 0; i < m.free_parameters.size(); ++i) {
     ExpectedMuscle up = m, down = m;
-    const double step = 0.01 * parameter_of(m.knobs[i], m.scales).scale;
-    value_of(up.setting, m.knobs[i]) += step;
-    value_of(down.setting, m.knobs[i]) -= step;
+    const double step = 0.01 * parameter_of(m.free_parameters[i], m.scales).scale;
+    value_of(up.setting, m.free_parameters[i]) += step;
+    value_of(down.setting, m.free_parameters[i]) -= step;
     const double wide = (expected_force(up, 0.22, 4e5, Branch::fill) -
                          expected_force(down, 0.22, 4e5, Branch::fill)) /
                         0.02;
@@ -78,7 +78,7 @@ double squares_of_rig(const ExpectedMuscle& m, const MeasurementPlan& plan, cons
       if (p != mount.pressures.back()) read(mount.length, off, law, p, Branch::vent);
   }
   ExpectedMuscle found = m;
-  found.setting = fit_static(m.knobs, points, m.scales).setting;
+  found.setting = fit_static(m.free_parameters, points, m.scales).setting;
   double sum = 0, count = 0;
   for (int i = 0; i < 11; ++i)
     for (int k = 0; k < 7; ++k) {
@@ -154,7 +154,7 @@ TEST(Plan, IsNoWorseThanAnEvenOne) {
   const PlanRegion region = region_of(m);
   const MeasurementPlan plan = plan_measurements(m, region, o);
   const DesignSpace space(m, region, o);
-  Knowledge even = space.before();
+  Information even = space.before();
   const auto n = static_cast<double>(plan.mounts.size());
   for (std::size_t i = 0; i < plan.mounts.size(); ++i) {
     const double length =

@@ -29,7 +29,7 @@ constexpr std::array kinds{
 // Names of a known quantity in a file, and its range.
 struct Known {
   SensorKind kind;
-  Wanted wanted;
+  ColumnSpec spec;
 };
 constexpr std::array names_of_known{
     Known{SensorKind::tension, {"load", "N", 0.01, 1e5, false, "that pulls"}},
@@ -41,7 +41,7 @@ constexpr std::array names_of_known{
     Known{SensorKind::pressure, {"pressure", "Pa gauge", 100, 1e8, false, "in the muscle"}},
     Known{SensorKind::velocity, {"velocity", "rad/s", 1e-3, 1e4, false, "of the joint"}}};
 
-constexpr Wanted time_of_reading{
+constexpr ColumnSpec time_of_reading{
     .name = "time", .unit = "s", .optional = true, .doc = "of the reading"};
 
 struct Layout {
@@ -95,23 +95,23 @@ class Finder {
   }
 
   void consider(const Known& known, const std::string& wanted, Layout& layout) const {
-    if (!wanted.empty() && known.wanted.name != wanted) return;
-    const auto mapped = source_.names.find(std::string(known.wanted.name));
+    if (!wanted.empty() && known.spec.name != wanted) return;
+    const auto mapped = source_.names.find(std::string(known.spec.name));
     const std::string name =
-        mapped == source_.names.end() ? std::string(known.wanted.name) : mapped->second;
+        mapped == source_.names.end() ? std::string(known.spec.name) : mapped->second;
     const auto heading = std::ranges::find(grid_.headings(), name, &Heading::name);
     if (heading == grid_.headings().end() || is_output(*heading)) return;
     if (layout.known)
       config::fail(header(), "known quantity",
-                   fmt::format("both {} and {}", layout.known->wanted.name, known.wanted.name),
-                   "one", fmt::format("known={}", layout.known->wanted.name));
+                   fmt::format("both {} and {}", layout.known->spec.name, known.spec.name), "one",
+                   fmt::format("known={}", layout.known->spec.name));
     layout.known = &known;
     layout.known_heading = &*heading;
   }
 
   [[noreturn]] void refuse_unknown(const std::string& wanted) const {
     std::vector<std::string_view> names;
-    for (const Known& k : names_of_known) names.push_back(k.wanted.name);
+    for (const Known& k : names_of_known) names.push_back(k.spec.name);
     if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
       config::fail({"known", 0, 0}, "", config::in_quotes(wanted), config::either(names),
                    config::closest_in_quotes(wanted, names));
@@ -167,9 +167,9 @@ const KindFacts& facts_of(SensorKind kind) {
   return *std::ranges::find(kinds, kind, &KindFacts::kind);
 }
 
-std::vector<Wanted> sensor_columns() {
-  std::vector<Wanted> out;
-  for (const Known& known : names_of_known) out.push_back(known.wanted);
+std::vector<ColumnSpec> sensor_columns() {
+  std::vector<ColumnSpec> out;
+  for (const Known& known : names_of_known) out.push_back(known.spec);
   out.push_back(time_of_reading);
   return out;
 }
@@ -182,7 +182,7 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
   const Layout layout = finder.find(known, sensors);
 
   // For hanging weights the file contains the mass.
-  Wanted first = layout.known->wanted;
+  ColumnSpec first = layout.known->spec;
   std::string display = finder.unit_of(*layout.known_heading);
   const units::UnitReading unit = units::read_unit(display);
   const bool weighed = layout.known->kind == SensorKind::tension && unit.ok &&
@@ -193,13 +193,13 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
     first.most /= units::standard_gravity;
   }
 
-  std::vector<Wanted> wanted{first, time_of_reading};
+  std::vector<ColumnSpec> specs{first, time_of_reading};
   for (const Heading* h : layout.sensors) {
     const bool counts =
         units::read_unit(finder.unit_of(*h)).unit.dimension == units::dimension::count;
-    wanted.push_back({.name = h->name, .unit = counts ? "count" : "V", .doc = "of the sensor"});
+    specs.push_back({.name = h->name, .unit = counts ? "count" : "V", .doc = "of the sensor"});
   }
-  const Measured data = parse_measured(text, source, wanted);
+  const Measured data = parse_measured(text, source, specs);
 
   SensorData out{.file = data.file, .kind = layout.known->kind, .lines = data.lines};
   out.notes = data.notes;

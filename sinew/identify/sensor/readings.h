@@ -59,7 +59,7 @@ struct SensorData {
 
 // Returns the columns that may contain the known quantity, and the time. Every other column in
 // volts or counts is a sensor.
-std::vector<Wanted> sensor_columns();
+std::vector<ColumnSpec> sensor_columns();
 
 // Read a calibration. `known`: the column of the known quantity, by one of the names above;
 // empty if the file has only one. `sensors`: names of the sensors' columns; empty: all. Throw

@@ -9,9 +9,9 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/sensor/points.h"
 
 namespace sinew::identify {
@@ -91,9 +91,9 @@ Trial trial_of(std::span<const Point> points, std::size_t fitted) {
   }
   if (points.size() > fitted) {
     Split& split = out.splits.emplace_back(out.rows);
-    for (std::size_t i = fitted; i < points.size(); ++i) split.unseen.push_back(i);
+    for (std::size_t i = fitted; i < points.size(); ++i) split.held_out.push_back(i);
   } else if (level_count(own) > 2) {
-    out.splits = each_part_unseen(fold);
+    out.splits = each_part_held_out(fold);
   }
   return out;
 }
@@ -253,7 +253,7 @@ SensorResult calibrate(const SensorData& data, const SensorReadings& s, const Co
               .full_scale_is = "its span"};
   r.report.notes = u.notes;
 
-  r.report.unseen = {"how the output changes with temperature and with time under load"};
+  r.report.not_shown = {"how the output changes with temperature and with time under load"};
 
   std::vector<Point> points = u.points;
   if (other) {
@@ -269,7 +269,7 @@ SensorResult calibrate(const SensorData& data, const SensorReadings& s, const Co
   std::vector<Candidate> candidates;
   for (const Law& law : laws)
     candidates.push_back(candidate_of(law, u.points, points, rest, facts));
-  contend(candidates, trial, r.report);
+  fit_candidates(candidates, trial, r.report);
   for (Fit& fit : r.report.fits)
     if (fit.refused.empty() && fit.fit.points <= fit.parameters.size())
       fit.notes.emplace_back("as many values as points: no error can be seen");

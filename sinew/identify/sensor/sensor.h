@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/sensor/readings.h"
 
 namespace sinew::identify {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/units/literals.h"
 
 namespace sinew::identify::sensor_test {

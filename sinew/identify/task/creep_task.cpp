@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/data/averaged.h"
-#include "sinew/identify/fit/fit.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 

@@ -14,8 +14,8 @@
 #include "sinew/config/origin.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/motion/dynamic.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -123,7 +123,7 @@ DynamicFound find(const SourceList& sources, const DynamicSettings& settings) {
   const actuator::Actuator& a =
       config::named(start.experiment.actuators, settings.name, "name", "actuator");
   DynamicFound out{identify_dynamic(records_of(sources, settings, values, a), settings.model,
-                                    Wishes(settings.wishes)),
+                                    Constraints(settings.constraints)),
                    ""};
   out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, sources);
   return out;

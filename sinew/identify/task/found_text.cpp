@@ -11,7 +11,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/prediction.h"
 #include "sinew/config/quantity.h"
-#include "sinew/identify/fit/evidence.h"
+#include "sinew/identify/contest/evidence.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::identify {

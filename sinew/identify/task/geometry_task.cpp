@@ -7,9 +7,9 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/setting.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 

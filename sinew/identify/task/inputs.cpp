@@ -26,13 +26,13 @@ namespace sinew::identify {
 
 namespace {
 
-template <std::span<const Wanted> (*columns)()>
-std::vector<Wanted> columns_in() {
-  const std::span<const Wanted> all = columns();
+template <std::span<const ColumnSpec> (*columns)()>
+std::vector<ColumnSpec> columns_in() {
+  const std::span<const ColumnSpec> all = columns();
   return {all.begin(), all.end()};
 }
 
-std::vector<Wanted> columns_of_joint() {
+std::vector<ColumnSpec> columns_of_joint() {
   const auto all = joint_columns(true);
   return {all.begin(), all.end()};
 }
@@ -212,7 +212,7 @@ const TableKind& table_kind_called(const MethodInputs& inputs, std::string_view 
                config::closest_in_quotes(name, names));
 }
 
-Json json_of_column(const MethodInputs& inputs, const Wanted& w) {
+Json json_of_column(const MethodInputs& inputs, const ColumnSpec& w) {
   Json out{{"name", w.name},
            {"quantity", quantity_of(w)},
            {"si_unit", w.unit},
@@ -243,7 +243,7 @@ const MethodInputs& inputs_of(std::string_view method) {
                config::closest_in_quotes(method, names));
 }
 
-std::vector<std::string> accepted_units(const Wanted& w) {
+std::vector<std::string> accepted_units(const ColumnSpec& w) {
   std::vector<std::string> out;
   if (!w.words.empty()) return out;
   const units::Dimension dimension = dimension_of_column(w.unit);
@@ -261,7 +261,7 @@ std::vector<std::string> accepted_units(const Wanted& w) {
   return out;
 }
 
-std::string quantity_of(const Wanted& w) {
+std::string quantity_of(const ColumnSpec& w) {
   if (!w.words.empty()) return "word";
   if (w.unit == "1") return "number";
   if (w.unit == "m3/s") return "volume flow";
@@ -295,7 +295,7 @@ std::string need_of(const MethodInputs& inputs, std::string_view column) {
 Json to_json(const MethodInputs& inputs) {
   Json out{{"format", "sinew.columns/1"}, {"method", inputs.method}};
   out["columns"] = Json::array();
-  for (const Wanted& w : inputs.columns()) out["columns"].push_back(json_of_column(inputs, w));
+  for (const ColumnSpec& w : inputs.columns()) out["columns"].push_back(json_of_column(inputs, w));
   for (const TableKind& kind : inputs.kinds) {
     Json one{{"row", kind.row}};
     if (!kind.name.empty()) one["name"] = kind.name;
@@ -314,12 +314,12 @@ std::string template_of(const MethodInputs& inputs, std::string_view kind_name) 
       "# For `sinew identify {}`. A row is {}.\n"
       "# Units may be changed here; the rows are examples: put yours in their place.\n",
       inputs.method, kind.row);
-  const std::vector<Wanted> columns = inputs.columns();
+  const std::vector<ColumnSpec> columns = inputs.columns();
   for (const std::string& heading : config::at_commas(std::string(kind.header))) {
     const std::string name = name_in_heading(heading);
-    const auto wanted = std::ranges::find(columns, name, &Wanted::name);
-    const bool known = wanted != columns.end();
-    out += fmt::format("# {}: {} ({})\n", name, known ? wanted->doc : "of a sensor",
+    const auto spec = std::ranges::find(columns, name, &ColumnSpec::name);
+    const bool known = spec != columns.end();
+    out += fmt::format("# {}: {} ({})\n", name, known ? spec->doc : "of a sensor",
                        known ? need_of(inputs, name) : "name it as you like");
   }
   return out + fmt::format("{}\n{}", kind.header, kind.rows);
@@ -330,7 +330,7 @@ namespace {
 constexpr std::size_t shown_units = 5;
 
 // Returns the first units of a column; --json has all.
-std::string units_of(const Wanted& column) {
+std::string units_of(const ColumnSpec& column) {
   std::string words;
   for (const auto& [word, value] : column.words)
     words += fmt::format("{}{}", words.empty() ? "" : " or ", word);
@@ -352,7 +352,7 @@ std::string units_of(const Wanted& column) {
 std::string text_of(const MethodInputs& inputs) {
   report::TextTable table({"column", "quantity", "needed", "units", "meaning"},
                           std::vector(5, report::TextTable::Align::left));
-  for (const Wanted& w : inputs.columns())
+  for (const ColumnSpec& w : inputs.columns())
     table.add({std::string(w.name), quantity_of(w), need_of(inputs, w.name), units_of(w),
                std::string(w.doc)});
   std::string out = table.text() + "\n";

@@ -1,7 +1,7 @@
 // identify/task/inputs.h - requirements on the table of each method, for users who prepare a
 // measurement: its columns, which of them are required, and a template.
 //
-// The columns are those that the method reads, its list of Wanted. All else is in one row per
+// The columns are those that the method reads, its list of ColumnSpec. All else is in one row per
 // method in inputs.cpp: which columns are required in which kind of table, and a few example rows.
 // Each new method needs a row there; a test checks this.
 #pragma once
@@ -28,7 +28,7 @@ struct TableKind {
 // Inputs of one method.
 struct MethodInputs {
   std::string_view method;               // e.g. "static"
-  std::vector<Wanted> (*columns)();      // all columns that it reads
+  std::vector<ColumnSpec> (*columns)();  // all columns that it reads
   std::span<const TableKind> kinds;      // the most common one first
   std::vector<std::string_view> advice;  // further requirements, in sentences
 };
@@ -40,10 +40,10 @@ std::span<const MethodInputs> method_inputs();
 const MethodInputs& inputs_of(std::string_view method);
 
 // Returns the units that a column may have: those that Sinew has for its quantity.
-std::vector<std::string> accepted_units(const Wanted& column);
+std::vector<std::string> accepted_units(const ColumnSpec& column);
 
 // Returns the quantity of a column: "length", "pressure", "a word".
-std::string quantity_of(const Wanted& column);
+std::string quantity_of(const ColumnSpec& column);
 
 // Returns whether a column is required, as text: "required", "required, or load", "required for
 // chart", "optional".

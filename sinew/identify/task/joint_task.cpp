@@ -8,11 +8,11 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/provenance.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/provenance.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 #include "sinew/robot/robot.h"
@@ -215,7 +215,7 @@ JointFound find(const SourceList& sources, const JointSettings& settings) {
   for (const Source& other : held_out_tables(settings.hold_out, sources))
     held_out = poses_averaged(read_measured(other, joint_columns(settings.moving)));
   JointFound out{.result = identify_joint(data, held_out, setup, settings.model,
-                                          Wishes(settings.wishes), settings.tried),
+                                          Constraints(settings.constraints), settings.tried),
                  .setup = setup,
                  .names = names,
                  .base = settings.base};

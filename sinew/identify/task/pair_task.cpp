@@ -16,10 +16,10 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/provenance.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/averaged.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/provenance.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/pair/pair.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -153,7 +153,7 @@ bool is_time_range(std::string_view text) {
 
 PairFound find(const SourceList& sources, const PairSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  PairOptions options{.model = settings.model, .wishes = Wishes(settings.wishes)};
+  PairOptions options{.model = settings.model, .constraints = Constraints(settings.constraints)};
   HeldOut others{.tables = settings.hold_out.tables};
   std::string times;
   for (const std::string& text : settings.hold_out.texts) {

@@ -9,7 +9,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -79,7 +79,7 @@ class PlanReader {
   SettingValues values_;
 };
 
-void tell_what_is_assumed(PlanFound& out) {
+void add_assumptions(PlanFound& out) {
   const double full = out.muscle.scales.full_scale;
   out.notes.push_back(fmt::format(
       "The largest force is taken for {:.0f} N; the noise of a reading for {:.3g} N, the error of "
@@ -93,7 +93,7 @@ void tell_what_is_assumed(PlanFound& out) {
 
 PlanFound planned(PlanFound out, const PlanReader& read, std::span<const MeasuredMount> measured) {
   const PlanRegion region = read.region(out.muscle);
-  tell_what_is_assumed(out);
+  add_assumptions(out);
   out.plan = plan_measurements(out.muscle, region, out.options, measured);
   if (!out.plan.reached)
     out.notes.push_back(fmt::format(

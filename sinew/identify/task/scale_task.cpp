@@ -10,7 +10,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
-#include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
 
@@ -77,7 +77,7 @@ ScaleFound find(const SourceList&, const ScaleSettings& s) {
           "or so: check its length, pressure and force",
           factor.law);
     out.actuator =
-        stronger(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
+        scale_force(with_rest_length(old, rest_length, atmosphere, factor.share), factor.law);
   }
   if (!s.name.empty()) out.actuator.name = s.name;
   const actuator::Prediction& p = out.actuator.prediction;

@@ -86,7 +86,7 @@ struct DynamicSettings {
   int count = 1;
   HeldOut hold_out;
   std::string model;
-  WishTexts wishes;
+  ConstraintTexts constraints;
 };
 
 constexpr config::Range parallel_actuators = {1, 100, "actuators in parallel"};
@@ -118,7 +118,7 @@ void fields(Visitor& v, DynamicSettings& s) {
                  .repeated(),
              s.hold_out);
   v.choice({"model", "only this law"}, s.model, dynamic_models());
-  fields(v, s.wishes);
+  fields(v, s.constraints);
 }
 
 // --- joint ---
@@ -141,7 +141,7 @@ struct JointSettings {
   bool keep_force = false, torque_bias = false, torque_gain = false, moving = false;
   HeldOut hold_out;
   std::string model, base;
-  WishTexts wishes;
+  ConstraintTexts constraints;
   host::Tally* tried = nullptr;  // counts models that have been tried; may be null
 };
 
@@ -204,7 +204,7 @@ void fields(Visitor& v, JointSettings& s) {
   v.text({"extensor", "the muscle's name; absent: <joint>_extensor"}, s.names.extensor);
   v.file(Setting{"base", "robot whose joint it is, named in the file that is written"}.of_file(),
          s.base);
-  fields(v, s.wishes);
+  fields(v, s.constraints);
 }
 
 // --- pair ---
@@ -214,7 +214,7 @@ struct PairSettings {
   std::string rigs;
   HeldOut hold_out;
   std::string window = "20 ms", model;
-  WishTexts wishes;
+  ConstraintTexts constraints;
   std::string joint = "joint", base;
 };
 
@@ -236,7 +236,7 @@ void fields(Visitor& v, PairSettings& s) {
               config::above_zero(10, "of a few samples")},
              s.window);
   v.choice({"model", "only this law"}, s.model, pair_models());
-  fields(v, s.wishes);
+  fields(v, s.constraints);
   v.text(Setting{"joint", "its name in the robot's file that is written"}.in_python("joint_name"),
          s.joint);
   v.file({"base", "robot whose joint it is, named in the file that is written"}, s.base);

@@ -33,8 +33,8 @@
 #include <vector>
 
 #include "sinew/config/setting.h"
+#include "sinew/identify/contest/constraint.h"
 #include "sinew/identify/data/measured.h"
-#include "sinew/identify/fit/wish.h"
 #include "sinew/json/json.h"
 
 namespace sinew::identify {
@@ -133,11 +133,11 @@ std::vector<Source> held_out_tables(const HeldOut& hold_out, const std::vector<S
 
 // Visits the constraints on parameters, which are the same for each method.
 template <class Visitor>
-void fields(Visitor& v, WishTexts& wishes) {
-  v.texts({"freeze", "NAME=VALUE: a parameter that is known and not fitted"}, wishes.freeze);
+void fields(Visitor& v, ConstraintTexts& constraints) {
+  v.texts({"freeze", "NAME=VALUE: a parameter that is known and not fitted"}, constraints.freeze);
   v.texts({"prior", "NAME=VALUE±DEVIATION: what is known of a parameter, and how well"},
-          wishes.prior);
-  v.texts({"tie", "NAME=OTHER: two parameters that are one"}, wishes.tie);
+          constraints.prior);
+  v.texts({"tie", "NAME=OTHER: two parameters that are one"}, constraints.tie);
 }
 
 // The settings of a method in SI. The constructor checks each row. It throws config::Error, which

@@ -55,7 +55,7 @@ void read_table(const StaticSettings& settings, const StaticInput& input, const 
   const std::size_t before = out.data.points.size();
   CheckedTable table{all, input};
   if (unreadable == Unreadable::is_red)
-    out.add_or_tell(std::move(table));
+    out.add_or_report(std::move(table));
   else
     out.add(std::move(table));
   for (std::size_t i = 0; i < named.size() && before + i < out.data.points.size(); ++i)
@@ -190,7 +190,7 @@ StaticFound find(const SourceList& sources, const StaticSettings& settings) {
   std::vector<double> lengths;
   for (const std::string& setting : settings.predict)
     lengths.push_back(predicted_length(setting, sources[0].atmosphere));
-  heed(check_static(read), settings.anyway, read.data.warnings);
+  apply_checks(check_static(read), settings.anyway, read.data.warnings);
 
   StaticFound out{identify_static(read.data, options_of(sources, settings, read)), {}, {}, {}};
   Report& report = out.result.report;

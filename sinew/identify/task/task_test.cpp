@@ -10,7 +10,7 @@
 #include <string>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/task/methods.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/json/json.h"
@@ -135,7 +135,7 @@ std::vector<Source> moved_pair(const std::string& name = "pair.csv") {
 TEST(Task, FindsAPairAndWritesItsJoint) {
   const PairFound found = find(moved_pair(), PairSettings{.hold_out = {{"4 s.."}, {}},
                                                           .model = "spring_bristle",
-                                                          .wishes = {.freeze = {"delay=0 s"}},
+                                                          .constraints = {.freeze = {"delay=0 s"}},
                                                           .joint = "knee"});
   EXPECT_NEAR(found.result.values.stiffness, 12, 0.1);
   EXPECT_NEAR(found.result.values.friction, 0.8, 0.03);
@@ -160,7 +160,7 @@ TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
                 "hold_out: found \"9 s..4 s\"; expected a time");
   expect_begins(asked({.hold_out = {{"late"}, {}}}), "hold_out: found \"late\"; expected times");
   expect_begins(asked({.window = "0 s"}), "window: found");
-  expect_begins(asked({.wishes = {.freeze = {"delay=1 m"}}}), "freeze: found \"1 m\"");
+  expect_begins(asked({.constraints = {.freeze = {"delay=1 m"}}}), "freeze: found \"1 m\"");
   EXPECT_TRUE(is_time_range("7 s..") && is_time_range("..3 s") && is_time_range("1 s..2 s"));
   EXPECT_FALSE(is_time_range("../other.csv") || is_time_range("a.csv") || is_time_range(".."));
 }

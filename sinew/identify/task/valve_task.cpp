@@ -9,10 +9,10 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/averaged.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/edges.h"
@@ -102,8 +102,8 @@ Measured read_valve(const Source& source) {
   } catch (const config::Error&) {
     // Retry without the time. Only a chart or duty map is valid then; otherwise the time was the
     // error.
-    std::vector<Wanted> timeless;
-    for (const Wanted& w : valve_columns())
+    std::vector<ColumnSpec> timeless;
+    for (const ColumnSpec& w : valve_columns())
       if (w.name != "time") timeless.push_back(w);
     Source without = source;
     without.names.erase("time");

@@ -7,8 +7,8 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/gas/orifice.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/fill_trust.h"
 
@@ -54,11 +54,11 @@ ChamberLine chamber_line(std::span<const double> inverse, std::span<const double
 class JointFill {
  public:
   JointFill(const FillModel& model, const ValveOptions& options, std::vector<JointCurve> curves,
-            std::span<const Tried> alone)
+            std::span<const FittedFill> separate)
       : model_(model), options_(options), curves_(std::move(curves)) {
     std::vector<double> inverse, added;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-      inverse.push_back(1 / alone[i].fit.parameters.front().value);
+      inverse.push_back(1 / separate[i].fit.parameters.front().value);
       added.push_back(curves_[i].added);
     }
     const ChamberLine line = chamber_line(inverse, added);
@@ -69,7 +69,7 @@ class JointFill {
     const double start = std::max(line.volume, 1e-3 * most), c = line.conductance;
     parameters_ = {{"sonic_conductance", "m3/(s Pa)", c, 1e-2 * c, 100 * c, c},
                    {"volume", "m3", start, 1e-6 * most, 1e3 * (start + most), start}};
-    for (std::size_t i = 0; i < curves_.size(); ++i) place(curves_[i], alone[i]);
+    for (std::size_t i = 0; i < curves_.size(); ++i) place(curves_[i], separate[i]);
   }
 
   std::size_t count() const {
@@ -85,7 +85,7 @@ class JointFill {
                               .most_steps = 60,
                               .widest_interval = well_known,
                               .difference = 1e-3},
-                  .wishes = {}};
+                  .constraints = {}};
     of.residuals = [own = *this](std::span<const double> p, std::span<double> r) {
       std::size_t at = 0;
       for (const JointCurve& c : own.curves_) {
@@ -102,7 +102,7 @@ class JointFill {
 
  private:
   // Adds a curve's own parameters; shared ones are added with the first curve's values.
-  void place(JointCurve& c, const Tried& alone) {
+  void place(JointCurve& c, const FittedFill& separate) {
     const bool first = &c == &curves_.front();
     for (std::size_t i = 0; i < c.free.size(); ++i) {
       Parameter p = c.free[i].parameter;
@@ -113,7 +113,7 @@ class JointFill {
         c.place.back() = static_cast<std::size_t>(known - parameters_.begin());
         continue;
       }
-      p.start = std::clamp(alone.fit.parameters[i].value, p.low, p.high);
+      p.start = std::clamp(separate.fit.parameters[i].value, p.low, p.high);
       if (is_of_one_fill(p.name)) p.name += fmt::format("_{}", &c - curves_.data() + 1);
       c.place.back() = parameters_.size();
       parameters_.push_back(p);
@@ -135,13 +135,13 @@ class JointFill {
 };
 
 // Returns the root mean square score over curves, each in % of its own range.
-Score score_over(std::span<const Tried> alone) {
+Score score_over(std::span<const FittedFill> separate) {
   Score out;
   double sum = 0;
-  for (const Tried& t : alone) {
+  for (const FittedFill& t : separate) {
     const Score& s = *t.fit.held_out;
     out.points += s.points;
-    sum += s.rmse_percent * s.rmse_percent / static_cast<double>(alone.size());
+    sum += s.rmse_percent * s.rmse_percent / static_cast<double>(separate.size());
     out.max_percent = std::max(out.max_percent, s.max_percent);
     out.rmse = std::max(out.rmse, s.rmse);
     out.max = std::max(out.max, s.max);
@@ -151,15 +151,15 @@ Score score_over(std::span<const Tried> alone) {
 }
 
 // Fits of the single curves; `refused` if one of them is.
-struct Alone {
-  std::vector<Tried> curves;
+struct SeparateFits {
+  std::vector<FittedFill> curves;
   std::string refused;
   double squares = 0;
 };
 
-Alone fit_alone(const FillModel& model, std::span<const Curve> curves,
-                const ValveOptions& options) {
-  Alone out;
+SeparateFits fit_separately(const FillModel& model, std::span<const Curve> curves,
+                            const ValveOptions& options) {
+  SeparateFits out;
   for (const Curve& c : curves) {
     out.curves.push_back(try_fill(model, c, options, nullptr));
     out.refused = out.curves.back().fit.refused;
@@ -170,32 +170,32 @@ Alone fit_alone(const FillModel& model, std::span<const Curve> curves,
 }
 
 // Refuses laws whose single fits are far worse than those of another, to save their joint fits.
-void leave_out_far_worse(std::vector<Alone>& alone) {
+void leave_out_far_worse(std::vector<SeparateFits>& separate) {
   double least = unbounded;
-  for (const Alone& a : alone)
+  for (const SeparateFits& a : separate)
     if (a.refused.empty()) least = std::min(least, a.squares);
-  for (Alone& a : alone)
+  for (SeparateFits& a : separate)
     if (a.refused.empty() && a.squares > far_worse * least)
       a.refused = fmt::format("leaves {:.2g} times what the best law leaves of each curve",
                               std::sqrt(a.squares / least));
 }
 
-Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
-                 std::span<const Curve> curves, const Alone& alone, const ValveOptions& options,
-                 double range) {
-  Tried out;
+FittedFill fit_joined(const FillModel& model, std::span<const AddedFill> fills,
+                      std::span<const Curve> curves, const SeparateFits& separate,
+                      const ValveOptions& options, double range) {
+  FittedFill out;
   out.fit = {.model = std::string(model.name),
              .law = std::string(model.law),
              .source = std::string(model.source),
-             .refused = alone.refused};
-  if (!alone.refused.empty()) return out;
+             .refused = separate.refused};
+  if (!separate.refused.empty()) return out;
   std::vector<JointCurve> joined;
   for (std::size_t i = 0; i < curves.size(); ++i)
     joined.push_back({curves[i], fills[i].added, free_values(model, curves[i], options), {}});
   try {
-    out.fit.again =
-        std::make_shared<Refit>(JointFill(model, options, std::move(joined), alone.curves).solve());
-    const Solution& s = out.fit.again->solution;
+    out.fit.refit = std::make_shared<Refit>(
+        JointFill(model, options, std::move(joined), separate.curves).solve());
+    const Solution& s = out.fit.refit->solution;
     for (const double r : s.residuals) out.squares += r * r;
     const double t = t_quantile(std::max(1, s.freedom));
     out.acceptable = out.squares * (1 + t * t * s.inflation / std::max(1, s.freedom));
@@ -206,7 +206,7 @@ Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
                       "a larger added volume");
     out.fit.fit = score(s.residuals, range);
     out.fit.residuals = s.residuals;
-    out.fit.held_out = score_over(alone.curves);
+    out.fit.held_out = score_over(separate.curves);
   } catch (const Refusal& refusal) {
     out.fit.refused = refusal.what();
   }
@@ -214,15 +214,15 @@ Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
 }
 
 // Widens both intervals to those of every model that the curves cannot distinguish from the best.
-void reach_over(std::span<const Tried> tried, Report& report) {
+void reach_over(std::span<const FittedFill> tried, Report& report) {
   double acceptable = tried[report.chosen].squares;
-  const Tried* best = nullptr;
-  for (const Tried& t : tried)
+  const FittedFill* best = nullptr;
+  for (const FittedFill& t : tried)
     if (t.fit.refused.empty() && (!best || t.squares < best->squares)) best = &t;
   if (best) acceptable = std::max(acceptable, best->acceptable);
   Fit& chosen = report.fits[report.chosen];
   std::string names;
-  for (const Tried& t : tried) {
+  for (const FittedFill& t : tried) {
     if (!t.fit.refused.empty() || t.squares > acceptable || t.fit.model == chosen.model) continue;
     for (std::size_t i = 0; i < 2; ++i) {
       Estimate& e = chosen.parameters[i];
@@ -293,13 +293,13 @@ std::vector<AddedFill> fills_by_column(const Measured& data) {
   return out;
 }
 
-Tried try_added(const FillModel& model, std::span<const AddedFill> fills,
-                const ValveOptions& options) {
+FittedFill try_added(const FillModel& model, std::span<const AddedFill> fills,
+                     const ValveOptions& options) {
   std::vector<Curve> curves;
   double range = 0;
   for (const AddedFill& fill : fills)
     range = std::max(range, curves.emplace_back(curve_of(fill.data)).range());
-  return fit_joined(model, fills, curves, fit_alone(model, curves, options), options, range);
+  return fit_joined(model, fills, curves, fit_separately(model, curves, options), options, range);
 }
 
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options) {
@@ -313,7 +313,7 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
   report.unit = "Pa diff";
   report.full_scale_is = "the pressure's largest range";
   report.held_out_is = "every second tenth of the way of each curve, by a fit to that curve alone";
-  report.unseen = {"the flow in the other direction, and how fast the valve switches"};
+  report.not_shown = {"the flow in the other direction, and how fast the valve switches"};
   report.rows = {.x = "time", .x_unit = "s", .unit = "Pa abs"};
   for (const AddedFill& fill : fills) {
     const Curve& c = curves.emplace_back(curve_of(fill.data));
@@ -325,14 +325,15 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
     report.rows.group.insert(report.rows.group.end(), c.time.size(),
                              config::format_quantity(fill.added, "m3", "L", 4) + " joined");
   }
-  std::vector<Alone> alone;
-  for (const FillModel& model : fill_models()) alone.push_back(fit_alone(model, curves, options));
-  leave_out_far_worse(alone);
-  std::vector<Tried> tried;
-  for (std::size_t i = 0; i < alone.size(); ++i)
+  std::vector<SeparateFits> separate;
+  for (const FillModel& model : fill_models())
+    separate.push_back(fit_separately(model, curves, options));
+  leave_out_far_worse(separate);
+  std::vector<FittedFill> tried;
+  for (std::size_t i = 0; i < separate.size(); ++i)
     tried.push_back(
-        fit_joined(fill_models()[i], fills, curves, alone[i], options, report.full_scale));
-  for (const Tried& t : tried) report.fits.push_back(t.fit);
+        fit_joined(fill_models()[i], fills, curves, separate[i], options, report.full_scale));
+  for (const FittedFill& t : tried) report.fits.push_back(t.fit);
   conclude(report);
   refuse_poor_fit(fills.front().data, report, options.worst_fit);
   reach_over(tried, report);

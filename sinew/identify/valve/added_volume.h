@@ -37,8 +37,8 @@ Separation expected_separation(double half, double ratio);
 std::vector<AddedFill> fills_by_column(const Measured& data);
 
 // Fits one model to all fillings: its first two parameters are C and V.
-Tried try_added(const FillModel& model, std::span<const AddedFill> fills,
-                const ValveOptions& options);
+FittedFill try_added(const FillModel& model, std::span<const AddedFill> fills,
+                     const ValveOptions& options);
 
 // Identifies the valve from these fillings. Throws Refusal for fewer than two different volumes.
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options);

@@ -63,7 +63,7 @@ TEST(ValveAddedVolume, IntervalsHoldTheTruth) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     const std::vector<AddedFill> fills{filled(0, 2e3, 2 * seed, law),
                                        filled(5e-4, 2e3, 2 * seed + 1, law)};
-    const Tried t = try_added(*rigid, fills, isothermal());
+    const FittedFill t = try_added(*rigid, fills, isothermal());
     ASSERT_TRUE(t.fit.refused.empty()) << t.fit.refused;
     const Estimate &c = t.fit.parameters[0], &v = t.fit.parameters[1];
     conductance += c.low <= true_conductance && true_conductance <= c.high;

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "sinew/gas/orifice.h"
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/valve.h"
 
 namespace sinew::identify {
@@ -91,7 +91,7 @@ Rows rows_of(const Chart& c) {
   return out;
 }
 
-void tell_choking(const Chart& c, Report& report) {
+void add_choking_note(const Chart& c, Report& report) {
   std::size_t choked = 0;
   for (std::size_t i = 0; i < c.size(); ++i)
     choked += c.down[i] <= gas::critical_pressure_ratio() * c.up[i];
@@ -115,16 +115,17 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   report.notes = data.notes;
   if (!data.has("mass_flow"))
     report.notes.emplace_back("volume flow is taken as of reference air, 20 degC and 1 bar (ANR)");
-  report.unseen = {"how fast the valve switches, and its flow in the other direction"};
+  report.not_shown = {"how fast the valve switches, and its flow in the other direction"};
   Trial trial{.measured = c.flow};
-  trial.splits = each_row_unseen(c.size());
-  contend({candidate_of(false, c, options.air), candidate_of(true, c, options.air)}, trial, report);
+  trial.splits = each_row_held_out(c.size());
+  fit_candidates({candidate_of(false, c, options.air), candidate_of(true, c, options.air)}, trial,
+                 report);
   refuse_unseen_ratio(report.fits.back());
   report.rows = rows_of(c);
   conclude(report);
   refuse_unexplained(report, worst_chart,
                      "where=\"valve=inlet\", if rows of several valves are in one table");
-  tell_choking(c, report);
+  add_choking_note(c, report);
 
   const bool iso = report.chosen == 1;
   replace_flow(iso ? gas::Flow::Law::iso6358 : gas::Flow::Law::orifice,

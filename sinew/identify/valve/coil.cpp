@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "sinew/gas/coil_current.h"
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/valve.h"
 
@@ -27,7 +27,7 @@ struct Pulses {
   double sample = 0;                  // [s]
   double length = 0;                  // length of the shortest pulse [s]
   double largest = 0;                 // [A]
-  double gone = unbounded;            // time after switching off until less than 5 % remains [s]
+  double decay_time = unbounded;      // time after switching off until less than 5 % remains [s]
   int count = 0;
 };
 
@@ -78,7 +78,7 @@ Pulses pulses_of(const Measured& data, Report& report) {
       }
       const bool released = t[i] > off && ends;
       if (released && current[i] < 0.05 * last) {
-        p.gone = std::min(p.gone, t[i] - off);
+        p.decay_time = std::min(p.decay_time, t[i] - off);
         break;
       }
     }
@@ -237,7 +237,7 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   report.full_scale = c.largest;
   report.full_scale_is = "the largest current";
   report.held_out_is = "every second sample";
-  report.unseen = {"how the delay changes with the pressure and with the supply's voltage"};
+  report.not_shown = {"how the delay changes with the pressure and with the supply's voltage"};
   report.notes.insert(report.notes.end(), data.notes.begin(), data.notes.end());
   report.rows = {.x = "time", .x_unit = "s", .at = c.time, .measured = c.current};
   std::vector<Candidate> candidates;
@@ -245,8 +245,8 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   Trial trial{.measured = c.current};
   std::vector<int> parity;
   for (std::size_t i = 0; i < c.time.size(); ++i) parity.push_back(i % 2);
-  trial.splits = {each_part_unseen(parity).back()};
-  contend(candidates, trial, report);
+  trial.splits = {each_part_held_out(parity).back()};
+  fit_candidates(candidates, trial, report);
   conclude(report, 0.1, 0.01);
   if (!coil_models[report.chosen].dip)
     throw Refusal(data.file + ": current", "no dip in its rise: a coil without a moving shutter",
@@ -264,8 +264,8 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   report.notes.push_back(fmt::format(
       "closing_delay is not in the current{}: a closing shutter gives no sign once the current has "
       "gone (4.3); a pressure record shows it",
-      std::isfinite(c.gone)
-          ? fmt::format(", which has gone {:.3g} ms after it is switched off", 1e3 * c.gone)
+      std::isfinite(c.decay_time)
+          ? fmt::format(", which has gone {:.3g} ms after it is switched off", 1e3 * c.decay_time)
           : ""));
   return out;
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sinew/config/quantity.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 
@@ -164,7 +164,7 @@ void cut_hold(Curve& c) {
   c.pressure.resize(keep);
 }
 
-void tell_times(const Measured& data, Curve& c) {
+void add_time_notes(const Measured& data, Curve& c) {
   std::size_t same = 0;
   for (std::size_t i = 1; i < c.time.size(); ++i) same += c.time[i] == c.time[i - 1];
   if (same > 0)
@@ -188,7 +188,7 @@ Curve curve_of(const Measured& data) {
   refuse_saturated(data, c);
   refuse_to_and_fro(data, c);
   cut_hold(c);
-  tell_times(data, c);
+  add_time_notes(data, c);
   return c;
 }
 

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/valve.h"
 
 namespace sinew::identify {
@@ -156,11 +156,12 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
   report.full_scale_is = m.flow ? "the largest flow" : "the whole period";
   report.held_out_is = "each point by a fit of all the others";
   report.notes = data.notes;
-  report.unseen = {"how the delays change with the pressure and with the supply's voltage"};
+  report.not_shown = {"how the delays change with the pressure and with the supply's voltage"};
   report.rows = rows_of(m, straight);
   Trial trial{.measured = report.rows.measured};
-  trial.splits = each_row_unseen(straight.size());
-  contend({candidate_of(m, straight, false), candidate_of(m, straight, true)}, trial, report);
+  trial.splits = each_row_held_out(straight.size());
+  fit_candidates({candidate_of(m, straight, false), candidate_of(m, straight, true)}, trial,
+                 report);
   conclude(report);
 
   Fit& fit = report.fits[report.chosen];

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "sinew/gas/delay.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 

@@ -141,7 +141,7 @@ FitProblem fill_problem(const FillModel& model, const Curve& c, const ValveOptio
                              .most_steps = 60,
                              .widest_interval = 0.25,
                              .difference = 1e-3},
-                 .wishes = {}};
+                 .constraints = {}};
   for (const FreeValue& f : free) out.parameters.push_back(f.parameter);
   out.residuals = [&model, &c, &options, free, rows = std::vector(keep.begin(), keep.end()),
                    all = std::vector<double>(c.time.size())](std::span<const double> p,

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/contest/fit.h"
 #include "sinew/identify/valve/chamber.h"
 #include "sinew/identify/valve/curve.h"
 #include "sinew/identify/valve/valve.h"

@@ -12,7 +12,7 @@
 
 #include "sinew/gas/fill.h"
 #include "sinew/gas/orifice.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify::fill_test {
 namespace {

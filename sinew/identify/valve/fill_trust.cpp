@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 
 namespace sinew::identify {
 
@@ -16,7 +16,7 @@ void refuse_undetermined(const Solution& s) {
     throw Refusal(k.name, "nothing in the curve that depends on it alone", "an interval", "");
 }
 
-void reach_for_fixed(std::span<Tried> tried) {
+void reach_for_fixed(std::span<FittedFill> tried) {
   const std::span<const FillModel> models = fill_models();
   for (std::size_t i = 0; i < models.size(); ++i)
     for (std::size_t k = 0; k < models.size(); ++k) {
@@ -42,28 +42,28 @@ void reach_for_fixed(std::span<Tried> tried) {
     }
 }
 
-void refuse_open(std::span<Tried> tried, double worst_fit) {
+void refuse_undetermined_models(std::span<FittedFill> tried, double worst_fit) {
   const auto open = [](const Fit& fit) { return !(half_of(fit.parameters.front()) <= 1); };
-  const bool others = std::any_of(tried.begin(), tried.end(), [&](const Tried& t) {
+  const bool others = std::any_of(tried.begin(), tried.end(), [&](const FittedFill& t) {
     return t.fit.refused.empty() && t.fit.fit.rmse_percent <= worst_fit && !open(t.fit);
   });
   if (!others) return;
-  for (Tried& t : tried)
+  for (FittedFill& t : tried)
     if (t.fit.refused.empty() && open(t.fit))
       t.fit.refused =
           fmt::format("leaves C/V open by +- {:.0f} %", 100 * half_of(t.fit.parameters.front()));
 }
 
-void reach_over_models(std::span<const Tried> tried, Report& report) {
-  const Tried* best = &tried[report.chosen];
-  for (const Tried& t : tried)
+void reach_over_models(std::span<const FittedFill> tried, Report& report) {
+  const FittedFill* best = &tried[report.chosen];
+  for (const FittedFill& t : tried)
     if (t.fit.refused.empty() && t.squares < best->squares) best = &t;
   const double acceptable = std::max(best->acceptable, tried[report.chosen].squares);
 
   Fit& chosen = report.fits[report.chosen];
   Estimate& k = chosen.parameters.front();
   std::string names;
-  for (const Tried& t : tried) {
+  for (const FittedFill& t : tried) {
     if (!t.fit.refused.empty() || t.squares > acceptable) continue;
     const Estimate& other = t.fit.parameters.front();
     if (t.fit.model != chosen.model && (other.low < k.low || other.high > k.high))

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/valve/valve.h"
 
 namespace sinew::identify {

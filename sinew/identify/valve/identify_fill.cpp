@@ -6,7 +6,7 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/gas/orifice.h"
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/fill_trust.h"
@@ -116,7 +116,7 @@ Score score_other(const FillModel& model, const Curve& other, const ValveOptions
 }
 
 // Notes pairs of the valve's parameters that the curve hardly separates.
-void tell_correlations(const Solution& s, Fit& fit) {
+void add_correlation_notes(const Solution& s, Fit& fit) {
   const std::size_t n = s.estimates.size();
   const auto cov = [&](std::size_t i, std::size_t k) { return s.covariance[i * n + k]; };
   for (std::size_t i = 0; i < n; ++i)
@@ -127,8 +127,8 @@ void tell_correlations(const Solution& s, Fit& fit) {
         fit.notes.push_back(fmt::format("{} and {} can hardly be separated: correlation {:.3f}",
                                         s.estimates[i].name, s.estimates[k].name, r));
     }
-  for (const std::string& unseen : s.unseen)
-    fit.notes.push_back("the curve does not determine " + unseen);
+  for (const std::string& direction : s.undetermined)
+    fit.notes.push_back("the curve does not determine " + direction);
 }
 
 // Adds conductance or volume, from C/V and the other of the two.
@@ -154,7 +154,7 @@ void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
 }
 
 // Notes the exponent from the variant with a free one, if the chosen model has it fixed.
-void tell_exponent(Report& report) {
+void add_exponent_note(Report& report) {
   const std::span<const FillModel> models = fill_models();
   const FillModel& chosen = models[report.chosen];
   if (chosen.exponent == 0 || !report.fits[report.chosen].refused.empty()) return;
@@ -205,9 +205,9 @@ void describe(const Curve& c, const ValveOptions& options, const Estimate& alone
 
 }  // namespace
 
-Tried try_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
-               const Curve* other) {
-  Tried out;
+FittedFill try_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
+                    const Curve* other) {
+  FittedFill out;
   Fit& fit = out.fit;
   fit.model = model.name;
   fit.law = model.law;
@@ -224,9 +224,9 @@ Tried try_fill(const FillModel& model, const Curve& c, const ValveOptions& optio
   }
   const std::vector<FreeValue> free = free_values(model, c, options);
   try {
-    fit.again = std::make_shared<Refit>(
+    fit.refit = std::make_shared<Refit>(
         fit_fill(model, c, options, all_rows(c), spread_starts(model, free)));
-    const Solution& s = fit.again->solution;
+    const Solution& s = fit.refit->solution;
     refuse_undetermined(s);
     for (const double r : s.residuals) out.squares += r * r;
     const double t = t_quantile(s.freedom);
@@ -235,7 +235,7 @@ Tried try_fill(const FillModel& model, const Curve& c, const ValveOptions& optio
     fit.parameters.front().identifiable &= half_of(fit.parameters.front()) <= well_known;
     fit.fit = score(s.residuals, c.range());
     fit.residuals = s.residuals;
-    tell_correlations(s, fit);
+    add_correlation_notes(s, fit);
     fit.held_out =
         other ? score_other(model, *other, options, s) : score_tenths(model, c, options, s);
   } catch (const Refusal& refusal) {
@@ -279,15 +279,15 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   report.unit = "Pa diff";
   report.full_scale = c.range();
   report.full_scale_is = "the pressure's range";
-  report.unseen = {"the flow in the other direction, and how fast the valve switches"};
+  report.not_shown = {"the flow in the other direction, and how fast the valve switches"};
   report.held_out_is = other ? other->file + ", with its own start and opening instant"
                              : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";
-  std::vector<Tried> tried;
+  std::vector<FittedFill> tried;
   for (const FillModel& model : fill_models())
     tried.push_back(try_fill(model, c, options, unseen ? &*unseen : nullptr));
   reach_for_fixed(tried);
-  refuse_open(tried, options.worst_fit);
-  for (const Tried& t : tried) report.fits.push_back(t.fit);
+  refuse_undetermined_models(tried, options.worst_fit);
+  for (const FittedFill& t : tried) report.fits.push_back(t.fit);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
   conclude(report);
@@ -296,7 +296,7 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   for (std::size_t i = 0; i < report.fits.size(); ++i)
     if (report.fits[i].refused.empty()) divide(fill_models()[i], options, report.fits[i]);
   refuse_poor_fit(data, report, options.worst_fit);
-  tell_exponent(report);
+  add_exponent_note(report);
   if (options.volume)
     replace_flow(fill_models()[report.chosen].flow,
                  "sinew identify valve " + data.file + ", model " + report.best().model, out);

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "sinew/gas/orifice.h"
+#include "sinew/identify/contest/contest.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/identify/data/quality.h"
-#include "sinew/identify/fit/contest.h"
-#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/valve/edges.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/valve.h"
@@ -184,7 +184,7 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   report.full_scale = r.range();
   report.full_scale_is = "the pressure's range";
   report.held_out_is = "the last third of the record";
-  report.unseen = {
+  report.not_shown = {
       "how the delays change with the supply's voltage, and the flow of another chamber"};
   report.notes = data.notes;
   std::vector<Candidate> candidates;
@@ -192,8 +192,8 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
     candidates.push_back(candidate_of(model, r, options));
   std::vector<int> is_last;
   for (std::size_t i = 0; i < r.time.size(); ++i) is_last.push_back(i >= r.time.size() * 2 / 3);
-  contend(candidates, {.measured = r.pressure, .splits = {each_part_unseen(is_last).back()}},
-          report);
+  fit_candidates(candidates,
+                 {.measured = r.pressure, .splits = {each_part_held_out(is_last).back()}}, report);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = r.time, .measured = r.pressure};
   conclude(report);

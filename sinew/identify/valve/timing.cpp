@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/contest/refusal.h"
 #include "sinew/signals/pulse.h"
 
 namespace sinew::identify {

@@ -17,9 +17,9 @@
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/valve.h"
+#include "sinew/identify/contest/fit.h"
+#include "sinew/identify/contest/provenance.h"
 #include "sinew/identify/data/measured.h"
-#include "sinew/identify/fit/fit.h"
-#include "sinew/identify/fit/provenance.h"
 
 namespace sinew::identify {
 
@@ -51,7 +51,7 @@ struct ValveResult {
 };
 
 // Returns all columns that the methods use.
-std::span<const Wanted> valve_columns();
+std::span<const ColumnSpec> valve_columns();
 
 // Returns `wanted`, or the kind that matches the columns. Throws Refusal if the columns match no
 // method, or not the wanted one.

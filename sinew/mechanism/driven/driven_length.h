@@ -42,8 +42,8 @@ struct DrivenSenses {
   double quantity(const auto&, std::size_t, double) const noexcept { return 0; }
   std::uint16_t counts(std::size_t, double, signals::Tick) const noexcept { return 0; }
   Truth truth(auto& world, double t) const noexcept {
-    const auto p = world.peek(t);
-    return {p.look.ends.length[0], p.look.air.tension[0], p.look.air.pressure[0],
+    const auto p = world.preview(t);
+    return {p.evaluation.ends.length[0], p.evaluation.air.tension[0], p.evaluation.air.pressure[0],
             world.air().account(p.state.air, 0)};
   }
 };
@@ -100,7 +100,9 @@ class DrivenLength {
             const Acceleration&) const noexcept {
     out = {from.length + h * from.rate, from.rate};
   }
-  void glide(Motion& m, double h, const Acceleration&) const noexcept { move(m, m, h, m, {}); }
+  void extrapolate(Motion& m, double h, const Acceleration&) const noexcept {
+    move(m, m, h, m, {});
+  }
   void finish(Motion& now, double h, const Motion* const (&)[4],
               const Acceleration (&)[4]) const noexcept {
     move(now, now, h, now, {});

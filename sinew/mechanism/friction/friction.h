@@ -91,8 +91,9 @@ template <int C>
 // Lets contacts slide that exceed their bound, and contacts stick whose force would push them along
 // their slip: all of them, or only the first. Returns whether all contacts were consistent.
 template <int C>
-[[gnu::always_inline]] inline bool settle(const FrictionProblem<C>& p, int count, bool only_first,
-                                          std::array<Side, C>& side, std::array<double, C>& force) {
+[[gnu::always_inline]] inline bool update_sides(const FrictionProblem<C>& p, int count,
+                                                bool only_first, std::array<Side, C>& side,
+                                                std::array<double, C>& force) {
   bool agreed = true;
   for (int i = 0; i < count && (agreed || !only_first); ++i) {
     if (side[i] == Side::sticks && (force[i] > p.bound[i] || force[i] < -p.bound[i])) {
@@ -134,7 +135,7 @@ template <int C>
   const int all_at_once = 2 * count, one_at_a_time = 24 * count;
   for (int change = 0; change < all_at_once + one_at_a_time; ++change) {
     detail::solve_sticking<C>(p, count, side, force);
-    if (detail::settle<C>(p, count, change >= all_at_once, side, force)) return force;
+    if (detail::update_sides<C>(p, count, change >= all_at_once, side, force)) return force;
   }
   for (int i = 0; i < count; ++i)
     force[i] = force[i] < -p.bound[i] ? -p.bound[i] : force[i] > p.bound[i] ? p.bound[i] : force[i];
@@ -169,7 +170,7 @@ class FrictionLanes {
   // Applies one change to all contacts that have to change.
   void change() {
     solve_sticking();
-    settle();
+    update_sides();
   }
 
  private:
@@ -224,17 +225,18 @@ class FrictionLanes {
   }
 
   // Lets contacts slide that exceed their bound, and contacts stick whose force would push them.
-  void settle() {
+  void update_sides() {
     Mask changed = unsettled_ ^ unsettled_;
     for (int i = 0; i < C; ++i) {
       const S &b = p_.bound[i], f = force_[i];
-      const Mask lets_go = sticks_[i] & ((f > b) | (f < -b)) & unsettled_;
-      Mask holds = slides_[i] & unsettled_;
-      if (units::any(holds)) holds = holds & (slip_under(i) * f > 0.0);
-      force_[i] = units::select(lets_go, units::select(f > 0.0, b, -b), f);
-      sticks_[i] = (sticks_[i] & !lets_go) | holds;
-      slides_[i] = (slides_[i] & !holds) | lets_go;
-      changed = changed | lets_go | holds;
+      const Mask starts_sliding = sticks_[i] & ((f > b) | (f < -b)) & unsettled_;
+      Mask starts_sticking = slides_[i] & unsettled_;
+      if (units::any(starts_sticking))
+        starts_sticking = starts_sticking & (slip_under(i) * f > 0.0);
+      force_[i] = units::select(starts_sliding, units::select(f > 0.0, b, -b), f);
+      sticks_[i] = (sticks_[i] & !starts_sliding) | starts_sticking;
+      slides_[i] = (slides_[i] & !starts_sticking) | starts_sliding;
+      changed = changed | starts_sliding | starts_sticking;
     }
     unsettled_ = changed;
   }

@@ -87,7 +87,7 @@ struct BodyConstants {
 
 // Returns whether a body of N links can represent this robot.
 template <int N>
-bool holds(const robot::Robot& robot) {
+bool fits(const robot::Robot& robot) {
   const std::size_t links = robot.links.size();
   return BodyConstants<N>::exact ? links == N : links <= N;
 }

@@ -44,8 +44,8 @@ class BodyMechanism : public PlanarMechanism<M> {
   };
 
   // Returns whether this robot fits.
-  static bool holds(const robot::Robot& robot) {
-    return plant::holds<N>(robot) && robot::discs_of(robot) <= D && robot.muscles.size() <= M;
+  static bool fits(const robot::Robot& robot) {
+    return plant::fits<N>(robot) && robot::discs_of(robot) <= D && robot.muscles.size() <= M;
   }
 
   // Takes a planar machine of at most N links, D discs and M muscles.
@@ -55,15 +55,15 @@ class BodyMechanism : public PlanarMechanism<M> {
   // joint and its moment arm there.
   const BodyConstants<N>& constants() const noexcept { return constants_; }
   const Motion& start() const noexcept { return start_; }
-  int muscles() const noexcept { return cords_.count(); }
-  int joint(int muscle) const noexcept { return cords_.joint(muscle, 0); }
+  int muscles() const noexcept { return routing_.count(); }
+  int joint(int muscle) const noexcept { return routing_.joint(muscle, 0); }
   double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
     return arms[static_cast<std::size_t>(muscle)][0];
   }
   // Returns all position-dependent terms that a node needs.
   Pose pose(double, const Motion& motion) const noexcept {
     Pose pose(constants_, motion);
-    rubs_.place(motion, pose);
+    contacts_.place(motion, pose);
     return pose;
   }
 
@@ -90,8 +90,8 @@ class BodyMechanism : public PlanarMechanism<M> {
   std::int64_t next_multiple(std::int64_t multiple, double step, const Pose& pose,
                              const Motion& m) const noexcept {
     if (steps_in_air_ == 1) return multiple + 1;
-    const std::int64_t steps = rubs_.touches(pose) ? steps_on_ground_ : steps_in_air_;
-    if (steps == 1 || rubs_.can_change(pose, m, static_cast<double>(steps) * step))
+    const std::int64_t steps = contacts_.touches(pose) ? steps_on_ground_ : steps_in_air_;
+    if (steps == 1 || contacts_.can_change(pose, m, static_cast<double>(steps) * step))
       return multiple + 1;
     return (multiple / steps + 1) * steps;
   }
@@ -107,8 +107,8 @@ class BodyMechanism : public PlanarMechanism<M> {
   void route(double, const Motion& m, air::Ends<M>& ends, Arms& arms) const noexcept;
 
   // Computes all forces except dry friction from the forces of the air.
-  template <class Answer>
-  void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
+  template <class Evaluation>
+  void load(const Pose& body, const Motion& m, const Arms& arms, const Evaluation& air,
             Load& out) const noexcept {
     load(body, m, arms, air.tension, air.cylinder_force, out);
   }
@@ -131,11 +131,11 @@ class BodyMechanism : public PlanarMechanism<M> {
 
   // Return the dry friction of a step of length h from the prepared node, and accelerations under
   // it.
-  Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }
+  Forces hold(double h, const Forces& last) const noexcept { return contacts_.hold(h, last); }
   Acceleration accelerate(const Acceleration& free, const Forces& held) const noexcept {
-    return rubs_.accelerations(free, held);
+    return contacts_.accelerations(free, held);
   }
-  double bound(int contact) const noexcept { return rubs_.bound(contact); }
+  double bound(int contact) const noexcept { return contacts_.bound(contact); }
 
   // Writes `from` moved by h along the given rates and accelerations.
   void move(Motion& out, const Motion& from, double h, const Motion& rates,
@@ -144,11 +144,11 @@ class BodyMechanism : public PlanarMechanism<M> {
   // Relaxes the ground's damper within a step: friction_contacts.h.
   void relax(double h, double share, const Load& load, const Acceleration& before,
              Acceleration& a) const noexcept {
-    rubs_.relax(h, share, load.normal, before, a);
+    contacts_.relax(h, share, load.normal, before, a);
   }
 
   // Moves by h under a constant acceleration.
-  void glide(Motion& m, double h, const Acceleration& a) const noexcept;
+  void extrapolate(Motion& m, double h, const Acceleration& a) const noexcept;
 
   // Applies RK4's weighted mean of four stages.
   void finish(Motion& now, double h, const Motion* const (&stage)[4],
@@ -160,24 +160,24 @@ class BodyMechanism : public PlanarMechanism<M> {
 
   // Fills in the body's part of the true values at a motion. The muscles' torques must be set
   // already; `load` is that of the last node.
-  void tell(const Motion& m, const Acceleration& a, const Forces& held, const Load& load,
-            Truth& out) const noexcept;
+  void write_truth(const Motion& m, const Acceleration& a, const Forces& held, const Load& load,
+                   Truth& out) const noexcept;
 
  private:
   void choose_steps(double body_step);
   void load(const Pose& body, const Motion& m, const Arms& arms, const air::Lanes<M>& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
-  void tell_rollers(const Body<N>& body, const Motion& m, const Acceleration& a, const Forces& held,
-                    const Load& load, Truth& out) const noexcept;
+  void write_roller_loads(const Body<N>& body, const Motion& m, const Acceleration& a,
+                          const Forces& held, const Load& load, Truth& out) const noexcept;
 
   double carried(const Body<N>& body, const Motion& m, const Acceleration& a, std::size_t first,
                  const Truth& truth) const noexcept;
 
   BodyConstants<N> constants_;
   robot::Robot robot_;
-  MuscleRouting cords_;
-  FrictionContacts<N, D> rubs_;
+  MuscleRouting routing_;
+  FrictionContacts<N, D> contacts_;
   Motion start_{};
   double node_step_ = 1e-3;                              // [s]
   double lift_per_force_ = 0;                            // [1/kg]
@@ -190,8 +190,8 @@ template <int N, int D, int M>
 BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
     : constants_(body_of<N>(setup.robot)),
       robot_(setup.robot),
-      cords_(setup.robot),
-      rubs_(constants_, setup.robot) {
+      routing_(setup.robot),
+      contacts_(constants_, setup.robot) {
   for (std::size_t j = 0; j < constants_.links(); ++j) {
     const robot::Joint& joint = robot_.joints[j];
     damping_[j] = joint.damping + joint.damper;
@@ -219,7 +219,7 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::choose_steps(double body_step) {
   const auto rates = [&](const Motion& m) {
-    return rubs_.fastest_rates(Body<N>(constants_, m), m, robot_);
+    return contacts_.fastest_rates(Body<N>(constants_, m), m, robot_);
   };
   // A light foot is quick if the ground pushes past its centre of mass. The poses cover the
   // range of angles: each link turns by an irrational number of turns from one to the next (5 + 7 j
@@ -246,7 +246,7 @@ void BodyMechanism<N, D, M>::choose_steps(double body_step) {
   };
   steps_in_air_ = steps(suited(0, 0));
   steps_on_ground_ = steps(suited(1, Contacts::stable_explicit / Contacts::stable_relaxed));
-  rubs_.relax_beyond(node_step_ * (1 + 1e-9));
+  contacts_.relax_beyond(node_step_ * (1 + 1e-9));
 }
 
 template <int N, int D, int M>
@@ -268,7 +268,7 @@ void BodyMechanism<N, D, M>::route(double, const Motion& m, air::Ends<M>& ends,
     angle[j] = joint_angle(m, j);
     rate[j] = joint_rate(m, j);
   }
-  cords_.at(angle.data(), rate.data(), ends.length, ends.rate, arms);
+  routing_.at(angle.data(), rate.data(), ends.length, ends.rate, arms);
   ends.travel = m.at[up];
   ends.travel_rate = m.rate[up];
 }
@@ -300,7 +300,7 @@ void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms&
     out.passive_torque[j] += stop_[j].torque(angle, rate);
     torque[j] = out.passive_torque[j];
   }
-  cords_.each(arms, [&](int i, std::size_t j, double arm) { torque[j] += arm * tension[i]; });
+  routing_.each(arms, [&](int i, std::size_t j, double arm) { torque[j] += arm * tension[i]; });
 
   out.force = {};
   for (std::size_t j = 0; j < constants_.links(); ++j) {
@@ -318,11 +318,11 @@ void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms&
     out.force[up] += piston_force - robot_.cylinder.damping * m.rate[up] + cylinder_stop(m);
 
   out.normal = {};
-  for (int i = 0; i < rubs_.discs(); ++i) {
+  for (int i = 0; i < contacts_.discs(); ++i) {
     const double depth = body.depth[static_cast<std::size_t>(i)];
     if (depth <= 0) continue;
     const DiscAt<N>& disc = body.contact[static_cast<std::size_t>(i)];
-    const double push = rubs_.push(depth, disc, m);
+    const double push = contacts_.push(depth, disc, m);
     out.normal[static_cast<std::size_t>(i)] = push;
     if (push <= 0) continue;
     for (std::size_t c = 0; c < constants_.coordinates(); ++c) out.force[c] += push * disc.rise[c];
@@ -333,8 +333,8 @@ template <int N, int D, int M>
 auto BodyMechanism<N, D, M>::accelerate(const Pose& body, const Motion& m, const Load& load,
                                         const Forces& held) const noexcept -> Acceleration {
   Coordinates<N> force = load.force;
-  const Coordinates<N> rub = rubs_.generalised(body, m, held);
-  for (std::size_t c = 0; c < constants_.coordinates(); ++c) force[c] += rub[c];
+  const Coordinates<N> friction = contacts_.generalised(body, m, held);
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) force[c] += friction[c];
   return body.accelerations(force);
 }
 
@@ -345,14 +345,14 @@ auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Ar
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
   for (std::size_t j = 0; j < constants_.links(); ++j) bound[j] = dry_[j];
-  cords_.each(arms, [&](int i, std::size_t j, double arm) {
+  routing_.each(arms, [&](int i, std::size_t j, double arm) {
     bound[j] += std::abs(arm) * friction_bound[i];
   });
   bound[FrictionContacts<N, D>::trolley] = trolley_bound;
   bound[FrictionContacts<N, D>::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)
-    bound[FrictionContacts<N, D>::first_disc + i] = rubs_.friction(i) * load.normal[i];
-  rubs_.prepare(body, m, free, bound, load.normal);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contacts_.discs()); ++i)
+    bound[FrictionContacts<N, D>::first_disc + i] = contacts_.friction(i) * load.normal[i];
+  contacts_.prepare(body, m, free, bound, load.normal);
   return free;
 }
 
@@ -366,7 +366,8 @@ void BodyMechanism<N, D, M>::move(Motion& out, const Motion& from, double h, con
 }
 
 template <int N, int D, int M>
-void BodyMechanism<N, D, M>::glide(Motion& m, double h, const Acceleration& a) const noexcept {
+void BodyMechanism<N, D, M>::extrapolate(Motion& m, double h,
+                                         const Acceleration& a) const noexcept {
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     m.at[c] += h * (m.rate[c] + 0.5 * h * a[c]);
     m.rate[c] += h * a[c];
@@ -387,14 +388,14 @@ template <int N, int D, int M>
 void BodyMechanism<N, D, M>::add_torque(const Arms& arms, int muscle, double tension,
                                         std::array<double, most_joints>& torque) const noexcept {
   for (std::size_t s = 0; s < MuscleRouting::most; ++s)
-    if (const int j = cords_.joint(muscle, static_cast<int>(s)); j >= 0)
+    if (const int j = routing_.joint(muscle, static_cast<int>(s)); j >= 0)
       torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
 }
 
 // A foot is at the end of its leg's last link; the ground's force on it is the sum over its discs.
 template <int N, int D, int M>
-void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const Forces& held,
-                                  const Load& load, Truth& out) const noexcept {
+void BodyMechanism<N, D, M>::write_truth(const Motion& m, const Acceleration& a, const Forces& held,
+                                         const Load& load, Truth& out) const noexcept {
   out.x = m.at[along_track];
   out.x_rate = m.rate[along_track];
   out.lift = m.at[up];
@@ -404,22 +405,22 @@ void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const 
     out.angle[j] = joint_angle(m, j);
     out.rate[j] = joint_rate(m, j);
   }
-  for (std::size_t f = 0; f < rubs_.feet(); ++f) {
-    const typename FrictionContacts<N, D>::Path& path = rubs_.leg(f);
+  for (std::size_t f = 0; f < contacts_.feet(); ++f) {
+    const typename FrictionContacts<N, D>::Path& path = contacts_.leg(f);
     for (std::size_t k = path.first; k < path.count; ++k) {
       out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
       out.foot[f].y += path.reach[k] * body.sin(path.link[k]);
     }
   }
-  for (int i = 0; i < rubs_.discs(); ++i) {
-    FootTruth& foot = out.foot[rubs_.foot_of(i)];
-    const double push = rubs_.push(rubs_.depth(body, m, i), rubs_.disc(body, m, i), m);
+  for (int i = 0; i < contacts_.discs(); ++i) {
+    FootTruth& foot = out.foot[contacts_.foot_of(i)];
+    const double push = contacts_.push(contacts_.depth(body, m, i), contacts_.disc(body, m, i), m);
     out.disc_force[static_cast<std::size_t>(i)] = push;
     foot.force_y += push;
     if (push > 0)
       foot.force_x += held[static_cast<std::size_t>(FrictionContacts<N, D>::first_disc + i)];
   }
-  if (robot_.rollers.present) tell_rollers(body, m, a, held, load, out);
+  if (robot_.rollers.present) write_roller_loads(body, m, a, held, load, out);
 }
 
 // Returns the body's upward force on the links carried by one of its first links [N].
@@ -433,22 +434,22 @@ double BodyMechanism<N, D, M>::carried(const Body<N>& body, const Motion& m, con
       force += constants_.first_moment[i] *
                (body.cos(i) * a[first_link + i] - body.sin(i) * rate * rate);
   }
-  for (std::size_t f = 0; f < rubs_.feet(); ++f)
-    if (rubs_.leg(f).link[0] == first) force -= truth.foot[f].force_y;
+  for (std::size_t f = 0; f < contacts_.feet(); ++f)
+    if (contacts_.leg(f).link[0] == first) force -= truth.foot[f].force_y;
   return force;
 }
 
 template <int N, int D, int M>
-void BodyMechanism<N, D, M>::tell_rollers(const Body<N>& body, const Motion& m,
-                                          const Acceleration& a, const Forces& held,
-                                          const Load& load, Truth& out) const noexcept {
+void BodyMechanism<N, D, M>::write_roller_loads(const Body<N>& body, const Motion& m,
+                                                const Acceleration& a, const Forces& held,
+                                                const Load& load, Truth& out) const noexcept {
   const double hung = constants_.lifted_mass;
   FootTruth ground;
   for (const FootTruth& foot : out.foot) {
     ground.force_x += foot.force_x;
     ground.force_y += foot.force_y;
   }
-  Hanging h{.acceleration = a[along_track], .lift = m.at[up]};
+  TrolleyReaction h{.acceleration = a[along_track], .lift = m.at[up]};
   h.force_x = hung * a[along_track] - ground.force_x;
   h.force_y = hung * (a[up] + constants_.gravity) - ground.force_y;
   for (std::size_t i = 0; i < constants_.links(); ++i) {

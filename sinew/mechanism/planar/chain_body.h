@@ -122,8 +122,8 @@ class Contacts {
       Forces unit{};
       unit[c] = 1.0;
       column_[c] = {};
-      if (const auto rubs = bound[c] > 0.0; units::any(rubs))
-        column_[c] = select(rubs, chain.response(generalised(chain, unit)), column_[c]);
+      if (const auto has_friction = bound[c] > 0.0; units::any(has_friction))
+        column_[c] = select(has_friction, chain.response(generalised(chain, unit)), column_[c]);
       const Forces response = slips(chain, column_[c]);
       for (int d = 0; d < count; ++d) problem_.response[d][c] = response[d];
     }
@@ -325,8 +325,8 @@ class ChainBody {
   }
 
   // Computes all forces except dry friction from the tensions of the air.
-  template <class Answer>
-  void load(const Pose& chain, const Motion& motion, const Arms&, const Answer& air,
+  template <class Evaluation>
+  void load(const Pose& chain, const Motion& motion, const Arms&, const Evaluation& air,
             Load& out) const noexcept {
     std::array<S, N + 1> torque{};
     for (int i = 0; i < routes_.count; ++i)
@@ -354,9 +354,9 @@ class ChainBody {
   Acceleration accelerate(const Pose& chain, const Motion&, const Load& load,
                           const Forces& held) const noexcept {
     GeneralizedVector<N, S> force = load.force;
-    const GeneralizedVector<N, S> rub = contacts_.generalised(chain, held);
-    force.x += rub.x;
-    for (int i = 0; i < N; ++i) force.angle[i] += rub.angle[i];
+    const GeneralizedVector<N, S> friction = contacts_.generalised(chain, held);
+    force.x += friction.x;
+    for (int i = 0; i < N; ++i) force.angle[i] += friction.angle[i];
     return chain.accelerations(force);
   }
 
@@ -402,7 +402,7 @@ class ChainBody {
   }
 
   // Moves by h under a constant acceleration.
-  void glide(Motion& m, const S& h, const Acceleration& a) const noexcept {
+  void extrapolate(Motion& m, const S& h, const Acceleration& a) const noexcept {
     move(m, Motion(m), h, Motion(m), a);
     m.x += 0.5 * h * h * a.x;
     for (int i = 0; i < N; ++i) m.angle[i] += 0.5 * h * h * a.angle[i];
@@ -562,8 +562,8 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
 
   // Fills in the body's part of the true values at a motion. The muscles' torques must be set
   // already.
-  void tell(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
-            Truth& out) const noexcept {
+  void write_truth(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
+                   Truth& out) const noexcept {
     out.x = pose.x;
     out.x_rate = pose.x_rate;
     for (std::size_t j = 0; j < N; ++j) {
@@ -577,16 +577,16 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     out.foot[0].y = at.ankle_y;
     out.foot[0].force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
     out.foot[0].force_y = out.disc_force[0] = at.normal;
-    if (robot_.rollers.present) tell_rollers(chain, pose, a, held, out);
+    if (robot_.rollers.present) write_roller_loads(chain, pose, a, held, out);
   }
 
  private:
   // The trolley's force on the masses below it is the rate of their momentum, less the ground's
   // force.
-  void tell_rollers(const Chain<N>& chain, const Motion& pose, const Acceleration& a,
-                    const Forces& held, Truth& out) const noexcept {
+  void write_roller_loads(const Chain<N>& chain, const Motion& pose, const Acceleration& a,
+                          const Forces& held, Truth& out) const noexcept {
     const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;
-    Hanging h{.acceleration = a.x};
+    TrolleyReaction h{.acceleration = a.x};
     h.force_x = hung * a.x - out.foot[0].force_x;
     h.force_y = hung * model_.chain.gravity - out.foot[0].force_y;
     for (int i = 0; i < N; ++i)

@@ -112,7 +112,7 @@ struct Pulls {
 
 // All functions of a body that a step calls.
 template <int N, class S>
-struct Asked {
+struct NodeResult {
   std::array<S, chain_muscles> length, rate;
   typename ChainBody<N, S>::Load load;
   typename ChainBody<N, S>::Acceleration free, under, staged;
@@ -122,9 +122,10 @@ struct Asked {
 };
 
 template <int N, class S>
-Asked<N, S> step(ChainBody<N, S>& body, const GeneralizedState<N, S>& now, const Pulls<S>& pulls,
-                 const std::array<S, N + 2>& last, const S& last_bound, const S& h) {
-  Asked<N, S> out{.now = now};
+NodeResult<N, S> step(ChainBody<N, S>& body, const GeneralizedState<N, S>& now,
+                      const Pulls<S>& pulls, const std::array<S, N + 2>& last, const S& last_bound,
+                      const S& h) {
+  NodeResult<N, S> out{.now = now};
   typename ChainBody<N, S>::Arms arms;
   typename ChainBody<N, S>::Ends ends{};
   body.route(0, now, ends, arms);
@@ -134,9 +135,9 @@ Asked<N, S> step(ChainBody<N, S>& body, const GeneralizedState<N, S>& now, const
   const auto chain = body.pose(0, now);
   body.load(chain, now, arms, pulls, out.load);
   out.trolley_bound = body.trolley_bound(last, last_bound);
-  air::Lanes<chain_muscles, S> rubs{};
-  for (int i = 0; i < chain_muscles; ++i) rubs[i] = pulls.friction_bound[i];
-  out.free = body.prepare(chain, now, arms, rubs, out.trolley_bound, out.load);
+  air::Lanes<chain_muscles, S> friction_bound{};
+  for (int i = 0; i < chain_muscles; ++i) friction_bound[i] = pulls.friction_bound[i];
+  out.free = body.prepare(chain, now, arms, friction_bound, out.trolley_bound, out.load);
   out.held = body.hold(h, last);
   out.under = body.accelerate(out.free, out.held);
 
@@ -146,7 +147,7 @@ Asked<N, S> step(ChainBody<N, S>& body, const GeneralizedState<N, S>& now, const
   body.load(later, out.stage, arms, pulls, load);
   out.staged = body.accelerate(later, out.stage, load, out.held);
   out.glided = now;
-  body.glide(out.glided, h, out.under);
+  body.extrapolate(out.glided, h, out.under);
   const typename ChainBody<N, S>::Acceleration a[4] = {out.under, out.staged, out.staged,
                                                        out.staged};
   body.finish(out.now, h, {&now, &out.stage, &out.stage, &out.glided}, a);

@@ -484,20 +484,21 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
     slip_rate_[k] = along(c, row, acceleration) + bias;
     column_[k] = pose.template response_up_to<last_forced>(rows[k]);
   };
-  const auto rubs = [&](int c) { return bound[static_cast<std::size_t>(c)] > 0; };
+  const auto has_friction = [&](int c) { return bound[static_cast<std::size_t>(c)] > 0; };
   using All = std::integral_constant<std::size_t, N + 1>;
   if constexpr (BodyConstants<N>::exact) {
     unroll<N>([&](auto joint) {
       constexpr int c = joint;
-      if (rubs(c)) activate(std::integral_constant<std::size_t, first_link + c>{}, c, row(c), 0);
+      if (has_friction(c))
+        activate(std::integral_constant<std::size_t, first_link + c>{}, c, row(c), 0);
     });
   } else {
     for (int c = 0; c < static_cast<int>(k_.links()); ++c)
-      if (rubs(c)) activate(All{}, c, row(c), 0);
+      if (has_friction(c)) activate(All{}, c, row(c), 0);
   }
-  if (rubs(trolley))
+  if (has_friction(trolley))
     activate(std::integral_constant<std::size_t, along_track>{}, trolley, row(trolley), 0);
-  if (rubs(lift)) activate(std::integral_constant<std::size_t, up>{}, lift, row(lift), 0);
+  if (has_friction(lift)) activate(std::integral_constant<std::size_t, up>{}, lift, row(lift), 0);
   std::array<DiscAt<N>, D> discs;  // discs that touch
   for (int i = 0; i < disc_count_; ++i) {
     const double force = normal[static_cast<std::size_t>(i)];
@@ -506,7 +507,7 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
     at = pose.contact[static_cast<std::size_t>(i)];
     touching_[touching_count_] = i;
     normal_[touching_count_++] = force;
-    if (rubs(first_disc + i)) activate(All{}, first_disc + i, at.slip, at.slip_bias);
+    if (has_friction(first_disc + i)) activate(All{}, first_disc + i, at.slip, at.slip_bias);
   }
   const auto n = static_cast<std::size_t>(active_count_);
   for (std::size_t d = 0; d < n; ++d)

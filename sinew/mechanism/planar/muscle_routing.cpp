@@ -36,40 +36,40 @@ double CamLaw::area(double angle) const noexcept {
 }
 
 MuscleRouting::MuscleRouting(const robot::Robot& robot) {
-  const auto attach = [&](Route& cord, int k, const std::string& name, robot::Muscle::Role role,
+  const auto attach = [&](Route& route, int k, const std::string& name, robot::Muscle::Role role,
                           const robot::Cam& cam) {
     if (name.empty()) return;
     const auto at = static_cast<std::size_t>(k);
-    cord.joint[at] = robot::find_joint(robot, name);
-    const robot::Joint& joint = robot.joints[static_cast<std::size_t>(cord.joint[at])];
+    route.joint[at] = robot::find_joint(robot, name);
+    const robot::Joint& joint = robot.joints[static_cast<std::size_t>(route.joint[at])];
     const bool flexes = role == robot::Muscle::Role::flexor;
-    cord.sign[at] = flexes ? joint.sign() : -joint.sign();
-    cord.cam[at] = CamLaw(cam, joint);
+    route.sign[at] = flexes ? joint.sign() : -joint.sign();
+    route.cam[at] = CamLaw(cam, joint);
   };
   for (const robot::Muscle& m : robot.muscles) {
-    Route cord{.mount = m.mount_length};
-    attach(cord, 0, m.joint, m.role, m.cam);
-    attach(cord, 1, m.second.joint, m.second.role, m.second.cam);
-    cords_.push_back(cord);
+    Route route{.mount = m.mount_length};
+    attach(route, 0, m.joint, m.role, m.cam);
+    attach(route, 1, m.second.joint, m.second.role, m.second.cam);
+    routes_.push_back(route);
   }
-  const auto is_round = [](const Route& cord) {
-    return cord.joint[0] >= 0 && cord.joint[1] < 0 && cord.cam[0].round();
+  const auto is_round = [](const Route& route) {
+    return route.joint[0] >= 0 && route.joint[1] < 0 && route.cam[0].round();
   };
-  if (std::all_of(cords_.begin(), cords_.end(), is_round)) lay_round_ones_side_by_side();
+  if (std::all_of(routes_.begin(), routes_.end(), is_round)) group_round_cams();
 }
 
 // Groups round cams into lanes. Lanes beyond the last muscle repeat it.
-void MuscleRouting::lay_round_ones_side_by_side() {
+void MuscleRouting::group_round_cams() {
   constexpr std::size_t lanes = air::lanes;
-  for (std::size_t first = 0; first < cords_.size(); first += lanes) {
+  for (std::size_t first = 0; first < routes_.size(); first += lanes) {
     RoundRoutes& routes = round_.emplace_back();
     for (std::size_t k = 0; k < lanes; ++k) {
-      const Route& cord = cords_[std::min(first + k, cords_.size() - 1)];
-      const double rest = cord.cam[0].rest();
-      routes.mount[k] = cord.mount;
-      routes.arm[k] = cord.sign[0] * cord.cam[0].radius(rest);
+      const Route& route = routes_[std::min(first + k, routes_.size() - 1)];
+      const double rest = route.cam[0].rest();
+      routes.mount[k] = route.mount;
+      routes.arm[k] = route.sign[0] * route.cam[0].radius(rest);
       routes.rest[k] = rest;
-      routes.joint[k] = static_cast<std::size_t>(cord.joint[0]);
+      routes.joint[k] = static_cast<std::size_t>(route.joint[0]);
     }
   }
 }

@@ -59,20 +59,20 @@ class MuscleRouting {
   explicit MuscleRouting(const robot::Robot& robot);
 
   // Returns the number of muscles.
-  int count() const { return static_cast<int>(cords_.size()); }
+  int count() const { return static_cast<int>(routes_.size()); }
 
   // Returns the k-th joint of muscle i; -1: no second joint.
-  int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
+  int joint(int i, int k) const { return routes_[static_cast<std::size_t>(i)].joint[k]; }
 
   // Visits every muscle i at each joint j that it crosses, with its moment arm there.
   template <class Arms, class Visit>
-  void each(const Arms& pull, const Visit& visit) const noexcept;
+  void each(const Arms& arms, const Visit& visit) const noexcept;
 
   // Computes lengths, rates and moment arms from the joints' angles [rad] and rates [rad/s]. Lanes
   // beyond the last muscle repeat it.
   template <int M>
   void at(const double* angle, const double* rate, air::Lanes<M>& length,
-          air::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& pull) const noexcept;
+          air::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& arms) const noexcept;
 
  private:
   struct Route {
@@ -86,27 +86,27 @@ class MuscleRouting {
     air::Four mount, arm, rest;
     std::array<std::size_t, air::lanes> joint;
   };
-  void lay_round_ones_side_by_side();
+  void group_round_cams();
 
-  std::vector<Route> cords_;
+  std::vector<Route> routes_;
   std::vector<RoundRoutes> round_;  // all muscles, if all cross one round cam; else empty
 };
 
 template <class Arms, class Visit>
-void MuscleRouting::each(const Arms& pull, const Visit& visit) const noexcept {
-  for (std::size_t i = 0; i < cords_.size() && !round_.empty(); ++i)
-    visit(static_cast<int>(i), round_[i / air::lanes].joint[i % air::lanes], pull[i][0]);
+void MuscleRouting::each(const Arms& arms, const Visit& visit) const noexcept {
+  for (std::size_t i = 0; i < routes_.size() && !round_.empty(); ++i)
+    visit(static_cast<int>(i), round_[i / air::lanes].joint[i % air::lanes], arms[i][0]);
   if (!round_.empty()) return;
-  for (std::size_t i = 0; i < cords_.size(); ++i)
+  for (std::size_t i = 0; i < routes_.size(); ++i)
     for (std::size_t k = 0; k < most; ++k)
-      if (const int j = cords_[i].joint[k]; j >= 0)
-        visit(static_cast<int>(i), static_cast<std::size_t>(j), pull[i][k]);
+      if (const int j = routes_[i].joint[k]; j >= 0)
+        visit(static_cast<int>(i), static_cast<std::size_t>(j), arms[i][k]);
 }
 
 template <int M>
 void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& length,
                        air::Lanes<M>& length_rate,
-                       std::type_identity_t<MomentArms<M>>& pull) const noexcept {
+                       std::type_identity_t<MomentArms<M>>& arms) const noexcept {
   // In whole lanes from the start: a wide load after narrow stores would stall.
   for (std::size_t k = 0; k < round_.size(); ++k) {
     const RoundRoutes& r = round_[k];
@@ -118,20 +118,20 @@ void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& l
     length_rate.four(first) = -(r.arm * turn);
   }
   if (!round_.empty()) {
-    for (std::size_t i = 0; i < cords_.size(); ++i)
-      pull[i] = {round_[i / air::lanes].arm[i % air::lanes], 0.0};
+    for (std::size_t i = 0; i < routes_.size(); ++i)
+      arms[i] = {round_[i / air::lanes].arm[i % air::lanes], 0.0};
     return;
   }
   for (int i = 0; i < count(); ++i) {
-    const Route& cord = cords_[static_cast<std::size_t>(i)];
-    double l = cord.mount, v = 0;
+    const Route& route = routes_[static_cast<std::size_t>(i)];
+    double l = route.mount, v = 0;
     for (std::size_t k = 0; k < most; ++k) {
-      double& p = pull[static_cast<std::size_t>(i)][k];
+      double& p = arms[static_cast<std::size_t>(i)][k];
       p = 0;
-      const int j = cord.joint[k];
+      const int j = route.joint[k];
       if (j < 0) continue;
-      p = cord.sign[k] * cord.cam[k].radius(angle[j]);
-      l -= cord.sign[k] * cord.cam[k].travel(angle[j]);
+      p = route.sign[k] * route.cam[k].radius(angle[j]);
+      l -= route.sign[k] * route.cam[k].travel(angle[j]);
       v -= p * rate[j];
     }
     length[i] = l;
@@ -157,7 +157,7 @@ void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& l
 // would tip. The simulation nevertheless moves it along the track.
 
 // Motion of the trolley, and the reaction of everything that hangs from it.
-struct Hanging {
+struct TrolleyReaction {
   double acceleration = 0;          // trolley's acceleration [m/s^2]
   double force_x = 0, force_y = 0;  // R [N]
   double torque = 0;                // T [N m]
@@ -176,16 +176,16 @@ struct RollerLoads {
 };
 
 // Returns the loads of both rollers.
-inline RollerLoads roller_loads(const robot::Robot& robot, const Hanging& hanging) {
+inline RollerLoads roller_loads(const robot::Robot& robot, const TrolleyReaction& reaction) {
   const robot::Rollers& r = robot.rollers;
   const double own = robot::trolley_own_mass(robot) + robot.trolley.payload;
   const double g = robot.gravity, carriage = own - r.counterweight;
-  const double track = own * hanging.acceleration + hanging.force_x;
+  const double track = own * reaction.acceleration + reaction.force_x;
 
-  const double sum = own * g + hanging.force_y;
+  const double sum = own * g + reaction.force_y;
   const double moment = g * (carriage * r.center_of_mass + r.counterweight * r.counterweight_at) -
-                        own * r.center_of_mass_up * hanging.acceleration + r.height * track -
-                        hanging.lift * hanging.force_x + hanging.torque;
+                        own * r.center_of_mass_up * reaction.acceleration + r.height * track -
+                        reaction.lift * reaction.force_x + reaction.torque;
   const double front = (moment - r.rear * sum) / (r.front - r.rear);
   return {front, sum - front};
 }

@@ -44,11 +44,11 @@ class PlanarSenses {
     const auto& mechanism = world.mechanism();
     const auto j = static_cast<std::size_t>(of < 0 ? 0 : of);
     if (kind == Kind::angle)
-      return mechanism.joint_angle(world.peek_motion(t), j) - robot_.joints[j].rest_angle;
-    if (kind == Kind::velocity) return mechanism.joint_rate(world.peek_motion(t), j);
-    if (kind == Kind::cylinder) return mechanism.lift(world.peek_motion(t));
-    const auto p = world.peek_muscle(t, of);
-    const double gauged = p.look.air.pressure[of] - atmosphere_;
+      return mechanism.joint_angle(world.preview_motion(t), j) - robot_.joints[j].rest_angle;
+    if (kind == Kind::velocity) return mechanism.joint_rate(world.preview_motion(t), j);
+    if (kind == Kind::cylinder) return mechanism.lift(world.preview_motion(t));
+    const auto p = world.preview_muscle(t, of);
+    const double gauged = p.evaluation.air.pressure[of] - atmosphere_;
     if (kind == Kind::pressure || !std::isfinite(gauged)) return gauged;  // also if not finite
     return gauge(world, p, of);
   }
@@ -66,50 +66,50 @@ class PlanarSenses {
   Truth truth(World& world, double t) const noexcept {
     const auto& mechanism = world.mechanism();
     const auto& air = world.air();
-    const auto p = world.peek(t);
+    const auto p = world.preview(t);
 
     Truth out;
     for (int i = 0; i < mechanism.muscles(); ++i) {
       const auto k = static_cast<std::size_t>(i);
       const auto account = air.account(p.state.air, i);
       out.tension[k] = gauge(world, p, i);
-      out.pressure[k] = p.look.air.pressure[i];
-      out.length[k] = p.look.ends.length[i];
+      out.pressure[k] = p.evaluation.air.pressure[i];
+      out.length[k] = p.evaluation.ends.length[i];
       out.mass[k] = account.mass;
       out.air_in[k] = account.in;
       out.air_out[k] = account.out;
       out.air_leaked[k] = account.leak;
-      mechanism.add_torque(p.look.arms, i, out.tension[k], out.torque);
+      mechanism.add_torque(p.evaluation.arms, i, out.tension[k], out.torque);
     }
-    const auto supply = air.supply_state(p.state.air, p.look.air);
+    const auto supply = air.supply_state(p.state.air, p.evaluation.air);
     out.supply_pressure = supply.line;
     out.tank_pressure = supply.tank;
     out.air_past_tank = supply.past_tank;
-    out.air_mass = air.total_mass(p.state.air, p.look.ends.travel);
+    out.air_mass = air.total_mass(p.state.air, p.evaluation.ends.travel);
     for (int c = 0; c < 2; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const auto account = air.cylinder_account(p.state.air, c);
-      out.cylinder_pressure[k] = air.cylinder_pressure(p.look.air, c);
+      out.cylinder_pressure[k] = air.cylinder_pressure(p.evaluation.air, c);
       out.cylinder_in[k] = account.in;
       out.cylinder_out[k] = account.out;
     }
-    const auto& g = world.glanced();
-    mechanism.tell(p.state.motion, g.acceleration, g.held, world.state().first.load, out);
+    const auto& g = world.step_preview();
+    mechanism.write_truth(p.state.motion, g.acceleration, g.held, world.state().first.load, out);
     return out;
   }
 
  private:
   // Returns the force on a gauge in the tendon [N]: the muscle's tension and its share of the
   // mesh's friction at its joint.
-  template <class World, class Peek>
-  double gauge(const World& world, const Peek& p, int muscle) const noexcept {
+  template <class World, class Preview>
+  double gauge(const World& world, const Preview& p, int muscle) const noexcept {
     const auto& mechanism = world.mechanism();
     const auto j = static_cast<std::size_t>(mechanism.joint(muscle));
-    double f = p.look.air.tension[muscle];
+    double f = p.evaluation.air.tension[muscle];
     const double friction_bound = world.friction_bound(muscle),
                  bound = world.bound(static_cast<int>(j));
     if (friction_bound > 0 && bound > 0) {
-      const double share = world.glanced().held[j] * friction_bound / bound;
+      const double share = world.step_preview().held[j] * friction_bound / bound;
       f += mechanism.arm(world.arms(), muscle) > 0 ? share : -share;
     }
     return f < 0 ? 0.0 : f;  // a NaN stays a NaN

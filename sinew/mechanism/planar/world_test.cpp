@@ -125,7 +125,7 @@ TEST(World, SealedAirStaysOnItsPolytrope) {
 }
 
 // design.md: a preview is within 0.01 count of angle and 0.2 count of tension of a node there.
-TEST(World, PeeksAgreeWithNodes) {
+TEST(World, PreviewsAgreeWithNodes) {
   constexpr double counts_per_rad = 714, counts_per_newton = 0.17 * 819.2 / 4.4482216152605;
   plant::Setup setup = leg_with_muscles(4.87, 5.46);
   setup.start.pressure = 2.5e5;
@@ -159,7 +159,7 @@ TEST(World, PeeksLeaveNoTrace) {
       watched.drive(e);
       alone.drive(e);
     }
-    for (unsigned looks = random() % 3; looks > 0; --looks) watched.truth(t * 1e-4);
+    for (unsigned reads = random() % 3; reads > 0; --reads) watched.truth(t * 1e-4);
   }
   watched.advance(0.5);
   alone.advance(0.5);

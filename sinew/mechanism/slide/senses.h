@@ -56,12 +56,12 @@ class StandSenses {
   StandTruth truth(World& world, double t) const noexcept {
     const auto& mechanism = world.mechanism();
     const auto& air = world.air();
-    const auto p = world.peek(t);
-    const auto& load = p.look.load;
-    const auto& g = world.glanced();
+    const auto p = world.preview(t);
+    const auto& load = p.evaluation.load;
+    const auto& g = world.step_preview();
     const double dry = mechanism.dry(load, g.held);
     const auto account = air.element(p.state.air);
-    const auto supply = air.supply_state(p.state.air, p.look.air);
+    const auto supply = air.supply_state(p.state.air, p.evaluation.air);
     return {.length = p.state.motion.length,
             .velocity = p.state.motion.velocity,
             .acceleration = g.acceleration,
@@ -69,9 +69,9 @@ class StandSenses {
             .friction = dry,
             .sticks = mechanism.rests(g.held),
             .load = mechanism.driven() ? 0.0 : load.mass,
-            .pressure = air.pressure(p.look.air),
+            .pressure = air.pressure(p.evaluation.air),
             .air = account.mass,
-            .all_air = air.total_mass(p.state.air, p.look.ends.travel),
+            .all_air = air.total_mass(p.state.air, p.evaluation.ends.travel),
             .air_in = account.in,
             .air_out = account.out,
             .air_leaked = account.leak,

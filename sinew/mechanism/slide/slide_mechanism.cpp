@@ -96,7 +96,7 @@ double hanging_length(const StandSetup& setup) {
     ends.length.of.fill(length);
     const Air::State air = network.initial(s.start.pressure, ends.length, 0);
     const Air::Memory memory = network.memory_at_rest(s.start.pressure, ends.length);
-    Air::Answer pull;
+    Air::Evaluation pull;
     network.evaluate(0, ends, air, valves, memory, pull);
     return pull.clamped[0] - weight;
   };
@@ -151,7 +151,7 @@ SlideMechanism::SlideMechanism(const Setup& setup)
   ends_ = {-infinite, infinite};
   if (!cylinder_) {
     const int count = setup_.muscle.count;
-    rubs_ = a.loss.stick && a.loss.coulomb_length > 0;
+    has_dry_friction_ = a.loss.stick && a.loss.coulomb_length > 0;
     ends_ = {actuator::shortest_length(a), a.long_end.length};
     end_stiffness_ = count * std::fmax(a.long_end.stiffness, a.short_end.stiffness);
     end_damping_ = count * std::fmax(a.long_end.damping, a.short_end.damping);

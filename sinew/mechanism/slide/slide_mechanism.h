@@ -52,17 +52,17 @@ class SlideMechanism {
   using Acceleration = double;  // [m/s^2]
 
   // Direction in which dry friction lets the load move; for a driven one, that of its last motion.
-  enum class Way : signed char { rests = 0, down = 1, up = -1 };
-  using Forces = Way;
+  enum class SlipDirection : signed char { rests = 0, down = 1, up = -1 };
+  using Forces = SlipDirection;
 
   struct Pose {
     double mass = 0, pull = 0;  // M [kg]; M g + F_ext [N]
   };
   struct Load {
-    double force = 0;  // force of the element without dry friction [N]
-    double bound = 0;  // bound of the dry friction [N]
-    double asks = 0;   // M g + F_ext - force [N]
-    double mass = 0;   // M [kg]
+    double force = 0;       // force of the element without dry friction [N]
+    double bound = 0;       // bound of the dry friction [N]
+    double unbalanced = 0;  // M g + F_ext - force [N]
+    double mass = 0;        // M [kg]
   };
 
   // Throws std::invalid_argument for an invalid setup.
@@ -119,34 +119,39 @@ class SlideMechanism {
   }
 
   // Computes the remaining force, and the bound of the dry friction.
-  template <class Answer>
-  void load(const Pose& at, const Motion&, const Arms&, const Answer& air,
+  template <class Evaluation>
+  void load(const Pose& at, const Motion&, const Arms&, const Evaluation& air,
             Load& out) const noexcept {
     out.force = cylinder_ ? air.cylinder_force : air.clamped[0];
     out.bound = cylinder_ ? 0.0 : air.friction_bound[0];
-    out.asks = at.pull - out.force;
+    out.unbalanced = at.pull - out.force;
     out.mass = at.mass;
   }
 
   // Returns the state of the friction: at its bound in motion; at rest it holds, or lets the load
   // move.
-  Way hold(const Motion& m, const Load& load, Way last) const noexcept {
-    if (driven_) return m.velocity > 0 ? Way::down : m.velocity < 0 ? Way::up : last;
-    if (!rubs_ || last != Way::rests) return last;
-    if (m.velocity != 0) return m.velocity > 0 ? Way::down : Way::up;  // started in motion
-    if (!(std::fabs(load.asks) > load.bound)) return Way::rests;
-    return load.asks > 0 ? Way::down : Way::up;
+  SlipDirection hold(const Motion& m, const Load& load, SlipDirection last) const noexcept {
+    if (driven_)
+      return m.velocity > 0 ? SlipDirection::down : m.velocity < 0 ? SlipDirection::up : last;
+    if (!has_dry_friction_ || last != SlipDirection::rests) return last;
+    if (m.velocity != 0)
+      return m.velocity > 0 ? SlipDirection::down : SlipDirection::up;  // started in motion
+    if (!(std::fabs(load.unbalanced) > load.bound)) return SlipDirection::rests;
+    return load.unbalanced > 0 ? SlipDirection::down : SlipDirection::up;
   }
-  bool rests(Way held) const noexcept { return rubs_ && !driven_ && held == Way::rests; }
-  double dry(const Load& load, Way held) const noexcept {  // friction on the load [N]
-    return rests(held) ? std::clamp(load.asks, -load.bound, load.bound)
+  bool rests(SlipDirection held) const noexcept {
+    return has_dry_friction_ && !driven_ && held == SlipDirection::rests;
+  }
+  double dry(const Load& load, SlipDirection held) const noexcept {  // friction on the load [N]
+    return rests(held) ? std::clamp(load.unbalanced, -load.bound, load.bound)
                        : static_cast<double>(held) * load.bound;
   }
 
   // Returns the acceleration under the load and the friction [m/s^2].
-  Acceleration accelerate(const Pose&, const Motion&, const Load& load, Way held) const noexcept {
+  Acceleration accelerate(const Pose&, const Motion&, const Load& load,
+                          SlipDirection held) const noexcept {
     if (driven_ || rests(held)) return 0;
-    return (load.asks - static_cast<double>(held) * load.bound) / load.mass;
+    return (load.unbalanced - static_cast<double>(held) * load.bound) / load.mass;
   }
 
   // Returns whether the length is prescribed.
@@ -154,34 +159,36 @@ class SlideMechanism {
 
   // Returns whether gap() has to be checked because of friction: at rest the load may break it
   // loose.
-  bool watches(Way held) const noexcept { return rests(held); }
+  bool needs_gap(SlipDirection held) const noexcept { return rests(held); }
 
   // Returns the distance of `after` beyond the limit of a smooth piece that starts at `before`:
   // above 0 if an end was passed [m], if the velocity reversed against the friction [m/s], or if
   // the load exceeds the friction [N].
-  double gap(const Motion& before, const Motion& after, Way held, const Load& load) const noexcept {
+  double gap(const Motion& before, const Motion& after, SlipDirection held,
+             const Load& load) const noexcept {
     if (driven_) return -infinite;
     const int side = side_of(before.length);
     const double beyond = side == 0   ? after.length - ends_[0]
                           : side == 2 ? ends_[1] - after.length
                                       : std::max(after.length - ends_[1], ends_[0] - after.length);
-    if (!rubs_) return beyond;
-    const double broken = held == Way::rests ? std::fabs(load.asks) - load.bound
-                                             : -after.velocity * static_cast<double>(held);
+    if (!has_dry_friction_) return beyond;
+    const double broken = held == SlipDirection::rests
+                              ? std::fabs(load.unbalanced) - load.bound
+                              : -after.velocity * static_cast<double>(held);
     return std::max(beyond, broken);
   }
   double cut_within() const noexcept { return cut_within_; }
 
   // Brings the load to rest if it has reversed against its friction.
-  void stop(Motion& m, Way& held) const noexcept {
-    if (driven_ || !rubs_ || !(m.velocity * static_cast<double>(held) < 0)) return;
+  void stop(Motion& m, SlipDirection& held) const noexcept {
+    if (driven_ || !has_dry_friction_ || !(m.velocity * static_cast<double>(held) < 0)) return;
     m.velocity = 0;
-    held = Way::rests;
+    held = SlipDirection::rests;
   }
 
   // Returns the longest step for the oscillation of load and air [s].
-  template <class Answer>
-  double longest_piece(const Motion& m, const Load& load, const Answer& air) const noexcept {
+  template <class Evaluation>
+  double longest_piece(const Motion& m, const Load& load, const Evaluation& air) const noexcept {
     if (driven_) return infinite;
     const double pressure = cylinder_ ? air.cylinder_pressure[air::up] : air.pressure[0];
     return longest_swing_ / swinging_rate(m.length, pressure, load.mass);
@@ -234,7 +241,7 @@ class SlideMechanism {
 
   StandSetup setup_;
   bool driven_ = false, regulated_ = false, cylinder_ = false;
-  bool rubs_ = false;                                  // dry friction with a real stick
+  bool has_dry_friction_ = false;                      // dry friction with a real stick
   std::array<double, 2> ends_{};                       // L_min, L_max; infinite for a cylinder [m]
   double short_of_shortest_ = 0, beyond_longest_ = 0;  // the next numbers beyond them [m]
   double end_stiffness_ = 0, end_damping_ = 0;         // stiffer end [N/m], [N s/m]

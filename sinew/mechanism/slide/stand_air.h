@@ -39,7 +39,7 @@ class StandAir : public ElementAir {
         by_valves_(s.charge.mode == Charge::Mode::valves),
         exponent_(exponent_of(s.air)),
         longest_settling_(longest_settling(s.accuracy)) {
-    take_long_steps();
+    use_power_table();
     for (int valve = 0; valve < valves(); ++valve) {
       const gas::Valve& of = this->valve(valve);
       jumps_[static_cast<std::size_t>(valve)] =
@@ -55,7 +55,7 @@ class StandAir : public ElementAir {
   void place(const StandEnds& ends, State& s) const noexcept {
     if (!(ends.pressure > 0)) return;
     const double before = element(s).mass;
-    hold(ends.pressure, ends.length, ends.travel, s);
+    impose_pressure(ends.pressure, ends.length, ends.travel, s);
     const double gained = element(s).mass - before;
     double& passed = cylinder_    ? (gained > 0 ? s.piston_in : s.piston_out)[air::up]
                      : gained > 0 ? s.in[0]
@@ -69,28 +69,28 @@ class StandAir : public ElementAir {
     for (int v = 0; v < valves(); ++v)
       if (jumps(v)) set_flow(v, whole_[static_cast<std::size_t>(v)]);
   }
-  void choose_sides(const Answer& look, const Valves& valves) noexcept {
+  void choose_sides(const Evaluation& evaluation, const Valves& valves) noexcept {
     for (int v = 0; v < this->valves(); ++v) {
       if (!jumps(v)) continue;
       const auto index = static_cast<std::size_t>(v);
-      choked_[index] = !(past_choke(v, look, valves) > 0);
+      choked_[index] = !(past_choke(v, evaluation, valves) > 0);
       set_flow(v, gas::on_one_side(whole_[index], choked_[index]));
     }
   }
 
   // Returns whether a flow that jumps is open.
-  bool watches(const Valves& valves) const noexcept {
-    return watches(0, valves) || watches(1, valves);
+  bool needs_gap(const Valves& valves) const noexcept {
+    return needs_gap(0, valves) || needs_gap(1, valves);
   }
 
   // Returns how far the pressures of an open valve are past the limit of the side that was chosen,
   // as a share of the upstream pressure: above 0 where its flow has jumped, -infinity without such
   // a valve [-].
-  double gap(const Answer& look, const Valves& valves) const noexcept {
+  double gap(const Evaluation& evaluation, const Valves& valves) const noexcept {
     double most = -std::numeric_limits<double>::infinity();
     for (int v = 0; v < this->valves(); ++v) {
-      if (!watches(v, valves)) continue;
-      const double past = past_choke(v, look, valves);
+      if (!needs_gap(v, valves)) continue;
+      const double past = past_choke(v, evaluation, valves);
       most = std::fmax(most, choked_[static_cast<std::size_t>(v)] ? past : -past);
     }
     return most;
@@ -98,28 +98,28 @@ class StandAir : public ElementAir {
 
   // Evaluates the network, or the prescribed pressure.
   void evaluate(double t, const StandEnds& ends, const State& state, const Valves& valves,
-                const Memory& memory, Answer& out, std::uint64_t = 0) const noexcept {
+                const Memory& memory, Evaluation& out, std::uint64_t = 0) const noexcept {
     if (!(ends.pressure > 0)) {
       ElementAir::evaluate(t, ends, state, valves, memory, out);
       return;
     }
     State held = state;
-    hold(ends.pressure, ends.length, ends.travel, held);
+    impose_pressure(ends.pressure, ends.length, ends.travel, held);
     ElementAir::evaluate(t, ends, held, valves, memory, out);
-    hold_still(out);
+    clear_imposed_rates(out);
   }
 
   // Returns the longest step for the air [s].
-  double longest_piece(const StandEnds& ends, const Answer& look, const State& s,
+  double longest_piece(const StandEnds& ends, const Evaluation& evaluation, const State& s,
                        const Valves& valves) const noexcept {
     if (!flowing(valves)) return std::numeric_limits<double>::infinity();
     return std::fmin(longest_step(ends, valves),
-                     longest_settling_ / settling_rate(look, s, valves));
+                     longest_settling_ / settling_rate(evaluation, s, valves));
   }
 
   // Return the element's absolute pressure [Pa], and its air.
-  double pressure(const Answer& look) const noexcept {
-    return cylinder_ ? look.cylinder_pressure[air::up] : look.pressure[0];
+  double pressure(const Evaluation& evaluation) const noexcept {
+    return cylinder_ ? evaluation.cylinder_pressure[air::up] : evaluation.pressure[0];
   }
   air::Account element(const State& s) const noexcept {
     return cylinder_ ? cylinder_account(s, air::up) : account(s, 0);
@@ -131,20 +131,21 @@ class StandAir : public ElementAir {
   }
 
   bool jumps(int valve) const noexcept { return jumps_[static_cast<std::size_t>(valve)]; }
-  bool watches(int valve, const Valves& valves) const noexcept {
+  bool needs_gap(int valve, const Valves& valves) const noexcept {
     return jumps(valve) && (ramping() || valves[static_cast<std::size_t>(valve)].share > 0);
   }
 
   // Returns P_down/P_up less the limit: above 0 where the flow is free [-].
-  double past_choke(int valve, const Answer& look, const Valves& valves) const noexcept {
-    const double element = cylinder_ ? look.cylinder_pressure[air::up] : manifold(look, 0, valves);
-    const double other = valve == 0 ? look.supply_pressure : atmosphere();
+  double past_choke(int valve, const Evaluation& evaluation, const Valves& valves) const noexcept {
+    const double element =
+        cylinder_ ? evaluation.cylinder_pressure[air::up] : manifold(evaluation, 0, valves);
+    const double other = valve == 0 ? evaluation.supply_pressure : atmosphere();
     return std::fmin(element, other) / std::fmax(element, other) - 1.0 / gas::appendix_limit;
   }
 
   // Returns the rate at which a chamber settles at the pressure behind an open valve, where the
   // flow's slope is steep [1/s].
-  double settling_rate(const Answer& at, const State& s, const Valves& valves) const noexcept {
+  double settling_rate(const Evaluation& at, const State& s, const Valves& valves) const noexcept {
     const double behind = cylinder_ ? at.cylinder_pressure[air::up] : manifold(at, 0, valves);
     const double flow_in = cylinder_ ? at.cylinder_inflow[air::up] : at.inflow[0];
     const double flow_out = cylinder_ ? at.cylinder_outflow[air::up] : at.outflow[0];

@@ -68,7 +68,7 @@ const SinewCard& card_functions() {
   return *get();
 }
 
-ComediPort::ComediPort(const std::string& device, CardMachine machine, const host::Beat& beat)
+ComediPort::ComediPort(const std::string& device, CardMachine machine, const host::TickTimer& beat)
     : functions_(&card_functions()),
       device_(device),
       machine_(std::move(machine)),
@@ -102,7 +102,7 @@ void ComediPort::refuse(const std::string& what) const { throw CardError(device_
 void ComediPort::open() {
   card_ = functions_->open(device_.c_str());
   if (card_) return;
-  const std::string said = functions_->words();
+  const std::string said = functions_->error_text();
   refuse(said + what_to_do(said));
 }
 
@@ -111,7 +111,8 @@ void ComediPort::fit() {
   int bits = 0, channels = 0;  // numbers count from 0
   for (const auto& o : machine_.outputs) bits = std::max(bits, o.bit + 1);
   for (const auto& i : machine_.inputs) channels = std::max(channels, i.channel + 1);
-  if (!functions_->look(card_, machine_.full_scale, bits, &facts_)) refuse(functions_->words());
+  if (!functions_->find_subdevices(card_, machine_.full_scale, bits, &facts_))
+    refuse(functions_->error_text());
   board_ = facts_.board;
   fit_inputs(channels);
   if (facts_.output < 0) refuse(board_ + ": found no digital output; expected one for each valve");
@@ -148,14 +149,14 @@ void ComediPort::fit_inputs(int channels) {
 
 // Configures the needed lines as outputs. All coils are without current before and after.
 void ComediPort::take_outputs() {
-  const auto failed = [this] { refuse(std::string("the outputs: ") + functions_->words()); };
+  const auto failed = [this] { refuse(std::string("the outputs: ") + functions_->error_text()); };
   if (!functions_->own(card_, facts_.output))
-    refuse(fmt::format("the outputs: {}; has another program the card?", functions_->words()));
+    refuse(fmt::format("the outputs: {}; has another program the card?", functions_->error_text()));
   if (!write(0)) failed();
   for (const auto& o : machine_.outputs)
     if (o.bit >= 0 && !functions_->make_output(card_, facts_.output, o.bit))
       refuse(fmt::format("{} on bit {} cannot be made an output: {}", o.valve, o.bit,
-                         functions_->words()));
+                         functions_->error_text()));
   // A card may forget what was written while its lines were inputs.
   if (!write(0)) failed();
 }

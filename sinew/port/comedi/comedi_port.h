@@ -62,7 +62,7 @@ class ComediPort final : public signals::Port {
  public:
   // Opens the card and switches off the current of all coils. Throws CardError if the card does not
   // exist or does not fit the machine. `beat` is the loop's clock and must outlive this object.
-  ComediPort(const std::string& device, CardMachine machine, const host::Beat& beat);
+  ComediPort(const std::string& device, CardMachine machine, const host::TickTimer& beat);
   // Switches off the current of all coils, in every state.
   ~ComediPort();
   ComediPort(const ComediPort&) = delete;
@@ -97,7 +97,7 @@ class ComediPort final : public signals::Port {
   const SinewCard* functions_;
   std::string device_, board_;
   CardMachine machine_;
-  const host::Beat* beat_;
+  const host::TickTimer* beat_;
   void* card_ = nullptr;
   SinewCardFacts facts_{};
   double offset_ = 0, gain_ = 1;         // scale of the counts, see above

@@ -27,8 +27,8 @@ std::optional<LockStepBoard::Sizes> LockStepBoard::end() noexcept {
     const std::uint8_t ends[] = {board::ends & 0xff, board::ends >> 8};
     emulator_.put(ends);
     while (!sizes_) (void)record();
-  } catch (const Emulator::Gone&) {
-    gone_ = true;
+  } catch (const Emulator::Closed&) {
+    closed_ = true;
   }
   emulator_.kill();
   return sizes_;
@@ -50,11 +50,11 @@ bool LockStepBoard::record() {
       return false;
     }
     default:
-      throw Emulator::Gone{};
+      throw Emulator::Closed{};
   }
 }
 
-void LockStepBoard::answer_period() {
+void LockStepBoard::send_period() {
   std::vector<std::uint8_t> all{static_cast<std::uint8_t>(out_.size()),
                                 static_cast<std::uint8_t>(out_.size() >> 8)};
   all.insert(all.end(), out_.begin(), out_.end());
@@ -71,7 +71,7 @@ std::ptrdiff_t LockStepBoard::read(std::span<std::uint8_t> out, double seconds) 
       if (seconds <= 0) return 0;
       seconds -= period;
       ++periods_;
-      answer_period();
+      send_period();
     }
     waits_ = record();
   }
@@ -83,15 +83,15 @@ std::ptrdiff_t LockStepBoard::read(std::span<std::uint8_t> out, double seconds) 
 
 BoardLine LockStepBoard::line() {
   const auto write = [this](std::span<const std::uint8_t> bytes) {
-    if (gone_ || out_.size() + bytes.size() >= board::ends) return false;
+    if (closed_ || out_.size() + bytes.size() >= board::ends) return false;
     out_.insert(out_.end(), bytes.begin(), bytes.end());
     return true;
   };
   const auto read = [this](std::span<std::uint8_t> out, double seconds) -> std::ptrdiff_t {
     try {
-      return gone_ ? -1 : this->read(out, seconds);
-    } catch (const Emulator::Gone&) {
-      gone_ = true;
+      return closed_ ? -1 : this->read(out, seconds);
+    } catch (const Emulator::Closed&) {
+      closed_ = true;
       return -1;
     }
   };
@@ -117,8 +117,8 @@ EmulatedBoard::EmulatedBoard(const std::string& image, Wires wires)
     : emulator_(image, std::move(wires), sockets_.its), wires_([this] {
         try {
           for (;;)
-            if (emulator_.next_record() != 0) throw Emulator::Gone{};
-        } catch (const Emulator::Gone&) {
+            if (emulator_.next_record() != 0) throw Emulator::Closed{};
+        } catch (const Emulator::Closed&) {
           emulator_.kill();  // an unexpected record: the program is not usable
         }
       }) {

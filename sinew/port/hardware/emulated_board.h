@@ -36,13 +36,13 @@ class LockStepBoard {
 
  private:
   std::ptrdiff_t read(std::span<std::uint8_t> out, double seconds);
-  void answer_period();
+  void send_period();
   bool record();  // returns whether a period begins
 
   Emulator emulator_;
   std::vector<std::uint8_t> in_, out_;  // bytes of the line
   bool waits_ = false;                  // whether the board waits for the bytes of its line
-  bool gone_ = false;
+  bool closed_ = false;
   std::int64_t periods_ = 0;  // number of periods it has run
   std::optional<Sizes> sizes_;
 };

@@ -32,7 +32,7 @@ void set_blocking(int file) { ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O
 
 // Runs in the child process and does not return. The child ends when this program ends for any
 // reason.
-[[noreturn]] void be(char* const* arguments, pid_t parent, int line, int its_line, int why) {
+[[noreturn]] void run_child(char* const* arguments, pid_t parent, int line, int its_line, int why) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
   // Ctrl-C must reach only the program: it ends the run and vents the board, which must still
@@ -49,12 +49,12 @@ void set_blocking(int file) { ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O
 }
 
 // Starts the child and waits until it runs the emulator.
-pid_t become(char* const* arguments, int line, int its_line) {
+pid_t start_child(char* const* arguments, int line, int its_line) {
   int why[2];
   if (::pipe2(why, O_CLOEXEC) != 0)
     throw BoardError(std::string("no pipe: ") + std::strerror(errno));
   const pid_t parent = ::getpid(), child = ::fork();
-  if (child == 0) be(arguments, parent, line, its_line, why[1]);
+  if (child == 0) run_child(arguments, parent, line, its_line, why[1]);
   int error = child < 0 ? errno : 0;
   ::close(why[1]);
   ssize_t n = 0;
@@ -120,7 +120,7 @@ void Emulator::start(const std::string& image, int line) {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
-  process_ = become(arguments.data(), line, its_line);
+  process_ = start_child(arguments.data(), line, its_line);
 }
 
 // The board opens both pipes before it sends anything. Opening a pipe for writing fails until it
@@ -176,7 +176,7 @@ bool Emulator::fill() {
 }
 
 std::uint8_t Emulator::byte() {
-  if (first_ == buffer_.size() && !fill()) throw Gone{};
+  if (first_ == buffer_.size() && !fill()) throw Closed{};
   return buffer_[first_++];
 }
 
@@ -203,7 +203,7 @@ void Emulator::put(std::span<const std::uint8_t> bytes) {
     (void)::sigtimedwait(&broken, nullptr, &at_once);
   }
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  if (!whole) throw Gone{};
+  if (!whole) throw Closed{};
 }
 
 void Emulator::valves() {
@@ -215,26 +215,26 @@ void Emulator::valves() {
 
 // Sends a failure instead of a reading, if there is one. The board then requests the same reading
 // again or, after a reset, does not.
-bool Emulator::suffers(signals::Tick tick) {
-  const Mishap mishap = wires_.mishap ? wires_.mishap(tick) : Mishap{};
-  if (mishap.what == Mishap::What::none) return false;
-  const bool stalls = mishap.what == Mishap::What::stall;
-  const std::uint8_t answer[] = {static_cast<std::uint8_t>(mishap.ticks),
-                                 static_cast<std::uint8_t>(mishap.ticks >> 8),
-                                 stalls ? board::mishap::stalls : board::mishap::resets};
-  put(answer);
+bool Emulator::send_failure(signals::Tick tick) {
+  const BoardFailure failure = wires_.failure ? wires_.failure(tick) : BoardFailure{};
+  if (failure.what == BoardFailure::What::none) return false;
+  const bool stalls = failure.what == BoardFailure::What::stall;
+  const std::uint8_t reply[] = {static_cast<std::uint8_t>(failure.ticks),
+                                static_cast<std::uint8_t>(failure.ticks >> 8),
+                                stalls ? board::failure::stalls : board::failure::resets};
+  put(reply);
   return true;
 }
 
 void Emulator::reading() {
   const signals::Tick tick = number(8);
   const signals::Channel channel{byte()};
-  if (suffers(tick)) return;
+  if (send_failure(tick)) return;
   const signals::Reading r = wires_.read(channel, tick);
-  const std::uint8_t answer[] = {static_cast<std::uint8_t>(r.counts),
-                                 static_cast<std::uint8_t>(r.counts >> 8),
-                                 static_cast<std::uint8_t>(r.status)};
-  put(answer);
+  const std::uint8_t reply[] = {static_cast<std::uint8_t>(r.counts),
+                                static_cast<std::uint8_t>(r.counts >> 8),
+                                static_cast<std::uint8_t>(r.status)};
+  put(reply);
 }
 
 std::uint8_t Emulator::next_record() {

@@ -16,7 +16,7 @@ namespace sinew::plant {
 
 // Failure of a board's program itself, for tests. A stall longer than the watchdog's time looks
 // like a program that hangs.
-struct Mishap {
+struct BoardFailure {
   // Kind of failure: none, a stall of `ticks` ticks, or a reset.
   enum class What : std::uint8_t { none, stall, reset } what = What::none;
   std::uint16_t ticks = 0;
@@ -30,12 +30,12 @@ struct Wires {
   std::function<void(signals::Tick tick, std::uint32_t open, bool current)> valves;
   std::function<signals::Reading(signals::Channel, signals::Tick tick)> read;
   // Called before each reading, for an application only; empty: no failures.
-  std::function<Mishap(signals::Tick tick)> mishap = {};
+  std::function<BoardFailure(signals::Tick tick)> failure = {};
 };
 
 class Emulator {
  public:
-  struct Gone {};  // the process has ended or sent an unexpected record
+  struct Closed {};  // the process has ended or sent an unexpected record
 
   // Starts a program of firmware/. `line` is a socket whose other end is the program's serial line;
   // -1: the program has no serial line. Throws BoardError if the program cannot be started.
@@ -45,12 +45,12 @@ class Emulator {
   Emulator& operator=(const Emulator&) = delete;
 
   // Serves the wires until a record of another kind arrives, and returns its letter. This function
-  // and the next two throw Gone.
+  // and the next two throw Closed.
   std::uint8_t next_record();
   std::int64_t number(int bytes);
   void put(std::span<const std::uint8_t> bytes);
 
-  // Ends the process at once. A call that waits for a record then throws Gone.
+  // Ends the process at once. A call that waits for a record then throws Closed.
   void kill() noexcept;
 
  private:
@@ -61,7 +61,7 @@ class Emulator {
   std::uint8_t byte();
   void valves();
   void reading();
-  bool suffers(signals::Tick tick);
+  bool send_failure(signals::Tick tick);
 
   Wires wires_;
   std::string folder_, from_path_, to_path_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "sinew/control/link/words.h"
+#include "sinew/control/link/texts.h"
 
 namespace sinew::plant {
 
@@ -15,7 +15,7 @@ using link::Code;
 namespace {
 
 // Time that a reply is waited for, and the number of times that a request is sent.
-constexpr double answer_seconds = 0.5;
+constexpr double reply_seconds = 0.5;
 constexpr int tries = 3;
 constexpr double read_seconds = 0.05;  // longest single read, so that signals are noticed
 // Time after a run's first command at which it is sent again to a board that is still armed.
@@ -33,7 +33,7 @@ bool is_latched(BoardState state) noexcept {
   return state == BoardState::fault || state == BoardState::dump;
 }
 
-const char* in_words(BoardState latched) noexcept {
+const char* to_text(BoardState latched) noexcept {
   return latched == BoardState::dump ? "dump" : "fault";
 }
 
@@ -47,9 +47,9 @@ const char* in_words(BoardState latched) noexcept {
 std::string fault_found(const link::Identity& who) {
   using control::BoardFault;
   const bool usual = who.fault == BoardFault::none || who.fault == BoardFault::power_up ||
-                     who.fault == BoardFault::asked || who.fault == BoardFault::host_silent;
+                     who.fault == BoardFault::requested || who.fault == BoardFault::host_silent;
   if (usual || !is_latched(who.state)) return "";
-  return fmt::format("the board was in {}: {}", in_words(who.state), link::in_words(who.fault));
+  return fmt::format("the board was in {}: {}", to_text(who.state), link::to_text(who.fault));
 }
 
 RemoteBoard::RemoteBoard(BoardLine line, std::uint8_t number, std::uint16_t period)
@@ -69,11 +69,11 @@ bool RemoteBoard::send(const M& message) noexcept {
 
 // Handles the received frames up to the next telemetry: the joiner keeps only one. Returns whether
 // there was a frame.
-bool RemoteBoard::work_off() noexcept {
+bool RemoteBoard::process_frames() noexcept {
   bool heard = false;
   while (telemetry_ == nullptr) {
     if (const link::Frame* frame = decoder_.next()) {
-      hear(*frame);
+      handle_frame(*frame);
       heard = true;
     } else if (first_ < end_) {
       first_ += decoder_.push(std::span(bytes_).subspan(first_, end_ - first_));
@@ -86,26 +86,26 @@ bool RemoteBoard::work_off() noexcept {
 
 // Reads the line at most once. Returns false if nothing arrived in that time or the line is closed.
 bool RemoteBoard::listen(double seconds) noexcept {
-  if (work_off()) return true;
+  if (process_frames()) return true;
   const std::ptrdiff_t n = line_.read(bytes_, seconds);
-  if (n < 0) why_ = Why::gone;
+  if (n < 0) why_ = Why::closed;
   if (n <= 0) return false;
   first_ = 0;
   end_ = static_cast<std::size_t>(n);
-  (void)work_off();
+  (void)process_frames();
   return true;
 }
 
-void RemoteBoard::hear(const link::Edges& edges) noexcept {
+void RemoteBoard::store_edges(const link::Edges& edges) noexcept {
   for (std::size_t i = 0; i < edges.count && edge_.size() < edge_.capacity(); ++i) {
-    const link::EdgeSeen& e = edges.edge[i];
+    const link::ReportedEdge& e = edges.edge[i];
     edge_.push_back({edges.tick + e.offset, {e.valve}, e.open, e.level});
   }
 }
 
 // Takes records in order. Records after a lost one are ignored, since the lost one is requested
 // again.
-void RemoteBoard::hear(const link::FaultLog& record) {
+void RemoteBoard::store_log_record(const link::FaultLog& record) {
   if (record.part != fault_log_.size()) return;
   if (record.count > 0)
     fault_log_.push_back(record);
@@ -113,16 +113,16 @@ void RemoteBoard::hear(const link::FaultLog& record) {
     logged_all_ = record.part == record.parts;
 }
 
-void RemoteBoard::hear(const link::Frame& frame) noexcept {
+void RemoteBoard::handle_frame(const link::Frame& frame) noexcept {
   if (frame.envelope.board != number_) return;
   if (frame.version != link::protocol_version) other_version_ = frame.version;
-  if (link::FaultLog m; wants_log_ && link::decode(frame, m) == Code::done) hear(m);
-  if (link::Answer m; link::decode(frame, m) == Code::done) {
-    answer_ = m;
+  if (link::FaultLog m; wants_log_ && link::decode(frame, m) == Code::done) store_log_record(m);
+  if (link::Reply m; link::decode(frame, m) == Code::done) {
+    reply_ = m;
     if (m.code != Code::done) refusal_ = m;
   }
   if (link::Identity m; link::decode(frame, m) == Code::done) identity_ = m;
-  if (link::Edges m; link::decode(frame, m) == Code::done) hear(m);
+  if (link::Edges m; link::decode(frame, m) == Code::done) store_edges(m);
   if (link::Event m; link::decode(frame, m) == Code::done) {
     state_ = m.state;
     fault_ = m.fault;
@@ -142,42 +142,42 @@ void RemoteBoard::hear(const link::Frame& frame) noexcept {
 void RemoteBoard::listen_or_throw(double seconds) {
   telemetry_ = nullptr;
   (void)listen(std::min(seconds, read_seconds));
-  if (why_ == Why::gone) throw BoardError("the line to the board is gone");
+  if (why_ == Why::closed) throw BoardError("the line to the board is gone");
   if (stops_ && stops_()) throw BoardStopped();
 }
 
 // Sends a message and returns its reply. Either may be lost: the message is then sent again in
 // another frame.
 template <class M>
-link::Answer RemoteBoard::ask(const M& message) {
+link::Reply RemoteBoard::request(const M& message) {
   for (int i = 0; i < tries; ++i) {
-    answer_.reset();
+    reply_.reset();
     const std::uint8_t sequence = sequence_;
     if (!send(message)) break;
-    const double until = now() + answer_seconds;
-    for (double left = answer_seconds; left > 0; left = until - now()) {
+    const double until = now() + reply_seconds;
+    for (double left = reply_seconds; left > 0; left = until - now()) {
       listen_or_throw(left);
-      if (answer_ && answer_->to == static_cast<std::uint8_t>(M::type) &&
-          answer_->sequence == sequence)
-        return *answer_;
+      if (reply_ && reply_->to == static_cast<std::uint8_t>(M::type) &&
+          reply_->sequence == sequence)
+        return *reply_;
     }
   }
   throw BoardError(
       fmt::format("board {} does not reply: is it on this line, at this rate?", number_));
 }
 
-void RemoteBoard::refuse(const link::Answer& answer, const std::string& what) const {
-  const std::string_view words(answer.text.data(), answer.letters);
+void RemoteBoard::refuse(const link::Reply& reply, const std::string& what) const {
+  const std::string_view words(reply.text.data(), reply.letters);
   throw BoardError(fmt::format("board {} refuses {}: {}{}{}", number_, what,
-                               link::in_words(answer.code), words.empty() ? "" : ": ", words));
+                               link::to_text(reply.code), words.empty() ? "" : ": ", words));
 }
 
 link::Identity RemoteBoard::identify() {
   identity_.reset();
   for (int i = 0; i < tries && !identity_; ++i) {
     if (!send(link::Identify{})) break;
-    const double until = now() + answer_seconds;
-    for (double left = answer_seconds; left > 0 && !identity_; left = until - now())
+    const double until = now() + reply_seconds;
+    for (double left = reply_seconds; left > 0 && !identity_; left = until - now())
       listen_or_throw(left);
   }
   if (identity_) return *identity_;
@@ -192,11 +192,11 @@ link::Identity RemoteBoard::identify() {
 }
 
 // Sends one transfer, up to the first message that is refused. Returns the last reply.
-link::Answer RemoteBoard::transfer(const link::ConfigurationSender& sender) {
-  link::Answer answer = ask(sender.begin());
-  for (std::size_t i = 0; i < sender.chunks && answer.code == Code::done; ++i)
-    answer = ask(sender.chunk(i));
-  return answer.code == Code::done ? ask(sender.end()) : answer;
+link::Reply RemoteBoard::transfer(const link::ConfigurationSender& sender) {
+  link::Reply reply = request(sender.begin());
+  for (std::size_t i = 0; i < sender.chunks && reply.code == Code::done; ++i)
+    reply = request(sender.chunk(i));
+  return reply.code == Code::done ? request(sender.end()) : reply;
 }
 
 // If a reply was lost, the board receives a message twice; a host that was ended may have left a
@@ -204,10 +204,10 @@ link::Answer RemoteBoard::transfer(const link::ConfigurationSender& sender) {
 void RemoteBoard::configure(const link::Configuration& configuration) {
   const link::ConfigurationSender sender(configuration);
   if (!sender.ok()) throw BoardError("the configuration has a number that a board cannot have");
-  link::Answer answer = transfer(sender);
-  for (int i = 1; i < tries && (answer.code == Code::order || answer.code == Code::gap); ++i)
-    answer = transfer(sender);
-  if (answer.code != Code::done) refuse(answer, "its configuration");
+  link::Reply reply = transfer(sender);
+  for (int i = 1; i < tries && (reply.code == Code::order || reply.code == Code::gap); ++i)
+    reply = transfer(sender);
+  if (reply.code != Code::done) refuse(reply, "its configuration");
   configuration_ = sender.crc();
 }
 
@@ -222,13 +222,13 @@ bool RemoteBoard::is_seen(BoardState state, double seconds) {
 // Sends a message until it is accepted. The board refuses with `state` until it has readings of its
 // sensors and has checked its memory.
 template <class M>
-void RemoteBoard::ask_until_done(const M& message, double seconds, const std::string& what) {
+void RemoteBoard::request_until_done(const M& message, double seconds, const std::string& what) {
   constexpr double pause = 0.02;
   const double until = now() + seconds;
   for (;;) {
-    const link::Answer answer = ask(message);
-    if (answer.code == Code::done) return;
-    if (answer.code != Code::state || now() >= until) refuse(answer, what);
+    const link::Reply reply = request(message);
+    if (reply.code == Code::done) return;
+    if (reply.code != Code::state || now() >= until) refuse(reply, what);
     // The board has left its fault already if the reply to an earlier try was lost.
     if (M::type == link::Type::clear_fault && is_seen(BoardState::idle, pause)) return;
     for (const double end = now() + pause; now() < end;) listen_or_throw(0.01);
@@ -237,20 +237,20 @@ void RemoteBoard::ask_until_done(const M& message, double seconds, const std::st
 
 void RemoteBoard::clear_fault() {
   if (state_ == BoardState::idle) return;
-  ask_until_done(link::ClearFault{}, 1.0, "to leave its fault");
+  request_until_done(link::ClearFault{}, 1.0, "to leave its fault");
 }
 
 // Sends both frames. Returns the reply to the second.
-link::Answer RemoteBoard::arm_twice() {
-  ask_until_done(link::ArmFirst{configuration_}, 1.0, "to be armed");
-  return ask(link::ArmSecond{answer_->value, configuration_});
+link::Reply RemoteBoard::arm_twice() {
+  request_until_done(link::ArmFirst{configuration_}, 1.0, "to be armed");
+  return request(link::ArmSecond{reply_->value, configuration_});
 }
 
 // If the reply to the second frame was lost, the board is armed and refuses the repeated frame; if
 // the frame came too late, both are sent again.
 void RemoteBoard::arm() {
   for (int i = 1;; ++i) {
-    const link::Answer second = arm_twice();
+    const link::Reply second = arm_twice();
     if (second.code == Code::done || is_seen(BoardState::armed, 2 * read_seconds)) return;
     if (i == tries) refuse(second, "to be armed");
   }
@@ -268,15 +268,15 @@ void RemoteBoard::refuse_as_found(const link::Identity& who) const {
                     "robot (sinew firmware build), or other drivers",
                     level(*expected_low_), level(who.active_low)));
   }
-  if (is_latched(who.state) && is_grave(who.fault) && !may_clear_)
+  if (is_latched(who.state) && needs_diagnosis(who.fault) && !may_clear_)
     throw BoardError(
         fmt::format("the board is in {}: {}; find the cause, then send clear_fault, or switch "
                     "the board off and on",
-                    in_words(who.state), link::in_words(who.fault)));
+                    to_text(who.state), link::to_text(who.fault)));
 }
 
 link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
-  if (why_ != Why::gone) why_ = Why::none;
+  if (why_ != Why::closed) why_ = Why::none;
   const link::Identity who = identify();
   if (who.protocol != link::protocol_version) refuse_version(who.protocol);
   state_ = who.state;
@@ -284,7 +284,7 @@ link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
   refuse_as_found(who);
   configure(configuration);
   clear_fault();
-  const link::Answer edges = ask(link::EdgesWanted{true});
+  const link::Reply edges = request(link::EdgesWanted{true});
   if (edges.code != Code::done) refuse(edges, "to report its edges");
   arm();
   has_run_ = false;
@@ -293,7 +293,7 @@ link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
   return who;
 }
 
-const link::Telemetry* RemoteBoard::look(double seconds) {
+const link::Telemetry* RemoteBoard::wait_for_telemetry(double seconds) {
   telemetry_ = nullptr;
   const double until = now() + seconds;
   for (double left = seconds; telemetry_ == nullptr && left > 0; left = until - now())
@@ -334,7 +334,7 @@ const link::Telemetry* RemoteBoard::next(double seconds) noexcept {
       return telemetry_;
     }
     const bool rests = telemetry_ != nullptr && !runs(telemetry_->state);
-    if (has_run_ && rests && why_ != Why::gone) why_ = Why::over;
+    if (has_run_ && rests && why_ != Why::closed) why_ = Why::over;
     if (why_ == Why::none && now() >= until) {
       why_ = Why::silent;
       return nullptr;
@@ -348,7 +348,7 @@ bool RemoteBoard::shut_down() noexcept {
   constexpr double longest = 6, longest_silence = 1.5, again = 0.5;
   const double begun = now();
   double heard = begun, sends = begun;
-  while (why_ != Why::gone) {
+  while (why_ != Why::closed) {
     if (state_ <= BoardState::idle || state_ == BoardState::dump) return true;
     const double time = now();
     if (time - begun >= longest || time - heard >= longest_silence) break;
@@ -371,9 +371,9 @@ std::vector<link::Telemetry> RemoteBoard::fault_log() {
   fault_log_.clear();
   logged_all_ = false;
   wants_log_ = true;
-  for (int i = 0; i < most && !logged_all_ && why_ != Why::gone; ++i) {
+  for (int i = 0; i < most && !logged_all_ && why_ != Why::closed; ++i) {
     if (!send(link::ReadFaultLog{static_cast<std::uint16_t>(fault_log_.size())})) break;
-    for (double until = now() + silence; !logged_all_ && why_ != Why::gone && now() < until;) {
+    for (double until = now() + silence; !logged_all_ && why_ != Why::closed && now() < until;) {
       const std::size_t had = fault_log_.size();
       telemetry_ = nullptr;
       (void)listen(0.01);

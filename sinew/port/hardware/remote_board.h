@@ -39,7 +39,7 @@ struct BoardStopped : BoardError {
 
 // Returns whether the cause of this fault has to be found before the board drives again: its
 // watchdog has expired, its memory has changed, or a muscle did not empty.
-constexpr bool is_grave(control::BoardFault fault) noexcept {
+constexpr bool needs_diagnosis(control::BoardFault fault) noexcept {
   using enum control::BoardFault;
   return fault == watchdog || fault == parameters || fault == state || fault == not_empty;
 }
@@ -77,7 +77,7 @@ class RemoteBoard {
   void allow_clearing() noexcept { may_clear_ = true; }
 
   // Waits for the next telemetry, in a run or outside. Returns nullptr if none arrived.
-  const link::Telemetry* look(double seconds);
+  const link::Telemetry* wait_for_telemetry(double seconds);
 
   // --- a run; no exceptions ---
 
@@ -105,7 +105,7 @@ class RemoteBoard {
 
   // Reason why next() has returned nullptr: the run is over, the board is silent, or the line is
   // gone.
-  enum class Why : std::uint8_t { none, over, silent, gone };
+  enum class Why : std::uint8_t { none, over, silent, closed };
   Why why() const noexcept { return why_; }
   // The line's time [s].
   double now() const noexcept { return line_.now(); }
@@ -113,31 +113,31 @@ class RemoteBoard {
   control::BoardState state() const noexcept { return state_; }
   control::BoardFault fault() const noexcept { return fault_; }
   // Returns the last reply other than `done`.
-  const std::optional<link::Answer>& refusal() const noexcept { return refusal_; }
+  const std::optional<link::Reply>& refusal() const noexcept { return refusal_; }
   const link::LineCount& line() const noexcept { return decoder_.line(); }
   // Returns the board's view of the line, from its last telemetry.
-  const link::LinkSeen& line_there() const noexcept { return line_there_; }
+  const link::LinkStatistics& line_there() const noexcept { return line_there_; }
 
  private:
   template <class M>
   bool send(const M& message) noexcept;
   template <class M>
-  link::Answer ask(const M& message);
+  link::Reply request(const M& message);
   template <class M>
-  void ask_until_done(const M& message, double seconds, const std::string& what);
-  link::Answer transfer(const link::ConfigurationSender& sender);
-  link::Answer arm_twice();
+  void request_until_done(const M& message, double seconds, const std::string& what);
+  link::Reply transfer(const link::ConfigurationSender& sender);
+  link::Reply arm_twice();
 
-  bool work_off() noexcept;
+  bool process_frames() noexcept;
   bool listen(double seconds) noexcept;
   void listen_or_throw(double seconds);
   bool is_seen(control::BoardState state, double seconds);
   void begin_again() noexcept;
-  void hear(const link::Frame& frame) noexcept;
+  void handle_frame(const link::Frame& frame) noexcept;
   void refuse_as_found(const link::Identity& who) const;
-  void hear(const link::Edges& edges) noexcept;
-  void hear(const link::FaultLog& record);
-  [[noreturn]] void refuse(const link::Answer& answer, const std::string& what) const;
+  void store_edges(const link::Edges& edges) noexcept;
+  void store_log_record(const link::FaultLog& record);
+  [[noreturn]] void refuse(const link::Reply& reply, const std::string& what) const;
 
   BoardLine line_;
   std::uint8_t number_, sequence_ = 0;
@@ -148,7 +148,7 @@ class RemoteBoard {
   std::size_t first_ = 0, end_ = 0;  // part of bytes_ that is not decoded yet
 
   std::optional<link::Identity> identity_;
-  std::optional<link::Answer> answer_, refusal_;
+  std::optional<link::Reply> reply_, refusal_;
   const link::Telemetry* telemetry_ = nullptr;
   std::optional<std::uint8_t> other_version_;  // protocol version of a board of another version
   std::optional<bool> expected_low_;
@@ -160,7 +160,7 @@ class RemoteBoard {
   Why why_ = Why::none;
   control::BoardState state_ = control::BoardState::fault;
   control::BoardFault fault_ = control::BoardFault::none;
-  link::LinkSeen line_there_;
+  link::LinkStatistics line_there_;
   std::vector<signals::Edge> edge_;
   std::vector<link::FaultLog> fault_log_;  // records in order, from the first one on
   bool logged_all_ = false, wants_log_ = false;

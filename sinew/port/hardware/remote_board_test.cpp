@@ -7,14 +7,14 @@
 #include <random>
 
 #include "sinew/control/link/test_wire.h"
-#include "sinew/control/link/words.h"
+#include "sinew/control/link/texts.h"
 #include "sinew/signals/crc.h"
 
 namespace sinew::plant::remote_board_test {
 namespace {
 
 // A board that sends the same message after every reception. Each read of its line takes 10 ms.
-struct Parrot {
+struct EchoingLine {
   BoardLine line() {
     return {[this](std::span<const std::uint8_t>) {
               waiting = says;
@@ -33,13 +33,13 @@ struct Parrot {
   double time = 0;
 };
 
-constexpr const char* goes_on = "board 1 does not reply: is it on this line, at this rate?";
+constexpr const char* no_reply = "board 1 does not reply: is it on this line, at this rate?";
 
 std::string refusal_of(
     const link::Bytes& says, const std::function<void(RemoteBoard&)>& with = [](RemoteBoard&) {}) {
-  Parrot parrot;
-  parrot.says = says;
-  RemoteBoard board(parrot.line(), 1, 100);
+  EchoingLine echoing;
+  echoing.says = says;
+  RemoteBoard board(echoing.line(), 1, 100);
   with(board);
   try {
     board.prepare({});
@@ -76,7 +76,7 @@ TEST(RemoteBoard, OutputsOfTheOtherLevelAreRefusedBeforeAnythingIsConfigured) {
       const std::string said =
           refusal({.active_low = board}, 1, [&](RemoteBoard& b) { b.expect_levels(robot); });
       if (board == robot) {
-        EXPECT_EQ(said, goes_on);
+        EXPECT_EQ(said, no_reply);
       } else {
         EXPECT_NE(said.find(board ? "found \"high opens\"; expected \"low opens\""
                                   : "found \"low opens\"; expected \"high opens\""),
@@ -84,7 +84,7 @@ TEST(RemoteBoard, OutputsOfTheOtherLevelAreRefusedBeforeAnythingIsConfigured) {
             << said;
       }
     }
-  EXPECT_EQ(refusal({.active_low = true}), goes_on) << "no wires";
+  EXPECT_EQ(refusal({.active_low = true}), no_reply) << "no wires";
 }
 
 TEST(RemoteBoard, AGraveFaultIsClearedOnlyWhereThatIsAllowed) {
@@ -93,20 +93,20 @@ TEST(RemoteBoard, AGraveFaultIsClearedOnlyWhereThatIsAllowed) {
   const auto allow = [](RemoteBoard& b) { b.allow_clearing(); };
   for (const auto fault : {watchdog, parameters, control::BoardFault::state, not_empty}) {
     const link::Identity who{.state = BoardState::dump, .fault = fault};
-    EXPECT_EQ(refusal(who), std::string("the board is in dump: ") + link::in_words(fault) +
+    EXPECT_EQ(refusal(who), std::string("the board is in dump: ") + link::to_text(fault) +
                                 "; find the cause, then send clear_fault, or switch the board "
                                 "off and on");
-    EXPECT_EQ(refusal(who, 1, allow), goes_on);
-    EXPECT_EQ(fault_found(who), std::string("the board was in dump: ") + link::in_words(fault));
+    EXPECT_EQ(refusal(who, 1, allow), no_reply);
+    EXPECT_EQ(fault_found(who), std::string("the board was in dump: ") + link::to_text(fault));
   }
   for (const auto fault : {supervisor, controller, held_too_long}) {
     const link::Identity who{.state = BoardState::fault, .fault = fault};
-    EXPECT_EQ(refusal(who), goes_on);
-    EXPECT_EQ(fault_found(who), std::string("the board was in fault: ") + link::in_words(fault));
+    EXPECT_EQ(refusal(who), no_reply);
+    EXPECT_EQ(fault_found(who), std::string("the board was in fault: ") + link::to_text(fault));
   }
-  for (const auto fault : {none, power_up, host_silent, asked}) {
+  for (const auto fault : {none, power_up, host_silent, requested}) {
     const link::Identity who{.state = BoardState::fault, .fault = fault};
-    EXPECT_EQ(refusal(who), goes_on);
+    EXPECT_EQ(refusal(who), no_reply);
     EXPECT_EQ(fault_found(who), "");
   }
 }
@@ -160,7 +160,7 @@ TEST(RemoteBoard, AtALineThatIsNeverSilentEachWaitEndsByTheClock) {
   EXPECT_NEAR(took([&] { EXPECT_THROW(board.clear_fault(), BoardError); }), 1.5, 3 * read);
   EXPECT_NEAR(took([&] { EXPECT_THROW(board.arm(), BoardError); }), 1.5, 3 * read);
   noise.said = link::frame_of(link::Event{.state = control::BoardState::running}, {1, 0});
-  EXPECT_NEAR(took([&] { EXPECT_EQ(board.look(0.7), nullptr); }), 0.7, read);
+  EXPECT_NEAR(took([&] { EXPECT_EQ(board.wait_for_telemetry(0.7), nullptr); }), 0.7, read);
   EXPECT_NEAR(took([&] { EXPECT_EQ(board.next(0.7), nullptr); }), 0.7, read);
   EXPECT_EQ(board.why(), RemoteBoard::Why::silent);
   EXPECT_NEAR(took([&] { EXPECT_FALSE(board.shut_down()); }), 1.5, read);
@@ -181,7 +181,7 @@ TEST(RemoteBoard, WhatWaitsOutsideARunCanBeGivenUp) {
   is_given_up([&] { board.configure({}); });
   is_given_up([&] { board.clear_fault(); });
   is_given_up([&] { board.arm(); });
-  is_given_up([&] { (void)board.look(5); });
+  is_given_up([&] { (void)board.wait_for_telemetry(5); });
 }
 
 }  // namespace

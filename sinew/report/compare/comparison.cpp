@@ -100,29 +100,29 @@ struct Base {
 };
 
 // Finds the run's clock in relation to the first one's.
-analysis::Clock clock_of(ComparedRun& run, const AlignWish& wish, const Base& first,
+analysis::Clock clock_of(ComparedRun& run, const AlignOptions& options, const Base& first,
                          std::optional<std::int64_t> sequence) {
   if (!first.run) return {};
   analysis::AlignRequest request{.name = run.label,
                                  .by = analysis::AlignBy::known,
-                                 .event = wish.event,
-                                 .channels = wish.channels,
-                                 .fit_clock = wish.fit_clock,
-                                 .most_shift = wish.most_shift,
+                                 .event = options.event,
+                                 .channels = options.channels,
+                                 .fit_clock = options.fit_clock,
+                                 .largest_shift = options.largest_shift,
                                  .atmosphere = first.run->atmosphere};
-  if (wish.by == Align::sequence) {
+  if (options.by == Align::sequence) {
     request.shift = 1e-9 * static_cast<double>(*sequence - *first.sequence);
     request.known_at = 1e-9 * static_cast<double>(*first.sequence);
   }
-  if (wish.by == Align::event) request.by = analysis::AlignBy::event;
-  if (wish.by == Align::correlation) request.by = analysis::AlignBy::correlation;
-  if (request.by == analysis::AlignBy::known && !wish.fit_clock) return {request.shift, 0};
+  if (options.by == Align::event) request.by = analysis::AlignBy::event;
+  if (options.by == Align::correlation) request.by = analysis::AlignBy::correlation;
+  if (request.by == analysis::AlignBy::known && !options.fit_clock) return {request.shift, 0};
   run.alignment = analysis::align(first.run->logged, run.logged, request);
   return run.alignment->clock;
 }
 
 // Analyses a run and aligns it with `first`, in which the start of the first run's sequence is set.
-ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
+ComparedRun opened(RecordedRun&& recorded, const AlignOptions& options, Base& first) {
   ComparedRun run;
   run.label = std::move(recorded.label);
   run.logged = std::move(recorded.logged);
@@ -136,9 +136,9 @@ ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
     open(run, own);
     if (own.record.has_sequence()) sequence = own.record.time_ns()[own.record.first_row()];
   }
-  if (wish.by == Align::sequence && !sequence) no_sequence(run.label);
+  if (options.by == Align::sequence && !sequence) no_sequence(run.label);
   if (!first.run) first.sequence = sequence;
-  place(run, machine, clock_of(run, wish, first, sequence));
+  place(run, machine, clock_of(run, options, first, sequence));
   return run;
 }
 
@@ -163,10 +163,10 @@ void add_differences(std::vector<ChannelRow>& rows, const signals::Table& first,
 
 std::string ComparedRun::verdict_of(const std::string& key) const {
   const auto at = std::ranges::find_if(verdicts, [&](const analysis::Verdict& v) {
-    return v.key == key && v.is != analysis::Verdict::Is::not_applicable;
+    return v.key == key && v.agreement != analysis::Verdict::Agreement::not_applicable;
   });
   if (at == verdicts.end()) return "";
-  std::string out(to_text(at->is));
+  std::string out(to_text(at->agreement));
   if (at->statement_class != config::StatementClass::none)
     out += fmt::format(" ({})", to_text(at->statement_class));
   return out;
@@ -186,15 +186,15 @@ std::string_view to_text(Align align) {
   return "correlation";
 }
 
-Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish) {
-  Comparison out{.align = wish.by, .clocks_fitted = wish.fit_clock};
+Comparison compare(std::vector<RecordedRun> runs, const AlignOptions& options) {
+  Comparison out{.align = options.by, .clocks_fitted = options.fit_clock};
   out.runs.reserve(runs.size());  // the pointer to the first run stays valid
   std::vector<signals::Table*> tables;
   for (RecordedRun& run : runs) tables.push_back(&run.logged);
   add_perfect_sensors(tables);
   Base first;
   for (RecordedRun& run : runs) {
-    out.runs.push_back(opened(std::move(run), wish, first));
+    out.runs.push_back(opened(std::move(run), options, first));
     first.run = &out.runs.front();
   }
 
@@ -204,7 +204,7 @@ Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish) {
     summaries.push_back(&run.summary);
     used.push_back(&run.parameters);
   }
-  out.figures = analysis::figures_beside(summaries);
+  out.figures = analysis::compare_figures(summaries);
   out.parameters = differing(used);
 
   const std::size_t count = out.runs.size();
@@ -229,7 +229,7 @@ namespace {
 // Differences of one channel of a run from the first run's.
 struct Residual {
   std::string heading;  // "B /joint/hip/angle [rad]"
-  analysis::Meetings met;
+  analysis::PairedSamples met;
   std::size_t at = 0;  // index of the next difference to be written
 };
 
@@ -250,7 +250,7 @@ std::vector<Residual> residuals_of(const Comparison& c) {
       const analysis::Recording a = recording_of(c.runs.front(), row.channel);
       const analysis::Recording b = recording_of(c.runs[i], row.channel);
       if (!a.values || !b.values) continue;
-      analysis::Meetings met = analysis::meet(a, b);
+      analysis::PairedSamples met = analysis::pair_samples(a, b);
       if (met.time_ns.empty()) continue;
       const std::string field = row.channel.field == "value" ? "" : "." + row.channel.field;
       out.push_back({fmt::format("{} {}{} [{}]", static_cast<char>('A' + i), row.channel.topic,

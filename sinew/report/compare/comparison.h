@@ -38,15 +38,16 @@ enum class Align { start, sequence, event, correlation };
 std::string_view to_text(Align align);
 
 // Options of the alignment of runs with the first one.
-struct AlignWish {
+struct AlignOptions {
   // Aligns runs in this way, without a correction of the clocks' rates.
-  AlignWish(Align how = Align::start) : by(how) {}
+  AlignOptions(Align how = Align::start) : by(how) {}
 
   Align by;
   std::string event;  // "/joint/elbow/angle > 10 deg"; empty: the most certain first motion
-  std::vector<std::string> channels;                            // to be correlated; empty: chosen
-  bool fit_clock = false;                                       // fit the rate of each run's clock
-  double most_shift = std::numeric_limits<double>::infinity();  // largest shift of the search [s]
+  std::vector<std::string> channels;  // to be correlated; empty: chosen
+  bool fit_clock = false;             // fit the rate of each run's clock
+  double largest_shift =
+      std::numeric_limits<double>::infinity();  // largest shift of the search [s]
 };
 
 // A recorded run.
@@ -99,7 +100,7 @@ struct Comparison {
 
 // Compares two runs or more. Throws config::Error for a resolved.toml that cannot be read, for runs
 // without a common channel, and with the reason if a run cannot be aligned with the first one.
-Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish);
+Comparison compare(std::vector<RecordedRun> runs, const AlignOptions& options);
 
 // Leaves only the channels of these topics.
 void keep(Comparison& comparison, const std::set<std::string>& topics);

@@ -160,7 +160,7 @@ class RunSamples {
  private:
   void put_other(const Samples& first, const Samples& other, Json& column, Json& difference) {
     const analysis::Recording a{first.time_ns, first.values}, b{other.time_ns, other.values};
-    const analysis::Meetings met = analysis::meet(a, b);
+    const analysis::PairedSamples met = analysis::pair_samples(a, b);
     if (analysis::difference(a, b, met).same) {
       column = blob_.add(first);
       return;
@@ -176,7 +176,7 @@ class RunSamples {
   }
 
   std::vector<Channels> channels_;
-  std::deque<analysis::Meetings> met_;  // the blob points into them
+  std::deque<analysis::PairedSamples> met_;  // the blob points into them
   Blob blob_;
 };
 

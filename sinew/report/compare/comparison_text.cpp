@@ -290,8 +290,8 @@ std::string name_of(const ChannelRow& row) {
 
 std::string note_of(const analysis::Difference& d) {
   std::string note;
-  if (d.how == analysis::Meeting::between) note = "between samples";
-  if (d.how == analysis::Meeting::held)
+  if (d.how == analysis::Pairing::between) note = "between samples";
+  if (d.how == analysis::Pairing::held)
     note = fmt::format("apart {:.2g} % of the time", 100 * d.rms * d.rms);
   if (d.gaps > 0) note += fmt::format("{}{} gaps", note.empty() ? "" : ", ", d.gaps);
   return note;
@@ -309,7 +309,7 @@ std::vector<std::string> channel_cells(const ChannelRow& row, const analysis::Di
   if (d.equal()) return {name_of(row), "equal", "", "", "", "", "", note_of(d)};
   if (d.samples == 0) return {name_of(row), "never meet"};
   const std::string at = fmt::format("{:.4g} s", d.at);
-  if (d.how == analysis::Meeting::held) return {name_of(row), "", "", "", "", at, "", note_of(d)};
+  if (d.how == analysis::Pairing::held) return {name_of(row), "", "", "", "", at, "", note_of(d)};
   const auto text = [&](double si) { return difference_text(si, row.unit, units); };
   return {name_of(row),
           text(d.rms),

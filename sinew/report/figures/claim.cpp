@@ -40,26 +40,26 @@ std::string band_text(const Band& b, const std::string& unit) {
 Claim judge(StatementClass statement_class, const Measured& m) {
   if (m.accept.wording == analysis::Wording::another && m.why.empty())
     throw std::logic_error("a band of our own without its reason: " + m.says);
-  Claim c{.where = m.where, .says = m.says, .theirs = m.theirs, .quantity = m.quantity};
-  c.ours = std::isfinite(m.ours) ? with_unit(number(m.ours, m.accept), m.unit) : "none";
+  Claim c{.where = m.where, .says = m.says, .reported = m.reported, .quantity = m.quantity};
+  c.computed = std::isfinite(m.computed) ? with_unit(number(m.computed, m.accept), m.unit) : "none";
   c.accept = band_text(m.accept, m.unit);
   c.why = m.why;
   c.statement_class = statement_class;
   c.wording = m.accept.wording;
-  const bool inside = m.accept.holds(m.ours);
-  c.verdict = inside ? Is::agrees : Is::differs;
+  const bool inside = m.accept.holds(m.computed);
+  c.verdict = inside ? Agreement::agrees : Agreement::differs;
   if (m.because.empty()) return c;
-  c.verdict = inside ? Is::agrees_after_all : Is::differs_as_known;
+  c.verdict = inside ? Agreement::agrees_unexpectedly : Agreement::differs_as_known;
   c.why += fmt::format("{}Known to differ: {}", c.why.empty() ? "" : ". ", m.because);
   return c;
 }
 
-Claim not_applicable(std::string where, std::string says, std::string theirs, std::string why) {
+Claim not_applicable(std::string where, std::string says, std::string reported, std::string why) {
   return {.where = std::move(where),
           .says = std::move(says),
-          .theirs = std::move(theirs),
+          .reported = std::move(reported),
           .quantity = {},
-          .ours = {},
+          .computed = {},
           .accept = {},
           .why = std::move(why)};
 }
@@ -67,12 +67,12 @@ Claim not_applicable(std::string where, std::string says, std::string theirs, st
 Claim claim(const analysis::Verdict& v) {
   Claim out{.where = v.source,
             .says = {},
-            .theirs = v.reported,
+            .reported = v.reported,
             .quantity = v.key,
-            .ours = v.ours,
+            .computed = v.computed,
             .accept = v.accept,
             .why = v.band_reason,
-            .verdict = v.is,
+            .verdict = v.agreement,
             .statement_class = v.statement_class,
             .wording = v.wording};
   // The source of a verdict ends with the reason of a known difference.
@@ -89,7 +89,7 @@ void count(Tally& tally, const std::vector<Claim>& claims) {
   for (const Claim& c : claims) tally.add(c.statement_class, c.verdict);
 }
 
-int Tally::of(Is verdict) const {
+int Tally::of(Agreement verdict) const {
   int sum = 0;
   for (const StatementClass c : all_classes) sum += of(c, verdict);
   return sum;
@@ -97,13 +97,13 @@ int Tally::of(Is verdict) const {
 
 int Tally::of(StatementClass statement_class) const {
   int sum = 0;
-  for (const Is v : all_verdicts) sum += of(statement_class, v);
+  for (const Agreement v : all_verdicts) sum += of(statement_class, v);
   return sum;
 }
 
 int Tally::total() const {
   int sum = 0;
-  for (const Is v : all_verdicts) sum += of(v);
+  for (const Agreement v : all_verdicts) sum += of(v);
   return sum;
 }
 

@@ -21,7 +21,7 @@
 
 namespace sinew::report {
 
-using Is = analysis::Verdict::Is;
+using Agreement = analysis::Verdict::Agreement;
 
 using analysis::Band;
 using config::StatementClass;
@@ -30,10 +30,10 @@ using config::StatementClass;
 struct Measured {
   std::string where;     // section or equation of the source
   std::string says;      // the statement, paraphrased
-  std::string theirs;    // the source's number with its unit; empty if it gives no number
+  std::string reported;  // the source's number with its unit; empty if it gives no number
   std::string quantity;  // quantity taken from the computed figure
-  double ours = 0;
-  std::string unit;  // unit of `ours` and `accept`; empty: a pure number
+  double computed = 0;
+  std::string unit;  // unit of `computed` and `accept`; empty: a pure number
   Band accept;
   std::string why;      // reason of a band that follows no rule, or a remark
   std::string because;  // reason of a known difference; empty if it should agree
@@ -41,11 +41,11 @@ struct Measured {
 
 // A statement with its verdict as text, as in the index.
 struct Claim {
-  std::string where, says, theirs, quantity;
-  std::string ours;    // "0.47 ms"; empty if nothing is compared
-  std::string accept;  // "0.4 to 0.6 ms", "at most 2 %"
-  std::string why;     // reason of the band, of a known difference, or of the missing comparison
-  Is verdict = Is::not_applicable;
+  std::string where, says, reported, quantity;
+  std::string computed;  // "0.47 ms"; empty if nothing is compared
+  std::string accept;    // "0.4 to 0.6 ms", "at most 2 %"
+  std::string why;       // reason of the band, of a known difference, or of the missing comparison
+  Agreement verdict = Agreement::not_applicable;
   StatementClass statement_class = StatementClass::none;  // none if nothing is compared
   analysis::Wording wording = analysis::Wording::another;
 };
@@ -55,7 +55,7 @@ struct Claim {
 Claim judge(StatementClass statement_class, const Measured& measured);
 
 // Returns a statement that a number cannot decide, with the reason.
-Claim not_applicable(std::string where, std::string says, std::string theirs, std::string why);
+Claim not_applicable(std::string where, std::string says, std::string reported, std::string why);
 
 // Converts the verdict on a key of a summary (analysis/verdict/reported.h).
 Claim claim(const analysis::Verdict& verdict);
@@ -64,14 +64,14 @@ Claim claim(const analysis::Verdict& verdict);
 class Tally {
  public:
   // Counts one statement.
-  void add(StatementClass statement_class, Is verdict) {
+  void add(StatementClass statement_class, Agreement verdict) {
     ++count_[row(statement_class)][row(verdict)];
   }
   // Return the number of statements of a class and verdict, of either alone, or in total.
-  int of(StatementClass statement_class, Is verdict) const {
+  int of(StatementClass statement_class, Agreement verdict) const {
     return count_[row(statement_class)][row(verdict)];
   }
-  int of(Is verdict) const;
+  int of(Agreement verdict) const;
   int of(StatementClass statement_class) const;
   int total() const;
 
@@ -92,7 +92,8 @@ inline constexpr std::array<StatementClass, 6> all_classes = {StatementClass::pr
                                                               StatementClass::by_construction,
                                                               StatementClass::code_against_code,
                                                               StatementClass::none};
-inline constexpr std::array<Is, 5> all_verdicts = {Is::agrees, Is::differs, Is::differs_as_known,
-                                                   Is::agrees_after_all, Is::not_applicable};
+inline constexpr std::array<Agreement, 5> all_verdicts = {
+    Agreement::agrees, Agreement::differs, Agreement::differs_as_known,
+    Agreement::agrees_unexpectedly, Agreement::not_applicable};
 
 }  // namespace sinew::report

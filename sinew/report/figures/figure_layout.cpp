@@ -86,7 +86,7 @@ void make_equal(const Print& print, double lowest, double tallest, Axes& axes) {
 }
 
 // Reduces the ticks of a short axis, so that their numbers do not overlap.
-void make_apart(const Plot& plot, const Print& print, Axes& axes) {
+void separate_ticks(const Plot& plot, const Print& print, Axes& axes) {
   constexpr double number = 6;  // letters per number, with the space between two
   const auto fewer = [](const Axis& axis, Scale& s, double room) {
     if (axis.logarithmic || !axis.ticks.empty() || (s.to - s.from) / s.step <= room) return;
@@ -110,10 +110,10 @@ Axes axes_of(const Plot& plot, const Print& print, double height) {
            print.right, print.plot};
   make_room(plot.y.ticks, print, out);
   if (height > 0) out.height = height;
-  make_apart(plot, print, out);
+  separate_ticks(plot, print, out);
   if (plot.equal_scale) {
     make_equal(print, height > 0 ? height : print.lowest, height > 0 ? height : print.tallest, out);
-    make_apart(plot, print, out);
+    separate_ticks(plot, print, out);
   }
   if (plot.names == Plot::Names::ends)
     for (const Curve& c : plot.curves)

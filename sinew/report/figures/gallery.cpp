@@ -132,10 +132,10 @@ std::string_view name_of(StatementClass c) {
   return "none";
 }
 
-std::string_view class_of(Is verdict) {
-  if (verdict == Is::agrees) return "agrees";
-  if (verdict == Is::not_applicable) return "open";
-  return verdict == Is::differs_as_known ? "known" : "differs";
+std::string_view class_of(Agreement verdict) {
+  if (verdict == Agreement::agrees) return "agrees";
+  if (verdict == Agreement::not_applicable) return "open";
+  return verdict == Agreement::differs_as_known ? "known" : "differs";
 }
 
 // Returns the properties by which the page filters figures.
@@ -143,10 +143,12 @@ std::string properties(const Exhibit& e) {
   Tally t;
   count(t, e.claims);
   std::vector<std::string_view> out;
-  if (t.of(Is::agrees) > 0) out.push_back("agrees");
-  if (t.of(Is::differs) + t.of(Is::differs_as_known) + t.of(Is::agrees_after_all) > 0)
+  if (t.of(Agreement::agrees) > 0) out.push_back("agrees");
+  if (t.of(Agreement::differs) + t.of(Agreement::differs_as_known) +
+          t.of(Agreement::agrees_unexpectedly) >
+      0)
     out.push_back("differs");
-  if (t.of(Is::not_applicable) > 0) out.push_back("open");
+  if (t.of(Agreement::not_applicable) > 0) out.push_back("open");
   for (const StatementClass c : all_classes)
     if (c != StatementClass::none && t.of(c) > 0) out.push_back(name_of(c));
   if (holds_kind(e.figure, Curve::Kind::computed)) out.push_back("computed");
@@ -197,12 +199,12 @@ void Page::tally_table() {
   add("<table class=\"tally\">\n<caption>{} statements about {} "
       "figures</caption>\n<thead><tr><td></td>",
       t.total(), gallery_.exhibits.size());
-  for (const Is v : all_verdicts)
+  for (const Agreement v : all_verdicts)
     add("<th scope=\"col\" class=\"{}\">{}</th>", class_of(v), to_text(v));
   add("<th scope=\"col\">all</th></tr></thead>\n<tbody>");
   const auto row = [&](std::string_view name, auto of, int all) {
     add("<tr><th scope=\"row\">{}</th>", name);
-    for (const Is v : all_verdicts) {
+    for (const Agreement v : all_verdicts) {
       const int n = of(v);
       add("<td>{}</td>", n > 0 ? std::to_string(n) : std::string());
     }
@@ -211,10 +213,10 @@ void Page::tally_table() {
   for (const StatementClass c : all_classes)
     if (t.of(c) > 0)
       row(
-          c == StatementClass::none ? "not compared" : to_text(c), [&](Is v) { return t.of(c, v); },
-          t.of(c));
+          c == StatementClass::none ? "not compared" : to_text(c),
+          [&](Agreement v) { return t.of(c, v); }, t.of(c));
   row(
-      "all", [&](Is v) { return t.of(v); }, t.total());
+      "all", [&](Agreement v) { return t.of(v); }, t.total());
   add("</tbody>\n</table>");
 }
 
@@ -276,8 +278,8 @@ void Page::claim(const Claim& c) {
   const auto number = [&](std::string_view what, const std::string& value) {
     if (!value.empty()) numbers += fmt::format("<span>{} <b>{}</b></span>", what, escaped(value));
   };
-  number("stated", c.theirs);
-  number("ours", c.ours);
+  number("stated", c.reported);
+  number("ours", c.computed);
   if (!numbers.empty()) add("<div class=\"numbers\">{}</div>", numbers);
   std::string rest = c.says.empty() ? "" : c.quantity;
   if (!c.accept.empty()) {
@@ -350,9 +352,9 @@ Json json_of(const Claim& c) {
     if (!value.empty()) out[key] = value;
   };
   add("says", c.says);
-  add("theirs", c.theirs);
+  add("theirs", c.reported);
   add("quantity", c.quantity);
-  add("ours", c.ours);
+  add("ours", c.computed);
   add("accepted", c.accept);
   if (!c.accept.empty()) out["wording"] = to_text(c.wording);
   add("why", c.why);
@@ -394,9 +396,9 @@ std::string index_json(const Gallery& gallery) {
   Json out{{"format", "sinew.figures/1"}, {"title", gallery.title}, {"page", "index.html"}};
   const Tally t = tally(gallery);
   if (t.total() > 0) {
-    for (const Is v : all_verdicts) out["verdicts"][to_text(v)] = t.of(v);
+    for (const Agreement v : all_verdicts) out["verdicts"][to_text(v)] = t.of(v);
     for (const StatementClass c : all_classes)
-      for (const Is v : all_verdicts)
+      for (const Agreement v : all_verdicts)
         if (c != StatementClass::none) out["classes"][to_text(c)][to_text(v)] = t.of(c, v);
   }
   out["figures"] = Json::array();

@@ -24,15 +24,15 @@ Gallery gallery() {
                 .missing = {{"the measured one", "lost"}}};
   const Claim agrees = judge(StatementClass::put_in, {.where = "2.2",
                                                       .says = "zero there",
-                                                      .theirs = "0",
+                                                      .reported = "0",
                                                       .quantity = "least force",
-                                                      .ours = 0,
+                                                      .computed = 0,
                                                       .unit = "lbf",
                                                       .accept = analysis::another(0, 1),
                                                       .why = "a line's width",
                                                       .because = {}});
   Claim differs = agrees;
-  differs.verdict = Is::differs;
+  differs.verdict = Agreement::differs;
   return {.title = "Figures",
           .lead = "A lead.",
           .prefix = "Figure ",

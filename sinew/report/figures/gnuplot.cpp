@@ -62,17 +62,17 @@ using Style = Curve::Style;
 using config::format_number;
 
 // The page's colors, with dashes that distinguish them in grey, and dots for desired curves.
-struct Look {
+struct DrawingStyle {
   const char *color, *dash, *dots;
 };
-constexpr Look looks[] = {{"#0072b2", "1", "(1,1.5)"},
-                          {"#d55e00", "(7,2)", "(1,3)"},
-                          {"#009e73", "(7,2,1.5,2)", "(1,1.5,1,4)"},
-                          {"#a8478a", "(3.5,1.5)", "(1,5)"},
-                          {"#c28a00", "(10,2,3,2)", "(1,1.5,1,1.5,1,4)"},
-                          {"#3fa1d9", "(5,1.5,1,1.5,1,1.5)", "(2,3)"},
-                          {"#6b6f76", "(5,4)", "(1,2.2)"},
-                          {"#7a4b12", "(2,1)", "(1,7)"}};
+constexpr DrawingStyle drawing_styles[] = {{"#0072b2", "1", "(1,1.5)"},
+                                           {"#d55e00", "(7,2)", "(1,3)"},
+                                           {"#009e73", "(7,2,1.5,2)", "(1,1.5,1,4)"},
+                                           {"#a8478a", "(3.5,1.5)", "(1,5)"},
+                                           {"#c28a00", "(10,2,3,2)", "(1,1.5,1,1.5,1,4)"},
+                                           {"#3fa1d9", "(5,1.5,1,1.5,1,1.5)", "(2,3)"},
+                                           {"#6b6f76", "(5,4)", "(1,2.2)"},
+                                           {"#7a4b12", "(2,1)", "(1,7)"}};
 
 // Returns a gnuplot string in single quotes, in which only the quote is special.
 std::string as_literal(std::string_view typed) {
@@ -130,30 +130,32 @@ class Script {
 };
 
 // Returns the color of a curve, or the next one if it has no color.
-const Look& look_of(const Plot& plot, std::size_t curve) {
+const DrawingStyle& color_style_of(const Plot& plot, std::size_t curve) {
   const int own = plot.curves[curve].color;
-  return looks[(own == Curve::next ? curve : static_cast<std::size_t>(own)) % std::size(looks)];
+  return drawing_styles[(own == Curve::next ? curve : static_cast<std::size_t>(own)) %
+                        std::size(drawing_styles)];
 }
 
 // Returns the dash of a curve, or that of its color if it has no dash.
-const Look& dash_of(const Plot& plot, std::size_t curve) {
+const DrawingStyle& dash_of(const Plot& plot, std::size_t curve) {
   const int own = plot.curves[curve].dash;
-  return own == Curve::next ? look_of(plot, curve)
-                            : looks[static_cast<std::size_t>(own) % std::size(looks)];
+  return own == Curve::next
+             ? color_style_of(plot, curve)
+             : drawing_styles[static_cast<std::size_t>(own) % std::size(drawing_styles)];
 }
 
 bool has_points(const Curve& c) { return c.style == Style::points || c.style == Style::marked; }
 
 // Returns the line style of a curve, also for an arrow or a label's point.
 std::string line_of(const Plot& plot, std::size_t c) {
-  const Look &look = look_of(plot, c), &dash = dash_of(plot, c);
+  const DrawingStyle &color_style = color_style_of(plot, c), &dash = dash_of(plot, c);
   const Curve& curve = plot.curves[c];
   const bool desired = curve.kind == Kind::desired;
   return fmt::format("linewidth {} dashtype {} linecolor rgb '{}'", desired ? "1.0" : "0.9",
-                     plot.names == Plot::Names::none ? looks[0].dash
+                     plot.names == Plot::Names::none ? drawing_styles[0].dash
                      : desired                       ? dash.dots
                                                      : dash.dash,
-                     look.color);
+                     color_style.color);
 }
 
 std::string point_of(const Plot& plot, std::size_t c) {
@@ -169,8 +171,8 @@ std::string drawn_with(const Plot& plot, std::size_t c) {
     case Style::marked:
       return "linespoints " + line_of(plot, c) + " " + point_of(plot, c);
     case Style::points:
-      return "points linewidth 0.6 linecolor rgb '" + std::string(look_of(plot, c).color) + "' " +
-             point_of(plot, c);
+      return "points linewidth 0.6 linecolor rgb '" + std::string(color_style_of(plot, c).color) +
+             "' " + point_of(plot, c);
     case Style::bars:
       return "boxes fillstyle solid 0.45 border " + line_of(plot, c);
   }
@@ -271,7 +273,7 @@ void Script::legend(const Plot& plot, const PlotLayout& at) {
           line_of(plot, e.curve));
     if (has_points(curve))
       add("set label '' at {} point {} linecolor rgb '{}'", place(e.x + print_.sample / 2, e.y),
-          point_of(plot, e.curve), look_of(plot, e.curve).color);
+          point_of(plot, e.curve), color_style_of(plot, e.curve).color);
     add("set label {} at {} left", as_literal(e.text),
         place(e.x + print_.sample + print_.gap, e.y));
   }

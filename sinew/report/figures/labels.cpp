@@ -119,7 +119,7 @@ Figure labelled(Figure figure, const Labels& labels) {
   return figure;
 }
 
-void Phrases::add(const Figure& figure) {
+void FigureTexts::add(const Figure& figure) {
   const auto word = [&](const std::string& text) {
     if (!text.empty()) words.insert(text);
   };
@@ -134,7 +134,7 @@ void Phrases::add(const Figure& figure) {
   }
 }
 
-std::vector<config::Problem> unsaid(const Labels& labels, const Phrases& phrases) {
+std::vector<config::Problem> unused_labels(const Labels& labels, const FigureTexts& phrases) {
   Problems out;
   const auto look = [&](const char* table, const std::vector<Label>& list,
                         const std::set<std::string>& said, bool within) {
@@ -187,7 +187,7 @@ std::set<std::string> parts_of(const std::set<std::string>& words) {
 
 }  // namespace
 
-std::string labels_file(const Phrases& phrases) {
+std::string labels_file(const FigureTexts& phrases) {
   std::string out = fmt::format(
       "format = \"{}\"\n"
       "decimal_comma = false  # true: 0,5 at the ticks of an axis\n"

@@ -49,16 +49,16 @@ Labels read_labels(const std::string& path);
 Figure labelled(Figure figure, const Labels& labels);
 
 // Texts of figures: words of axes and curves, and units.
-struct Phrases {
+struct FigureTexts {
   std::set<std::string> words, units;
   // Adds the texts of a figure.
   void add(const Figure& figure);
 };
 
 // Returns a problem for each label that no figure uses, with the most similar one that is used.
-std::vector<config::Problem> unsaid(const Labels& labels, const Phrases& phrases);
+std::vector<config::Problem> unused_labels(const Labels& labels, const FigureTexts& phrases);
 
 // Returns a file of labels as a start: each phrase is translated by itself.
-std::string labels_file(const Phrases& phrases);
+std::string labels_file(const FigureTexts& phrases);
 
 }  // namespace sinew::report

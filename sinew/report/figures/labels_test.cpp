@@ -77,16 +77,16 @@ TEST(Labels, ChangeThePictureAndNotTheNumbersBehindIt) {
 
 TEST(Labels, ThatNoFigureSaysAreToldWithTheNearest) {
   Figure figure{.plots = {{.x = {"time", "s"}, .y = {"joint angles", "deg"}}}};
-  Phrases phrases;
+  FigureTexts phrases;
   phrases.add(figure);
-  const auto problems = unsaid(read(R"(format = "sinew.labels/1"
+  const auto problems = unused_labels(read(R"(format = "sinew.labels/1"
 [words]
 "joint angels" = "Gelenkwinkel"
 "angles" = "Winkel"
 [units]
 "degree" = "°"
 )"),
-                               phrases);
+                                      phrases);
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_THAT(config::to_text(problems[0]), AllOf(HasSubstr(".toml:3:"), HasSubstr("joint angels"),
                                                   HasSubstr("\"joint angles\"")));
@@ -111,14 +111,14 @@ TEST(Labels, OfAFileThatIsNoneAreRefusedWithTheLine) {
 TEST(Labels, HaveAFileToBeginWithThatChangesNothing) {
   Figure figure{.plots = {{.x = {"time", "s"}, .y = {"say \"it\" \\ so", "bar gauge"}}}};
   figure.plots[0].curves = {{.label = "hip"}, {.label = "hip desired"}, {.label = "knee desired"}};
-  Phrases phrases;
+  FigureTexts phrases;
   phrases.add(figure);
   const std::string text = labels_file(phrases);
   EXPECT_THAT(text,
               AllOf(StartsWith("format = \"sinew.labels/1\""), HasSubstr("\"hip\" = \"hip\""),
                     HasSubstr("\"desired\" = \"desired\""), HasSubstr("\"knee\" = \"knee\"")));
   const Labels labels = read(text);
-  EXPECT_TRUE(unsaid(labels, phrases).empty());
+  EXPECT_TRUE(unused_labels(labels, phrases).empty());
   for (const std::string& word : phrases.words) EXPECT_EQ(labels.of(word), word);
   EXPECT_EQ(labels.units.size(), 2u);
 }

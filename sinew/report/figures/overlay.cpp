@@ -61,8 +61,8 @@ class Overlay {
   void add(const Figure& of, std::size_t run);
   Stack& stack_for(const Plot& plot, std::size_t place);
   void finish(const Stack& stack);
-  Curve told_apart(const Entry& e, const std::vector<std::string>& channels,
-                   const Plot& before) const;
+  Curve with_distinct_style(const Entry& e, const std::vector<std::string>& channels,
+                            const Plot& before) const;
   Plot with(const Stack& stack, const std::vector<std::string>& channels) const;
 
   const std::vector<LabelledRun>& runs_;
@@ -121,16 +121,16 @@ bool has(const std::vector<std::string>& list, const std::string& text) {
 }
 
 // Returns whether an earlier run has the same desired curve.
-bool was_before(const Stack& stack, const Entry& wish) {
+bool is_repeated(const Stack& stack, const Entry& candidate) {
   return std::ranges::any_of(stack.entries, [&](const Entry& e) {
-    return e.run < wish.run && is_desired(e.curve) && e.curve.label == wish.curve.label &&
-           same_samples(e.curve, wish.curve);
+    return e.run < candidate.run && is_desired(e.curve) && e.curve.label == candidate.curve.label &&
+           same_samples(e.curve, candidate.curve);
   });
 }
 
 // Returns a curve with label, color and dash that distinguish it from other channels and runs.
-Curve Overlay::told_apart(const Entry& e, const std::vector<std::string>& channels,
-                          const Plot& before) const {
+Curve Overlay::with_distinct_style(const Entry& e, const std::vector<std::string>& channels,
+                                   const Plot& before) const {
   Curve out = e.curve;
   const std::string& run = runs_[e.run].label;
   const bool alone = channels.size() == 1;
@@ -157,9 +157,9 @@ Plot Overlay::with(const Stack& stack, const std::vector<std::string>& channels)
   for (const Entry& e : stack.entries) {
     const bool belongs =
         is_desired(e.curve)
-            ? std::ranges::find(colors, e.curve.color) != colors.end() && !was_before(stack, e)
+            ? std::ranges::find(colors, e.curve.color) != colors.end() && !is_repeated(stack, e)
             : has(channels, e.curve.label);
-    if (belongs) plot.curves.push_back(told_apart(e, channels, plot));
+    if (belongs) plot.curves.push_back(with_distinct_style(e, channels, plot));
   }
   return plot;
 }

@@ -26,20 +26,20 @@ namespace sinew::report {
 // --- Common part of the figures of one run: samples in shown units, shaded spans, captions ---
 
 // Description of a run in captions and curves.
-struct RunWords {
+struct RunDescription {
   std::string run;     // "Walking, test 1" (walk-test-1)
   std::string source;  // source of every curve: "simulated, robot …, seed 1, Sinew 0.1.0"
   Curve::Kind kind = Curve::Kind::computed;
 };
 
 // Returns the description of a run. `title` and `robot` may be empty.
-RunWords words_of(const Run& run, const std::string& title, const std::string& robot);
+RunDescription words_of(const Run& run, const std::string& title, const std::string& robot);
 
 // Makes the figures of one run out of its channels.
 class Maker {
  public:
   // `channels` must outlive this. `atmosphere` is the reference of gauge pressures  [Pa].
-  Maker(const Channels& channels, RunWords about, const RunFigureOptions& options,
+  Maker(const Channels& channels, RunDescription about, const RunFigureOptions& options,
         double atmosphere)
       : channels_(channels), about_(std::move(about)), options_(options), atmosphere_(atmosphere) {}
 
@@ -68,7 +68,7 @@ class Maker {
   }
   double largest(const Channel& channel) const;
   Curve::Kind kind() const { return about_.kind; }
-  const RunWords& words() const { return about_; }
+  const RunDescription& words() const { return about_; }
 
   std::vector<Figure> list;
 
@@ -79,7 +79,7 @@ class Maker {
   std::string meanings(const Panel& panel) const;
 
   const Channels& channels_;
-  const RunWords about_;
+  const RunDescription about_;
   const RunFigureOptions options_;
   const double atmosphere_;
   std::vector<Span> stance_, faults_;
@@ -118,9 +118,9 @@ bool is_simulated(const signals::Table& table) {
 
 }  // namespace
 
-RunWords words_of(const Run& run, const std::string& title, const std::string& robot) {
+RunDescription words_of(const Run& run, const std::string& title, const std::string& robot) {
   const bool simulated = is_simulated(run.analysis.table);
-  RunWords out{.kind = simulated ? Kind::computed : Kind::measured};
+  RunDescription out{.kind = simulated ? Kind::computed : Kind::measured};
   out.run = title.empty() ? run.name : "“" + title + "”";
   if (!title.empty() && !run.name.empty()) out.run += " (" + run.name + ")";
   std::vector<std::string> parts;
@@ -315,19 +315,19 @@ std::vector<const signals::Series*> topics_in(const Channels& channels, const Ch
 }
 
 // Position of a channel in the panels; nullptr for both if no panel has it.
-struct Known {
+struct PanelLine {
   const Panel* panel = nullptr;
   const Line* line = nullptr;
 };
 
-Known known(const std::vector<Panel>& panels, const Channel& channel) {
+PanelLine find_line(const std::vector<Panel>& panels, const Channel& channel) {
   for (const Panel& panel : panels)
     for (const Line& line : panel.lines)
       if (same(line.channel, channel)) return {&panel, &line};
   return {};
 }
 
-const Line* desired_of(const Known& of) {
+const Line* desired_of(const PanelLine& of) {
   if (!of.panel || of.line->style == Line::Style::desired) return nullptr;
   for (const Line& line : of.panel->lines)
     if (line.style == Line::Style::desired && line.color == of.line->color) return &line;
@@ -356,7 +356,7 @@ class Part {
   void add(const Channel& channel) {
     const Samples samples = channels_.find(channel);
     if (!samples) return;
-    const Known at = known(panels_, channel);
+    const PanelLine at = find_line(panels_, channel);
     Panel& panel = panel_for(at, channel, at.panel ? at.panel->unit : samples.unit);
     const auto there = [&](const Channel& c) {
       return std::ranges::any_of(panel.lines, [&](const Line& l) { return same(l.channel, c); });
@@ -384,7 +384,7 @@ class Part {
 
   // Returns the panel of a unit, creating it if it is new. Its title is that of the channel's
   // panel, or the end of its topic.
-  Panel& panel_for(const Known& at, const Channel& channel, const std::string& unit) {
+  Panel& panel_for(const PanelLine& at, const Channel& channel, const std::string& unit) {
     const std::string title = at.panel && at.panel->title.find("channels") == std::string::npos
                                   ? at.panel->title
                                   : words_in(channel.topic.substr(channel.topic.rfind('/') + 1));
@@ -473,12 +473,12 @@ void add_foot_path(Maker& make, const Channels& channels, const std::string& leg
 
 // Returns a curve of a chart, in the units of its axes.
 Curve charted(const Maker& make, const ChartCurve& from, const ShownUnit& x, const ShownUnit& y) {
-  Curve out = from.x_channel.none()
+  Curve out = from.x_channel.is_empty()
                   ? Curve{.label = from.label, .xs = from.x, .ys = from.y, .kind = make.kind()}
                   : make.pair(from.label, from.x_channel, from.y_channel, x, y, make.kind());
   out.color = from.color;
   if (from.style != ChartCurve::Style::line) out.style = Curve::Style::points;
-  if (!from.x_channel.none()) return out;
+  if (!from.x_channel.is_empty()) return out;
   for (double& value : out.xs) value = x.of(value);
   for (double& value : out.ys) value = y.of(value);
   return out;

@@ -15,7 +15,7 @@ struct Channel {
   std::string field = "value";
 
   // Returns whether this is no channel.
-  bool none() const { return topic.empty(); }
+  bool is_empty() const { return topic.empty(); }
 };
 
 // A channel's samples; points into a table.
@@ -34,7 +34,7 @@ class Channels {
   // Returns the samples of the first table that has the channel; empty if no table has it.
   Samples find(const Channel& channel) const;
   bool has(const Channel& channel) const { return static_cast<bool>(find(channel)); }
-  // Returns the first of these topics that has samples; none() if no topic has.
+  // Returns the first of these topics that has samples; is_empty() if no topic has.
   Channel first_of(std::initializer_list<std::string> topics) const;
   const std::vector<const signals::Table*>& tables() const { return tables_; }
 

@@ -218,13 +218,13 @@ Content finish(Object json, const Run& run, const Blob& blob) {
 }
 
 // Returns the warning at the top of the page of a run that ended early.
-std::vector<analysis::Warning> how_it_ended(const Run& run) {
+std::vector<analysis::Warning> end_warning(const Run& run) {
   if (run.analysis.ended.empty()) return {};
   return {{"the run was ended: " + run.analysis.ended, {}}};
 }
 
 // Returns a warning if the page does not show all samples of a long run.
-std::vector<analysis::Warning> what_is_left_out(const Blob& blob, const Channels& channels,
+std::vector<analysis::Warning> omission_warning(const Blob& blob, const Channels& channels,
                                                 std::size_t stretches) {
   if (blob.thinned() == 0) return {};
   std::size_t samples = 0;
@@ -270,8 +270,8 @@ Content content(const Run& run) {
     json.put("stand", to_json(stand_of_run, columns));
     json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
   }
-  std::vector<analysis::Warning> warnings = how_it_ended(run);
-  std::ranges::move(what_is_left_out(blob, channels, record.stretches().size()),
+  std::vector<analysis::Warning> warnings = end_warning(run);
+  std::ranges::move(omission_warning(blob, channels, record.stretches().size()),
                     std::back_inserter(warnings));
   std::ranges::move(analysis::cut_logs(table), std::back_inserter(warnings));
   std::ranges::copy(warned, std::back_inserter(warnings));

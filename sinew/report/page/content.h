@@ -87,16 +87,16 @@ class Columns {
     return column;
   }
   // Channel and use of each column, by its index.
-  struct Asked {
+  struct Request {
     Channel channel;
     Blob::As as = Blob::As::line;
   };
-  const std::vector<Asked>& list() const { return list_; }
+  const std::vector<Request>& list() const { return list_; }
 
  private:
   const Channels& channels_;
   Blob& blob_;
-  std::vector<Asked> list_;
+  std::vector<Request> list_;
 };
 
 // Return JSON; a channel is the index of its column, or null.

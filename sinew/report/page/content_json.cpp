@@ -61,7 +61,7 @@ Json axis_of(const ChartAxis& axis) { return {{"label", axis.label}, {"unit", ax
 
 // Returns numbers with the digits that a picture can show, or the index of a channel's column.
 Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
-  if (!channel.none()) return column_of(channel, columns);
+  if (!channel.is_empty()) return column_of(channel, columns);
   Json out = Json::array();
   for (const double x : numbers)
     out.push_back(std::isfinite(x) ? Json::parse(fmt::format("{:.7g}", x)) : Json());
@@ -102,7 +102,7 @@ Json shapes_of(const Scene& scene) {
     out["cams"].push_back({{"frame", c.frame}, {"outline", std::move(outline)}});
   }
   out["cords"] = Json::array();
-  for (const Cord& c : scene.cords)
+  for (const TendonShape& c : scene.tendons)
     out["cords"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
   out["discs"] = Json::array();
   for (const Disc& d : scene.discs)
@@ -143,7 +143,7 @@ Json cylinder_of(const CylinderShape& c, Columns& columns) {
 
 // Returns the columns of both components; null for no channel.
 Json vector_of(const Channel& x, Columns& columns) {
-  if (x.none()) return {};
+  if (x.is_empty()) return {};
   return Json::array({column_of(x, columns), column_of({x.topic, "y"}, columns)});
 }
 
@@ -279,12 +279,12 @@ std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
   for (const analysis::Verdict& v : verdicts)
     out.push_back({{"key", v.key},
                    {"reported", v.reported},
-                   {"ours", v.ours},
+                   {"ours", v.computed},
                    {"accept", v.accept},
                    {"source", v.source},
                    {"class", to_text(v.statement_class)},
                    {"wording", to_text(v.wording)},
-                   {"is", analysis::to_text(v.is)}});
+                   {"is", analysis::to_text(v.agreement)}});
   return text_of(out);
 }
 

@@ -1,4 +1,4 @@
-#include "sinew/report/page/growing.h"
+#include "sinew/report/page/live_page.h"
 
 #include <algorithm>
 #include <deque>
@@ -98,7 +98,7 @@ bool is_pointwise(std::string_view topic) {
   return !topic.ends_with("/oscillation") && !topic.starts_with("/trolley/");
 }
 
-struct Growing::Parts {
+struct LivePage::Parts {
   Parts(const Table& table, const analysis::Machine& machine)
       : derived(without_windows(analysis::derive(table, machine))),
         record(table, machine, &derived) {
@@ -118,7 +118,7 @@ struct Growing::Parts {
   Stand stand;
 };
 
-Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
+LivePage::LivePage(const std::vector<signals::Topic>& topics, Of of)
     : of_(std::move(of)), machine_(analysis::read_machine(of_.resolved)) {
   const Prototype prototype(topics, machine_, of_.foot_path);
   const Parts parts(prototype.table, machine_);
@@ -150,22 +150,22 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   columns_ = columns.list();
 }
 
-Content Growing::content(const std::string& live) const {
+Content LivePage::content(const std::string& live) const {
   return {.title = machine_.title.empty() ? of_.name : machine_.title,
           .json = head_.substr(0, head_.size() - 1) + ",\"live\":" + live + "}",
           .samples = to_base64(log::deflated("")),
           .units = units_};
 }
 
-std::string Growing::piece(const Table& table) const {
+std::string LivePage::piece(const Table& table) const {
   const Parts parts(table, machine_);
   Blob blob;
   std::deque<signals::Column> no_values;  // one per missing channel: a blob joins equal addresses
   const signals::Times no_times;
-  for (const Columns::Asked& asked : columns_) {
-    Samples samples = parts.channels.find(asked.channel);
+  for (const Columns::Request& request : columns_) {
+    Samples samples = parts.channels.find(request.channel);
     if (!samples) samples = {&no_times, &no_values.emplace_back(), ""};
-    blob.add(samples, asked.as);
+    blob.add(samples, request.as);
   }
   return "{\"samples\":" + to_json(blob.layout()) + ",\"data\":\"" + blob.base64() +
          "\",\"phases\":" + phases_of(parts.record, machine_) + "}";

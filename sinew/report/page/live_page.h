@@ -1,9 +1,9 @@
-// report/page/growing.h - the page of a run in progress: first the page without samples, then its
+// report/page/live_page.h - the page of a run in progress: first the page without samples, then its
 // samples, piece by piece.
 //
-//   Growing growing(topics, {.resolved = …, .name = …, .duration = …});
-//   send(fill(page_template(), growing.content(more)));
-//   send(growing.piece(rows));   // the page appends them
+//   LivePage page(topics, {.resolved = …, .name = …, .duration = …});
+//   send(fill(page_template(), page.content(more)));
+//   send(page.piece(rows));   // the page appends them
 //
 // Consecutive pieces give the same columns as the whole run. Series that need more than one sample
 // (the oscillation, the trolley's travel from torques) are left to the finished run's page.
@@ -20,7 +20,7 @@
 
 namespace sinew::report {
 
-class Growing {
+class LivePage {
  public:
   struct Of {
     const config::Node& resolved;  // must outlive this
@@ -32,7 +32,7 @@ class Growing {
 
   // `topics` are all that will be recorded; /valve/… are edges, the others rows of one clock.
   // Throws config::Error if the resolved file cannot be read.
-  Growing(const std::vector<signals::Topic>& topics, Of of);
+  LivePage(const std::vector<signals::Topic>& topics, Of of);
 
   // Returns the page without samples; `live`, a JSON object, becomes the run's member of that name.
   Content content(const std::string& live) const;
@@ -48,9 +48,9 @@ class Growing {
 
   Of of_;
   analysis::Machine machine_;
-  std::string head_;                     // JSON of the page
-  std::string units_;                    // JSON of the units (content.h)
-  std::vector<Columns::Asked> columns_;  // columns of the page
+  std::string head_;                       // JSON of the page
+  std::string units_;                      // JSON of the units (content.h)
+  std::vector<Columns::Request> columns_;  // columns of the page
 };
 
 // Returns whether each sample of a derived series depends on samples of the same time only.

@@ -1,5 +1,5 @@
 // The page of a run in progress: its pieces give the same samples as the whole run.
-#include "sinew/report/page/growing.h"
+#include "sinew/report/page/live_page.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<signals::Topic> topics(const Table& table) {
   return out;
 }
 
-Growing growing(const Table& table, bool foot_path = true) {
+LivePage live_page(const Table& table, bool foot_path = true) {
   return {topics(table),
           {.resolved = resolved(), .name = "walk", .duration = 12.5, .foot_path = foot_path}};
 }
@@ -96,9 +96,9 @@ std::vector<Column> columns_of(const std::string& piece) {
   return out;
 }
 
-TEST(Growing, PiecesAreTheWhole) {
+TEST(LivePage, PiecesAreTheWhole) {
   const Table all = table();
-  const Growing page = growing(all);
+  const LivePage page = live_page(all);
   const std::vector<Column> whole = columns_of(page.piece(all));
   ASSERT_GT(whole.size(), 40u);
 
@@ -121,12 +121,12 @@ TEST(Growing, PiecesAreTheWhole) {
 }
 
 // The page is given the faults in advance, to mark them when they begin.
-TEST(Growing, ThePageKnowsTheFaults) {
+TEST(LivePage, ThePageKnowsTheFaults) {
   const Table all = table();
-  EXPECT_FALSE(Json::parse(growing(all).content("{}").json).contains("faults"));
+  EXPECT_FALSE(Json::parse(live_page(all).content("{}").json).contains("faults"));
   const config::Node broken =
       config::compose(sinew::test::source_dir() + "/experiments/faults/valve-stuck-open.toml");
-  const Growing page(topics(all), {.resolved = broken, .name = "broken", .duration = 12.5});
+  const LivePage page(topics(all), {.resolved = broken, .name = "broken", .duration = 12.5});
   const Json faults = Json::parse(page.content("{}").json)["faults"];
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0]["of"], "knee_extensor.inlet");
@@ -134,9 +134,9 @@ TEST(Growing, ThePageKnowsTheFaults) {
   EXPECT_NEAR(faults[0]["to"].get<double>(), 5.2, 1e-12);
 }
 
-TEST(Growing, ThePageHasNoSamplesYetAndAPlaceForAll) {
+TEST(LivePage, ThePageHasNoSamplesYetAndAPlaceForAll) {
   const Table all = table();
-  const Content content = growing(all).content(R"({"controls":[]})");
+  const Content content = live_page(all).content(R"({"controls":[]})");
   const Json json = Json::parse(content.json);
   EXPECT_EQ(content.title, json["title"]);
   EXPECT_EQ(json["duration"], 12.5);
@@ -148,7 +148,7 @@ TEST(Growing, ThePageHasNoSamplesYetAndAPlaceForAll) {
   EXPECT_GT(json["parameters"].size(), 300u);
   for (const auto& n : json["samples"]["clocks"]) EXPECT_EQ(n, 0);
   EXPECT_EQ(log::inflated(from_base64(content.samples)), "");
-  EXPECT_EQ(json["samples"]["columns"].size(), columns_of(growing(all).piece(all)).size());
+  EXPECT_EQ(json["samples"]["columns"].size(), columns_of(live_page(all).piece(all)).size());
 
   bool has_oscillation = false;
   for (const auto& panel : json["panels"])
@@ -160,18 +160,18 @@ TEST(Growing, ThePageHasNoSamplesYetAndAPlaceForAll) {
   EXPECT_GT(json["scene"]["muscles"][0]["longest"], 0.05);
 }
 
-TEST(Growing, WithoutAFootPathNoneIsDesired) {
+TEST(LivePage, WithoutAFootPathNoneIsDesired) {
   const Table all = table();
   EXPECT_FALSE(
-      Json::parse(growing(all).content("{}").json)["scene"]["feet"][0]["desired"].is_null());
-  EXPECT_TRUE(
-      Json::parse(growing(all, false).content("{}").json)["scene"]["feet"][0]["desired"].is_null());
+      Json::parse(live_page(all).content("{}").json)["scene"]["feet"][0]["desired"].is_null());
+  EXPECT_TRUE(Json::parse(live_page(all, false).content("{}").json)["scene"]["feet"][0]["desired"]
+                  .is_null());
 }
 
-TEST(Growing, PhasesOfAPieceAreThoseOfItsRows) {
+TEST(LivePage, PhasesOfAPieceAreThoseOfItsRows) {
   const Table all = table();
-  const Json whole = Json::parse(growing(all).piece(all))["phases"]["stretches"];
-  const Json late = Json::parse(growing(all).piece(part(all, 1'000'000'000, 1'300'000'000)));
+  const Json whole = Json::parse(live_page(all).piece(all))["phases"]["stretches"];
+  const Json late = Json::parse(live_page(all).piece(part(all, 1'000'000'000, 1'300'000'000)));
   ASSERT_FALSE(late["phases"]["stretches"].empty());
   const Json& first = late["phases"]["stretches"][0];
   EXPECT_NEAR(first["from"], 1.0, 0.011);
@@ -182,9 +182,9 @@ TEST(Growing, PhasesOfAPieceAreThoseOfItsRows) {
   EXPECT_TRUE(found);
 }
 
-TEST(Growing, APieceOfNothingHasEveryColumnEmpty) {
+TEST(LivePage, APieceOfNothingHasEveryColumnEmpty) {
   const Table all = table();
-  for (const Column& c : columns_of(growing(all).piece(part(all, 0, 0))))
+  for (const Column& c : columns_of(live_page(all).piece(part(all, 0, 0))))
     EXPECT_TRUE(c.bits.empty());
 }
 

@@ -10,7 +10,7 @@ namespace sinew::report {
 namespace {
 
 // Escapes JSON so that it cannot end its script element.
-std::string harmless(std::string_view json) {
+std::string script_safe(std::string_view json) {
   std::string out;
   for (const char c : json) {
     if (c == '<')
@@ -45,11 +45,11 @@ std::string fill(std::string_view page_template, const Content& content) {
     std::size_t at = 0;
   };
   std::vector<Place> places = {{"@title@", escaped(content.title)},
-                               {"@run@", harmless(content.json)},
+                               {"@run@", script_safe(content.json)},
                                {"@samples@", content.samples}};
   constexpr std::string_view connect = "@connect@", units = "@units@";
   if (page_template.find(units) != page_template.npos)
-    places.push_back({units, harmless(content.units.empty() ? units_json() : content.units)});
+    places.push_back({units, script_safe(content.units.empty() ? units_json() : content.units)});
   if (!content.connect.empty() || page_template.find(connect) != page_template.npos)
     places.push_back({connect, content.connect});
   std::size_t size = page_template.size();

@@ -19,7 +19,7 @@ namespace {
 // Colors for light and dark backgrounds.
 constexpr const char* metal = "#8a95a5";
 constexpr const char* muscle_color = "#2f86c5";
-constexpr const char* cord_color = "#6d7988";
+constexpr const char* tendon_color = "#6d7988";
 
 // An SVG drawing with y upwards, which records its extent  [m].
 class Drawing {
@@ -87,9 +87,11 @@ signals::Table first_row(const config::Node& resolved, const analysis::Machine& 
 }
 
 // Positions in the frames of a scene at its first row.
-class Places {
+class FramePoses {
  public:
-  Places(const Scene& scene, const signals::Table& drawn) : scene_(scene) { channels_.add(drawn); }
+  FramePoses(const Scene& scene, const signals::Table& drawn) : scene_(scene) {
+    channels_.add(drawn);
+  }
   double value(const Channel& channel, double otherwise = 0) const {
     const Samples samples = channels_.find(channel);
     return samples ? (*samples.values)[0] : otherwise;
@@ -105,7 +107,7 @@ class Places {
   Channels channels_;
 };
 
-void draw_links(Drawing& out, const Scene& scene, const Places& places, double thick) {
+void draw_links(Drawing& out, const Scene& scene, const FramePoses& places, double thick) {
   if (scene.track) {
     const Track& t = *scene.track;
     const double y = t.height;
@@ -114,20 +116,20 @@ void draw_links(Drawing& out, const Scene& scene, const Places& places, double t
   for (const LinkShape& link : scene.links)
     out.line(places.at(link.frame, {0, 0}), places.at(link.frame, {link.length, 0}), thick, metal);
   for (const LinkShape& link : scene.links)
-    out.disc(places.at(link.frame, {0, 0}), 0.9 * thick, cord_color);
+    out.disc(places.at(link.frame, {0, 0}), 0.9 * thick, tendon_color);
   for (const Disc& disc : scene.discs)
-    out.disc(places.at(disc.frame, disc.center), disc.radius, cord_color);
+    out.disc(places.at(disc.frame, disc.center), disc.radius, tendon_color);
 }
 
-void draw_muscles(Drawing& out, const Scene& scene, const Places& places, double thick) {
-  for (const Cord& cord : scene.cords)
-    out.line(places.at(cord.frame, cord.from), places.at(cord.frame, cord.to), 0.15 * thick,
-             cord_color);
+void draw_muscles(Drawing& out, const Scene& scene, const FramePoses& places, double thick) {
+  for (const TendonShape& tendon : scene.tendons)
+    out.line(places.at(tendon.frame, tendon.from), places.at(tendon.frame, tendon.to), 0.15 * thick,
+             tendon_color);
   for (const MuscleShape& m : scene.muscles) {
     const double length = places.value(m.length, m.longest);
     const robot::Point end{m.anchor.x + length * m.direction.x,
                            m.anchor.y + length * m.direction.y};
-    out.line(places.at(m.frame, m.anchor), places.at(m.frame, m.touch), 0.15 * thick, cord_color);
+    out.line(places.at(m.frame, m.anchor), places.at(m.frame, m.touch), 0.15 * thick, tendon_color);
     out.line(places.at(m.frame, m.anchor), places.at(m.frame, end),
              std::max(0.45 * thick, places.value(m.diameter)), muscle_color);
   }
@@ -142,7 +144,7 @@ std::string picture_of_robot(const config::Node& resolved) {
   signals::Table drawn;
   const Scene scene = report::scene(channels, machine, record, drawn);
   if (scene.empty()) return "";
-  const Places places(scene, drawn);
+  const FramePoses places(scene, drawn);
   double longest = 0.05;
   for (const LinkShape& link : scene.links) longest = std::max(longest, link.length);
   Drawing out;
@@ -157,7 +159,7 @@ std::string picture_of_robot(const config::Node& resolved) {
 std::string picture_of_stand() {
   Drawing out;
   out.line({-4, 9}, {4, 9}, 0.8, metal);
-  out.line({0, 9}, {0, -5}, 0.25, cord_color);
+  out.line({0, 9}, {0, -5}, 0.25, tendon_color);
   out.line({0, 6.5}, {0, -1.5}, 2.4, muscle_color);
   out.line({-1.6, -5.4}, {1.6, -5.4}, 1.2, metal);
   out.line({-2.4, -7.2}, {2.4, -7.2}, 1.2, metal);

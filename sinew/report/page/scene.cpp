@@ -128,7 +128,7 @@ std::vector<Point> outline(const robot::Muscle& muscle, const robot::Joint& join
   for (int i = 0; i < corners; ++i) {
     const double turn = 2.0 * std::numbers::pi * i / corners;
     const double around = std::remainder(turn, 2.0 * std::numbers::pi);
-    const double r = std::abs(robot::pull_at(muscle, joint, joint.rest_angle + around));
+    const double r = std::abs(robot::moment_arm_at(muscle, joint, joint.rest_angle + around));
     out.push_back({r * std::cos(turn), r * std::sin(turn)});
   }
   return out;
@@ -169,12 +169,12 @@ Point side_of(Point along, double pull) {
 Point plus(Point a, Point b, double times) { return {a.x + times * b.x, a.y + times * b.y}; }
 
 // Position of a joint in its proximal frame, and the direction from it back along the link.
-struct Seat {
+struct JointMount {
   int frame = 0;
   Point joint, back;
   double room = 0;  // length available along the link [m]; 0: unlimited
 };
-Seat seat_at(const robot::Robot& robot, std::size_t j) {
+JointMount joint_mount_at(const robot::Robot& robot, std::size_t j) {
   const int parent = robot::parent_of(robot, j);
   const double at = robot::attachment_of(robot, j);
   if (parent < 0) return {0, {at, 0}, {0, 1}, 0};
@@ -182,13 +182,13 @@ Seat seat_at(const robot::Robot& robot, std::size_t j) {
 }
 
 double rest_pull(const robot::Muscle& muscle, const robot::Joint& joint) {
-  return robot::pull_at(muscle, joint, joint.rest_angle);
+  return robot::moment_arm_at(muscle, joint, joint.rest_angle);
 }
 
 // Places a muscle of one joint: its tendon leaves the cam along the proximal link.
 void place(MuscleShape& shape, const robot::Robot& robot, const robot::Muscle& muscle,
            std::size_t joint) {
-  const Seat seat = seat_at(robot, joint);
+  const JointMount seat = joint_mount_at(robot, joint);
   const double arm = rest_pull(muscle, robot.joints[joint]);
   const double r = std::abs(arm);
   shape.frame = seat.frame;
@@ -203,7 +203,7 @@ void place(MuscleShape& shape, const robot::Robot& robot, const robot::Muscle& m
 void place_across(MuscleShape& shape, Maker& m, const robot::Muscle& muscle, std::size_t first,
                   std::size_t second) {
   const robot::Robot& robot = m.robot();
-  const Seat seat = seat_at(robot, second);
+  const JointMount seat = joint_mount_at(robot, second);
   const double near = rest_pull(muscle, robot.joints[first]);
   const double far = rest_pull(muscle, robot.joints[second]);
   const Point start = plus({}, side_of(seat.back, near), std::abs(near));
@@ -213,10 +213,10 @@ void place_across(MuscleShape& shape, Maker& m, const robot::Muscle& muscle, std
   shape.direction = {(shape.touch.x - start.x) / span, (shape.touch.y - start.y) / span};
   const double before = std::max(0.0, 0.5 * (span - shape.longest));
   shape.anchor = plus(start, shape.direction, before);
-  m.out.cords.push_back({seat.frame, start, shape.anchor});
-  const Seat origin = seat_at(robot, first);
+  m.out.tendons.push_back({seat.frame, start, shape.anchor});
+  const JointMount origin = joint_mount_at(robot, first);
   const Point leaves = plus(origin.joint, side_of(origin.back, near), std::abs(near));
-  m.out.cords.push_back({origin.frame, leaves, plus(leaves, origin.back, 2.0 * std::abs(near))});
+  m.out.tendons.push_back({origin.frame, leaves, plus(leaves, origin.back, 2.0 * std::abs(near))});
 }
 
 void add_muscle(Maker& m, const robot::Muscle& muscle) {

@@ -50,7 +50,7 @@ struct MuscleShape {
 };
 
 // A tendon within a frame.
-struct Cord {
+struct TendonShape {
   int frame = 0;
   robot::Point from, to;  // [m]
 };
@@ -88,7 +88,7 @@ struct Scene {
   std::vector<LinkShape> links;
   std::vector<CamShape> cams;
   std::vector<MuscleShape> muscles;
-  std::vector<Cord> cords;
+  std::vector<TendonShape> tendons;
   std::vector<Disc> discs;
   std::optional<double> surface;  // height of the table [m]
   std::optional<Track> track;     // empty if the body is fixed

@@ -64,7 +64,8 @@ TEST(Scene, CordsPullWithTheMusclesMomentArm) {
     const Point lever = {m.touch.x - joint.x, m.touch.y - joint.y};
     const Point back = {-m.direction.x, -m.direction.y};
     const robot::Joint& at = robot.joints[j];
-    EXPECT_NEAR(cross(lever, back), robot::pull_at(robot.muscles[i], at, at.rest_angle), 1e-12);
+    EXPECT_NEAR(cross(lever, back), robot::moment_arm_at(robot.muscles[i], at, at.rest_angle),
+                1e-12);
     EXPECT_NEAR(std::hypot(back.x, back.y), 1, 1e-12);
   }
 }
@@ -100,10 +101,10 @@ TEST(Scene, LaysAMuscleOfTwoJointsBetweenThem) {
   const MuscleShape& s = d.scene.muscles[0];
   EXPECT_EQ(s.frame, 1);
   const robot::Joint& knee = m.robot.joints[1];
-  const double lever = robot::pull_at(both, knee, knee.rest_angle);
+  const double lever = robot::moment_arm_at(both, knee, knee.rest_angle);
   EXPECT_NEAR(s.touch.x, m.robot.links[0].length, 1e-12);
   EXPECT_NEAR(s.touch.y, lever, 1e-12) << "above the link raises the angle";
-  EXPECT_EQ(d.scene.cords.size(), 2u);
+  EXPECT_EQ(d.scene.tendons.size(), 2u);
 }
 
 TEST(Scene, NeedsOneAngleAtLeast) {
@@ -116,7 +117,7 @@ TEST(Scene, NeedsOneAngleAtLeast) {
   EXPECT_FALSE(d.scene.empty());
   EXPECT_EQ(d.scene.drawn_from, "measured angles");
   EXPECT_EQ(d.at(d.scene.frames[1].heading, 0), m.robot.joints[0].rest_angle);
-  EXPECT_TRUE(d.scene.muscles[0].pressure.none());
+  EXPECT_TRUE(d.scene.muscles[0].pressure.is_empty());
   EXPECT_TRUE(Drawn(m, {}).scene.empty());
 }
 
@@ -211,7 +212,8 @@ TEST(Pose, LengthOverACamOfAnyShapeChangesByItsRadius) {
       const double slope = (robot::muscle_length(robot, robot.muscles[0], more) -
                             robot::muscle_length(robot, robot.muscles[0], less)) /
                            (2 * h);
-      const double pull = robot::pull_at(robot.muscles[0], robot.joints[j], j == 0 ? hip : 5.2);
+      const double pull =
+          robot::moment_arm_at(robot.muscles[0], robot.joints[j], j == 0 ? hip : 5.2);
       EXPECT_NEAR(slope, -pull, 0.02 * std::abs(pull)) << hip;  // a corner is between the points
     }
 }

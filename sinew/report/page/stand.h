@@ -41,7 +41,7 @@ struct Stand {
   Channel inlet, exhaust;                // valve edges
   std::string drawn_from;
 
-  bool empty() const { return length.none(); }
+  bool empty() const { return length.is_empty(); }
 };
 
 // Returns the drawing of a stand. Series that are drawn but not logged are added to `drawn`:

@@ -111,7 +111,7 @@ TEST(Stand, OfACylinderHasItsMeasures) {
   EXPECT_NEAR(d.stand.bore, 0.627 * 0.0254, 1e-9);
   EXPECT_NEAR(d.stand.longest, 2 * 0.0254, 1e-9);
   EXPECT_EQ(d.stand.load, Stand::Load::driven);
-  EXPECT_TRUE(d.stand.diameter.none());
+  EXPECT_TRUE(d.stand.diameter.is_empty());
 }
 
 TEST(StandCharts, AreOfWhatMoves) {

@@ -35,7 +35,7 @@ TEST(PageUnits, ShowWhatTheLibraryShowsInEverySet) {
   for (const auto& [name, units] : sets)
     for (const auto& entry : units::shown_entries(units)) {
       const Json unit = set_of(table, name)["units"][std::string(entry.unit)];
-      const units::ShownUnit wanted = units.of(entry.unit, units::ShownUnits::not_known, 95000);
+      const units::ShownUnit wanted = units.of(entry.unit, units::ShownUnits::unknown_size, 95000);
       EXPECT_EQ(unit["label"], wanted.label()) << name << " " << entry.unit;
       EXPECT_NEAR(shown(unit, 3.2e5, 95000), wanted.of(3.2e5), 1e-9 * std::abs(wanted.of(3.2e5)))
           << name << " " << entry.unit;

@@ -14,9 +14,9 @@ using List = std::vector<Contradiction>;
 constexpr std::string_view up = "cylinder_up", down = "cylinder_down";
 
 // Numbers that may be used only once.
-class Taken {
+class UsedNumbers {
  public:
-  explicit Taken(std::string what) : what_(std::move(what)) {}
+  explicit UsedNumbers(std::string what) : what_(std::move(what)) {}
 
   void take(int number, const std::string& key, List& out) {
     const auto [it, is_new] = by_.emplace(number, key);
@@ -32,7 +32,7 @@ class Taken {
 };
 
 void check_pins(const Wiring& w, List& out) {
-  Taken pins("pin");
+  UsedNumbers pins("pin");
   for (const Wiring::Signal& s : w.signals) {
     pins.take(s.pin, "wiring.signal." + s.name + ".pin", out);
     pins.take(s.ground, "wiring.signal." + s.name + ".ground", out);
@@ -47,7 +47,7 @@ void check_pins(const Wiring& w, List& out) {
 }
 
 void check_signals(const Wiring& w, const Robot& robot, List& out) {
-  Taken channels("channel");
+  UsedNumbers channels("channel");
   for (const Wiring::Signal& s : w.signals) {
     const std::string key = "wiring.signal." + s.name;
     if (s.channel >= 0) channels.take(s.channel, key + ".channel", out);
@@ -88,8 +88,8 @@ std::vector<ValveBit> robot_bits(const Robot& robot) {
 }
 
 void check_bits(const Wiring& w, const Robot& robot, List& out) {
-  Taken by_table("bit");
-  std::map<int, Taken> by_robot;  // one per board
+  UsedNumbers by_table("bit");
+  std::map<int, UsedNumbers> by_robot;  // one per board
   for (const Wiring::Valve& v : w.valves) {
     const std::string key = "wiring.valve." + v.name;
     by_table.take(v.inlet.bit, key + ".inlet.bit", out);

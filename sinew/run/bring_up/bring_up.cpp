@@ -30,7 +30,7 @@ namespace {
 
 constexpr const char* format = "sinew.bring_up/1";
 
-config::Node count_of(double count, const Learned& l) {
+config::Node count_of(double count, const RestReadings& l) {
   config::Node out = config::make_table("at_rest");
   out.put(config::make_text("value", fmt::format("{:.1f} count", count)));
   out.put(config::make_text(
@@ -53,10 +53,11 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
     out.robot = root.at("robot").string();
     out.board = root.at("board").string();
     if (root.contains("machine")) out.machine = root.at("machine").string();
-    for (const auto& [name, said] : root.at("steps").items()) out.done[name] = said.strings();
+    for (const auto& [name, findings] : root.at("steps").items())
+      out.done[name] = findings.strings();
     for (const auto& [name, l] : root.at("sensors").items())
-      out.learned[name] = {l.at("at_rest_count").number(), l.at("noise_count").number(),
-                           static_cast<int>(l.at("readings").integer())};
+      out.rest_readings[name] = {l.at("at_rest_count").number(), l.at("noise_count").number(),
+                                 static_cast<int>(l.at("readings").integer())};
     if (const Json* joints = root.find("joints"))
       for (const auto& [name, s] : joints->items())
         out.strokes[name] = {s.at("lowest_count").number(), s.at("highest_count").number()};
@@ -73,8 +74,8 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
 void write_progress(const Progress& p, const std::filesystem::path& file) {
   Json root{{"format", format},     {"robot", p.robot},        {"board", p.board},
             {"machine", p.machine}, {"steps", Json::object()}, {"sensors", Json::object()}};
-  for (const auto& [name, said] : p.done) root["steps"][name] = said;
-  for (const auto& [name, l] : p.learned)
+  for (const auto& [name, findings] : p.done) root["steps"][name] = findings;
+  for (const auto& [name, l] : p.rest_readings)
     root["sensors"][name] = {
         {"at_rest_count", l.at_rest}, {"noise_count", l.noise}, {"readings", l.readings}};
   root["joints"] = Json::object();
@@ -83,8 +84,8 @@ void write_progress(const Progress& p, const std::filesystem::path& file) {
   write_file(file, root.exact_text(2) + "\n");
 }
 
-std::string learned_robot(const Progress& p, const std::filesystem::path& base,
-                          const std::filesystem::path& folder) {
+std::string measured_robot(const Progress& p, const std::filesystem::path& base,
+                           const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   config::Node root = config::make_table("");
   root.put(config::make_text("format", "sinew.robot/1"));
@@ -92,7 +93,7 @@ std::string learned_robot(const Progress& p, const std::filesystem::path& base,
       "base",
       fs::weakly_canonical(base).lexically_relative(fs::weakly_canonical(folder)).string()));
   config::Node sensors = config::make_table("sensor");
-  for (const auto& [name, l] : p.learned) {
+  for (const auto& [name, l] : p.rest_readings) {
     config::Node sensor = config::make_table(name);
     for (const char* side : {"real", "assumed"}) {
       config::Node group = config::make_table(side);
@@ -119,10 +120,10 @@ struct BenchValve {
 using control::Duties;
 using control::JointKind;
 
-std::string in_words(const Wire& wire) {
+std::string to_text(const Wire& wire) {
   const std::size_t space = wire.name.rfind(' ');
   return fmt::format("the {} of {} ({})", wire.name.substr(space + 1), wire.name.substr(0, space),
-                     wire.in_words());
+                     wire.to_text());
 }
 
 // Returns all valves that the board's outputs drive: those of the muscles, then the four of a
@@ -132,18 +133,18 @@ std::vector<BenchValve> bench_valves(const experiment::Experiment& e, const cont
   const std::vector<Wire> wires = valve_wires(e, board, pins);
   std::vector<BenchValve> out;
   const auto add = [&](std::size_t joint, signals::Valve valve, std::int32_t Duties::*duty) {
-    if (wires[valve.index].driven) out.push_back({in_words(wires[valve.index]), joint, duty});
+    if (wires[valve.index].driven) out.push_back({to_text(wires[valve.index]), joint, duty});
   };
   for (const BenchMuscle& m : muscles) {
-    const control::JointConfig& c = board.spine.joint[m.board_joint];
+    const control::JointConfig& c = board.joint_controller.joint[m.board_joint];
     const control::MuscleConfig& muscle = m.flexor ? c.flexor : c.extensor;
     add(m.board_joint, muscle.inlet, m.flexor ? &Duties::flexor_inlet : &Duties::extensor_inlet);
     if (m.has_exhaust)
       add(m.board_joint, muscle.exhaust,
           m.flexor ? &Duties::flexor_exhaust : &Duties::extensor_exhaust);
   }
-  for (std::size_t j = 0; j < board.spine.joints; ++j) {
-    const control::JointConfig& c = board.spine.joint[j];
+  for (std::size_t j = 0; j < board.joint_controller.joints; ++j) {
+    const control::JointConfig& c = board.joint_controller.joint[j];
     if (c.kind != JointKind::cylinder) continue;
     add(j, c.flexor.inlet, &Duties::flexor_inlet);
     add(j, c.flexor.exhaust, &Duties::flexor_exhaust);
@@ -169,8 +170,8 @@ std::vector<Stage> clicks_of(const BenchValve& valve, std::size_t joints) {
 // cylinders and regulators.
 std::vector<std::string> not_tried(const experiment::Experiment& e, const control::Board& board) {
   std::vector<std::string> out;
-  for (std::size_t j = 0; j < board.spine.joints; ++j) {
-    const JointKind kind = board.spine.joint[j].kind;
+  for (std::size_t j = 0; j < board.joint_controller.joints; ++j) {
+    const JointKind kind = board.joint_controller.joint[j].kind;
     if (kind == JointKind::cylinder) out.emplace_back("the cylinder with air");
     if (kind == JointKind::regulated)
       out.push_back(fmt::format("the regulators of {}",
@@ -241,10 +242,10 @@ namespace {
 
 struct Result {
   std::vector<std::string> wrong;  // empty: the step is done
-  std::vector<std::string> said;
+  std::vector<std::string> findings;
 };
 
-struct NobodyAnswers {};
+struct NoReply {};
 
 struct Step {
   std::string name, title;
@@ -262,7 +263,7 @@ std::string machine_of(const experiment::Experiment& bench) {
 
 struct BringUp::Impl {
   Impl(const experiment::Experiment& bench, std::string robot_file, plant::RemoteBoard& b, int l,
-       Person p, const fs::path& where)
+       Operator p, const fs::path& where)
       : e(bench),
         robot(fs::weakly_canonical(robot_file).string()),
         board(only_board(bench)),
@@ -270,10 +271,10 @@ struct BringUp::Impl {
         muscles(bench_muscles(bench, board, nullptr)),
         remote(&b),
         lead(l),
-        person(std::move(p)),
+        bench_operator(std::move(p)),
         folder(where),
         progress(read_progress(folder.path() / "bring-up.json", robot)) {
-    remote->stop_when(person.stops);
+    remote->stop_when(bench_operator.stops);
     begin_again_if(progress.machine != machine_of(bench),
                    "the robot's values are others than at the last time");
     progress.machine = machine_of(bench);
@@ -298,9 +299,9 @@ struct BringUp::Impl {
     pins = pins_of(text(who.board));
     muscles = bench_muscles(e, board, pins);
     draw_wiring();
-    Result out{.said = {progress.board}};
+    Result out{.findings = {progress.board}};
     if (const std::string fault = plant::fault_found(who); !fault.empty())
-      out.said.push_back(fault);
+      out.findings.push_back(fault);
     if (who.protocol != link::protocol_version)
       out.wrong.push_back(
           fmt::format("it has version {} of the protocol, this program {}: flash "
@@ -311,7 +312,7 @@ struct BringUp::Impl {
 
   std::string wire_of(const std::string& sensor) const {
     for (const Wire& wire : sensor_wires(e, board, pins))
-      if (wire.name == sensor) return wire.in_words();
+      if (wire.name == sensor) return wire.to_text();
     return "";
   }
 
@@ -319,18 +320,18 @@ struct BringUp::Impl {
   Result sensors() {
     ask_for("Are the muscles empty, the supply's air off, and does the machine hang still?");
     remote->configure(configuration);
-    const Recording heard = listen(*remote, configuration, 1.0);
+    const Recording recording = listen(*remote, configuration, 1.0);
     Result out;
     for (std::size_t i = 0; i < board.channel.size(); ++i) {
       const robot::Sensor& s = e.robot.sensors[board.channel[i]];
-      const Rest rest = rest_of(heard, i);
-      out.said.push_back(fmt::format("{}: {:.1f} count, noise {:.2f} ({})", s.name, rest.mean,
-                                     rest.deviation, wire_of(s.name)));
+      const Rest rest = rest_of(recording, i);
+      out.findings.push_back(fmt::format("{}: {:.1f} count, noise {:.2f} ({})", s.name, rest.mean,
+                                         rest.deviation, wire_of(s.name)));
       if (const std::string wrong =
               wrong_with(s, rest, board.limits.sensor[i], e.robot.converter.top(), wire_of(s.name));
           !wrong.empty())
         out.wrong.push_back(wrong);
-      progress.learned[s.name] = {rest.mean, rest.deviation, rest.readings};
+      progress.rest_readings[s.name] = {rest.mean, rest.deviation, rest.readings};
     }
     return out;
   }
@@ -339,10 +340,10 @@ struct BringUp::Impl {
     ask_for("Is the supply's air still off? Each valve is to click five times now.");
     Result out;
     for (const BenchValve& valve : bench_valves(e, board, muscles, pins)) {
-      const Trial t = tried(clicks_of(valve, configuration.spine.joints));
+      const Trial t = tried(clicks_of(valve, configuration.joint_controller.joints));
       if (!t.problem.empty()) return {{"the board ended the trial: " + t.problem}, {}};
       if (answer("Did " + valve.what + " click five times, and no other valve until the end?"))
-        out.said.push_back(valve.what);
+        out.findings.push_back(valve.what);
       else
         out.wrong.push_back(valve.what +
                             " did not click alone: check its wire, its driver and the "
@@ -360,7 +361,8 @@ struct BringUp::Impl {
       const auto channel = m.tension ? m.tension : m.angle;
       if (!channel || !t.problem.empty()) continue;
       const double moved = t.stages[0].after(*channel) - t.stages[0].before(*channel);
-      const double off = t.stages[0].after(*channel) - progress.learned[sensor(*channel)].at_rest;
+      const double off =
+          t.stages[0].after(*channel) - progress.rest_readings[sensor(*channel)].at_rest;
       if (std::abs(moved) > 60 || (m.tension && std::abs(off) > 600))
         out.wrong.push_back(
             fmt::format("{} is {:+.0f} count off its rest though nothing is to be open: is the "
@@ -375,20 +377,20 @@ struct BringUp::Impl {
   }
 
   Result muscle(std::size_t which) {
-    const Trial t = tried(stages_for(muscles[which], configuration.spine.joints));
-    const Judgement j = judge(muscles, which, t);
-    return {j.wrong, {j.said}};
+    const Trial t = tried(stages_for(muscles[which], configuration.joint_controller.joints));
+    const MuscleResult j = evaluate(muscles, which, t);
+    return {j.wrong, {j.findings}};
   }
 
   Result stroke(const BenchJoint& joint) {
     Result out;
     std::vector<double> ends;
     for (const std::size_t m : joint.muscles) {
-      const Trial t = tried(stroke_of(muscles[m], configuration.spine.joints));
+      const Trial t = tried(stroke_of(muscles[m], configuration.joint_controller.joints));
       if (!t.problem.empty()) return {{"the board ended the trial: " + t.problem}, {}};
       ends.push_back(end_of_stroke(joint, t));
-      out.said.push_back(fmt::format("{} pulls {} to {:.0f} count", muscles[m].name,
-                                     joint.angle_sensor, ends.back()));
+      out.findings.push_back(fmt::format("{} pulls {} to {:.0f} count", muscles[m].name,
+                                         joint.angle_sensor, ends.back()));
     }
     out.wrong = wrong_with_ends(joint, muscles, ends);
     const auto [lowest, highest] = std::ranges::minmax(ends);
@@ -398,7 +400,7 @@ struct BringUp::Impl {
 
   // Checks the stop by the board and the operator's emergency stop.
   Result stop() {
-    std::vector<control::Duties> all(configuration.spine.joints);
+    std::vector<control::Duties> all(configuration.joint_controller.joints);
     for (const BenchMuscle& m : muscles)
       if (m.flexor) all[m.board_joint] = fill(m);
     const Trial t = tried({{0.4, all}}, End::at_once);
@@ -407,7 +409,7 @@ struct BringUp::Impl {
     const Recording after = listen(*remote, configuration, 1.0);
     for (const BenchMuscle& m : muscles) {
       if (!m.tension || !out.wrong.empty()) continue;
-      const double rest = progress.learned[sensor(*m.tension)].at_rest;
+      const double rest = progress.rest_readings[sensor(*m.tension)].at_rest;
       const double left = std::abs(after.after(*m.tension) - rest);
       double pulled = 0;
       for (const Sample& s : t.stages[0].samples)
@@ -426,27 +428,27 @@ struct BringUp::Impl {
   // Runs stages, which the operator can stop while valves move.
   Trial tried(const std::vector<Stage>& stages, End end = End::by_plan) {
     struct Moves {
-      explicit Moves(const Person& p) : person(p) { tell(true); }
+      explicit Moves(const Operator& p) : bench_operator(p) { tell(true); }
       ~Moves() { tell(false); }
       void tell(bool now) const {
-        if (person.moves) person.moves(now);
+        if (bench_operator.moves) bench_operator.moves(now);
       }
-      const Person& person;
-    } const moves(person);
-    Trial out = try_out(*remote, configuration, lead, stages, end, person.stops);
-    if (!out.found.empty()) person.tell("    " + out.found);
+      const Operator& bench_operator;
+    } const moves(bench_operator);
+    Trial out = run_trial(*remote, configuration, lead, stages, end, bench_operator.stops);
+    if (!out.found.empty()) bench_operator.inform("    " + out.found);
     return out;
   }
 
   // --- the operator ---
 
   bool answer(const std::string& question) {
-    const std::optional<bool> said = person.ask(question);
-    if (!said) throw NobodyAnswers{};
-    return *said;
+    const std::optional<bool> reply = bench_operator.confirm(question);
+    if (!reply) throw NoReply{};
+    return *reply;
   }
   void ask_for(const std::string& question) {
-    if (!answer(question)) throw NobodyAnswers{};
+    if (!answer(question)) throw NoReply{};
   }
 
   // Called once in each session: if the bring-up is continued on another day, an operator may stand
@@ -464,10 +466,10 @@ struct BringUp::Impl {
     if (!other || progress.done.empty()) return;
     const fs::path before = folder.path() / "bring-up-before.json";
     write_progress(progress, before);
-    person.tell(fmt::format("All steps are to be done again: {}; their results are in {}", why,
-                            before.string()));
+    bench_operator.inform(fmt::format("All steps are to be done again: {}; their results are in {}",
+                                      why, before.string()));
     progress.done.clear();
-    progress.learned.clear();
+    progress.rest_readings.clear();
     progress.strokes.clear();
   }
 
@@ -489,17 +491,17 @@ struct BringUp::Impl {
     return out;
   }
 
-  bool work_off(const Step& step, std::size_t number, std::size_t count) {
+  bool run_step(const Step& step, std::size_t number, std::size_t count) {
     if (progress.done.contains(step.name) && step.name != "board") {
-      person.tell(fmt::format("{}/{} {}: done before", number, count, step.title));
+      bench_operator.inform(fmt::format("{}/{} {}: done before", number, count, step.title));
       return true;
     }
-    person.tell(fmt::format("{}/{} {}", number, count, step.title));
+    bench_operator.inform(fmt::format("{}/{} {}", number, count, step.title));
     if (step.with_air) ask_for_air();
     const Result r = step.work();
-    for (const std::string& line : r.said) person.tell("    " + line);
-    for (const std::string& line : r.wrong) person.tell("    wrong: " + line);
-    if (r.wrong.empty()) progress.done[step.name] = r.said;
+    for (const std::string& line : r.findings) bench_operator.inform("    " + line);
+    for (const std::string& line : r.wrong) bench_operator.inform("    wrong: " + line);
+    if (r.wrong.empty()) progress.done[step.name] = r.findings;
     write_progress(progress, folder.path() / "bring-up.json");
     return r.wrong.empty();
   }
@@ -512,15 +514,15 @@ struct BringUp::Impl {
   std::vector<BenchMuscle> muscles;
   plant::RemoteBoard* remote;
   int lead;
-  Person person;
+  Operator bench_operator;
   OutputFolder folder;
   Progress progress;
   bool air_is_open = false;
 };
 
 BringUp::BringUp(const experiment::Experiment& bench, std::string robot, plant::RemoteBoard& board,
-                 int lead, Person person, const fs::path& folder)
-    : impl_(std::make_unique<Impl>(bench, std::move(robot), board, lead, std::move(person),
+                 int lead, Operator bench_operator, const fs::path& folder)
+    : impl_(std::make_unique<Impl>(bench, std::move(robot), board, lead, std::move(bench_operator),
                                    folder)) {}
 
 BringUp::~BringUp() = default;
@@ -529,29 +531,31 @@ bool BringUp::go() {
   const std::vector<Step> steps = impl_->steps();
   try {
     for (std::size_t i = 0; i < steps.size(); ++i)
-      if (!impl_->work_off(steps[i], i + 1, steps.size())) {
-        impl_->person.tell("Mend that, then run the same command again: it continues from here.");
+      if (!impl_->run_step(steps[i], i + 1, steps.size())) {
+        impl_->bench_operator.inform(
+            "Mend that, then run the same command again: it continues from here.");
         return false;
       }
   } catch (const Stopped&) {
-    impl_->person.tell("Stopped: the muscles were vented. The same command continues from here.");
+    impl_->bench_operator.inform(
+        "Stopped: the muscles were vented. The same command continues from here.");
     return false;
-  } catch (const NobodyAnswers&) {
-    impl_->person.tell("Stopped. The same command continues from here.");
+  } catch (const NoReply&) {
+    impl_->bench_operator.inform("Stopped. The same command continues from here.");
     return false;
   } catch (const plant::BoardStopped&) {
-    impl_->person.tell("Stopped. The same command continues from here.");
+    impl_->bench_operator.inform("Stopped. The same command continues from here.");
     return false;
   }
   const fs::path out = impl_->folder.path() / "robot.toml";
-  write_file(out, learned_robot(impl_->progress, impl_->robot, impl_->folder.path()));
+  write_file(out, measured_robot(impl_->progress, impl_->robot, impl_->folder.path()));
   std::string left;
   for (const std::string& what : not_tried(impl_->e, impl_->board))
     left += (left.empty() ? "" : ", ") + what;
-  impl_->person.tell((left.empty()
-                          ? "All steps are done."
-                          : "All steps that there are have been done; not tried: " + left + ".") +
-                     std::string(" What was learned is ") + out.string());
+  impl_->bench_operator.inform(
+      (left.empty() ? "All steps are done."
+                    : "All steps that there are have been done; not tried: " + left + ".") +
+      std::string(" What was learned is ") + out.string());
   return true;
 }
 

@@ -23,10 +23,10 @@
 namespace sinew::run {
 
 // The operator at the bench, as callbacks.
-struct Person {
-  std::function<void(const std::string&)> tell;
+struct Operator {
+  std::function<void(const std::string&)> inform;
   // Returns yes or no, or nothing if there is no reply.
-  std::function<std::optional<bool>(const std::string&)> ask;
+  std::function<std::optional<bool>(const std::string&)> confirm;
   // Called with true before valves move and with false after it; may be empty.
   std::function<void(bool)> moves = {};
   // Returns whether the operator has requested a stop. Called in each period in which valves move;
@@ -45,7 +45,7 @@ class BringUp {
   // `lead` is the lead of commands (remote_boards.h). All arguments must outlive this object.
   // Throws config::Error if the folder has the steps of another robot or cannot be used.
   BringUp(const experiment::Experiment& bench, std::string robot, plant::RemoteBoard& board,
-          int lead, Person person, const std::filesystem::path& folder);
+          int lead, Operator bench_operator, const std::filesystem::path& folder);
   ~BringUp();
 
   // Executes the steps that are not completed. Returns false if a step found a fault, which it has
@@ -61,7 +61,7 @@ class BringUp {
 // The completed steps of a bring-up, in a file.
 
 // Readings of a channel while nothing moves.
-struct Learned {
+struct RestReadings {
   double at_rest = 0, noise = 0;  // mean and standard deviation [count]
   int readings = 0;
 };
@@ -76,7 +76,7 @@ struct Progress {
   std::string robot, board;
   std::string machine;                                   // hash of all values of the robot
   std::map<std::string, std::vector<std::string>> done;  // keys: step names; values: reports
-  std::map<std::string, Learned> learned;                // keys: sensor names
+  std::map<std::string, RestReadings> rest_readings;     // keys: sensor names
   std::map<std::string, Stroke> strokes;                 // keys: joint names
 };
 
@@ -89,7 +89,7 @@ void write_progress(const Progress& progress, const std::filesystem::path& file)
 
 // Returns a robot file for `folder` that is based on the file `base` and contains the measured rest
 // counts of the sensors.
-std::string learned_robot(const Progress& progress, const std::filesystem::path& base,
-                          const std::filesystem::path& folder);
+std::string measured_robot(const Progress& progress, const std::filesystem::path& base,
+                           const std::filesystem::path& folder);
 
 }  // namespace sinew::run

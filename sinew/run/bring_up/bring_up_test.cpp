@@ -66,21 +66,21 @@ struct Day {
         cables(only_board(bench)) {}
 
   bool go() {
-    const auto tell = [this](const std::string& line) { said += line + "\n"; };
-    const auto ask = [this](const std::string& question) -> std::optional<bool> {
-      said += question + "\n";
+    const auto inform = [this](const std::string& line) { printed += line + "\n"; };
+    const auto confirm = [this](const std::string& question) -> std::optional<bool> {
+      printed += question + "\n";
       return answers ? answers(question) : true;
     };
     BoardInThread board(cables.between(body.wires()));
     plant::RemoteBoard remote(board.line(), 1, 100);
     const bool done =
-        BringUp(bench, robot, remote, 0, {.tell = tell, .ask = ask, .moves = moves, .stops = stops},
-                folder.path)
+        BringUp(bench, robot, remote, 0,
+                {.inform = inform, .confirm = confirm, .moves = moves, .stops = stops}, folder.path)
             .go();
     left = remote.state();
     return done;
   }
-  bool has_said(const std::string& words) const { return said.find(words) != said.npos; }
+  bool has_printed(const std::string& words) const { return printed.find(words) != printed.npos; }
   // Returns the board's number of a sensor's channel.
   std::size_t channel(const std::string& sensor) const {
     const int number = robot::find_sensor(bench.robot, sensor);
@@ -99,13 +99,13 @@ struct Day {
   std::function<bool()> stops;
   std::function<void(bool)> moves;
   control::BoardState left = control::BoardState::fault;  // state of the board at the end
-  std::string said;
+  std::string printed;
 };
 
 TEST(BringUp, AWholeBenchPassesEveryStepAndItsRobotsFileIsLearned) {
   Day day;
-  EXPECT_TRUE(day.go()) << day.said;
-  EXPECT_TRUE(day.has_said("11/11")) << day.said;
+  EXPECT_TRUE(day.go()) << day.printed;
+  EXPECT_TRUE(day.has_printed("11/11")) << day.printed;
   const experiment::MachineFile learned =
       experiment::load_machine_file(day.folder.path / "robot.toml");
   const robot::Robot& robot = learned.experiment.robot;
@@ -130,7 +130,7 @@ TEST(BringUp, OtherRobotsPassAsWell) {
   for (const char* name :
        {"one-joint", "leg-with-pressures", "three-muscle-leg", "cricket", "leg-3-way"}) {
     Day day({}, (sinew::test::source_dir() + "/robots/") + name + "/robot.toml");
-    EXPECT_TRUE(day.go()) << name << "\n" << day.said;
+    EXPECT_TRUE(day.go()) << name << "\n" << day.printed;
   }
 }
 
@@ -139,11 +139,11 @@ TEST(BringUp, AStopWhileValvesMoveVentsAndIsGoneOnFrom) {
   int periods = 0;
   day.stops = [&] { return ++periods == 250; };
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("Stopped: the muscles were vented.")) << day.said;
+  EXPECT_TRUE(day.has_printed("Stopped: the muscles were vented.")) << day.printed;
   EXPECT_EQ(day.left, control::BoardState::idle);
   EXPECT_EQ(periods, 250) << "nothing moves after it";
   day.stops = {};
-  EXPECT_TRUE(day.go()) << day.said;
+  EXPECT_TRUE(day.go()) << day.printed;
 }
 
 TEST(BringUp, GoesOnWhereItStopped) {
@@ -153,13 +153,13 @@ TEST(BringUp, GoesOnWhereItStopped) {
     return true;
   };
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("Stopped. The same command continues from here."));
+  EXPECT_TRUE(day.has_printed("Stopped. The same command continues from here."));
   EXPECT_FALSE(fs::exists(day.folder.path / "robot.toml"));
-  day.said.clear();
+  day.printed.clear();
   day.answers = {};
-  EXPECT_TRUE(day.go()) << day.said;
-  EXPECT_TRUE(day.has_said("what the sensors read at rest: done before")) << day.said;
-  EXPECT_FALSE(day.has_said("hang still")) << "what is done is not asked again";
+  EXPECT_TRUE(day.go()) << day.printed;
+  EXPECT_TRUE(day.has_printed("what the sensors read at rest: done before")) << day.printed;
+  EXPECT_FALSE(day.has_printed("hang still")) << "what is done is not asked again";
 }
 
 TEST(BringUp, AsksForTheAirInEachSessionThatMovesValvesWithIt) {
@@ -169,8 +169,8 @@ TEST(BringUp, AsksForTheAirInEachSessionThatMovesValvesWithIt) {
   };
   EXPECT_FALSE(day.go());
   const std::string air = "Is it open, and is everybody clear?";
-  EXPECT_EQ(day.said.find(air), day.said.rfind(air)) << "once";
-  day.said.clear();
+  EXPECT_EQ(day.printed.find(air), day.printed.rfind(air)) << "once";
+  day.printed.clear();
   day.answers = [&](const std::string& question) -> std::optional<bool> {
     if (question.find(air) != question.npos) return false;
     return true;
@@ -178,19 +178,19 @@ TEST(BringUp, AsksForTheAirInEachSessionThatMovesValvesWithIt) {
   int moved = 0;
   day.moves = [&](bool now) { moved += now; };
   EXPECT_FALSE(day.go()) << "all steps with air but the last one are done before";
-  EXPECT_TRUE(day.has_said("fill, hold and empty knee_extensor: done before")) << day.said;
+  EXPECT_TRUE(day.has_printed("fill, hold and empty knee_extensor: done before")) << day.printed;
   EXPECT_EQ(moved, 0) << "no valve has moved";
 }
 
 TEST(BringUp, BeginsAgainWithARobotOfOtherValuesAndAtAnotherBoard) {
   Day day;
-  EXPECT_TRUE(day.go()) << day.said;
-  day.said.clear();
+  EXPECT_TRUE(day.go()) << day.printed;
+  day.printed.clear();
   day.bench = bench_of(day.robot, day.folder.path, {"joint.hip.angle_gain=0.3 %/count"});
   day.answers = [](const std::string&) -> std::optional<bool> { return {}; };
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("done again: the robot's values are others")) << day.said;
-  EXPECT_FALSE(day.has_said("done before"));
+  EXPECT_TRUE(day.has_printed("done again: the robot's values are others")) << day.printed;
+  EXPECT_FALSE(day.has_printed("done before"));
 
   EXPECT_EQ(
       read_progress(day.folder.path / "bring-up-before.json", fs::weakly_canonical(leg).string())
@@ -202,29 +202,29 @@ TEST(BringUp, BeginsAgainWithARobotOfOtherValuesAndAtAnotherBoard) {
   const std::size_t at = text.find("\"board\": \"") + 10;
   text.insert(at, "another ");
   std::ofstream(kept) << text;
-  day.said.clear();
+  day.printed.clear();
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("done again: this is another board or program than \"another "))
-      << day.said;
-  EXPECT_FALSE(day.has_said("done before"));
+  EXPECT_TRUE(day.has_printed("done again: this is another board or program than \"another "))
+      << day.printed;
+  EXPECT_FALSE(day.has_printed("done before"));
 }
 
 TEST(BringUp, ACylindersValvesClickAndWhatIsNotTriedWithAirIsSaid) {
   Day day({"cylinder.mode=valves"});
-  EXPECT_TRUE(day.go()) << day.said;
+  EXPECT_TRUE(day.go()) << day.printed;
   for (const char* valve :
        {"the inlet of cylinder_up (output 8", "the exhaust of cylinder_up (output 9",
         "the inlet of cylinder_down (output 10", "the exhaust of cylinder_down (output 11"})
-    EXPECT_TRUE(day.has_said(valve)) << valve << day.said;
-  EXPECT_TRUE(day.has_said("not tried: the cylinder with air.")) << day.said;
+    EXPECT_TRUE(day.has_printed(valve)) << valve << day.printed;
+  EXPECT_TRUE(day.has_printed("not tried: the cylinder with air.")) << day.printed;
 }
 
 TEST(BringUp, AThreeWayValveIsOneWireAndItsMuscleIsNotHeld) {
   Day day({}, sinew::test::source_dir() + "/robots/leg-3-way/robot.toml");
-  EXPECT_TRUE(day.go()) << day.said;
-  EXPECT_TRUE(day.has_said("the inlet of hip_flexor (output 0"));
-  EXPECT_FALSE(day.has_said("the exhaust of")) << day.said;
-  EXPECT_FALSE(day.has_said("% lost")) << day.said;
+  EXPECT_TRUE(day.go()) << day.printed;
+  EXPECT_TRUE(day.has_printed("the inlet of hip_flexor (output 0"));
+  EXPECT_FALSE(day.has_printed("the exhaust of")) << day.printed;
+  EXPECT_FALSE(day.has_printed("% lost")) << day.printed;
 }
 
 TEST(BringUp, ABoardThatForgetsItsConfigurationIsNoBoardToReadFrom) {
@@ -243,7 +243,7 @@ TEST(BrokenBench, CablesOfTwoAnglesHaveChangedPlaces) {
   std::swap(day.cables.channel[day.channel("hip_angle")],
             day.cables.channel[day.channel("knee_angle")]);
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("its cable another's?")) << day.said;
+  EXPECT_TRUE(day.has_printed("its cable another's?")) << day.printed;
 }
 
 TEST(BrokenBench, CablesOfTwoTensionsHaveChangedPlaces) {
@@ -251,41 +251,43 @@ TEST(BrokenBench, CablesOfTwoTensionsHaveChangedPlaces) {
   std::swap(day.cables.channel[day.channel("hip_flexor_tension")],
             day.cables.channel[day.channel("knee_flexor_tension")]);
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("the cables of hip_flexor_tension and knee_flexor_tension have changed"))
-      << day.said;
+  EXPECT_TRUE(
+      day.has_printed("the cables of hip_flexor_tension and knee_flexor_tension have changed"))
+      << day.printed;
 }
 
 TEST(BrokenBench, APotentiometerIsReversed) {
   Day day;
   day.cables.reversed[day.channel("hip_angle")] = true;  // mirrored about its rest
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("hip_angle goes the wrong way: change the two outer wires")) << day.said;
+  EXPECT_TRUE(day.has_printed("hip_angle goes the wrong way: change the two outer wires"))
+      << day.printed;
 }
 
 TEST(BrokenBench, AnInletIsWiredToAnotherMuscle) {
   Day day;
   std::swap(day.cables.valve[0], day.cables.valve[4]);  // the inlets of hip and knee flexor
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("knee_flexor pulled in its place: the inlet")) << day.said;
+  EXPECT_TRUE(day.has_printed("knee_flexor pulled in its place: the inlet")) << day.printed;
 }
 
 TEST(BrokenBench, InletAndExhaustHaveChangedPlaces) {
   Day day;
   std::swap(day.cables.valve[0], day.cables.valve[1]);
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("wrong:")) << day.said;
+  EXPECT_TRUE(day.has_printed("wrong:")) << day.printed;
 }
 
 TEST(BrokenBench, TheSupplyIsOff) {
   Day day({"air.supply.pressure=0 psi gauge"});
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("nothing happened: is the supply's air on")) << day.said;
+  EXPECT_TRUE(day.has_printed("nothing happened: is the supply's air on")) << day.printed;
 }
 
 TEST(BrokenBench, AMuscleLeaks) {
   Day day({"muscle.hip_flexor.leak.conductance=2e-10 kg/(s Pa)"});
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("% in a second with its valves shut")) << day.said;
+  EXPECT_TRUE(day.has_printed("% in a second with its valves shut")) << day.printed;
 }
 
 TEST(BrokenBench, AValveDoesNotClick) {
@@ -294,9 +296,9 @@ TEST(BrokenBench, AValveDoesNotClick) {
     return question.find("exhaust of knee_flexor") == question.npos;
   };
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(
-      day.has_said("the exhaust of knee_flexor (output 5: bit 10, pins 47 and 48) did not click"))
-      << day.said;
+  EXPECT_TRUE(day.has_printed(
+      "the exhaust of knee_flexor (output 5: bit 10, pins 47 and 48) did not click"))
+      << day.printed;
 }
 
 TEST(BrokenBench, AJointsEndIsBeyondItsSensor) {
@@ -323,7 +325,7 @@ TEST(BrokenBench, TheEmergencyStopLetsNoAirOut) {
     return question.find("emergency stop") == question.npos;
   };
   EXPECT_FALSE(day.go());
-  EXPECT_TRUE(day.has_said("do not work at this machine until it does")) << day.said;
+  EXPECT_TRUE(day.has_printed("do not work at this machine until it does")) << day.printed;
 }
 
 TEST(BrokenBench, TheFolderHasAnotherRobotsSteps) {
@@ -332,7 +334,7 @@ TEST(BrokenBench, TheFolderHasAnotherRobotsSteps) {
   day.robot = sinew::test::source_dir() + "/robots/one-joint/robot.toml";
   try {
     day.go();
-    FAIL() << day.said;
+    FAIL() << day.printed;
   } catch (const config::Error& e) {
     EXPECT_NE(std::string(e.what()).find("this one has the steps of another robot"),
               std::string::npos)

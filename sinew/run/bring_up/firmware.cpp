@@ -68,20 +68,20 @@ std::string last_lines(const fs::path& file) {
   return out;
 }
 
-void work(const std::string& command, const fs::path& said) {
-  const std::string line = command + " > " + quoted(said.string()) + " 2>&1";
+void work(const std::string& command, const fs::path& output) {
+  const std::string line = command + " > " + quoted(output.string()) + " 2>&1";
   if (std::system(line.c_str()) != 0)
-    throw std::runtime_error("the firmware was not built; " + command + last_lines(said));
+    throw std::runtime_error("the firmware was not built; " + command + last_lines(output));
 }
 
 // Returns the program in another form: bare memory, or a text of addresses and bytes.
-fs::path converted(const fs::path& image, const std::string& extension, const fs::path& said) {
+fs::path converted(const fs::path& image, const std::string& extension, const fs::path& output) {
   const bool bare = extension == ".bin";
   if (!bare && extension != ".hex") return image;
   const fs::path out = image.string() + extension;
   work(fmt::format("arm-none-eabi-objcopy -O {} {} {}", bare ? "binary" : "ihex",
                    quoted(image.string()), quoted(out.string())),
-       said);
+       output);
   return out;
 }
 
@@ -122,8 +122,8 @@ void require_fits(const std::string& robot, const FirmwareBoard& board) {
   if (needed.size() != 1)
     refuse("board", fmt::format("{} boards", needed.size()), "one: a line leads to one");
   const control::Board& b = needed.front();
-  for (std::size_t j = 0; j < b.spine.joints; ++j)
-    if (b.spine.joint[j].kind == control::JointKind::regulated)
+  for (std::size_t j = 0; j < b.joint_controller.joints; ++j)
+    if (b.joint_controller.joint[j].kind == control::JointKind::regulated)
       refuse("control.joints", "pressure regulators",
              "valves: no output of a board sets a pressure");
   if (b.channel.size() > board.inputs)
@@ -132,7 +132,7 @@ void require_fits(const std::string& robot, const FirmwareBoard& board) {
   if (b.valve.size() > board.outputs)
     refuse("muscle", fmt::format("{} valves", b.valve.size()),
            fmt::format("{} at most", board.outputs));
-  if (!link::carries(line_rate, link::load_of(b.spine, true), b.spine.period))
+  if (!link::carries(line_rate, link::load_of(b.joint_controller, true), b.joint_controller.period))
     refuse("sensor", "telemetry that its line does not carry",
            fmt::format("what {} bits/s carry", line_rate));
 }
@@ -165,16 +165,17 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
   std::string name = board.name;
   std::ranges::replace(name, '-', '_');
   const std::string image = "application-" + name + ".elf";
-  const fs::path said = fs::path(workshop.path) / "said", build = fs::path(workshop.path) / "build";
+  const fs::path output = fs::path(workshop.path) / "said",
+                 build = fs::path(workshop.path) / "build";
   work(
       fmt::format("cmake -S {} -B {} -G Ninja -DCMAKE_TOOLCHAIN_FILE={} -DCMAKE_BUILD_TYPE=Release "
                   "-DSINEW_LOW_GIVES_CURRENT={}",
                   quoted(sources.string()), quoted(build.string()),
                   quoted((sources / "firmware" / "cortex-m4f.cmake").string()),
                   low_gives_current ? "ON" : "OFF"),
-      said);
-  work(fmt::format("ninja -C {} {}", quoted(build.string()), image), said);
-  const fs::path made = converted(build / "firmware" / image, out.extension().string(), said);
+      output);
+  work(fmt::format("ninja -C {} {}", quoted(build.string()), image), output);
+  const fs::path made = converted(build / "firmware" / image, out.extension().string(), output);
   std::ifstream in(made, std::ios::binary);
   write_file(out, std::string(std::istreambuf_iterator<char>(in), {}));
 }

@@ -138,8 +138,8 @@ std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e, const co
                                        const Pins* pins) {
   const std::vector<Wire> valves = valve_wires(e, board, pins);
   std::vector<BenchMuscle> out;
-  for (std::size_t j = 0; j < board.spine.joints; ++j) {
-    const control::JointConfig& c = board.spine.joint[j];
+  for (std::size_t j = 0; j < board.joint_controller.joints; ++j) {
+    const control::JointConfig& c = board.joint_controller.joint[j];
     const bool three_way = c.kind == control::JointKind::three_way;
     if (c.kind != control::JointKind::antagonist && !three_way) continue;
     const int joint = board.joint[j];
@@ -154,21 +154,20 @@ std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e, const co
       const auto sensor = [&](int which) {
         return which < 0 ? robot::Sensor{} : e.robot.sensors[static_cast<std::size_t>(which)];
       };
-      out.push_back(
-          {.name = m.name,
-           .joint = e.robot.joints[static_cast<std::size_t>(joint)].name,
-           .board_joint = j,
-           .flexor = flexor,
-           .two_joints = !m.second.joint.empty(),
-           .has_exhaust = !three_way,
-           .direction = flexor ? c.flexion : -c.flexion,
-           .tension = channel_of(board, tension),
-           .angle = channel_of(board, angle),
-           .tension_sign = sensor(tension).assumed_scale < 0 ? -1 : 1,
-           .inlet = valves[muscle.inlet.index].in_words(),
-           .exhaust = valves[(three_way ? muscle.inlet : muscle.exhaust).index].in_words(),
-           .angle_sensor = sensor(angle).name,
-           .tension_sensor = sensor(tension).name});
+      out.push_back({.name = m.name,
+                     .joint = e.robot.joints[static_cast<std::size_t>(joint)].name,
+                     .board_joint = j,
+                     .flexor = flexor,
+                     .two_joints = !m.second.joint.empty(),
+                     .has_exhaust = !three_way,
+                     .direction = flexor ? c.flexion : -c.flexion,
+                     .tension = channel_of(board, tension),
+                     .angle = channel_of(board, angle),
+                     .tension_sign = sensor(tension).assumed_scale < 0 ? -1 : 1,
+                     .inlet = valves[muscle.inlet.index].to_text(),
+                     .exhaust = valves[(three_way ? muscle.inlet : muscle.exhaust).index].to_text(),
+                     .angle_sensor = sensor(angle).name,
+                     .tension_sensor = sensor(tension).name});
     }
   }
   return out;
@@ -198,18 +197,18 @@ std::vector<Stage> stages_for(const BenchMuscle& m, std::size_t joints) {
   return out;
 }
 
-Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& t) {
+MuscleResult evaluate(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& t) {
   const BenchMuscle& m = all[which];
-  Judgement out;
+  MuscleResult out;
   if (!t.problem.empty()) {
     out.wrong.push_back("the board ended the trial: " + t.problem);
     return out;
   }
   const double lost = loss(m, t);
-  out.said = fmt::format("tension {:+.0f} count, {} {:+.0f} count", pull(m, t), m.joint,
-                         m.direction * turned(m, t, held));
-  if (m.angle) out.said += fmt::format(", to {:.0f}", t.stages[held].after(*m.angle));
-  if (m.has_exhaust) out.said += fmt::format(", {:.1f} % lost in a second", 100 * lost);
+  out.findings = fmt::format("tension {:+.0f} count, {} {:+.0f} count", pull(m, t), m.joint,
+                             m.direction * turned(m, t, held));
+  if (m.angle) out.findings += fmt::format(", to {:.0f}", t.stages[held].after(*m.angle));
+  if (m.has_exhaust) out.findings += fmt::format(", {:.1f} % lost in a second", 100 * lost);
   for (const std::string& wrong :
        {wrong_with_filling(all, which, t), wrong_with_holding(m, lost), wrong_with_emptying(m, t)})
     if (!wrong.empty()) out.wrong.push_back(wrong);

@@ -31,15 +31,15 @@ struct BenchMuscle {
 std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& experiment,
                                        const control::Board& board, const Pins* pins);
 
-// Returns the stages that try a muscle; judge() evaluates their recording.
+// Returns the stages that try a muscle; evaluate() evaluates their recording.
 std::vector<Stage> stages_for(const BenchMuscle& muscle, std::size_t joints);
 
-struct Judgement {
+struct MuscleResult {
   std::vector<std::string> wrong;  // faults and their remedies; empty: no fault
-  std::string said;                // the measured figures
+  std::string findings;            // the measured figures
 };
 // Returns the faults of one of the muscles in the recording of its trial.
-Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& trial);
+MuscleResult evaluate(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& trial);
 
 // Returns the duties that fill only this muscle and empty its antagonist [%].
 control::Duties fill(const BenchMuscle& muscle);

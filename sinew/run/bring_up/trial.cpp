@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/control/link/words.h"
+#include "sinew/control/link/texts.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::run {
@@ -28,16 +28,16 @@ double mean(const std::vector<Sample>& samples, std::size_t channel, double from
 }
 
 // Throws if the board has no sensors or those of another robot, as it does after a reset.
-Sample sample_of(const link::Telemetry& told, std::size_t channels, double time) {
-  if (told.channels != channels)
+Sample sample_of(const link::Telemetry& telemetry, std::size_t channels, double time) {
+  if (telemetry.channels != channels)
     throw plant::BoardError(
         fmt::format("the board reports {} sensors; expected {}: it was reset, or another program "
                     "is at its line; the same command continues from here",
-                    told.channels, channels));
+                    telemetry.channels, channels));
   Sample out{.time = time};
-  for (std::size_t i = 0; i < told.channels; ++i) {
-    out.counts.push_back(told.seen.reading[i].counts);
-    out.status.push_back(told.seen.reading[i].status);
+  for (std::size_t i = 0; i < telemetry.channels; ++i) {
+    out.counts.push_back(telemetry.controller.reading[i].counts);
+    out.status.push_back(telemetry.controller.reading[i].status);
   }
   return out;
 }
@@ -59,13 +59,13 @@ class Run {
  public:
   Run(plant::RemoteBoard& board, const link::Configuration& configuration, int lead)
       : board_(&board),
-        joints_(configuration.spine.joints),
-        channels_(link::channels_of(configuration.spine)),
-        period_(configuration.spine.period),
+        joints_(configuration.joint_controller.joints),
+        channels_(link::channels_of(configuration.joint_controller)),
+        period_(configuration.joint_controller.period),
         lead_(lead) {}
 
   // Executes a stage. Returns false if the run has ended.
-  bool work_off(const Stage& stage, Recording& out, const std::function<bool()>& stops) {
+  bool run_stage(const Stage& stage, Recording& out, const std::function<bool()>& stops) {
     const Tick begun = now_;
     for (;;) {
       const double time = signals::tick_seconds * static_cast<double>(now_ - begun);
@@ -74,9 +74,11 @@ class Run {
         (void)board_->shut_down();
         throw Stopped{};
       }
-      if (!send(command_of(stage, joints_, now_ == 0 ? 0 : now_ + lead_ * period_)) || !hear())
+      if (!send(command_of(stage, joints_, now_ == 0 ? 0 : now_ + lead_ * period_)) ||
+          !next_telemetry())
         return false;
-      out.samples.push_back(sample_of(*told_, channels_, time + signals::tick_seconds * period_));
+      out.samples.push_back(
+          sample_of(*telemetry_, channels_, time + signals::tick_seconds * period_));
       if (stage.ends && stage.ends(out.samples.back())) return true;
     }
   }
@@ -87,34 +89,34 @@ class Run {
     if (!send(last)) return false;
     // A vent may take as long as the safety's limit, and telemetry continues meanwhile.
     constexpr double longest = 30;  // [s]
-    for (const double until = board_->now() + longest; hear();)
+    for (const double until = board_->now() + longest; next_telemetry();)
       if (board_->now() >= until) return false;
     return board_->why() == plant::RemoteBoard::Why::over;
   }
   std::string problem() const {
     using Why = plant::RemoteBoard::Why;
     if (board_->why() == Why::over && board_->fault() != control::BoardFault::none)
-      return link::in_words(board_->fault());
-    if (board_->why() == Why::gone) return "the line to the board is gone";
+      return link::to_text(board_->fault());
+    if (board_->why() == Why::closed) return "the line to the board is gone";
     return "the board is not heard any more";
   }
 
  private:
   bool send(const link::CommandFor& command) { return board_->command(command); }
-  bool hear() {
+  bool next_telemetry() {
     constexpr double silence = 1.5;  // [s]
     const double until = board_->now() + silence;
     do {
-      told_ = board_->next(until - board_->now());
-    } while (told_ != nullptr && told_->tick <= now_);
-    if (told_ != nullptr) now_ = told_->tick;
-    return told_ != nullptr;
+      telemetry_ = board_->next(until - board_->now());
+    } while (telemetry_ != nullptr && telemetry_->tick <= now_);
+    if (telemetry_ != nullptr) now_ = telemetry_->tick;
+    return telemetry_ != nullptr;
   }
 
   plant::RemoteBoard* board_;
   std::size_t joints_, channels_;
   Tick period_, lead_, now_ = 0;
-  const link::Telemetry* told_ = nullptr;
+  const link::Telemetry* telemetry_ = nullptr;
 };
 
 }  // namespace
@@ -125,14 +127,14 @@ double Recording::after(std::size_t channel) const {
   return mean(samples, channel, seconds() - edge, seconds());
 }
 
-Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
-              const std::vector<Stage>& stages, End end, const std::function<bool()>& stops) {
+Trial run_trial(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
+                const std::vector<Stage>& stages, End end, const std::function<bool()>& stops) {
   const std::string found = plant::fault_found(board.prepare(configuration));
   Run run(board, configuration, lead);
   Trial out{.found = found};
   out.stages.resize(stages.size());
   for (std::size_t i = 0; i < stages.size(); ++i)
-    if (!run.work_off(stages[i], out.stages[i], stops)) {
+    if (!run.run_stage(stages[i], out.stages[i], stops)) {
       out.problem = run.problem();
       return out;
     }
@@ -142,20 +144,22 @@ Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuratio
 
 Recording listen(plant::RemoteBoard& board, const link::Configuration& configuration,
                  double seconds) {
-  const double period = signals::tick_seconds * configuration.spine.period;
-  const auto look = [&] {
-    const link::Telemetry* told = board.look(1.0);
-    if (told == nullptr) throw plant::BoardError("the board does not report what its sensors read");
-    return told;
+  const double period = signals::tick_seconds * configuration.joint_controller.period;
+  const auto wait_for_telemetry = [&] {
+    const link::Telemetry* telemetry = board.wait_for_telemetry(1.0);
+    if (telemetry == nullptr)
+      throw plant::BoardError("the board does not report what its sensors read");
+    return telemetry;
   };
   // The scan restarts somewhere within a period: that period lacks the earlier conversions, and one
   // more period may have been on the line already.
-  for (int i = 0; i < 2; ++i) (void)look();
+  for (int i = 0; i < 2; ++i) (void)wait_for_telemetry();
   Recording out;
   while (out.seconds() < seconds) {
-    const link::Telemetry* told = look();
+    const link::Telemetry* telemetry = wait_for_telemetry();
     const double time = period * static_cast<double>(out.samples.size());
-    out.samples.push_back(sample_of(*told, link::channels_of(configuration.spine), time));
+    out.samples.push_back(
+        sample_of(*telemetry, link::channels_of(configuration.joint_controller), time));
   }
   return out;
 }

@@ -50,9 +50,9 @@ enum class End { by_plan, at_once };  // at_once: an emergency stop
 // Arms the board, executes the stages and ends the run, after which the board vents. `lead` is the
 // lead of commands (remote_boards.h). Throws plant::BoardError if the board cannot be armed or
 // sends another number of sensors, and Stopped in the period in which `stops` returns true.
-Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
-              const std::vector<Stage>& stages, End end = End::by_plan,
-              const std::function<bool()>& stops = {});
+Trial run_trial(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
+                const std::vector<Stage>& stages, End end = End::by_plan,
+                const std::function<bool()>& stops = {});
 
 // Records the board's telemetry for some seconds while nothing runs. Throws plant::BoardError if
 // the board sends nothing or has lost its configuration, for example after a reset.

@@ -32,7 +32,8 @@ std::string drawn(const Wire& wire, int y, bool sensor) {
                      side, y);
   out += text(side + inward, y + 4, sensor ? "start" : "end", wire.at);
   out += text(outer + (sensor ? -6 : 6), y, sensor ? "end" : "start", wire.name);
-  out += text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.elsewhere, "small");
+  out +=
+      text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.robot_wiring, "small");
   return out;
 }
 
@@ -107,11 +108,11 @@ std::string owner_of(const robot::Robot& robot, std::size_t valve) {
 
 // Returns a bit for each output that drives a valve. The exhaust of a 3-way valve and the
 // outputs of a regulator drive none.
-std::uint32_t driven_outputs(const control::JointControllerConfig& spine) {
+std::uint32_t driven_outputs(const control::JointControllerConfig& joint_controller) {
   using control::JointKind;
   std::uint32_t out = 0;
-  for (std::size_t j = 0; j < spine.joints; ++j) {
-    const control::JointConfig& c = spine.joint[j];
+  for (std::size_t j = 0; j < joint_controller.joints; ++j) {
+    const control::JointConfig& c = joint_controller.joint[j];
     if (c.kind == JointKind::passive || c.kind == JointKind::regulated) continue;
     for (const control::MuscleConfig* m : {&c.flexor, &c.extensor}) {
       if (!m->present) continue;
@@ -133,7 +134,7 @@ std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::B
               fmt::format("channel {}", s.channel)};
     for (const robot::Wiring::Signal& signal : e.wiring.signals)
       if (e.wiring.present && signal.name == s.name)
-        wire.elsewhere += fmt::format(", pins {} and {}", signal.pin, signal.ground);
+        wire.robot_wiring += fmt::format(", pins {} and {}", signal.pin, signal.ground);
     out.push_back(std::move(wire));
   }
   return out;
@@ -142,7 +143,7 @@ std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::B
 std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board,
                               const Pins* pins) {
   const std::vector<robot::ValveBit> bits = robot::bits_of(e.robot, e.wiring);
-  const std::uint32_t driven = driven_outputs(board.spine);
+  const std::uint32_t driven = driven_outputs(board.joint_controller);
   std::vector<Wire> out;
   for (std::size_t i = 0; i < board.valve.size(); ++i) {
     const std::string of = owner_of(e.robot, board.valve[i]);

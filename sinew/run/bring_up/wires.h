@@ -11,13 +11,13 @@
 namespace sinew::run {
 
 struct Wire {
-  std::string name;       // "hip_angle", "hip_flexor inlet"
-  std::string at;         // on the board: "input 1 (PA1)", "output 0"
-  std::string elsewhere;  // in the robot's own numbers: "bit 0, pins 31 and 32"
-  bool driven = true;     // false: an output without a valve, as the exhaust of a 3-way valve
+  std::string name;          // "hip_angle", "hip_flexor inlet"
+  std::string at;            // on the board: "input 1 (PA1)", "output 0"
+  std::string robot_wiring;  // in the robot's own numbers: "bit 0, pins 31 and 32"
+  bool driven = true;        // false: an output without a valve, as the exhaust of a 3-way valve
 
   // Returns both in a line: on the board, and in the robot's numbers.
-  std::string in_words() const { return at + ": " + elsewhere; }
+  std::string to_text() const { return at + ": " + robot_wiring; }
 };
 
 // Return the wires in the order of the board's channels and of its valves: input i is its channel

@@ -16,12 +16,12 @@ static_assert(std::is_trivially_copyable_v<control::Supervisor>);
 // --- one board ---
 
 Board::Board(const control::Board& board)
-    : supervisor(board.spine, board.limits),
+    : supervisor(board.joint_controller, board.limits),
       joint_(board.joint),
       channel_(board.channel),
       valve_(board.valve) {
-  for (std::size_t i = 0; i < board.spine.conversions; ++i) {
-    Conversion c = board.spine.conversion[i];
+  for (std::size_t i = 0; i < board.joint_controller.conversions; ++i) {
+    Conversion c = board.joint_controller.conversion[i];
     c.channel.index = channel_[c.channel.index];
     conversion_.push_back(c);
   }
@@ -56,45 +56,45 @@ control::Trip Board::trip() const noexcept {
 
 // --- view of all boards ---
 
-MachineSeen::MachineSeen(const Boards& boards) noexcept
-    : phase(boards.boards_.front().seen().phase), boards_(&boards) {
-  for (const Board& b : boards.boards_) phase = std::min(phase, b.seen().phase);
+MachineState::MachineState(const Boards& boards) noexcept
+    : phase(boards.boards_.front().state().phase), boards_(&boards) {
+  for (const Board& b : boards.boards_) phase = std::min(phase, b.state().phase);
 }
 
-const control::JointSeen& MachineSeen::joint(std::size_t joint) const noexcept {
+const control::JointState& MachineState::joint(std::size_t joint) const noexcept {
   const Boards::Place at = boards_->joint_[joint];
-  return boards_->boards_[at.board].seen().joint[at.number];
+  return boards_->boards_[at.board].state().joint[at.number];
 }
 
-const signals::Reading& MachineSeen::reading(std::size_t sensor) const noexcept {
+const signals::Reading& MachineState::reading(std::size_t sensor) const noexcept {
   const Boards::Place at = boards_->sensor_[sensor];
-  return boards_->boards_[at.board].seen().reading[at.number];
+  return boards_->boards_[at.board].state().reading[at.number];
 }
 
-const control::SensorSeen& MachineSeen::supervised(std::size_t sensor) const noexcept {
+const control::SensorStatistics& MachineState::supervised(std::size_t sensor) const noexcept {
   const Boards::Place at = boards_->sensor_[sensor];
   return boards_->boards_[at.board].supervised().sensor[at.number];
 }
 
-std::uint32_t MachineSeen::overruns() const noexcept {
+std::uint32_t MachineState::overruns() const noexcept {
   std::uint32_t sum = 0;
-  for (const Board& b : boards_->boards_) sum += b.seen().overruns;
+  for (const Board& b : boards_->boards_) sum += b.state().overruns;
   return sum;
 }
 
-std::uint32_t MachineSeen::rejected_commands() const noexcept {
+std::uint32_t MachineState::rejected_commands() const noexcept {
   std::uint32_t sum = 0;
   for (const Board& b : boards_->boards_) sum += b.supervised().rejected_commands;
   return sum;
 }
 
-std::uint32_t MachineSeen::gaps() const noexcept {
+std::uint32_t MachineState::gaps() const noexcept {
   std::uint32_t most = 0;
   for (const Board& b : boards_->boards_) most = std::max(most, b.supervised().gaps);
   return most;
 }
 
-bool MachineSeen::tripped() const noexcept {
+bool MachineState::tripped() const noexcept {
   return std::ranges::any_of(boards_->boards_, [](const Board& b) {
     return b.supervised().trip.cause != control::Trip::Cause::none;
   });
@@ -113,7 +113,7 @@ Boards::Boards(std::span<const control::Board> boards) {
       sensor_[board.channel[i]] = {b, static_cast<std::uint8_t>(i)};
     }
     conversion_.insert(conversion_.end(), added.conversions().begin(), added.conversions().end());
-    period_ = board.spine.period;
+    period_ = board.joint_controller.period;
   }
   std::ranges::stable_sort(conversion_, {}, &Conversion::read);
 }
@@ -131,13 +131,13 @@ void Boards::command(const MachineCommand& command) noexcept {
 void Boards::end_together(Tick t) noexcept {
   if (state_.ended_by >= 0) return;
   for (std::size_t b = 0; b < boards_.size(); ++b)
-    if (boards_[b].supervisor.seen().fault != signals::Status::ok) {
+    if (boards_[b].supervisor.state().fault != signals::Status::ok) {
       state_.ended_by = static_cast<int>(b);
       break;
     }
   if (state_.ended_by < 0) return;
   for (Board& b : boards_) {
-    const Phase phase = b.supervisor.seen().phase;
+    const Phase phase = b.supervisor.state().phase;
     if (phase == Phase::startup || phase == Phase::running) b.supervisor.shut_down(t);
   }
 }
@@ -150,16 +150,16 @@ Tick Boards::next_event(Tick t) noexcept {
   return next;
 }
 
-void Boards::show(const control::Seen& seen, const control::Supervised& supervised,
-                  Ticks known) noexcept {
-  boards_.front().show({seen, supervised});
-  known_ = known;
+void Boards::show(const control::ControllerState& controller, const control::Supervised& supervised,
+                  Ticks valid) noexcept {
+  boards_.front().show({controller, supervised});
+  valid_ticks_ = valid;
 }
 
 void Boards::show_end(signals::Status why) noexcept {
-  Board::Far last{boards_.front().seen(), boards_.front().supervised()};
-  last.seen.phase = Phase::off;
-  if (last.seen.fault == signals::Status::ok) last.seen.fault = why;
+  Board::ReportedState last{boards_.front().state(), boards_.front().supervised()};
+  last.controller.phase = Phase::off;
+  if (last.controller.fault == signals::Status::ok) last.controller.fault = why;
   boards_.front().show(last);
 }
 
@@ -171,18 +171,18 @@ void Boards::shut_down(Tick t) noexcept {
   for (Board& b : boards_) b.supervisor.shut_down(t);
 }
 
-SeenTotals Boards::seen_totals() const {
-  SeenTotals out;
-  out.phase = seen().phase;
+ControllerTotals Boards::controller_totals() const {
+  ControllerTotals out;
+  out.phase = state().phase;
   for (const Board& b : boards_) {
-    const control::Seen& its = b.seen();
+    const control::ControllerState& its = b.state();
     out.late += its.late;
     out.invalid += its.invalid;
     out.overruns += its.overruns;
     out.missed = std::max(out.missed, its.missed);
   }
   const Board& ended = boards_[static_cast<std::size_t>(std::max(state_.ended_by, 0))];
-  const control::Seen& its = ended.seen();
+  const control::ControllerState& its = ended.state();
   out.fault = its.fault;
   const std::size_t channel = its.fault_channel.index;
   if (channel < ended.channels().size()) out.fault_channel = {ended.channels()[channel]};
@@ -191,7 +191,7 @@ SeenTotals Boards::seen_totals() const {
 
 SupervisedTotals Boards::supervised_totals() const {
   SupervisedTotals out;
-  const MachineSeen now = seen();
+  const MachineState now = state();
   for (std::size_t s = 0; s < sensor_.size(); ++s) out.sensor.push_back(now.supervised(s));
   for (const Board& b : boards_) {
     const control::Supervised& its = b.supervised();

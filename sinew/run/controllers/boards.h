@@ -41,15 +41,17 @@ class Board {
   std::span<const std::uint8_t> valves() const noexcept { return valve_; }
 
   // Return the state of its controller, or the last state that a remote board has reported.
-  const control::Seen& seen() const noexcept { return far_ ? far_->seen : supervisor.seen(); }
-  const control::Supervised& supervised() const noexcept {
-    return far_ ? far_->supervised : supervisor.supervised();
+  const control::ControllerState& state() const noexcept {
+    return reported_ ? reported_->controller : supervisor.state();
   }
-  struct Far {
-    control::Seen seen;
+  const control::Supervised& supervised() const noexcept {
+    return reported_ ? reported_->supervised : supervisor.supervised();
+  }
+  struct ReportedState {
+    control::ControllerState controller;
     control::Supervised supervised;
   };
-  void show(const Far& far) noexcept { far_ = far; }
+  void show(const ReportedState& reported) noexcept { reported_ = reported; }
   // Returns why it ended the run, with the machine's channel and joint.
   control::Trip trip() const noexcept;
 
@@ -60,7 +62,7 @@ class Board {
                                                        // board's own
   std::vector<signals::Conversion> conversion_;        // its scan
   std::array<signals::Edge, 4 * control::max_joints> out_;
-  std::optional<Far> far_;
+  std::optional<ReportedState> reported_;
 };
 
 // The commands of all joints of the machine, in the robot's order, followed by that of the
@@ -70,17 +72,17 @@ using MachineCommand = std::array<control::JointCommand, robot::max_joints + 1>;
 class Boards;
 
 // View of the state of all boards in the machine's numbering. The boards must outlive it.
-class MachineSeen {
+class MachineState {
  public:
-  explicit MachineSeen(const Boards& boards) noexcept;
+  explicit MachineState(const Boards& boards) noexcept;
 
   control::Phase phase;  // the least advanced phase of all boards
 
   // Return the state of a joint in the robot's order, followed by the cylinder's, or of a sensor in
   // the robot's order.
-  const control::JointSeen& joint(std::size_t joint) const noexcept;
+  const control::JointState& joint(std::size_t joint) const noexcept;
   const signals::Reading& reading(std::size_t sensor) const noexcept;
-  const control::SensorSeen& supervised(std::size_t sensor) const noexcept;
+  const control::SensorStatistics& supervised(std::size_t sensor) const noexcept;
 
   // Return the counters of all boards, and whether one has ended the run: sums; for gaps, which all
   // boards count alike, the largest.
@@ -95,7 +97,7 @@ class MachineSeen {
 
 // The last counters of all boards: sums; for missed ticks, which all boards count alike, the
 // largest.
-struct SeenTotals {
+struct ControllerTotals {
   control::Phase phase = control::Phase::startup;
   std::uint32_t late = 0, invalid = 0, missed = 0, overruns = 0;
   signals::Status fault = signals::Status::ok;  // status of the board that ended the run
@@ -104,7 +106,7 @@ struct SeenTotals {
 
 // The readings and commands that were rejected on any board, and why the run ended.
 struct SupervisedTotals {
-  std::vector<control::SensorSeen> sensor;  // in the robot's order
+  std::vector<control::SensorStatistics> sensor;  // in the robot's order
   std::uint32_t rejected = 0, rejected_commands = 0;
   std::uint32_t gaps = 0, worst_gap = 0;
   control::Trip trip;  // reported by the board that ended the run, with the machine's numbers
@@ -122,7 +124,7 @@ class Boards {
   // The span points into this object.
   signals::Scan scan() const noexcept { return {period_, conversion_}; }
   std::span<Board> each() noexcept { return boards_; }
-  MachineSeen seen() const noexcept { return MachineSeen(*this); }
+  MachineState state() const noexcept { return MachineState(*this); }
   void command(const MachineCommand& command) noexcept;
   // Returns the first tick after t at which any board has an event. Ends the run of all boards if
   // one has ended.
@@ -137,17 +139,20 @@ class Boards {
     signals::Tick first = 0, last = 0;
   };
   // Sets the state of the board in these ticks, which replaces that of its local controller.
-  void show(const control::Seen& seen, const control::Supervised& supervised, Ticks known) noexcept;
+  void show(const control::ControllerState& controller, const control::Supervised& supervised,
+            Ticks valid) noexcept;
   // Records that its run is over; `why` is ok if the board has reported the end itself.
   void show_end(signals::Status why) noexcept;
   // Returns whether the shown state is that of tick t; always true for local boards.
-  bool knows(signals::Tick t) const noexcept { return t >= known_.first && t < known_.last; }
+  bool has_state_of(signals::Tick t) const noexcept {
+    return t >= valid_ticks_.first && t < valid_ticks_.last;
+  }
 
   // --- used by observers ---
 
   // Return the boards, in the order of their numbers, and their counters taken together.
   std::span<const Board> each() const noexcept { return boards_; }
-  SeenTotals seen_totals() const;
+  ControllerTotals controller_totals() const;
   SupervisedTotals supervised_totals() const;
 
   // --- saving: the complete state of the boards, copied as bytes ---
@@ -158,7 +163,7 @@ class Boards {
   void restore(std::span<const std::byte> saved) noexcept;
 
  private:
-  friend class MachineSeen;
+  friend class MachineState;
 
   // The board of a joint or a sensor, and its number there.
   struct Place {
@@ -176,7 +181,7 @@ class Boards {
   std::array<Place, robot::max_joints + 1> joint_;
   std::vector<Place> sensor_;
   std::uint16_t period_ = 100;
-  Ticks known_{0, std::numeric_limits<signals::Tick>::max()};
+  Ticks valid_ticks_{0, std::numeric_limits<signals::Tick>::max()};
   State state_;
 };
 

@@ -24,14 +24,14 @@ Changes::Changes(const gait::Plan& plan, std::span<const robot::LegParts> legs, 
   if (steering_) steered_.reserve(most);
 }
 
-bool Changes::is_there(const Steering::Wish& wish) const noexcept {
-  return wish.setting < settings().size() && wish.leg < static_cast<int>(legs_.size());
+bool Changes::is_there(const Steering::Request& request) const noexcept {
+  return request.setting < settings().size() && request.leg < static_cast<int>(legs_.size());
 }
 
-bool Changes::wish(const Steering::Wish& wish) noexcept {
-  if (!is_there(wish)) return false;
+bool Changes::request_change(const Steering::Request& request) noexcept {
+  if (!is_there(request)) return false;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg)
-    if (is_of(wish, leg)) waiting_[leg][wish.setting] = {true, wish};
+    if (is_of(request, leg)) waiting_[leg][request.setting] = {true, request};
   waits_ = true;
   return true;
 }
@@ -50,37 +50,37 @@ void Changes::restore(const State& state) noexcept {
   waits_ = state.waits;
 }
 
-void Changes::follow(const Steering::Wish& wish, std::size_t leg) noexcept {
-  if (wish.release)
-    overrides_[leg].release(wish.setting);
+void Changes::override_setting(const Steering::Request& request, std::size_t leg) noexcept {
+  if (request.release)
+    overrides_[leg].release(request.setting);
   else
-    overrides_[leg].set(wish.setting, wish.value);
+    overrides_[leg].set(request.setting, request.value);
 }
 
-void Changes::follow(const Steering::Wish& wish) noexcept {
+void Changes::override_setting(const Steering::Request& request) noexcept {
   for (std::size_t leg = 0; leg < legs_.size(); ++leg)
-    if (is_of(wish, leg)) follow(wish, leg);
+    if (is_of(request, leg)) override_setting(request, leg);
 }
 
-void Changes::follow_waiting() noexcept {
+void Changes::apply_waiting() noexcept {
   if (!waits_) return;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg)
     for (Waiting& w : waiting_[leg]) {
-      if (w.given) follow(w.wish, leg);
+      if (w.given) override_setting(w.request, leg);
       w.given = false;
     }
   waits_ = false;
 }
 
 void Changes::apply(Tick t, std::span<gait::Desired> legs) noexcept {
-  for (; next_ < due_.size() && due_[next_].at <= t; ++next_) follow(due_[next_].wish);
+  for (; next_ < due_.size() && due_[next_].at <= t; ++next_) override_setting(due_[next_].request);
   if (steering_)
-    steering_->take([&](const Steering::Wish& wish) {
-      if (!is_there(wish) || steered_.size() == most) return steering_->refuse();
-      steered_.push_back({t, wish});
-      follow(wish);
+    steering_->take([&](const Steering::Request& request) {
+      if (!is_there(request) || steered_.size() == most) return steering_->refuse();
+      steered_.push_back({t, request});
+      override_setting(request);
     });
-  follow_waiting();
+  apply_waiting();
 
   for (std::size_t leg = 0; leg < legs.size(); ++leg) overrides_[leg].apply(legs[leg]);
   if (!steering_ || legs.empty()) return;
@@ -94,10 +94,10 @@ std::vector<gait::Change> Changes::all() const {
   for (const Due& d : steered_) {
     // A division, so that 5.81 s is printed as 5.81.
     gait::Change c{.time = static_cast<double>(d.at * signals::tick_nanoseconds) / 1e9,
-                   .key = settings()[d.wish.setting].key,
-                   .release = d.wish.release};
-    if (d.wish.leg >= 0) c.leg = legs_[static_cast<std::size_t>(d.wish.leg)];
-    if (!c.release) c.value = d.wish.value;
+                   .key = settings()[d.request.setting].key,
+                   .release = d.request.release};
+    if (d.request.leg >= 0) c.leg = legs_[static_cast<std::size_t>(d.request.leg)];
+    if (!c.release) c.value = d.request.value;
     out.push_back(std::move(c));
   }
   return out;

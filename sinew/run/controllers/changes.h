@@ -31,7 +31,7 @@ class Changes {
   // Requests a change that takes effect at the start of the next period, after the plan's own
   // changes. A later request for the same setting and leg replaces it. Returns false, without
   // effect, if the setting or the leg does not exist.
-  bool wish(const Steering::Wish& wish) noexcept;
+  bool request_change(const Steering::Request& request) noexcept;
 
   // Returns the plan's list, followed by the steered changes with the times at which they took
   // effect.
@@ -46,7 +46,7 @@ class Changes {
   // state.
   struct Waiting {
     bool given = false;
-    Steering::Wish wish;
+    Steering::Request request;
   };
   using WaitingOfLegs = std::array<std::array<Waiting, gait::Overrides::most>, robot::max_legs>;
   struct State {
@@ -61,16 +61,16 @@ class Changes {
  private:
   struct Due {
     signals::Tick at = 0;
-    Steering::Wish wish;
+    Steering::Request request;
   };
-  bool is_there(const Steering::Wish& wish) const noexcept;
+  bool is_there(const Steering::Request& request) const noexcept;
   // Returns whether a request applies to the leg.
-  static bool is_of(const Steering::Wish& wish, std::size_t leg) noexcept {
-    return wish.leg < 0 || static_cast<std::size_t>(wish.leg) == leg;
+  static bool is_of(const Steering::Request& request, std::size_t leg) noexcept {
+    return request.leg < 0 || static_cast<std::size_t>(request.leg) == leg;
   }
-  void follow(const Steering::Wish& wish, std::size_t leg) noexcept;
-  void follow(const Steering::Wish& wish) noexcept;
-  void follow_waiting() noexcept;
+  void override_setting(const Steering::Request& request, std::size_t leg) noexcept;
+  void override_setting(const Steering::Request& request) noexcept;
+  void apply_waiting() noexcept;
 
   std::vector<gait::Change> planned_;
   std::vector<std::string> legs_;           // their names

@@ -30,7 +30,7 @@ JointAt place_of(const robot::Robot& robot, std::size_t joint) {
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
-               [s](const Snapshot& m) { return m.seen->supervised(s).counts; });
+               [s](const Snapshot& m) { return m.controller->supervised(s).counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
@@ -57,13 +57,13 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
   const robot::SensorLine line = robot::own_tension(robot.sensors[channel], robot.converter);
   out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
              "measured, by its own transducer's scale; clips",
-             [=](const Snapshot& m) { return line.value(m.seen->reading(channel).counts); });
+             [=](const Snapshot& m) { return line.value(m.controller->reading(channel).counts); });
 }
 
 // Returns whether a joint's duties act: its valves switch only while it is enabled and the laws
 // run.
 bool active(const Snapshot& m, std::size_t joint) {
-  return m.seen->joint(joint).enabled && m.seen->phase == control::Phase::running;
+  return m.controller->joint(joint).enabled && m.controller->phase == control::Phase::running;
 }
 
 // Returns whether a muscle has duties. A regulator has none; its set points are in the log of its
@@ -85,11 +85,11 @@ void duty_columns(const robot::Robot& robot, std::size_t index, Columns& out) {
     return active(m, j) || active(m, other) ? 0.01 * percent : 0.0;
   };
   out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Snapshot& m) {
-    const control::Duties& d = m.seen->joint(j).duties;
+    const control::Duties& d = m.controller->joint(j).duties;
     return share(m, flexor ? d.flexor_inlet : d.extensor_inlet);
   });
   out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Snapshot& m) {
-    const control::Duties& d = m.seen->joint(j).duties;
+    const control::Duties& d = m.controller->joint(j).duties;
     return share(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
   });
 }
@@ -112,7 +112,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
     out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
                [j, which](const Snapshot& m) {
-                 return active(m, j) ? 0.01 * (m.seen->joint(j).duties.*which) : 0.0;
+                 return active(m, j) ? 0.01 * (m.controller->joint(j).duties.*which) : 0.0;
                });
   };
   duty("up/inlet_duty", &control::Duties::flexor_inlet);
@@ -124,7 +124,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
 void low_level_columns(const robot::Robot& robot, Columns& out) {
   if (!control::laws_overrun(robot)) return;
   out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
-             [](const Snapshot& m) { return m.seen->overruns(); });
+             [](const Snapshot& m) { return m.controller->overruns(); });
 }
 
 // Returns whether rejected readings are worth recording: the experiment has a fault, or the robot's
@@ -143,16 +143,16 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string at = "/sensor/" + e.robot.sensors[s].name;
     out.scalar(at + "/rejected", "1", "readings so far that were not believed",
-               [s](const Snapshot& m) { return m.seen->supervised(s).rejected; });
+               [s](const Snapshot& m) { return m.controller->supervised(s).rejected; });
     out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
-               [s](const Snapshot& m) { return m.seen->supervised(s).frozen; });
+               [s](const Snapshot& m) { return m.controller->supervised(s).frozen; });
   }
   out.scalar("/low_level/rejected_commands", "1", "commands so far that were not followed",
-             [](const Snapshot& m) { return m.seen->rejected_commands(); });
+             [](const Snapshot& m) { return m.controller->rejected_commands(); });
   out.scalar("/low_level/gaps", "1", "ticks so far that came later than announced",
-             [](const Snapshot& m) { return m.seen->gaps(); });
+             [](const Snapshot& m) { return m.controller->gaps(); });
   out.scalar("/low_level/tripped", "1", "1 from when the supervisor has ended the run",
-             [](const Snapshot& m) { return m.seen->tripped() ? 1.0 : 0.0; });
+             [](const Snapshot& m) { return m.controller->tripped() ? 1.0 : 0.0; });
 }
 
 // Returns when a foot has a setpoint: only in phases that give it a path, and only if it belongs to

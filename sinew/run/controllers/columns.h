@@ -25,7 +25,7 @@ struct Snapshot {
   double time = 0;  // [s]
   const plant::Truths* true_of = nullptr;
 
-  const MachineSeen* seen = nullptr;
+  const MachineState* controller = nullptr;
   const gait::MachineMeasured* measured = nullptr;
   std::span<const gait::Desired> desired = {};  // one per leg
 
@@ -41,7 +41,7 @@ struct Column {
   enum class Given { always, at_times, never } given = Given::always;
 
   // Returns whether only a simulation can provide it.
-  bool of_truth() const { return topic.name.starts_with("/true/"); }
+  bool is_simulated_only() const { return topic.name.starts_with("/true/"); }
 };
 
 // Returns the columns in the order in which the recorder writes them.

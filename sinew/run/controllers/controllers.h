@@ -36,8 +36,8 @@ class Controllers {
 
   // Return the scan of conversions, the phase, and whether the shown state is that of tick t.
   signals::Scan scan() const noexcept { return boards_.scan(); }
-  control::Phase phase() const noexcept { return boards_.seen().phase; }
-  bool knows(signals::Tick t) const noexcept { return boards_.knows(t); }
+  control::Phase phase() const noexcept { return boards_.state().phase; }
+  bool has_state_of(signals::Tick t) const noexcept { return boards_.has_state_of(t); }
   // Returns the tick of the first sample if one is taken every `period`: for a robot, if `period`
   // is a multiple of the scan's, the tick of the scan's last reading, at which the last law runs;
   // else 0.
@@ -47,18 +47,18 @@ class Controllers {
 
   // Calls use(snapshot) with the state at a time [s]; `truths` may be null.
   template <class Use>
-  void look(double time, const plant::Truths* truths, const Use& use) const {
-    const MachineSeen seen = boards_.seen();
-    Snapshot snapshot{.time = time, .true_of = truths, .seen = &seen, .drive = drive()};
+  void with_snapshot(double time, const plant::Truths* truths, const Use& use) const {
+    const MachineState state = boards_.state();
+    Snapshot snapshot{.time = time, .true_of = truths, .controller = &state, .drive = drive()};
     if (snapshot.drive != nullptr) return use(snapshot);
-    const gait::MachineMeasured measured = gait()->believe(seen);
+    const gait::MachineMeasured measured = gait()->measure(state);
     snapshot.measured = &measured;
     snapshot.desired = gait()->desired();
     use(snapshot);
   }
 
   // Return the counters of all boards, and those of their supervisors.
-  SeenTotals seen_totals() const { return boards_.seen_totals(); }
+  ControllerTotals controller_totals() const { return boards_.controller_totals(); }
   SupervisedTotals supervised_totals() const { return boards_.supervised_totals(); }
 
   // Returns the settings that can be changed during a run, by number; empty for a stand.

@@ -90,8 +90,8 @@ DriveShares Drive::feed_forward(double length) noexcept {
   return missing > 0 ? DriveShares{share, 0} : DriveShares{0, share};
 }
 
-DriveShares Drive::feedback(double length, const MachineSeen& seen) const noexcept {
-  const signals::Reading r = seen.reading(sensor_);
+DriveShares Drive::feedback(double length, const MachineState& state) const noexcept {
+  const signals::Reading r = state.reading(sensor_);
   if (state_.first || r.status != signals::Status::ok) return {};
   const double error = robot::quantity(length_sensor_, r.counts) - length;
   if (drive_.law == experiment::Stand::Drive::Law::on_off)
@@ -100,7 +100,7 @@ DriveShares Drive::feedback(double length, const MachineSeen& seen) const noexce
                       three_way_ ? hold(length) : 0.0);
 }
 
-DriveShares Drive::decide(const MachineSeen& seen) noexcept {
+DriveShares Drive::decide(const MachineState& state) noexcept {
   const DriveSetpoint& setpoint = state_.setpoint;
   switch (drive_.kind) {
     case DriveKind::none:
@@ -111,7 +111,7 @@ DriveShares Drive::decide(const MachineSeen& seen) noexcept {
     case DriveKind::feed_forward:
       return feed_forward(setpoint.length);
     case DriveKind::feedback:
-      return feedback(setpoint.length, seen);
+      return feedback(setpoint.length, state);
   }
   return {};
 }
@@ -147,10 +147,10 @@ void Drive::plan_openings(Tick t) noexcept {
 }
 
 // Under pwm the exhaust opens when the inlet shuts, else at the start of the period.
-const MachineCommand& Drive::update(const MachineSeen& seen, Tick t) noexcept {
+const MachineCommand& Drive::update(const MachineState& state, Tick t) noexcept {
   const double at = static_cast<double>(t) * signals::tick_seconds;
   state_.setpoint = {length_.at(at), duty_.at(at)};
-  state_.shares = decide(seen);
+  state_.shares = decide(state);
   state_.first = false;
   if (drive_.kind == DriveKind::pulses) {
     plan_openings(t);

@@ -31,7 +31,7 @@ class Drive {
   explicit Drive(const experiment::Experiment& experiment);
 
   // Returns the openings of the period that starts at t.
-  const MachineCommand& update(const MachineSeen& seen, signals::Tick t) noexcept;
+  const MachineCommand& update(const MachineState& state, signals::Tick t) noexcept;
   // Returns false, since a run of a stand ends by its duration.
   bool finished() const noexcept { return false; }
 
@@ -56,9 +56,9 @@ class Drive {
   void restore(const State& state) noexcept { state_ = state; }
 
  private:
-  DriveShares decide(const MachineSeen& seen) noexcept;
+  DriveShares decide(const MachineState& state) noexcept;
   DriveShares feed_forward(double length) noexcept;
-  DriveShares feedback(double length, const MachineSeen& seen) const noexcept;
+  DriveShares feedback(double length, const MachineState& state) const noexcept;
   double hold(double length) const noexcept;
   control::Opening opening(double share) const noexcept;
   void plan_openings(signals::Tick t) noexcept;

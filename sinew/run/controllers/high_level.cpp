@@ -16,8 +16,8 @@ int percent(double share) { return static_cast<int>(std::lround(share * 100.0));
 
 }  // namespace
 
-Believed believed(const robot::Robot& robot) {
-  Believed b;
+AssumedScales assumed_scales(const robot::Robot& robot) {
+  AssumedScales b;
   const auto sensor = [&](int s) -> const robot::Sensor& {
     return robot.sensors[static_cast<std::size_t>(s)];
   };
@@ -51,18 +51,18 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
       vents_(plan.finish == gait::Plan::Finish::vent && robot.low_level.vent_time > 0),
       has_cylinder_(robot::has_cylinder_joint(robot)),
       cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
-      brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
-      scale_(believed(robot)),
+      gait_period_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
+      scale_(assumed_scales(robot)),
       legs_(robot, plan),
       changes_(plan, robot::legs_of(robot), steering) {
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
 }
 
 // A joint without a sensor is assumed to be at rest.
-gait::MachineMeasured HighLevel::believe(const MachineSeen& seen) const noexcept {
+gait::MachineMeasured HighLevel::measure(const MachineState& state) const noexcept {
   gait::MachineMeasured measured;
   const auto counts = [&](int channel) -> double {
-    return seen.reading(static_cast<std::size_t>(channel)).counts;
+    return state.reading(static_cast<std::size_t>(channel)).counts;
   };
   for (int j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j);
@@ -71,8 +71,8 @@ gait::MachineMeasured HighLevel::believe(const MachineSeen& seen) const noexcept
     measured.angle[k] =
         scale_.rest[k] +
         (counts(scale_.angle_channel[k]) - scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
-    measured.velocity[k] = static_cast<double>(seen.joint(k).velocity) / scale_.counts_per_rad[k];
-    measured.stiffness[k] = static_cast<double>(seen.joint(k).stiffness) * stiffness_unit;
+    measured.velocity[k] = static_cast<double>(state.joint(k).velocity) / scale_.counts_per_rad[k];
+    measured.stiffness[k] = static_cast<double>(state.joint(k).stiffness) * stiffness_unit;
   }
   for (int m = 0; m < muscles_; ++m) {
     const auto k = static_cast<std::size_t>(m);
@@ -94,9 +94,9 @@ void HighLevel::restore(const State& state) noexcept {
   command_ = state.command;
 }
 
-const MachineCommand& HighLevel::update(const MachineSeen& seen, signals::Tick t) noexcept {
-  measured_ = believe(seen);
-  legs_.update(measured_, t / brain_ticks_);
+const MachineCommand& HighLevel::update(const MachineState& state, signals::Tick t) noexcept {
+  measured_ = measure(state);
+  legs_.update(measured_, t / gait_period_ticks_);
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
   changes_.apply(t, {desired_.data(), legs_.count()});
   for (std::size_t l = 0; l < legs_.count(); ++l) translate(desired_[l], legs_.parts(l));

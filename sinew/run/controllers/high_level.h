@@ -15,7 +15,7 @@ namespace sinew::run {
 
 // Value of one count, and of one of the joint controller's stiffness units, as the controller
 // assumes them. A channel is -1 if there is no sensor.
-struct Believed {
+struct AssumedScales {
   std::array<double, robot::max_joints> rest{}, counts_per_rad{}, counts_at_rest{};
   std::array<double, robot::max_muscles> newtons_per_count{}, counts_at_zero{};
   std::array<int, robot::max_joints> angle_channel{};
@@ -25,7 +25,7 @@ struct Believed {
 };
 
 // Returns the scales and offsets that the robot's file gives its controller.
-Believed believed(const robot::Robot& robot);
+AssumedScales assumed_scales(const robot::Robot& robot);
 
 class HighLevel {
  public:
@@ -34,7 +34,7 @@ class HighLevel {
 
   // Returns the commands of a low-level period. The gait controller itself is updated once per
   // `brain_period`.
-  const MachineCommand& update(const MachineSeen& seen, signals::Tick t) noexcept;
+  const MachineCommand& update(const MachineState& state, signals::Tick t) noexcept;
   // Returns whether the body is to be vented now. A plan that ends without a vent holds its last
   // setpoints until the run's end.
   bool finished() const noexcept { return vents_ && legs_.finished(); }
@@ -52,10 +52,12 @@ class HighLevel {
   }
 
   // Returns the measured values for the gait controller, by the assumed scales.
-  gait::MachineMeasured believe(const MachineSeen& seen) const noexcept;
+  gait::MachineMeasured measure(const MachineState& state) const noexcept;
 
-  // Requests a change; see Changes::wish().
-  bool wish(const Steering::Wish& wish) noexcept { return changes_.wish(wish); }
+  // Requests a change; see Changes::request_change().
+  bool request_change(const Steering::Request& request) noexcept {
+    return changes_.request_change(request);
+  }
 
   // Returns the settings that can be changed, by number.
   const std::vector<gait::Setting>& settings() const noexcept { return changes_.settings(); }
@@ -81,8 +83,8 @@ class HighLevel {
   bool vents_;
   bool has_cylinder_;
   float cylinder_gain_;  // [%/count]
-  signals::Tick brain_ticks_;
-  Believed scale_;
+  signals::Tick gait_period_ticks_;
+  AssumedScales scale_;
   gait::Legs legs_;
   Changes changes_;
   std::array<gait::Desired, robot::max_legs> desired_;  // one per leg

@@ -23,9 +23,10 @@ void measured_columns(const Stand& stand, Columns& out) {
   for (std::size_t s = 0; s < stand.sensors.size(); ++s) {
     const robot::Transducer& t = stand.sensors[s];
     out.scalar("/sensor/" + t.name + "/count", "count", "as converted",
-               [s](const Snapshot& m) { return double(m.seen->reading(s).counts); });
-    out.scalar("/sensor/" + t.name + "/value", unit_of(t.of), "by its own scale; pressure is gauge",
-               [s, t](const Snapshot& m) { return robot::quantity(t, m.seen->reading(s).counts); });
+               [s](const Snapshot& m) { return double(m.controller->reading(s).counts); });
+    out.scalar(
+        "/sensor/" + t.name + "/value", unit_of(t.of), "by its own scale; pressure is gauge",
+        [s, t](const Snapshot& m) { return robot::quantity(t, m.controller->reading(s).counts); });
   }
   if (has_law(stand))
     out.scalar("/desired/length", "m", "of the element",

@@ -28,9 +28,9 @@ class Steering {
   void pace(double pace) noexcept { pace_.store(pace, std::memory_order_relaxed); }
   // Return false, without effect, if the queue of requests is full.
   bool change(std::size_t setting, double value) noexcept {
-    return wishes_.put({setting, value, false});
+    return requests_.put({setting, value, false});
   }
-  bool release(std::size_t setting) noexcept { return wishes_.put({setting, 0, true}); }
+  bool release(std::size_t setting) noexcept { return requests_.put({setting, 0, true}); }
 
   // --- called by either thread ---
 
@@ -52,7 +52,7 @@ class Steering {
   // --- called by the loop ---
 
   // Request to override a setting, or to release it to the plan's value.
-  struct Wish {
+  struct Request {
     std::size_t setting = 0;
     double value = 0;
     bool release = false;
@@ -61,7 +61,7 @@ class Steering {
   // Calls `use` for every request since the last call.
   template <class Use>
   void take(Use&& use) noexcept {
-    wishes_.take_all(use);
+    requests_.take_all(use);
   }
   // Counts a request that was dropped.
   void refuse() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }
@@ -74,7 +74,7 @@ class Steering {
  private:
   std::atomic<bool> paused_{false};
   std::atomic<double> pace_{1};
-  signals::Ring<Wish> wishes_{256};
+  signals::Ring<Request> requests_{256};
   std::array<std::atomic<double>, gait::Overrides::most> value_{};
   std::array<std::atomic<bool>, gait::Overrides::most> overridden_{};
   std::atomic<std::uint64_t> refused_{0};

@@ -76,13 +76,14 @@ void keep_chosen(report::Comparison& comparison, const std::vector<std::string>&
 
 }  // namespace
 
-report::Comparison compare_runs(const std::vector<std::string>& runs, const report::AlignWish& wish,
+report::Comparison compare_runs(const std::vector<std::string>& runs,
+                                const report::AlignOptions& align_options,
                                 const std::vector<std::string>& channels, const Notices& notices) {
   const std::vector<std::string> labels = labels_of(runs);
   std::vector<report::RecordedRun> all;
   for (std::size_t i = 0; i < runs.size(); ++i)
     all.push_back(recorded(runs[i], labels[i], notices));
-  report::Comparison comparison = compare(std::move(all), wish);
+  report::Comparison comparison = compare(std::move(all), align_options);
   keep_chosen(comparison, channels);
   return comparison;
 }

@@ -14,7 +14,8 @@ namespace sinew::run {
 // topics that match one of these patterns, "/joint/*/angle"; empty: all. Warns of a log that was
 // cut off. Throws config::Error or log::Error if a run cannot be read, and std::runtime_error for a
 // run that ended early.
-report::Comparison compare_runs(const std::vector<std::string>& runs, const report::AlignWish& wish,
+report::Comparison compare_runs(const std::vector<std::string>& runs,
+                                const report::AlignOptions& align_options,
                                 const std::vector<std::string>& channels = {},
                                 const Notices& notices = {});
 

@@ -10,8 +10,8 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/json/json.h"
-#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/replayed.h"
+#include "sinew/run/folder/run_storage.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 #include "tests/places.h"
@@ -70,14 +70,14 @@ class Compared : public ::testing::Test {
     const signals::Table table = lab ? measured(outcome.table, *lab) : outcome.table;
     // A laboratory does not know its machine's parameters, so it imports with those of the model.
     const experiment::Experiment believed = lab ? buildable(bench) : e;
-    return keep_table(table, believed, {.folder = (root_ / name).string(), .report = false})
+    return store_table(table, believed, {.folder = (root_ / name).string(), .report = false})
         .folder.string();
   }
 
-  static report::AlignWish by_correlation(bool fit_clock) {
-    report::AlignWish wish(report::Align::correlation);
-    wish.fit_clock = fit_clock;
-    return wish;
+  static report::AlignOptions by_correlation(bool fit_clock) {
+    report::AlignOptions align_options(report::Align::correlation);
+    align_options.fit_clock = fit_clock;
+    return align_options;
   }
 
   static const analysis::Difference& angle(const report::Comparison& c) {
@@ -135,7 +135,8 @@ TEST_F(Compared, AConstantMeasurementIsRefusedByItsName) {
   signals::Table still = measured(run::run(e).table, lab);
   for (signals::Series& s : still.series) s.columns[0].assign(s.time_ns.size(), 1.0);
   const std::string b =
-      keep_table(still, e, {.folder = (root_ / "still").string(), .report = false}).folder.string();
+      store_table(still, e, {.folder = (root_ / "still").string(), .report = false})
+          .folder.string();
   try {
     (void)compare_runs({a, b}, by_correlation(false));
     ADD_FAILURE() << "aligned with each other";

@@ -129,10 +129,12 @@ void put_on_paper(Figures& figures, const report::Paper& paper) {
 }
 
 // Warns of labels that no figure contains. This is no error, since they may be for other runs.
-void tell_unsaid(const Figures& figures, const report::Labels& labels, const Notices& notices) {
-  report::Phrases phrases;
+void warn_of_unused_labels(const Figures& figures, const report::Labels& labels,
+                           const Notices& notices) {
+  report::FigureTexts phrases;
   for (const report::Figure& f : figures) phrases.add(f);
-  for (const config::Problem& p : unsaid(labels, phrases)) notices.warning(config::to_text(p));
+  for (const config::Problem& p : unused_labels(labels, phrases))
+    notices.warning(config::to_text(p));
 }
 
 std::vector<Figures> figures_of(const std::vector<Drawn>& runs, const DrawingRequest& request) {
@@ -153,7 +155,7 @@ std::string finish(Figures figures, const fs::path& what, const std::string& of,
   if (figures.empty())
     config::fail({what.string(), 0, 0}, "", "no samples",
                  "a log with samples in the requested time", "another time");
-  tell_unsaid(figures, request.files.labels, notices);
+  warn_of_unused_labels(figures, request.files.labels, notices);
   choose(figures, request.only, what);
   put_title(figures, request.title);
   put_on_paper(figures, request.paper);
@@ -171,16 +173,16 @@ std::string name_of(const fs::path& named) {
   return number ? (own.parent_path().filename() / last).string() : last;
 }
 
-std::vector<std::string> names_of(const OverlaidRuns& asked) {
-  std::vector<std::string> out = asked.labels;
-  if (out.size() > asked.runs.size())
+std::vector<std::string> names_of(const OverlaidRuns& overlaid) {
+  std::vector<std::string> out = overlaid.labels;
+  if (out.size() > overlaid.runs.size())
     config::fail({"label", 0, 0}, "", fmt::format("{} labels", out.size()),
-                 fmt::format("one for each run, {} at most", asked.runs.size()),
+                 fmt::format("one for each run, {} at most", overlaid.runs.size()),
                  "as many as there are runs, in their order");
-  for (std::size_t i = out.size(); i < asked.runs.size(); ++i) {
-    const std::string name = name_of(asked.runs[i]);
+  for (std::size_t i = out.size(); i < overlaid.runs.size(); ++i) {
+    const std::string name = name_of(overlaid.runs[i]);
     const bool taken = std::ranges::find(out, name) != out.end();
-    out.push_back(taken ? asked.runs[i].string() : name);
+    out.push_back(taken ? overlaid.runs[i].string() : name);
   }
   for (const std::string& name : out)
     if (std::ranges::count(out, name) > 1)
@@ -189,12 +191,12 @@ std::vector<std::string> names_of(const OverlaidRuns& asked) {
   return out;
 }
 
-void align_with_first(std::vector<Drawn>& runs, const OverlaidRuns& asked,
+void align_with_first(std::vector<Drawn>& runs, const OverlaidRuns& overlaid,
                       const std::vector<std::string>& names, const Notices& notices) {
-  if (!asked.align) return;
+  if (!overlaid.align) return;
   for (std::size_t i = 1; i < runs.size(); ++i) {
-    analysis::AlignRequest request = *asked.align;
-    request.name = asked.runs[i].string();
+    analysis::AlignRequest request = *overlaid.align;
+    request.name = overlaid.runs[i].string();
     const analysis::Alignment found = analysis::align(runs[0].table, runs[i].table, request);
     analysis::reclock(runs[i].table, found.clock);
     std::string how = fmt::format("{}: aligned with {} by a shift of {:.4g} s", names[i], names[0],
@@ -228,23 +230,23 @@ std::string draw_muscles(const fs::path& file, const fs::path& folder,
                 notices);
 }
 
-std::string draw_runs(const OverlaidRuns& asked, const fs::path& folder,
+std::string draw_runs(const OverlaidRuns& overlaid, const fs::path& folder,
                       const DrawingRequest& request, const Notices& notices) {
-  const std::vector<std::string> names = names_of(asked);
+  const std::vector<std::string> names = names_of(overlaid);
   std::vector<Drawn> runs;
-  for (const fs::path& named : asked.runs) runs.push_back(read(named, request, notices));
-  align_with_first(runs, asked, names, notices);
+  for (const fs::path& named : overlaid.runs) runs.push_back(read(named, request, notices));
+  align_with_first(runs, overlaid, names, notices);
   std::vector<Figures> each = figures_of(runs, request);
   std::vector<report::LabelledRun> labelled;
   for (std::size_t i = 0; i < each.size(); ++i) labelled.push_back({names[i], std::move(each[i])});
-  return finish(report::overlaid(labelled), asked.runs.front(),
+  return finish(report::overlaid(labelled), overlaid.runs.front(),
                 fmt::format("{}", fmt::join(names, " and ")), folder, request, notices);
 }
 
 std::string labels_of_runs(const std::vector<fs::path>& named, const DrawingRequest& request) {
   std::vector<Drawn> runs;
   for (const fs::path& one : named) runs.push_back(read(one, request, {}));
-  report::Phrases phrases;
+  report::FigureTexts phrases;
   for (const Figures& figures : figures_of(runs, request))
     for (const report::Figure& f : figures) phrases.add(f);
   return report::labels_file(phrases);

@@ -178,13 +178,13 @@ void refuse_early(const ImportRequest& request) {
   refuse_to_overwrite(request.save_mapping, request.force, inputs, ".toml");
 }
 
-void save_mapping(const ImportRequest& request, const recording::Assembled& of) {
+void save_mapping(const ImportRequest& request, const recording::AssembledRecording& of) {
   if (!request.save_mapping.empty()) write_file(request.save_mapping, recording::text_of(of.used));
 }
 
 // Returns the recording in its files, mapped to the experiment's channels.
-recording::Assembled read(const ImportRequest& request, const std::vector<signals::Topic>& topics,
-                          double atmosphere) {
+recording::AssembledRecording read(const ImportRequest& request,
+                                   const std::vector<signals::Topic>& topics, double atmosphere) {
   recording::Mapping mapping = request.mapping;
   if (!request.mapping_file.empty())
     mapping = recording::merged(recording::load_mapping(request.mapping_file), request.mapping);
@@ -197,7 +197,7 @@ recording::Assembled read(const ImportRequest& request, const std::vector<signal
   }
   recording::check_stated(request.values, request.files);
   for (recording::Recorded& file : files) recording::add_stated(request.values, file);
-  recording::Assembled out = recording::assemble(
+  recording::AssembledRecording out = recording::assemble(
       files, mapping, topics,
       {.at_end = request.join_at_end, .shifts = request.shifts, .atmosphere = atmosphere});
   // A mapping describes columns, so stated values are removed from it.
@@ -208,14 +208,14 @@ recording::Assembled read(const ImportRequest& request, const std::vector<signal
   return out;
 }
 
-std::vector<experiment::ImportedFile> facts_of(const recording::Assembled& of) {
+std::vector<experiment::ImportedFile> facts_of(const recording::AssembledRecording& of) {
   std::vector<experiment::ImportedFile> out;
-  for (const recording::Taken& taken : of.files) {
-    experiment::ImportedFile file = imported_file(taken.file, taken.kind);
-    file.started = taken.started.empty() ? "not known" : taken.started;
-    file.rows = whole(taken.rows);
-    file.values = whole(taken.values);
-    file.left_out = whole(taken.left_out);
+  for (const recording::ImportSummary& summary : of.files) {
+    experiment::ImportedFile file = imported_file(summary.file, summary.kind);
+    file.started = summary.started.empty() ? "not known" : summary.started;
+    file.rows = whole(summary.rows);
+    file.values = whole(summary.values);
+    file.left_out = whole(summary.left_out);
     out.push_back(std::move(file));
   }
   return out;
@@ -239,7 +239,7 @@ struct Keeping {
   const Notices& notices;
 };
 
-void keep_files(const analysis::Analysis& a, const Keeping& what, Kept& kept) {
+void keep_files(const analysis::Analysis& a, const Keeping& what, StoredRun& kept) {
   const signals::Table& table = a.table;
   OutputFolder folder = run_folder(what.where.folder, what.where.force, what.name);
   try {
@@ -283,8 +283,8 @@ double duration_of(const signals::Table& table) {
   return 1e-9 * static_cast<double>(end);
 }
 
-void tell(const recording::Assembled& of, const std::vector<std::string>& filled,
-          const Notices& notices) {
+void report(const recording::AssembledRecording& of, const std::vector<std::string>& filled,
+            const Notices& notices) {
   for (const std::string& note : of.notes) notices.note(note);
   for (const std::string& note : filled) notices.note(note);
 }
@@ -329,29 +329,29 @@ std::vector<signals::Topic> importable_topics(const experiment::Experiment& e) {
   return out.take();
 }
 
-Kept keep_imported(const signals::Table& table, const experiment::Experiment& e,
-                   std::vector<experiment::ImportedFile> files, const std::string& mapping,
-                   const RunRequest& where, const Notices& notices) {
+StoredRun store_imported(const signals::Table& table, const experiment::Experiment& e,
+                         std::vector<experiment::ImportedFile> files, const std::string& mapping,
+                         const RunRequest& where, const Notices& notices) {
   std::string resolved = experiment::resolved(e, SINEW_VERSION);
   if (!files.empty()) resolved = with_files(std::move(resolved), std::move(files));
   const config::Node values = config::parse_text(resolved, std::string(resolved_name));
   const analysis::Analysis a(table, analysis::read_machine(values));
-  Kept kept{.summary = a.summary, .machine = a.machine, .json = to_json(a.summary)};
+  StoredRun kept{.summary = a.summary, .machine = a.machine, .json = to_json(a.summary)};
   kept.duration = duration_of(table);
   keep_files(a, {e.name, e.seed, resolved, values, mapping, where, notices}, kept);
   return kept;
 }
 
-Kept import_run(const ImportRequest& request, const Notices& notices) {
+StoredRun import_run(const ImportRequest& request, const Notices& notices) {
   refuse_early(request);
   const experiment::Experiment e = experiment::load(request.experiment, request.sets);
-  recording::Assembled read_in = read(request, importable_topics(e), e.air.atmosphere);
+  recording::AssembledRecording read_in = read(request, importable_topics(e), e.air.atmosphere);
   const auto filled = fill_channels(read_in.table, e.robot, e.air.atmosphere, run::topics(e));
-  tell(read_in, filled, notices);
+  report(read_in, filled, notices);
   if (!e.stand && !read_in.table.find("/plan/phase") && e.robot.legs.empty())
     notices.note("no plan in the recording: figures of its phases and steps are absent");
-  auto kept = keep_imported(read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
-                            {.folder = request.folder, .force = request.force}, notices);
+  auto kept = store_imported(read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
+                             {.folder = request.folder, .force = request.force}, notices);
   save_mapping(request, read_in);
   return kept;
 }

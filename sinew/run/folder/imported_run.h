@@ -19,7 +19,7 @@
 #include "sinew/experiment/imported.h"
 #include "sinew/recording/mapping.h"
 #include "sinew/robot/robot.h"
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::run {
@@ -44,7 +44,7 @@ struct ImportRequest {
 
 // Stores recordings of a machine as a run. Throws config::Error and log::Error; no folder is left
 // then.
-Kept import_run(const ImportRequest& request, const Notices& notices = {});
+StoredRun import_run(const ImportRequest& request, const Notices& notices = {});
 
 // Returns the topics that a recording of the machine can contain: those that a run logs and
 // those of additional instruments.
@@ -55,9 +55,9 @@ experiment::ImportedFile imported_file(const std::string& path, const std::strin
 
 // Stores a table that came from these files as a run of `e`. `mapping` is the text of mapping.toml;
 // empty: no such file.
-Kept keep_imported(const signals::Table& table, const experiment::Experiment& e,
-                   std::vector<experiment::ImportedFile> files, const std::string& mapping,
-                   const RunRequest& where, const Notices& notices = {});
+StoredRun store_imported(const signals::Table& table, const experiment::Experiment& e,
+                         std::vector<experiment::ImportedFile> files, const std::string& mapping,
+                         const RunRequest& where, const Notices& notices = {});
 
 // Completion of a recording's missing channels.
 //

@@ -14,8 +14,8 @@
 #include "sinew/log/reader.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/page.h"
-#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/run_storage.h"
 #include "tests/places.h"
 
 namespace sinew::run::long_run_test {
@@ -63,7 +63,7 @@ class LongRun : public ::testing::Test {
 TEST_F(LongRun, IsReadAsOneInMemory) {
   for (const char* name : {"walk-test-1", "walk-two-legs"}) {
     fs::remove_all(folder_);
-    const auto kept = run_and_keep(request(name));
+    const auto kept = run_and_store(request(name));
     const signals::Table paged = log::read(folder_ / log_name), whole = in_memory(paged);
     ASSERT_GT(paged.series.front().time_ns.size(), 3 * signals::Times::page_size) << name;
     ASSERT_TRUE(paged.series.front().time_ns.file());

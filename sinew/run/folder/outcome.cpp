@@ -79,13 +79,13 @@ void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string& name = e.robot.sensors[s].name;
     if (outcome.table.find("/sensor/" + name + "/rejected")) continue;
-    const control::SensorSeen& seen = outcome.supervised.sensor[s];
-    if (seen.rejected > 0)
+    const control::SensorStatistics& sensor = outcome.supervised.sensor[s];
+    if (sensor.rejected > 0)
       out.push_back(fmt::format("{}: {} not believed; the last good ones stood", name,
-                                counted(seen.rejected, "reading was", "readings were")));
-    if (seen.frozen == 0) continue;
+                                counted(sensor.rejected, "reading was", "readings were")));
+    if (sensor.frozen == 0) continue;
     first.empty() ? void(first = name) : void(++others);
-    longest = std::max(longest, seen.longest);
+    longest = std::max(longest, sensor.longest);
   }
   if (first.empty()) return;
   const std::string who =
@@ -102,31 +102,31 @@ void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
 
 }  // namespace
 
-std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e,
-                                                 const run::Outcome& outcome) {
+std::vector<std::string> warnings_outside_log(const experiment::Experiment& e,
+                                              const run::Outcome& outcome) {
   std::vector<std::string> out;
-  const run::SeenTotals& seen = outcome.seen;
+  const run::ControllerTotals& controller = outcome.controller;
   const run::SupervisedTotals& supervised = outcome.supervised;
   const bool logged = outcome.table.find("/low_level/gaps") != nullptr;
-  const auto tell = [&](std::int64_t count, std::string_view one, std::string_view more,
-                        std::string_view what) {
+  const auto add = [&](std::int64_t count, std::string_view one, std::string_view more,
+                       std::string_view what) {
     if (count > 0) out.push_back(fmt::format("{} {}", counted(count, one, more), what));
   };
-  tell(seen.late, "reading", "readings", "came late");
-  tell(seen.invalid - supervised.rejected, "reading was", "readings were", "invalid");
-  tell(logged ? 0 : supervised.rejected_commands, "command was", "commands were",
-       "rejected: not numbers, out of range or too fast");
-  tell(logged ? 0 : supervised.gaps, "tick", "ticks",
-       fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
-  tell(outcome.lost, "period", "periods",
-       "of the board's telemetry did not come: they are gaps in the log");
-  tell(outcome.foreign, "message", "messages",
-       "named a valve or a time that the board does not have, and were left out: is it another "
-       "robot's board, or a line that spoils what it carries?");
+  add(controller.late, "reading", "readings", "came late");
+  add(controller.invalid - supervised.rejected, "reading was", "readings were", "invalid");
+  add(logged ? 0 : supervised.rejected_commands, "command was", "commands were",
+      "rejected: not numbers, out of range or too fast");
+  add(logged ? 0 : supervised.gaps, "tick", "ticks",
+      fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
+  add(outcome.lost, "period", "periods",
+      "of the board's telemetry did not come: they are gaps in the log");
+  add(outcome.foreign, "message", "messages",
+      "named a valve or a time that the board does not have, and were left out: is it another "
+      "robot's board, or a line that spoils what it carries?");
   add_sensors(e, outcome, out);
   add_idle_faults(e, outcome, out);
-  tell(seen.missed, "tick", "ticks",
-       "came late by more than a tick: this machine cannot keep the pace that finely");
+  add(controller.missed, "tick", "ticks",
+      "came late by more than a tick: this machine cannot keep the pace that finely");
   if (!outcome.table.complete)
     out.push_back(outcome.no_room.empty()
                       ? "more valve edges than there was room for; the table lacks the last ones"
@@ -134,7 +134,7 @@ std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e
   return out;
 }
 
-std::string black_box(const experiment::Experiment& e, const run::Outcome& outcome) {
+std::string last_records(const experiment::Experiment& e, const run::Outcome& outcome) {
   std::string text = fmt::format("{}: the run was ended: {}", e.path, cause_of(e, outcome));
   if (outcome.supervised.trip.cause != control::Trip::Cause::none)
     text += "; all muscles were vented";

@@ -44,7 +44,7 @@ TEST(MissedTicks, AreCountedAndTold) {
     EXPECT_EQ(run.out.supervised.worst_gap, ticks);
     const std::string words =
         "1 tick came later than announced, by " + std::to_string(ticks) + " at worst";
-    const std::vector<std::string> told = warnings_beside_the_log(run.experiment, run.out);
+    const std::vector<std::string> told = warnings_outside_log(run.experiment, run.out);
     EXPECT_EQ(std::ranges::count(told, words), 1) << words;
   }
 }
@@ -52,7 +52,7 @@ TEST(MissedTicks, AreCountedAndTold) {
 TEST(MissedTicks, AreNotToldWhereThereAreNone) {
   const Missed run(0, {});
   EXPECT_EQ(run.out.supervised.gaps, 0u);
-  for (const std::string& warning : warnings_beside_the_log(run.experiment, run.out))
+  for (const std::string& warning : warnings_outside_log(run.experiment, run.out))
     EXPECT_EQ(warning.find("came later than announced"), std::string::npos) << warning;
 }
 

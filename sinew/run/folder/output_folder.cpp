@@ -50,7 +50,7 @@ void remove_within(const fs::path& folder, const fs::path& name) {
 }
 
 // Moves the finished files to their places. A repeated call continues an interrupted one.
-void take_places(const fs::path& folder) {
+void move_into_place(const fs::path& folder) {
   const fs::path finished = folder / finished_name;
   std::error_code problem;
   std::ifstream replaced(finished / replaced_name);
@@ -87,11 +87,11 @@ void make_folders(const fs::path& folder) {
 OutputFolder::OutputFolder(fs::path folder) : path_(std::move(folder)) {
   make_folders(path_);
   fd_ = open_folder(path_);
-  if (fd_ < 0) refuse(path_, log::system_words(errno), "a folder that can be opened");
+  if (fd_ < 0) refuse(path_, log::system_error_text(errno), "a folder that can be opened");
   const std::string holder = log::lock(fd_);
   if (holder.empty()) {
     try {
-      if (fs::exists(path_ / finished_name)) take_places(path_);
+      if (fs::exists(path_ / finished_name)) move_into_place(path_);
     } catch (...) {
       ::close(fd_);
       throw;
@@ -145,17 +145,17 @@ void OutputFolder::commit(const std::vector<std::string>& replaced) {
   stage_.clear();
   const int error = log::sync_folder(path_);
   require(path_, {error, std::generic_category()});
-  take_places(path_);
+  move_into_place(path_);
 }
 
 void finish_replacing(const fs::path& folder) {
   std::error_code none;
   if (!fs::exists(folder / finished_name, none)) return;
   const int fd = open_folder(folder);
-  if (fd < 0) refuse(folder, log::system_words(errno), "a folder that can be opened");
+  if (fd < 0) refuse(folder, log::system_error_text(errno), "a folder that can be opened");
   log::wait_for_lock(fd);
   try {
-    if (fs::exists(folder / finished_name)) take_places(folder);
+    if (fs::exists(folder / finished_name)) move_into_place(folder);
   } catch (...) {
     ::close(fd);
     throw;

@@ -12,8 +12,8 @@
 #include "sinew/json/json.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/text/text_table.h"
-#include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/run_storage.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/replay_plant.h"
 #include "sinew/run/simulation/run.h"
@@ -55,7 +55,7 @@ Outcome of_plant(const experiment::Experiment& e, const signals::Table& recorded
                  const std::string& name, Replayed& out) {
   PlantReplay replayed = replay_plant(e, recorded, name);
   out.rebuilt = std::move(replayed.rebuilt);
-  out.partings = analysis::partings(recorded, replayed.outcome.table, out.band);
+  out.divergences = analysis::divergences(recorded, replayed.outcome.table, out.band);
   return std::move(replayed.outcome);
 }
 
@@ -64,7 +64,7 @@ Outcome of_plant(const experiment::Experiment& e, const signals::Table& recorded
 bool Replayed::agrees() const {
   if (!cause.empty()) return false;
   if (of == ReplayOf::controller) return !edges.first;
-  return std::ranges::none_of(partings, [](const auto& p) { return p.at.has_value(); });
+  return std::ranges::none_of(divergences, [](const auto& p) { return p.at.has_value(); });
 }
 
 Replayed replay_run(const ReplayRequest& request, const Notices& notices) {
@@ -93,7 +93,7 @@ Replayed replay_run(const ReplayRequest& request, const Notices& notices) {
   }
   if (request.folder)
     out.folder =
-        keep_table(outcome.table, e, {.folder = *request.folder, .force = request.force}, notices)
+        store_table(outcome.table, e, {.folder = *request.folder, .force = request.force}, notices)
             .folder;
   return out;
 }
@@ -105,7 +105,7 @@ using Align = TextTable::Align;
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-std::string channel_of(const analysis::Parting& p) {
+std::string channel_of(const analysis::Divergence& p) {
   return p.field == "value" ? p.topic : p.topic + "." + p.field;
 }
 
@@ -131,7 +131,7 @@ Json json_of(const analysis::EdgeComparison& c) {
   return out;
 }
 
-Json json_of(const analysis::Parting& p) {
+Json json_of(const analysis::Divergence& p) {
   const analysis::Difference& d = p.difference;
   Json growth = Json::array();
   for (const double rms : p.growth) growth.push_back(number_or_null(rms));
@@ -179,7 +179,7 @@ std::string plant_text(const Replayed& r, const units::ShownUnits& units, std::s
   TextTable table({"", "parts at", "beyond", "rms", "of range", "at most", "at", "rms by tenths"},
                   {Align::left, Align::right, Align::right, Align::right, Align::right,
                    Align::right, Align::right, Align::left});
-  for (const analysis::Parting& p : r.partings) {
+  for (const analysis::Divergence& p : r.divergences) {
     const analysis::Difference& d = p.difference;
     parted += p.at.has_value();
     same += d.same || d.equal();
@@ -194,7 +194,7 @@ std::string plant_text(const Replayed& r, const units::ShownUnits& units, std::s
       "recorded valves through today's plant, {:.2f} s: of {} channels {} with the same samples, "
       "{} "
       "part by more than {:.3g} % of their range or 4 sigma of noise\n",
-      r.duration, r.partings.size(), same, parted, 100 * r.band);
+      r.duration, r.divergences.size(), same, parted, 100 * r.band);
   if (!r.rebuilt.empty())
     out += fmt::format("edges of {} valves were made from their duties\n", r.rebuilt.size());
   if (!table.empty()) out += table.text_within(width);
@@ -235,7 +235,7 @@ std::string to_json(const Replayed& r) {
     out["band"] = r.band;
     out["duties"] = r.rebuilt;
     out["channels"] = Json::array();
-    for (const analysis::Parting& p : r.partings) out["channels"].push_back(json_of(p));
+    for (const analysis::Divergence& p : r.divergences) out["channels"].push_back(json_of(p));
   }
   if (!r.cause.empty()) out["ended_early"] = r.cause;
   if (r.folder) out["folder"] = r.folder->string();

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/align/parting.h"
+#include "sinew/analysis/align/divergence.h"
 #include "sinew/analysis/measures/valves.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/units/shown.h"
@@ -33,13 +33,13 @@ struct ReplayRequest {
 // The result of a replay.
 struct Replayed {
   ReplayOf of = ReplayOf::controller;
-  double duration = 0;                          // [s]
-  analysis::EdgeComparison edges;               // result of a controller
-  std::vector<analysis::Parting> partings;      // result of a plant
-  std::vector<std::string> rebuilt;             // duties that edges were calculated from
-  double band = 0;                              // as requested
-  std::string cause;                            // why it ended early; empty: it did not
-  std::optional<std::filesystem::path> folder;  // folder of the stored replay
+  double duration = 0;                            // [s]
+  analysis::EdgeComparison edges;                 // result of a controller
+  std::vector<analysis::Divergence> divergences;  // result of a plant
+  std::vector<std::string> rebuilt;               // duties that edges were calculated from
+  double band = 0;                                // as requested
+  std::string cause;                              // why it ended early; empty: it did not
+  std::optional<std::filesystem::path> folder;    // folder of the stored replay
 
   // Returns whether the controller decided every edge again, or the plant stayed within the band.
   bool agrees() const;

@@ -79,9 +79,9 @@ void clear_unfinished(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder run_folder(const std::string& asked, bool force, const std::string& experiment) {
-  if (asked.empty()) return next_run_folder(experiment);
-  const fs::path folder = asked;
+OutputFolder run_folder(const std::string& path, bool force, const std::string& experiment) {
+  if (path.empty()) return next_run_folder(experiment);
+  const fs::path folder = path;
   if (fs::exists(folder) && !fs::is_directory(folder))
     refuse(folder, "a file", "a folder", "another name");
   OutputFolder out(folder);

@@ -22,14 +22,14 @@ inline constexpr std::string_view figures_name = "figures";          // a folder
 inline constexpr std::string_view unfinished_name = "unfinished";  // a folder: the next run, until
                                                                    // complete
 
-// Returns the folder of a run, locked for this process. `asked` is created if it is missing; a
+// Returns the folder of a run, locked for this process. `path` is created if it is missing; a
 // folder that is not empty is refused unless `force` is set. If it contains a run, the new one is
 // written into unfinished/ within it until commit_run().
 //
-// An empty `asked` selects runs/<experiment>/<n> with the lowest n above all existing ones. A
+// An empty `path` selects runs/<experiment>/<n> with the lowest n above all existing ones. A
 // number is never used twice while its folder exists, even if several runs start at once. Throws
 // config::Error for a folder that cannot be created, is refused, or is locked by another process.
-OutputFolder run_folder(const std::string& asked, bool force, const std::string& experiment);
+OutputFolder run_folder(const std::string& path, bool force, const std::string& experiment);
 
 // Completes the run: it replaces the files of an earlier one, and no others. Throws config::Error
 // if a file cannot be moved to its place; the next process that opens the folder completes the

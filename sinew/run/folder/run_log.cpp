@@ -17,7 +17,7 @@ void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
   (void)static_cast<log::Writer*>(writer)->push(topic, time_ns, values);
 }
 
-std::string told_in(const std::filesystem::path& log, std::string_view name) {
+std::string metadata_in(const std::filesystem::path& log, std::string_view name) {
   for (const auto& [key, value] : log::read_metadata(log))
     if (key == name) return value;
   return "";
@@ -25,9 +25,11 @@ std::string told_in(const std::filesystem::path& log, std::string_view name) {
 
 }  // namespace
 
-std::string experiment_in(const std::filesystem::path& log) { return told_in(log, "experiment"); }
+std::string experiment_in(const std::filesystem::path& log) {
+  return metadata_in(log, "experiment");
+}
 
-std::string ended_in(const std::filesystem::path& log) { return told_in(log, "ended"); }
+std::string ended_in(const std::filesystem::path& log) { return metadata_in(log, "ended"); }
 
 void require_finished(const std::filesystem::path& log) {
   const std::string ended = ended_in(log);

@@ -1,4 +1,4 @@
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 
 #include <fmt/format.h>
 
@@ -29,12 +29,12 @@ std::string summary_json(const analysis::Summary& summary, const experiment::Exp
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
   return to_json(summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}},
                            .board = place.who(),
-                           .warnings = warnings_beside_the_log(e, outcome)});
+                           .warnings = warnings_outside_log(e, outcome)});
 }
 
 }  // namespace
 
-KeptRun::KeptRun(RunRequest request, Notices notices)
+RunStorage::RunStorage(RunRequest request, Notices notices)
     : request_(std::move(request)),
       notices_(std::move(notices)),
       experiment_(load(request_, notices_)),
@@ -42,7 +42,7 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
       place_(std::make_unique<Place>(request_.port, experiment_)) {
   place_->prepare(request_.clear_fault, request_.stop);
   if (!place_->who().empty()) notices_.note("board: " + place_->who());
-  for (const std::string& line : place_->told()) notices_.note(line);
+  for (const std::string& line : place_->messages()) notices_.note(line);
   resolve();
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
@@ -50,20 +50,20 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
   log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
 }
 
-void KeptRun::apply(RunOptions& options) {
+void RunStorage::apply(RunOptions& options) {
   place_->apply(options);
   if (log_) log_->tap(options);
 }
 
 // The figures are calculated from the text that `analyze` will read, so that both agree bit for
 // bit.
-void KeptRun::resolve() {
+void RunStorage::resolve() {
   resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
   values_ = config::parse_text(resolved_, std::string(resolved_name));
 }
 
 // Adds steered changes to resolved.toml as part of the run, with their source.
-void KeptRun::finish_log(const run::Outcome& outcome) {
+void RunStorage::finish_log(const run::Outcome& outcome) {
   const std::size_t written = experiment_.plan.changes.size();
   const std::string ended = outcome.ended_early() ? cause_of(experiment_, outcome) : "";
   if (outcome.changes.size() == written) {
@@ -82,16 +82,16 @@ void KeptRun::finish_log(const run::Outcome& outcome) {
 }
 
 // Writes the summary of a run that its supervisor ended. An unfinished run has no other results.
-void KeptRun::keep_trip(const analysis::Analysis& a, const run::Outcome& outcome) {
+void RunStorage::store_trip(const analysis::Analysis& a, const run::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
   write_into(*folder_, summary_name, summary_json(a.summary, experiment_, *place_, outcome));
 }
 
 // Writes the board's own record of its fault, since the line may have lost telemetry. Returns the
 // place of the file.
-std::string KeptRun::keep_fault_log() try {
+std::string RunStorage::store_fault_log() try {
   plant::RemoteBoard* board = place_->board();
-  const bool there = board != nullptr && board->why() != plant::RemoteBoard::Why::gone;
+  const bool there = board != nullptr && board->why() != plant::RemoteBoard::Why::closed;
   if (!there) return "";
   const std::vector<link::Telemetry> log = board->fault_log();
   if (log.empty()) return "";
@@ -104,7 +104,7 @@ std::string KeptRun::keep_fault_log() try {
 }
 
 // Leaves the log without an index, as one that was cut off, and throws with its name.
-void KeptRun::break_off(const run::Outcome& outcome) {
+void RunStorage::break_off(const run::Outcome& outcome) {
   const bool logged = log_.has_value();
   log_.reset();
   throw std::runtime_error(
@@ -115,7 +115,7 @@ void KeptRun::break_off(const run::Outcome& outcome) {
 }
 
 // Writes the page from the logged channels, which may be a part of the recorded ones.
-bool KeptRun::write_page(const analysis::Analysis& of_all, run::Outcome& outcome) {
+bool RunStorage::write_page(const analysis::Analysis& of_all, run::Outcome& outcome) {
   if (!log_ || !request_.report) return false;
   const auto write = [&](const analysis::Analysis& logged) {
     return write_report(*folder_, logged, values_, experiment_.name, notices_, request_.units);
@@ -125,13 +125,13 @@ bool KeptRun::write_page(const analysis::Analysis& of_all, run::Outcome& outcome
   return write(analysis::Analysis(part, of_all.machine));
 }
 
-Kept KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
+StoredRun RunStorage::store_files(run::Outcome& outcome, analysis::Machine machine) {
   const analysis::Analysis a(outcome.table, std::move(machine));
-  Kept kept{.folder = folder(),
-            .summary = a.summary,
-            .machine = a.machine,
-            .duration = outcome.duration,
-            .wall = outcome.wall};
+  StoredRun kept{.folder = folder(),
+                 .summary = a.summary,
+                 .machine = a.machine,
+                 .duration = outcome.duration,
+                 .wall = outcome.wall};
   if (experiment_.stand)
     if (const std::string measured = experiment::measured_csv(experiment_, outcome.table);
         !measured.empty())
@@ -144,37 +144,37 @@ Kept KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
   return kept;
 }
 
-void KeptRun::warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const {
+void RunStorage::warn(const std::vector<std::string>& of_the_log,
+                      const run::Outcome& outcome) const {
   for (const std::string& text : of_the_log) notices_.warning(text);
-  for (const std::string& text : warnings_beside_the_log(experiment_, outcome))
-    notices_.warning(text);
+  for (const std::string& text : warnings_outside_log(experiment_, outcome)) notices_.warning(text);
 }
 
-Kept KeptRun::keep(run::Outcome outcome) try {
+StoredRun RunStorage::store(run::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
   analysis::Machine machine = analysis::read_machine(values_);
   if (outcome.ended_early()) {
     const analysis::Analysis a(outcome.table, std::move(machine), cause_of(experiment_, outcome));
     warn(analysis::texts(a.warnings), outcome);
-    keep_trip(a, outcome);
-    throw std::runtime_error(black_box(experiment_, outcome) + keep_fault_log());
+    store_trip(a, outcome);
+    throw std::runtime_error(last_records(experiment_, outcome) + store_fault_log());
   }
-  return keep_files(outcome, std::move(machine));
+  return store_files(outcome, std::move(machine));
 } catch (const std::exception& e) {
   throw std::runtime_error(e.what() + where_left(*folder_));
 }
 
-Kept run_and_keep(RunRequest request, Notices notices) {
-  KeptRun kept(std::move(request), std::move(notices));
+StoredRun run_and_store(RunRequest request, Notices notices) {
+  RunStorage kept(std::move(request), std::move(notices));
   run::RunOptions options;
   kept.apply(options);
-  return kept.keep(run::run(kept.experiment(), options));
+  return kept.store(run::run(kept.experiment(), options));
 }
 
-Kept keep_table(const signals::Table& table, const experiment::Experiment& e,
-                const RunRequest& where, const Notices& notices) {
-  return keep_imported(table, e, {}, "", where, notices);
+StoredRun store_table(const signals::Table& table, const experiment::Experiment& e,
+                      const RunRequest& where, const Notices& notices) {
+  return store_imported(table, e, {}, "", where, notices);
 }
 
 }  // namespace sinew::run

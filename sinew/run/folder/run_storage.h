@@ -1,5 +1,5 @@
-// run/folder/kept_run.h - a run and the folder that stores it: the work before the loop and after
-// it.
+// run/folder/run_storage.h - a run and the folder that stores it: the work before the loop and
+// after it.
 #pragma once
 
 #include <filesystem>
@@ -35,7 +35,7 @@ struct RunRequest {
 };
 
 // The files and figures of a completed run.
-struct Kept {
+struct StoredRun {
   std::filesystem::path folder;
   analysis::Summary summary;
   analysis::Machine machine;      // as `sinew analyze` will read it
@@ -45,11 +45,11 @@ struct Kept {
 };
 
 // Holds the locked folder and the log of a run from before the loop until the run is stored.
-class KeptRun {
+class RunStorage {
  public:
   // Loads the experiment, prepares its board if it runs on one, and opens its folder and its log.
   // Throws config::Error if it cannot be run or stored, and plant::BoardError.
-  explicit KeptRun(RunRequest request, Notices notices = {});
+  explicit RunStorage(RunRequest request, Notices notices = {});
 
   // Return the experiment, its text as written, and its values as read back.
   const experiment::Experiment& experiment() const { return experiment_; }
@@ -68,17 +68,17 @@ class KeptRun {
   // during the run are added to resolved.toml. Then the run replaces an older one. If the run ended
   // early, throws with its last records; if it was stopped, throws and leaves the log as if cut
   // off.
-  Kept keep(run::Outcome outcome);
+  StoredRun store(run::Outcome outcome);
 
  private:
   void resolve();
   void finish_log(const run::Outcome& outcome);
   [[noreturn]] void break_off(const run::Outcome& outcome);
-  Kept keep_files(run::Outcome& outcome, analysis::Machine machine);
+  StoredRun store_files(run::Outcome& outcome, analysis::Machine machine);
   void warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const;
   bool write_page(const analysis::Analysis& of_all, run::Outcome& outcome);
-  void keep_trip(const analysis::Analysis& a, const run::Outcome& outcome);
-  std::string keep_fault_log();
+  void store_trip(const analysis::Analysis& a, const run::Outcome& outcome);
+  std::string store_fault_log();
 
   RunRequest request_;
   Notices notices_;
@@ -91,12 +91,12 @@ class KeptRun {
   std::optional<RunLog> log_;
 };
 
-// Runs an experiment as fast as possible and stores it. Throws like KeptRun.
-Kept run_and_keep(RunRequest request, Notices notices = {});
+// Runs an experiment as fast as possible and stores it. Throws like RunStorage.
+StoredRun run_and_store(RunRequest request, Notices notices = {});
 
 // Stores an existing table, for example an external recording, as the run of `e`; `where.folder`
 // and `where.force` select the folder. Throws config::Error or log::Error.
-Kept keep_table(const signals::Table& table, const experiment::Experiment& e,
-                const RunRequest& where, const Notices& notices = {});
+StoredRun store_table(const signals::Table& table, const experiment::Experiment& e,
+                      const RunRequest& where, const Notices& notices = {});
 
 }  // namespace sinew::run

@@ -1,5 +1,5 @@
 // A stored run can be read back unchanged, and only a run's own files are ever replaced.
-#include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/run_storage.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -40,7 +40,7 @@ class KeptRunTest : public ::testing::Test {
 };
 
 TEST_F(KeptRunTest, ReadsBackAsWhatItWas) {
-  const auto kept = run_and_keep(request("a"));
+  const auto kept = run_and_store(request("a"));
   EXPECT_EQ(kept.folder, root_ / "a");
   EXPECT_EQ(kept.json, text_of(root_ / "a" / summary_name));
 
@@ -60,29 +60,29 @@ TEST_F(KeptRunTest, ReadsBackAsWhatItWas) {
 }
 
 TEST_F(KeptRunTest, IsReplacedOnlyByForceAndIsTheSameAgain) {
-  (void)run_and_keep(request("a"));
+  (void)run_and_store(request("a"));
   const std::string log = text_of(root_ / "a" / log_name);
   std::ofstream(root_ / "a" / "mine.txt") << "mine";
 
   RunRequest again = request("a");
   try {
-    (void)run_and_keep(again);
+    (void)run_and_store(again);
     ADD_FAILURE() << "replaced";
   } catch (const std::exception& e) {
     EXPECT_NE(std::string(e.what()).find("force=true"), std::string::npos) << e.what();
     EXPECT_EQ(std::string(e.what()).find("--"), std::string::npos) << e.what();
   }
   again.force = true;
-  (void)run_and_keep(again);
+  (void)run_and_store(again);
   EXPECT_EQ(text_of(root_ / "a" / log_name), log);
   EXPECT_EQ(text_of(root_ / "a" / "mine.txt"), "mine");
 }
 
 TEST_F(KeptRunTest, ATableThatIsKeptIsTheRunItCameFrom) {
-  const auto ran = run_and_keep(request("a"));
+  const auto ran = run_and_store(request("a"));
   const signals::Table table = log::read(root_ / "a" / log_name);
   const experiment::Experiment e = experiment::load(request("").experiment, request("").sets);
-  const auto kept = keep_table(table, e, request("b"));
+  const auto kept = store_table(table, e, request("b"));
   EXPECT_EQ(kept.summary.entries().size(), ran.summary.entries().size());
 
   const report::Comparison both =
@@ -97,12 +97,12 @@ TEST_F(KeptRunTest, ATableThatIsKeptIsTheRunItCameFrom) {
 TEST_F(KeptRunTest, TellsOfAnExperimentThatCannotBeRunBeforeThereIsAFolder) {
   RunRequest bad = request("a");
   bad.sets.push_back("joint.hip.angle_gain=9 lbf");
-  EXPECT_THROW((void)run_and_keep(bad), config::Error);
+  EXPECT_THROW((void)run_and_store(bad), config::Error);
   EXPECT_FALSE(fs::exists(root_ / "a"));
 }
 
 TEST_F(KeptRunTest, FiguresOfARunAreListedInTheirIndex) {
-  (void)run_and_keep(request("a"));
+  (void)run_and_store(request("a"));
   DrawingRequest drawing;
   drawing.only = {"joint-angles"};
   drawing.files.pictures.clear();

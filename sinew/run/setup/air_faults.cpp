@@ -45,7 +45,7 @@ air::AirFault air_fault(const experiment::Fault& f, const experiment::FaultPart&
 
 }  // namespace
 
-double tear_of(const actuator::Actuator& a, double length) {
+double tear_area(const actuator::Actuator& a, double length) {
   const double d = actuator::diameter(a.braid, length - a.caps.length);
   return 0.1 * (0.25 * std::numbers::pi * d * d);
 }
@@ -72,7 +72,7 @@ std::vector<air::AirFault> air_faults(std::span<const experiment::Fault> faults,
 std::vector<air::AirFault> air_faults(const Experiment& e) {
   const auto tear = [&](int muscle) {
     const robot::Muscle& m = e.robot.muscles[static_cast<std::size_t>(muscle)];
-    return tear_of(robot::actuator_of(m, e.actuators), m.mount_length);
+    return tear_area(robot::actuator_of(m, e.actuators), m.mount_length);
   };
   return air_faults(e.faults,
                     {.parts = fault_parts(e), .atmosphere = e.air.atmosphere, .tear = tear});

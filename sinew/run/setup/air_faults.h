@@ -20,7 +20,7 @@ struct FaultyAir {
 
 // Returns the assumed area of a tear that the braid holds together: a tenth of the cross-section of
 // one actuator at that length [m^2].
-double tear_of(const actuator::Actuator& actuator, double length);
+double tear_area(const actuator::Actuator& actuator, double length);
 
 // Adds a contradiction if there are more faults of the air than an air network can schedule.
 void check_air_faults(std::span<const experiment::Fault> faults,

@@ -69,14 +69,14 @@ std::vector<Reach> reaches(const Experiment& e) {
 // Adds muscles whose chamber has no volume within the joints' range: their pressure is undefined.
 void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   const std::vector<Reach> reach = reaches(e);
-  const plant::MuscleRouting cords(e.robot);
+  const plant::MuscleRouting tendons(e.robot);
   for (const bool high : {false, true}) {
     std::array<double, robot::max_joints> angle{}, still{};
     for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
     air::Lanes<plant::most_muscles> length{}, rate{};
     plant::MuscleRouting::MomentArms<plant::most_muscles> pulls{};
-    cords.at(angle.data(), still.data(), length, rate, pulls);
-    for (int i = 0; i < cords.count(); ++i) {
+    tendons.at(angle.data(), still.data(), length, rate, pulls);
+    for (int i = 0; i < tendons.count(); ++i) {
       const auto m = static_cast<std::size_t>(i);
       const actuator::Actuator& a = setup.muscles[m].actuator;
       const bool none = length[i] - a.caps.length <= 0;
@@ -84,7 +84,7 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
       if (!none && !(taut && setup.muscles[m].external_volume <= 0)) continue;
       const robot::Muscle& muscle = e.robot.muscles[m];
       const std::string& joint = muscle.joint;
-      const double at = angle[static_cast<std::size_t>(cords.joint(i, 0))];
+      const double at = angle[static_cast<std::size_t>(tendons.joint(i, 0))];
       const std::string key = "muscle." + muscle.name;
       if (std::ranges::any_of(out, [&](const auto& c) { return c.key.starts_with(key + "."); }))
         continue;
@@ -109,20 +109,20 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
 // Warns of an end of a joint's range that no muscle can pull to: each muscle that turns the joint
 // in that direction reaches its shortest length, where its pull ends, before.
 void warn_of_reach(const Experiment& e, const plant::Setup& setup,
-                   const plant::MuscleRouting& cords, std::size_t joint, const Reach& reach,
+                   const plant::MuscleRouting& tendons, std::size_t joint, const Reach& reach,
                    bool high, List& out) {
   std::array<double, robot::max_joints> angle{}, still{};
   for (std::size_t j = 0; j < e.robot.joints.size(); ++j) angle[j] = e.robot.joints[j].rest_angle;
   angle[joint] = high ? reach.high : reach.low;
   air::Lanes<plant::most_muscles> length{}, rate{};
   plant::MuscleRouting::MomentArms<plant::most_muscles> arms{};
-  cords.at(angle.data(), still.data(), length, rate, arms);
+  tendons.at(angle.data(), still.data(), length, rate, arms);
   int nearest = -1;  // the muscle that comes closest
   double left = 0;   // its length above the shortest [m]
-  for (int i = 0; i < cords.count(); ++i)
+  for (int i = 0; i < tendons.count(); ++i)
     for (std::size_t s = 0; s < plant::MuscleRouting::most; ++s) {
       const auto m = static_cast<std::size_t>(i);
-      if (cords.joint(i, static_cast<int>(s)) != static_cast<int>(joint)) continue;
+      if (tendons.joint(i, static_cast<int>(s)) != static_cast<int>(joint)) continue;
       if (high != (arms[m][s] > 0)) continue;
       const double above = length[i] - actuator::shortest_length(setup.muscles[m].actuator);
       if (above > 0) return;
@@ -168,11 +168,11 @@ std::vector<robot::Contradiction> beyond_reach(const Experiment& e) {
   if (e.stand) return {};
   List out;
   const plant::Setup setup = planar_setup(e);
-  const plant::MuscleRouting cords(e.robot);
+  const plant::MuscleRouting tendons(e.robot);
   const std::vector<Reach> reach = reaches(e);
   for (std::size_t j = 0; j < reach.size(); ++j)
     for (const bool high : {false, true})
-      if (reach[j].low < reach[j].high) warn_of_reach(e, setup, cords, j, reach[j], high, out);
+      if (reach[j].low < reach[j].high) warn_of_reach(e, setup, tendons, j, reach[j], high, out);
   return out;
 }
 

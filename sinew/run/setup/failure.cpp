@@ -27,8 +27,8 @@ std::string length_in_words(const air::Failure& failure, const actuator::Actuato
 
 }  // namespace
 
-std::string in_words(const air::Failure& failure, const std::string& who,
-                     const actuator::Actuator& actuator, const std::string& step) {
+std::string to_text(const air::Failure& failure, const std::string& who,
+                    const actuator::Actuator& actuator, const std::string& step) {
   using Of = air::Failure::Of;
   std::string what = "the motion";
   if (failure.of == Of::air) what = "the air of " + who;

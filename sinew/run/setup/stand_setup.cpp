@@ -78,7 +78,7 @@ double length_at_start(const plant::StandSetup& s) {
 
 plant::StandSetup stand_setup(const Experiment& e) {
   plant::StandSetup s = unbroken(e);
-  const auto tear = [&](int) { return tear_of(s.muscle.actuator, length_at_start(s)); };
+  const auto tear = [&](int) { return tear_area(s.muscle.actuator, length_at_start(s)); };
   s.faults =
       air_faults(e.faults, {.parts = fault_parts(e), .atmosphere = e.air.atmosphere, .tear = tear});
   return s;

@@ -62,7 +62,7 @@ std::string text_of(const std::vector<Delivered>& duties, const std::string& fre
   return out + table.text();
 }
 
-std::string doubt_of(const gas::Valve& valve, const gas::ValveFlow& f) {
+std::string flow_warning(const gas::Valve& valve, const gas::ValveFlow& f) {
   if (!f.linear) return "";
   return fmt::format(
       "{}: the pressures are {:.2g} % apart, less than linear_below, {:.2g} %: there the flow is a "

@@ -31,7 +31,7 @@ std::string text_of(const std::vector<Delivered>& duties, const std::string& fre
 
 // Returns a warning if the flow is in the linear section near equal pressures, which exists for
 // integration and is far below the law; else empty.
-std::string doubt_of(const gas::Valve& valve, const gas::ValveFlow& flow);
+std::string flow_warning(const gas::Valve& valve, const gas::ValveFlow& flow);
 
 // Returns all values as a JSON object, in SI.
 std::string json_of(const gas::Valve& valve, const gas::ValveFlow& flow,

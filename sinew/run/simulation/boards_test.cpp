@@ -36,7 +36,7 @@ TEST(Boards, TheLegOnTwoIsTheLegOnOne) {
   for (const char* name : {"walk-test-1", "derivative-control", "walk-with-pressures"}) {
     const Outcome one = run(load(name)), two = run(load(name, split));
     expect_same(one.table, two.table);
-    EXPECT_EQ(one.seen.phase, two.seen.phase);
+    EXPECT_EQ(one.controller.phase, two.controller.phase);
     EXPECT_EQ(one.supervised.rejected, two.supervised.rejected);
   }
 }
@@ -77,7 +77,8 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
   ASSERT_EQ(boards.size(), 2u);
   EXPECT_EQ(boards[1].joint, (std::vector<std::uint8_t>{2, 3}));
   EXPECT_EQ(boards[1].valve, (std::vector<std::uint8_t>{8, 9, 10, 11, 12, 13, 14, 15}));
-  const control::JointControllerConfig &left = boards[0].spine, &right = boards[1].spine;
+  const control::JointControllerConfig &left = boards[0].joint_controller,
+                                       &right = boards[1].joint_controller;
   ASSERT_EQ(left.conversions, right.conversions);
   for (std::size_t c = 0; c < left.conversions; ++c)
     EXPECT_EQ(left.conversion[c].read, right.conversion[c].read);
@@ -124,11 +125,11 @@ TEST(Boards, OneThatTripsEndsAll) {
     const Outcome out = run(e);
     EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::range);
     EXPECT_EQ(out.supervised.board, board);
-    EXPECT_EQ(out.seen.fault, signals::Status::fault);
-    EXPECT_EQ(out.seen.phase, control::Phase::off);
+    EXPECT_EQ(out.controller.fault, signals::Status::fault);
+    EXPECT_EQ(out.controller.phase, control::Phase::off);
     const int s = robot::find_sensor(e.robot, sensor);
     EXPECT_EQ(out.supervised.trip.channel.index, s);
-    EXPECT_EQ(out.seen.fault_channel.index, s);
+    EXPECT_EQ(out.controller.fault_channel.index, s);
     const std::string text = cause_of(e, out), on = " on board " + std::to_string(board) + " at ";
     EXPECT_TRUE(text.starts_with("sensor " + std::string(sensor) + on)) << text;
 
@@ -152,7 +153,7 @@ TEST(Boards, BadCommandsNameTheirJoint) {
   MachineCommand command{};
   command[1].angle = 1'000'000;
   Tick t = 0;
-  for (; boards.seen().phase != control::Phase::off && t < 200'000; t = boards.next_event(t)) {
+  for (; boards.state().phase != control::Phase::off && t < 200'000; t = boards.next_event(t)) {
     if (t % boards.scan().period == 0) boards.command(command);
     for (Board& b : boards.each()) (void)b.edges(t);
     for (Board& b : boards.each())

@@ -25,8 +25,8 @@ std::size_t number_of(const robot::Robot& robot, const robot::ValveBit& b) {
 
 void refuse_levels(const experiment::Experiment& e, const control::Board& board,
                    const std::string& place) {
-  for (std::size_t j = 0; j < board.spine.joints; ++j)
-    if (board.spine.joint[j].kind == control::JointKind::regulated)
+  for (std::size_t j = 0; j < board.joint_controller.joints; ++j)
+    if (board.joint_controller.joint[j].kind == control::JointKind::regulated)
       config::fail({e.path, 0, 0}, "joint." + e.robot.joints[board.joint[j]].name,
                    "pressure regulators",
                    fmt::format("valves that open and shut, to run it at {}: a digital output sets "
@@ -44,7 +44,7 @@ plant::CardMachine card_machine(const experiment::Experiment& e, const std::stri
       .full_scale = converter.full_scale,
       .top = converter.top(),
       .active_low = !e.wiring.present || e.wiring.polarity == robot::Wiring::Polarity::low_opens,
-      .vent = static_cast<signals::Tick>(board.spine.shutdown_vent)};
+      .vent = static_cast<signals::Tick>(board.joint_controller.shutdown_vent)};
   for (const robot::Sensor& s : e.robot.sensors) out.inputs.push_back({s.name, s.channel});
 
   out.outputs.resize(2 * e.robot.muscles.size() + 4);
@@ -54,7 +54,7 @@ plant::CardMachine card_machine(const experiment::Experiment& e, const std::stri
     valve.bit = b.bit;
     valve.inlet = b.which == "inlet";
   }
-  const control::OutputStage stage(board.spine, 0);
+  const control::OutputStage stage(board.joint_controller, 0);
   for (std::size_t i = 0; i < board.valve.size(); ++i) {
     Output& valve = out.outputs[board.valve[i]];
     valve.inverted = (stage.inverted() >> i & 1u) != 0;
@@ -71,7 +71,7 @@ CardPlace::CardPlace(const std::string& device, const experiment::Experiment& e,
   not_permitted = host::problems(real_time);
 }
 
-std::vector<std::string> CardPlace::told() const {
+std::vector<std::string> CardPlace::messages() const {
   std::vector<std::string> out{"timer " + host::in_words(latency)};
   out.insert(out.end(), not_permitted.begin(), not_permitted.end());
   if (host::class_of(latency) == host::LatencyClass::unfit)

@@ -21,9 +21,9 @@ struct CardPlace {
             const std::string& place);
 
   // Returns lines with the latency of this computer and the real-time features that it lacks.
-  std::vector<std::string> told() const;
+  std::vector<std::string> messages() const;
 
-  host::Beat beat;
+  host::TickTimer beat;
   plant::ComediPort port;
   host::Latency latency;
   std::vector<std::string> not_permitted;

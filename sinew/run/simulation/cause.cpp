@@ -22,29 +22,29 @@ std::string_view word(signals::Status status) {
 }  // namespace
 
 std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
-  const SeenTotals& seen = outcome.seen;
+  const ControllerTotals& controller = outcome.controller;
   if (e.stand && outcome.failure) {
     actuator::Actuator its;
     for (const actuator::Actuator& a : e.actuators)
       if (a.name == e.stand->element.actuator) its = a;
-    return in_words(outcome.failure, "element " + e.stand->element.name, its, "step");
+    return to_text(outcome.failure, "element " + e.stand->element.name, its, "step");
   }
   if (outcome.failure) {
     const auto m = static_cast<std::size_t>(outcome.failure.muscle);
-    if (m >= e.robot.muscles.size()) return in_words(outcome.failure, "", {}, "plant_steps.body");
+    if (m >= e.robot.muscles.size()) return to_text(outcome.failure, "", {}, "plant_steps.body");
     const robot::Muscle& muscle = e.robot.muscles[m];
-    return in_words(outcome.failure, "muscle " + muscle.name,
-                    robot::actuator_of(muscle, e.actuators), "plant_steps.body");
+    return to_text(outcome.failure, "muscle " + muscle.name,
+                   robot::actuator_of(muscle, e.actuators), "plant_steps.body");
   }
   const robot::Robot parts = named_parts(e);
   const std::string tripped =
       control::to_text(outcome.supervised.trip, parts, outcome.supervised.board);
   if (!tripped.empty()) return tripped;
   if (!outcome.line.empty()) return outcome.line + fmt::format(" at {:.4f} s", outcome.duration);
-  const bool by_sensor = seen.fault != signals::Status::ok;
-  std::string text(word(by_sensor ? seen.fault : outcome.status));
-  if (by_sensor && seen.fault_channel.index < parts.sensors.size())
-    text += " of sensor " + parts.sensors[seen.fault_channel.index].name;
+  const bool by_sensor = controller.fault != signals::Status::ok;
+  std::string text(word(by_sensor ? controller.fault : outcome.status));
+  if (by_sensor && controller.fault_channel.index < parts.sensors.size())
+    text += " of sensor " + parts.sensors[controller.fault_channel.index].name;
   return text + fmt::format(" at {:.4f} s", outcome.duration);
 }
 

@@ -45,7 +45,7 @@ class SteeredClock {
   explicit SteeredClock(const Steering& steering, double at_once = 0)
       : steering_(steering),
         pace_(steering.pace()),
-        stood_(steering.paused()),
+        was_paused_(steering.paused()),
         at_once_(at_once),
         at_(at_once) {}
 
@@ -54,36 +54,36 @@ class SteeredClock {
     const double target = static_cast<double>(t) * signals::tick_seconds;
     for (;;) {
       move_on();
-      if (at_ >= target || (pace_ == 0 && !stood_)) break;
-      const double left = pace_ > 0 ? (target - at_) / pace_ : doze;
-      std::this_thread::sleep_for(
-          std::chrono::duration<double>(stood_ ? doze : std::min(left, doze)));
+      if (at_ >= target || (pace_ == 0 && !was_paused_)) break;
+      const double left = pace_ > 0 ? (target - at_) / pace_ : poll_interval;
+      std::this_thread::sleep_for(std::chrono::duration<double>(
+          was_paused_ ? poll_interval : std::min(left, poll_interval)));
     }
-    const bool far_behind = !stood_ && at_ - target > std::max(at_once_, moment * pace_);
+    const bool far_behind = !was_paused_ && at_ - target > std::max(at_once_, moment * pace_);
     if (pace_ == 0) at_ = std::max(at_, target);
     if (pace_ > 0 && far_behind) at_ = target;
     return true;
   }
 
  private:
-  static constexpr double doze = 5e-3;    // interval at which steering is polled [s]
-  static constexpr double moment = 0.25;  // longest delay that is made up for [s]
+  static constexpr double poll_interval = 5e-3;  // interval at which steering is polled [s]
+  static constexpr double moment = 0.25;         // longest delay that is made up for [s]
 
   // Advances to the present time at the pace that was polled last, and polls again.
   void move_on() noexcept {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> passed = now - last_;
-    if (!stood_) at_ += passed.count() * pace_;
+    if (!was_paused_) at_ += passed.count() * pace_;
     last_ = now;
     pace_ = steering_.pace();
-    stood_ = steering_.paused();
+    was_paused_ = steering_.paused();
   }
 
   const Steering& steering_;
   double pace_;
-  bool stood_;      // whether it was paused when polled last
-  double at_once_;  // initial time without waiting [s]
-  double at_;       // simulated time according to wall time [s]
+  bool was_paused_;  // whether it was paused when polled last
+  double at_once_;   // initial time without waiting [s]
+  double at_;        // simulated time according to wall time [s]
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

@@ -1,4 +1,4 @@
-#include "sinew/run/simulation/course.h"
+#include "sinew/run/simulation/episode.h"
 
 #include <fmt/format.h>
 
@@ -33,28 +33,28 @@ void check_above_zero(double value, std::string_view what, const std::string& wh
 
 }  // namespace
 
-Course::Course(const Task& task, Simulation& example)
+Episode::Episode(const Task& task, Simulation& example)
     : begin_(ticks(task.begin)),
       step_(ticks(task.period)),
       control_(ticks(example.experiment().plan.brain_period)) {
   check_times(example, task);
   for (const Task::Action& a : task.actions) {
     check_above_zero(a.factor, "factor", a.setting);
-    ways_.push_back({example.find_setting(a.setting), a.offset, units::log(a.factor)});
+    actions_.push_back({example.find_setting(a.setting), a.offset, units::log(a.factor)});
   }
-  for (const Task::Sight& s : task.sights) {
+  for (const Task::Observation& s : task.observations) {
     check_above_zero(s.scale, "scale", s.channel);
     channels_.push_back(example.find(s.channel));
-    seen_.push_back({s.middle, s.scale});
+    scalings_.push_back({s.middle, s.scale});
   }
   for (const std::string& name : task.measures) measure(example, name);
   if (channels_.size() > most_channels)
     throw std::invalid_argument(
         fmt::format("channels: found {}; expected {} at most", channels_.size(), most_channels));
-  learn_plan(example);
+  record_plan(example);
 }
 
-void Course::check_times(const Simulation& s, const Task& task) const {
+void Episode::check_times(const Simulation& s, const Task& task) const {
   const double control = seconds(control_);
   if (step_ < control_ || step_ % control_ != 0)
     throw std::invalid_argument(
@@ -69,7 +69,7 @@ void Course::check_times(const Simulation& s, const Task& task) const {
                                             task.begin, seconds(s.last())));
 }
 
-void Course::measure(const Simulation& s, const std::string& name) {
+void Episode::measure(const Simulation& s, const std::string& name) {
   constexpr std::string_view of_plan = "plan:";
   if (!name.starts_with(of_plan)) {
     measured_.push_back({false, channels_.size()});
@@ -77,46 +77,46 @@ void Course::measure(const Simulation& s, const std::string& name) {
     return;
   }
   const std::size_t setting = s.find_setting(std::string_view(name).substr(of_plan.size()));
-  const auto way = std::ranges::find(ways_, setting, &Way::setting);
-  if (way == ways_.end())
+  const auto action = std::ranges::find(actions_, setting, &Action::setting);
+  if (action == actions_.end())
     throw std::invalid_argument(
         fmt::format("measures: found {}; expected the setting of one of the task's actions", name));
-  measured_.push_back({true, static_cast<std::size_t>(way - ways_.begin())});
+  measured_.push_back({true, static_cast<std::size_t>(action - actions_.begin())});
 }
 
 // Records the settings of each period of the plan, which are set when its first tick has passed.
-void Course::learn_plan(Simulation& s) {
+void Episode::record_plan(Simulation& s) {
   for (Tick t = begin_; t < s.last(); t += control_) {
     s.advance_to(t + 1);
-    for (const Way& way : ways_) plan_.push_back(s.value_of(way.setting));
+    for (const Action& action : actions_) plan_.push_back(s.value_of(action.setting));
   }
   if (const std::string cause = s.cause(); !cause.empty()) throw std::runtime_error(cause);
 }
 
-void Course::step(Simulation& s, std::span<const double> action) const {
+void Episode::step(Simulation& s, std::span<const double> action) const {
   for (Tick passed = 0; passed < step_ && !s.ended(); passed += control_) {
     const auto row = static_cast<std::size_t>((s.tick() - begin_) / control_);
     if (row < rows())
-      for (std::size_t i = 0; i < ways_.size(); ++i) {
+      for (std::size_t i = 0; i < actions_.size(); ++i) {
         const double a = std::clamp(action[i], -1.0, 1.0);
-        const double wanted = (plan_[row * ways_.size() + i] + ways_[i].offset * a) *
-                              units::exp(ways_[i].logarithm * a);
-        s.change(ways_[i].setting, std::clamp(wanted, 0.0, gait::Setting::most));
+        const double wanted = (plan_[row * actions_.size() + i] + actions_[i].offset * a) *
+                              units::exp(actions_[i].logarithm * a);
+        s.change(actions_[i].setting, std::clamp(wanted, 0.0, gait::Setting::most));
       }
     s.advance_to(s.tick() + control_);
   }
 }
 
-void Course::look(Simulation& s, std::span<double> seen,
-                  std::span<double> measured) const noexcept {
+void Episode::observe(Simulation& s, std::span<double> observed,
+                      std::span<double> measured) const noexcept {
   double readings[most_channels];
   s.read(channels_, {readings, channels_.size()});
-  for (std::size_t i = 0; i < seen_.size(); ++i)
-    seen[i] = (readings[i] - seen_[i].middle) / seen_[i].scale;
+  for (std::size_t i = 0; i < scalings_.size(); ++i)
+    observed[i] = (readings[i] - scalings_[i].middle) / scalings_[i].scale;
   const Tick periods = std::max<Tick>(0, (s.tick() - begin_) / control_ - 1);
   const std::size_t row = std::min(static_cast<std::size_t>(periods), rows() - 1);
   for (std::size_t i = 0; i < measured_.size(); ++i)
-    measured[i] = measured_[i].of_plan ? plan_[row * ways_.size() + measured_[i].place]
+    measured[i] = measured_[i].of_plan ? plan_[row * actions_.size() + measured_[i].place]
                                        : readings[measured_[i].place];
 }
 

@@ -1,6 +1,6 @@
 // A run in steps of actions and observations: it equals the plan without actions, and has the
 // settings that actions set.
-#include "sinew/run/simulation/course.h"
+#include "sinew/run/simulation/episode.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ experiment::Experiment walk() {
 Task task() {
   return {.actions = {{.setting = "control.angle.hip", .offset = 0.2},
                       {.setting = "control.stiffness.knee", .factor = 2}},
-          .sights = {{.channel = "/true/joint/hip/angle", .middle = 4.9, .scale = 0.5}},
+          .observations = {{.channel = "/true/joint/hip/angle", .middle = 4.9, .scale = 0.5}},
           .measures = {"/true/joint/hip/angle", "plan:control.stiffness.knee"}};
 }
 
@@ -33,10 +33,10 @@ class CourseTest : public testing::Test {
 };
 
 TEST_F(CourseTest, NoActionIsThePlanToTheLastBit) {
-  const Course course(task(), example_);
-  course.begin(leg_);
+  const Episode episode(task(), example_);
+  episode.begin(leg_);
   EXPECT_EQ(leg_.time(), 0.6);
-  while (!leg_.ended()) course.step(leg_, std::vector<double>{0, 0});
+  while (!leg_.ended()) episode.step(leg_, std::vector<double>{0, 0});
 
   Simulation plain(walk_);
   plain.advance_to(leg_.tick());
@@ -47,11 +47,11 @@ TEST_F(CourseTest, NoActionIsThePlanToTheLastBit) {
 }
 
 TEST_F(CourseTest, AnActionMovesThePlansSettings) {
-  const Course course(task(), example_);
-  course.begin(leg_);
+  const Episode episode(task(), example_);
+  episode.begin(leg_);
   Simulation plain(walk_);
   plain.advance_by(0.641);  // in the last of the five periods of a step
-  course.step(leg_, std::vector<double>{0.5, -1});
+  episode.step(leg_, std::vector<double>{0.5, -1});
   const auto at = [](const Simulation& s, const char* key) {
     return s.value_of(s.find_setting(key));
   };
@@ -60,22 +60,22 @@ TEST_F(CourseTest, AnActionMovesThePlansSettings) {
 }
 
 TEST_F(CourseTest, AnActionBeyondOneIsCut) {
-  const Course course(task(), example_);
+  const Episode episode(task(), example_);
   Simulation other(walk_);
-  for (Simulation* s : {&leg_, &other}) course.begin(*s);
-  course.step(leg_, std::vector<double>{1, -1});
-  course.step(other, std::vector<double>{7, -1e9});
+  for (Simulation* s : {&leg_, &other}) episode.begin(*s);
+  episode.step(leg_, std::vector<double>{1, -1});
+  episode.step(other, std::vector<double>{7, -1e9});
   EXPECT_EQ(leg_.read("/true/joint/hip/angle"), other.read("/true/joint/hip/angle"));
 }
 
 TEST_F(CourseTest, ALookIsScaledAndAMeasureIsNot) {
-  const Course course(task(), example_);
-  course.begin(leg_);
-  course.step(leg_, std::vector<double>{0, 1});
-  double seen[1], measured[2];
-  course.look(leg_, seen, measured);
+  const Episode episode(task(), example_);
+  episode.begin(leg_);
+  episode.step(leg_, std::vector<double>{0, 1});
+  double observed[1], measured[2];
+  episode.observe(leg_, observed, measured);
   EXPECT_EQ(measured[0], leg_.read("/true/joint/hip/angle"));
-  EXPECT_EQ(seen[0], (measured[0] - 4.9) / 0.5);
+  EXPECT_EQ(observed[0], (measured[0] - 4.9) / 0.5);
   // An action has doubled the stiffness; the planned value stays.
   EXPECT_DOUBLE_EQ(2 * measured[1], leg_.value_of(leg_.find_setting("control.stiffness.knee")));
 }
@@ -86,17 +86,17 @@ TEST_F(CourseTest, RefusesWhatThereIsNot) {
     change(wrong);
     Simulation example(walk_);
     try {
-      const Course course(wrong, example);
+      const Episode episode(wrong, example);
       FAIL() << words;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   };
   refused("control.angel", [](Task& t) { t.actions[0].setting = "control.angel.hip"; });
-  refused("/joint/hop", [](Task& t) { t.sights[0].channel = "/joint/hop/angle"; });
+  refused("/joint/hop", [](Task& t) { t.observations[0].channel = "/joint/hop/angle"; });
   refused("expected the setting of one", [](Task& t) { t.measures = {"plan:control.angle.knee"}; });
   refused("knee: factor: found 0", [](Task& t) { t.actions[1].factor = 0; });
-  refused("angle: scale: found -1", [](Task& t) { t.sights[0].scale = -1; });
+  refused("angle: scale: found -1", [](Task& t) { t.observations[0].scale = -1; });
   refused("period: found 0.015 s", [](Task& t) { t.period = 0.015; });
   refused("period: found 0 s", [](Task& t) { t.period = 0; });
   refused("begin: found 0.605 s", [](Task& t) { t.begin = 0.605; });

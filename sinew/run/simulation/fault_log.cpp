@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "sinew/control/link/words.h"
+#include "sinew/control/link/texts.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/remote_boards.h"
 
@@ -36,16 +36,16 @@ std::string line(const link::Telemetry& t, const control::Board& board) {
   std::string out;
   const auto to = std::back_inserter(out);
   fmt::format_to(to, "{:.4f},{},\"{}\",{}", signals::tick_seconds * static_cast<double>(t.tick),
-                 name(t.state), link::in_words(t.fault), t.link.line.frames);
+                 name(t.state), link::to_text(t.fault), t.link.line.frames);
   for (std::size_t c = 0; c < board.channel.size(); ++c) {
-    const control::SensorSeen& seen = t.supervised.sensor[c];
-    fmt::format_to(to, ",{},{},{}", t.seen.reading[c].counts, seen.counts, seen.rejected);
+    const control::SensorStatistics& sensor = t.supervised.sensor[c];
+    fmt::format_to(to, ",{},{},{}", t.controller.reading[c].counts, sensor.counts, sensor.rejected);
   }
   for (std::size_t j = 0; j < board.joint.size(); ++j) {
-    const control::JointSeen& seen = t.seen.joint[j];
-    const control::Duties& d = seen.duties;
-    fmt::format_to(to, ",{},{},{},{},{},{},{}", seen.velocity, seen.stiffness_output,
-                   seen.angle_output, d.flexor_inlet, d.flexor_exhaust, d.extensor_inlet,
+    const control::JointState& joint = t.controller.joint[j];
+    const control::Duties& d = joint.duties;
+    fmt::format_to(to, ",{},{},{},{},{},{},{}", joint.velocity, joint.stiffness_output,
+                   joint.angle_output, d.flexor_inlet, d.flexor_exhaust, d.extensor_inlet,
                    d.extensor_exhaust);
   }
   return out + "\n";

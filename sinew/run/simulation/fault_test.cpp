@@ -114,7 +114,7 @@ TEST(Fault, EndsTheRunAndIsNamed) {
   const Outcome out = run(e);
   EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::range);
   EXPECT_EQ(out.supervised.trip.at, 10'201);  // read at tick 1 of the third scan
-  EXPECT_EQ(out.seen.fault, Status::fault);
+  EXPECT_EQ(out.controller.fault, Status::fault);
   const std::string text = control::to_text(out.supervised.trip, e.robot);
   EXPECT_TRUE(
       text.starts_with("sensor lever_angle at 1.0201 s: 4095 count three times in a row, "
@@ -155,7 +155,7 @@ TEST(Fault, IsTheSameHoweverItIsLookedAt) {
               {.at = 1, .lasts = 1, .of = "flexor_tension", .what = What::dropout, .amount = 0.5}};
   const Outcome once = run(e);
   EXPECT_EQ(once.supervised.trip.cause, Trip::Cause::none);
-  EXPECT_GT(once.seen.late, 20u);
+  EXPECT_GT(once.controller.late, 20u);
   expect_same(once.table, run(e, {.every_tick = true}).table);
 }
 
@@ -229,11 +229,11 @@ TEST(AirFault, StandsInTheResolvedFile) {
   ASSERT_EQ(again.faults.size(), e.faults.size());
   for (std::size_t i = 0; i < e.faults.size(); ++i) {
     EXPECT_EQ(again.faults[i].what, e.faults[i].what);
-    EXPECT_EQ(experiment::in_words(again.faults[i]), experiment::in_words(e.faults[i]));
+    EXPECT_EQ(experiment::to_text(again.faults[i]), experiment::to_text(e.faults[i]));
   }
-  EXPECT_EQ(experiment::in_words(e.faults[2]),
+  EXPECT_EQ(experiment::to_text(e.faults[2]),
             "extensor.inlet leaking (5 % of its area) from 0.5 s to 1.5 s");
-  EXPECT_EQ(experiment::in_words(e.faults[4]), "flexor ruptured from 3 s on");
+  EXPECT_EQ(experiment::to_text(e.faults[4]), "flexor ruptured from 3 s on");
   expect_same(run(e).table, run(again).table);
 }
 

@@ -37,7 +37,7 @@ Reading FaultyPort::spoil(const Acting& acting, Reading r, Tick now) const noexc
     case shorted:
       return {0, r.status};
     case stuck:
-      return {answered_[channel] ? before_[channel] : r.counts, r.status};
+      return {has_counts_[channel] ? before_[channel] : r.counts, r.status};
     case offset:
     case slip:
       return {counts(r.counts + fault.amount), r.status};
@@ -63,7 +63,7 @@ Reading FaultyPort::read(signals::Channel channel, Tick now) noexcept {
     if (f.channel == channel.index && experiment::acts(f.fault, time)) r = spoil(f, r, now);
   if (r.status == Status::ok) {
     before_[channel.index] = r.counts;
-    answered_[channel.index] = true;
+    has_counts_[channel.index] = true;
   }
   return r;
 }

@@ -26,12 +26,12 @@ class FaultyPort final : public signals::Port {
   // The last counts of each channel that were returned. Copied as bytes.
   struct State {
     std::array<std::uint16_t, robot::max_sensors> before{};
-    std::array<bool, robot::max_sensors> answered{};
+    std::array<bool, robot::max_sensors> has_counts{};
   };
-  State state() const noexcept { return {before_, answered_}; }
+  State state() const noexcept { return {before_, has_counts_}; }
   void restore(const State& state) noexcept {
     before_ = state.before;
-    answered_ = state.answered;
+    has_counts_ = state.has_counts;
   }
 
  private:
@@ -49,7 +49,7 @@ class FaultyPort final : public signals::Port {
   std::uint64_t seed_;
   double top_;                                              // highest count of the converter
   std::array<std::uint16_t, robot::max_sensors> before_{};  // last counts returned
-  std::array<bool, robot::max_sensors> answered_{};
+  std::array<bool, robot::max_sensors> has_counts_{};
 };
 
 }  // namespace sinew::run

@@ -15,7 +15,7 @@
 #include "sinew/run/simulation/run.h"
 #include "tests/places.h"
 
-namespace sinew::run::spinal_test {
+namespace sinew::run::joint_controller_run_test {
 namespace {
 
 using Kind = control::JointKind;
@@ -50,7 +50,7 @@ void use_three_way(experiment::Experiment& e, const std::string& joint) {
 
 // --- the law follows the valves ------------------------------------------------------------------
 
-TEST(Spinal, ThreeWayValvesMakeAThreeWayJoint) {
+TEST(JointControllerRuns, ThreeWayValvesMakeAThreeWayJoint) {
   experiment::Experiment e = one_step();
   use_three_way(e, "knee");
   e.robot.joints[1].pressure_law.bias = 0.35;
@@ -62,7 +62,7 @@ TEST(Spinal, ThreeWayValvesMakeAThreeWayJoint) {
 }
 
 // Robot III's control, 5.1: it moves, its valves are never shut, and it uses more air.
-TEST(Spinal, AThreeWayLegMovesAndSpendsMoreAir) {
+TEST(JointControllerRuns, AThreeWayLegMovesAndSpendsMoreAir) {
   const experiment::Experiment sealed = one_step();
   experiment::Experiment e = one_step();
   use_three_way(e, "hip"), use_three_way(e, "knee");
@@ -80,7 +80,7 @@ TEST(Spinal, AThreeWayLegMovesAndSpendsMoreAir) {
   EXPECT_TRUE(three.table.find("/valve/hip_flexor/exhaust/open")->time_ns.empty());
 }
 
-TEST(Spinal, RefusesValvesThatDoNotGoTogether) {
+TEST(JointControllerRuns, RefusesValvesThatDoNotGoTogether) {
   experiment::Experiment e = one_step();
   e.robot.muscles[0].exhaust = "";
   EXPECT_NE(refusal(e).find("muscle.hip_flexor.exhaust: found none; expected a valve, as the inlet "
@@ -123,7 +123,7 @@ double error_in_swing(const Outcome& out) {
   return sum / static_cast<double>(errors.size() - errors.size() / 2);
 }
 
-TEST(Spinal, RegulatorsFollowTheirSetPoints) {
+TEST(JointControllerRuns, RegulatorsFollowTheirSetPoints) {
   const experiment::Experiment e = regulated_hip(0.006);
   EXPECT_EQ(refusal(e), "nothing");
   EXPECT_EQ(control::joint_controller_config(installation(e)).joint[0].kind, Kind::regulated);
@@ -145,7 +145,7 @@ TEST(Spinal, RegulatorsFollowTheirSetPoints) {
 
 // The leg's cylinder in its loop: last joint, valves after the muscles', duties of B.1. With B.1's
 // gain it oscillates; damped, and with a ninth of the gain, it reaches the planned position.
-TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
+TEST(JointControllerRuns, TheCylinderGoesWhereThePlanWantsIt) {
   const std::string air = sinew::test::source_dir() + "/experiments/leg-in-air.toml";
   const experiment::Experiment e = experiment::load(
       air, {"sequence.repeat=1", "cylinder.mode=valves", "cylinder.position_gain=0.1 %/count",
@@ -176,7 +176,7 @@ TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
 // --- muscles ------------------------------------------------------------------------------------
 
 // Torque of a count with another scale and another arm, relative to that of the flexor.
-TEST(Spinal, TensionRatioIsOfTorquePerCount) {
+TEST(JointControllerRuns, TensionRatioIsOfTorquePerCount) {
   experiment::Experiment e = one_step();
   EXPECT_EQ(control::joint_controller_config(installation(e)).joint[0].extensor.tension_ratio,
             1.0f);
@@ -190,7 +190,7 @@ TEST(Spinal, TensionRatioIsOfTorquePerCount) {
   EXPECT_NEAR(hip.extensor.free_length, hip.flexor.free_length / 1.5, 1);
 }
 
-TEST(Spinal, AJointWithOneMuscle) {
+TEST(JointControllerRuns, AJointWithOneMuscle) {
   for (const std::size_t gone : {0u, 1u}) {
     experiment::Experiment e = one_step();
     const std::string name = e.robot.muscles[gone].name;
@@ -209,7 +209,7 @@ TEST(Spinal, AJointWithOneMuscle) {
 }
 
 // One muscle is the flexor of knee and hip, on a cam half as large.
-TEST(Spinal, AMuscleOverTwoJoints) {
+TEST(JointControllerRuns, AMuscleOverTwoJoints) {
   experiment::Experiment e = one_step();
   e.robot.muscles[0].second = {.joint = "knee", .role = robot::Muscle::Role::flexor};
   e.robot.muscles[0].second.cam.radius = 0.5 * e.robot.joints[1].moment_arm;
@@ -241,7 +241,7 @@ TEST(Spinal, AMuscleOverTwoJoints) {
 
 // 5.2: the interrupt comes a hundred times in a period. In ticks of 100 us, 90 and 151 Hz are 111
 // and 66 ticks.
-TEST(Spinal, InterruptsOverrunAbove100Hz) {
+TEST(JointControllerRuns, InterruptsOverrunAbove100Hz) {
   for (const int ticks : {50, 66, 100, 111, 125, 200}) {
     experiment::Experiment e = one_step({"low_level.interrupt_time=100 us"});
     e.robot.low_level.pwm_ticks = ticks;
@@ -249,16 +249,16 @@ TEST(Spinal, InterruptsOverrunAbove100Hz) {
   }
 }
 
-TEST(Spinal, OverrunsAreCounted) {
+TEST(JointControllerRuns, OverrunsAreCounted) {
   const Outcome out = run(one_step({"low_level.interrupt_time=101 us"}));
-  EXPECT_GT(out.seen.overruns, 2 * 250u);  // two laws per period of 10 ms, more than 2.5 s
+  EXPECT_GT(out.controller.overruns, 2 * 250u);  // two laws per period of 10 ms, more than 2.5 s
   const signals::Column* logged = out.table.column("/low_level/overruns");
   ASSERT_NE(logged, nullptr);
-  EXPECT_EQ(logged->back(), out.seen.overruns);
+  EXPECT_EQ(logged->back(), out.controller.overruns);
   const Outcome in_time = run(one_step());
-  EXPECT_EQ(in_time.seen.overruns, 0u);
+  EXPECT_EQ(in_time.controller.overruns, 0u);
   EXPECT_EQ(in_time.table.find("/low_level/overruns"), nullptr);
 }
 
 }  // namespace
-}  // namespace sinew::run::spinal_test
+}  // namespace sinew::run::joint_controller_run_test

@@ -68,7 +68,7 @@ class Lane {
     if (reached_) run_.advance(simulation_.next() + 1, clock);
     reached_ = true;
     const Tick t = simulation_.next();
-    if (run_.ended() || t >= simulation_.last()) return plant::Batch::over;
+    if (run_.ended() || t >= simulation_.last()) return plant::Batch::finished;
     return bounds_.before(t, run_.samples(t));
   }
 
@@ -128,7 +128,7 @@ class Group {
   // Continues until a run has ended, reports it, and returns its lane; -1 if no run is left.
   int go() {
     auto turn = [this](int k) noexcept { return running_[static_cast<std::size_t>(k)]->turn(); };
-    const int k = batch_.go(turn);
+    const int k = batch_.run(turn);
     if (k < 0) return k;
     const std::unique_ptr<Lane> ended = std::move(running_[static_cast<std::size_t>(k)]);
     lanes_.done(ended->experiment, ended->finish(), nullptr);
@@ -150,7 +150,7 @@ class Group {
 bool fill(const Lanes& lanes, std::optional<Group>& group, int k) {
   while (const Experiment* e = lanes.next()) {
     const plant::Setup setup = e->stand ? plant::Setup{} : planar_setup(*e);
-    if (e->stand || !plant::Batch::holds(setup) || (group && !group->takes(setup))) {
+    if (e->stand || !plant::Batch::fits(setup) || (group && !group->takes(setup))) {
       run_alone(lanes, *e);
       continue;
     }

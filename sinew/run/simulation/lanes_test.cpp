@@ -62,9 +62,9 @@ void expect_same_outcome(const Outcome& a, const Outcome& b) {
   EXPECT_EQ(a.unreachable_periods, b.unreachable_periods);
   EXPECT_EQ(a.failure.of, b.failure.of);
   EXPECT_EQ(a.failure.time, b.failure.time);
-  EXPECT_EQ(a.seen.phase, b.seen.phase);
-  EXPECT_EQ(a.seen.invalid, b.seen.invalid);
-  EXPECT_EQ(a.seen.overruns, b.seen.overruns);
+  EXPECT_EQ(a.controller.phase, b.controller.phase);
+  EXPECT_EQ(a.controller.invalid, b.controller.invalid);
+  EXPECT_EQ(a.controller.overruns, b.controller.overruns);
   EXPECT_EQ(a.supervised.rejected, b.supervised.rejected);
   EXPECT_EQ(a.supervised.trip.cause, b.supervised.trip.cause);
   EXPECT_EQ(a.supervised.trip.at, b.supervised.trip.at);
@@ -92,7 +92,7 @@ TEST(Lanes, RunsSideBySideHaveTheBitsThatTheyHaveAlone) {
   for (int i = 0; i < 24; ++i) {
     each.push_back(random_experiment(random));
     alone.push_back(run(each.back()));
-    held += plant::Batch::holds(planar_setup(each.back()));
+    held += plant::Batch::fits(planar_setup(each.back()));
   }
   EXPECT_GT(held, 12);
   EXPECT_LT(held, 24);

@@ -4,14 +4,14 @@
 
 #include <span>
 
-#include "sinew/control/joint/seen.h"
+#include "sinew/control/joint/state.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::run {
 
 // Returns whether the watcher stops the loop. A watcher without stopped() never does.
 template <class Watch>
-bool ends_it(Watch& watch) noexcept {
+bool is_stopped(Watch& watch) noexcept {
   if constexpr (requires { watch.stopped(); }) return watch.stopped();
   return false;
 }
@@ -25,14 +25,14 @@ struct LoopState {
 
 // Returns the boards of a low level; a single controller is its own board.
 template <class JointController>
-auto each_board(JointController& spine) noexcept {
-  if constexpr (requires { spine.each(); })
-    return spine.each();
+auto each_board(JointController& joint_controller) noexcept {
+  if constexpr (requires { joint_controller.each(); })
+    return joint_controller.each();
   else
-    return std::span<JointController, 1>(&spine, 1);
+    return std::span<JointController, 1>(&joint_controller, 1);
 }
 
-// JointController   scan(), seen().phase, command(command), edges(t), due(t),
+// JointController   scan(), state().phase, command(command), edges(t), due(t),
 //         take(conversion, reading, t), next_event(t), missed(t), shut_down(t):
 //         control::Supervisor, control::JointController alone; or Boards, whose each() returns
 //         boards with edges(t), due(t) and take()
@@ -44,38 +44,39 @@ auto each_board(JointController& spine) noexcept {
 // Runs the ticks before `until`. The result does not depend on the number of calls. Ends early if
 // the body ends or fails, or if the joint controller has shut down.
 template <class JointController, class GaitController, class Clock, class Watch>
-void advance(LoopState& loop, JointController& spine, GaitController& brain, signals::Port& port,
-             Clock& clock, Watch& watch, signals::Tick until) noexcept {
+void advance(LoopState& loop, JointController& joint_controller, GaitController& gait_controller,
+             signals::Port& port, Clock& clock, Watch& watch, signals::Tick until) noexcept {
   using signals::Status;
   using signals::Tick;
 
-  if (!loop.started) loop.status = port.start(spine.scan());
+  if (!loop.started) loop.status = port.start(joint_controller.scan());
   loop.started = true;
   Status& status = loop.status;
   Tick& t = loop.at;
-  while (status == Status::ok && t < until && spine.seen().phase != control::Phase::off &&
-         !ends_it(watch)) {
-    if (!clock.wait_until(t)) spine.missed(t);
+  while (status == Status::ok && t < until &&
+         joint_controller.state().phase != control::Phase::off && !is_stopped(watch)) {
+    if (!clock.wait_until(t)) joint_controller.missed(t);
 
     // The high level's setpoints for this period; its last ones shut the joint controller down.
-    if (t % spine.scan().period == 0) {
-      spine.command(brain.update(spine.seen(), t));
+    if (t % joint_controller.scan().period == 0) {
+      joint_controller.command(gait_controller.update(joint_controller.state(), t));
       watch.command(t);
-      if (brain.finished() && spine.seen().phase == control::Phase::running) spine.shut_down(t);
+      if (gait_controller.finished() && joint_controller.state().phase == control::Phase::running)
+        joint_controller.shut_down(t);
     }
 
     // Edges that were decided earlier, then the conversions that are due, one per board.
-    for (auto& board : each_board(spine))
+    for (auto& board : each_board(joint_controller))
       for (const signals::Edge& edge : board.edges(t)) {
         const Status driven = port.drive(edge);
         status = status == Status::ok ? driven : status;
         watch.edge(edge);
       }
-    for (auto& board : each_board(spine))
+    for (auto& board : each_board(joint_controller))
       if (const signals::Conversion* c = board.due(t)) board.take(*c, port.read(c->channel, t), t);
     watch.sample(t);
 
-    const Tick next = spine.next_event(t), sample = watch.next(t);
+    const Tick next = joint_controller.next_event(t), sample = watch.next(t);
     t = sample < next ? sample : next;
   }
 }
@@ -88,10 +89,10 @@ inline signals::Status finish(LoopState& loop, signals::Port& port) noexcept {
 
 // Runs from the first tick to `end`, or to an earlier end.
 template <class JointController, class GaitController, class Clock, class Watch>
-signals::Status loop(JointController& spine, GaitController& brain, signals::Port& port,
-                     Clock& clock, Watch& watch, signals::Tick end) noexcept {
+signals::Status loop(JointController& joint_controller, GaitController& gait_controller,
+                     signals::Port& port, Clock& clock, Watch& watch, signals::Tick end) noexcept {
   LoopState state;
-  advance(state, spine, brain, port, clock, watch, end);
+  advance(state, joint_controller, gait_controller, port, clock, watch, end);
   return finish(state, port);
 }
 

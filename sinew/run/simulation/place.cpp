@@ -94,16 +94,16 @@ void refuse_what_no_board_can(const experiment::Experiment& e, const std::string
   const std::vector<control::Board> boards = boards_of(e);
   if (boards.size() != 1)
     refuse(e, place, "board", fmt::format("{} boards", boards.size()), "one: a line leads to one");
-  const double period = signals::tick_seconds * boards.front().spine.period;
+  const double period = signals::tick_seconds * boards.front().joint_controller.period;
   const double samples = e.log.period / period;
   if (samples < 0.999 || std::abs(samples - std::round(samples)) > 1e-9)
     refuse(e, place, "log.period", fmt::format("{:g} s", e.log.period),
            fmt::format("a multiple of {:g} s, the period in which a board reports", period));
   if (!place.starts_with(serial)) return;
   refuse_faults(e, place);
-  const control::JointControllerConfig& spine = boards.front().spine;
-  for (std::size_t j = 0; j < spine.joints; ++j)
-    if (spine.joint[j].kind == control::JointKind::regulated)
+  const control::JointControllerConfig& joint_controller = boards.front().joint_controller;
+  for (std::size_t j = 0; j < joint_controller.joints; ++j)
+    if (joint_controller.joint[j].kind == control::JointKind::regulated)
       refuse(e, place, "muscle", "pressure regulators",
              "valves: no output of a board sets a pressure");
 }
@@ -111,10 +111,11 @@ void refuse_what_no_board_can(const experiment::Experiment& e, const std::string
 // Returns the rate of the line: the given one, since another port of the firmware may differ,
 // or that of the firmware. Throws plant::BoardError if it does not carry the telemetry.
 std::uint32_t rate_for(const Device& device, const link::Configuration& configuration) {
-  const control::JointControllerConfig& spine = configuration.spine;
+  const control::JointControllerConfig& joint_controller = configuration.joint_controller;
   const std::uint32_t rate = device.baud > 0 ? device.baud : link::firmware_baud;
-  if (link::carries(rate, link::load_of(spine, true), spine.period)) return rate;
-  const std::uint32_t least = link::choose_baud(spine, true, plant::serial_rates());
+  if (link::carries(rate, link::load_of(joint_controller, true), joint_controller.period))
+    return rate;
+  const std::uint32_t least = link::choose_baud(joint_controller, true, plant::serial_rates());
   const std::string at = device.path + "@" + std::to_string(least);
   throw plant::BoardError(fmt::format(
       "{}: {} bits/s do not carry this robot's telemetry; expected {}", device.path, rate,
@@ -130,7 +131,7 @@ std::string problem_of_place(const std::string& place) {
       "expected simulated, serial:DEVICE, serial:DEVICE@RATE, emulated:FILE, lock-step:FILE or "
       "comedi:DEVICE";
   const std::string_view text = place;
-  if (!is_elsewhere(place)) return "";
+  if (!is_outside_simulation(place)) return "";
   for (const std::string_view kind : {serial, emulated, lock_step, comedi})
     if (text.starts_with(kind) && text.size() > kind.size()) {
       if (kind != serial || device_of(text.substr(kind.size())).good) return "";
@@ -139,16 +140,18 @@ std::string problem_of_place(const std::string& place) {
   return fmt::format("found \"{}\"; {}", place, expected);
 }
 
-bool is_elsewhere(const std::string& place) { return !place.empty() && place != simulated; }
+bool is_outside_simulation(const std::string& place) {
+  return !place.empty() && place != simulated;
+}
 
-bool keeps_its_own_time(const std::string& place) {
-  return is_elsewhere(place) && !place.starts_with(lock_step);
+bool has_own_clock(const std::string& place) {
+  return is_outside_simulation(place) && !place.starts_with(lock_step);
 }
 
 struct Place::Serial {
   Serial(const Device& device, const link::Configuration& configuration)
       : line(device.path, rate_for(device, configuration)),
-        board(line.line(), 1, configuration.spine.period) {}
+        board(line.line(), 1, configuration.joint_controller.period) {}
 
   plant::SerialLine line;
   plant::RemoteBoard board;
@@ -159,7 +162,7 @@ struct Place::AtMachine {
   AtMachine(const std::string& image, const experiment::Experiment& experiment)
       : body(experiment),
         emulator(image, body.wires()),
-        board(emulator.line(), 1, only_board(experiment).spine.period) {}
+        board(emulator.line(), 1, only_board(experiment).joint_controller.period) {}
 
   WiredBody body;
   Emulated emulator;
@@ -167,10 +170,10 @@ struct Place::AtMachine {
 };
 
 Place::Place(const std::string& place, const experiment::Experiment& experiment)
-    : keeps_time_(keeps_its_own_time(place)), place_(place) {
+    : keeps_time_(has_own_clock(place)), place_(place) {
   if (const std::string wrong = problem_of_place(place); !wrong.empty())
     throw std::invalid_argument(wrong);
-  if (!is_elsewhere(place)) return;
+  if (!is_outside_simulation(place)) return;
   if (place.starts_with(comedi)) {
     if (experiment.stand)
       refuse(experiment, place, "", "an experiment on a test stand",
@@ -202,7 +205,7 @@ void Place::prepare(bool clear_fault, const std::atomic<bool>* stop) {
   if (stop != nullptr) board_->stop_when([stop] { return stop->load(); });
   if (clear_fault) board_->allow_clearing();
   const link::Identity who = board_->prepare(configuration_);
-  if (const std::string found = plant::fault_found(who); !found.empty()) told_.push_back(found);
+  if (const std::string found = plant::fault_found(who); !found.empty()) messages_.push_back(found);
   who_ = fmt::format("{}, firmware {}, at {}", text_of(who.board), text_of(who.firmware), place_);
 }
 
@@ -211,7 +214,7 @@ void Place::open_card(const std::string& device, const experiment::Experiment& e
   refuse_faults(e, place);
   card_ = std::make_unique<CardPlace>(device, e, place);
   who_ = fmt::format("{}, at {}", card_->port.board(), place);
-  told_ = card_->told();
+  messages_ = card_->messages();
 }
 
 Place::~Place() = default;

@@ -25,10 +25,10 @@ namespace sinew::run {
 std::string problem_of_place(const std::string& place);
 
 // Returns whether the place is not the simulation.
-bool is_elsewhere(const std::string& place);
+bool is_outside_simulation(const std::string& place);
 
 // Returns whether the place has a machine or an emulator whose clock cannot be paced.
-bool keeps_its_own_time(const std::string& place);
+bool has_own_clock(const std::string& place);
 
 class Place {
  public:
@@ -48,7 +48,7 @@ class Place {
   // Returns the identity of the board and its firmware, and its place; empty if nothing was opened.
   const std::string& who() const noexcept { return who_; }
   // Returns the messages about the place before the run, as lines.
-  const std::vector<std::string>& told() const noexcept { return told_; }
+  const std::vector<std::string>& messages() const noexcept { return messages_; }
   // Returns the board; nullptr in the simulation.
   plant::RemoteBoard* board() const noexcept { return board_; }
   int lead() const noexcept { return lead_; }
@@ -71,7 +71,7 @@ class Place {
   int lead_ = 1;
   bool keeps_time_;
   std::string place_, who_;
-  std::vector<std::string> told_;
+  std::vector<std::string> messages_;
   link::Configuration configuration_;
 };
 

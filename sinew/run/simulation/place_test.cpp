@@ -30,11 +30,10 @@ TEST(Place, IsASimulationADeviceOrAFile) {
         << bad;
   for (const char* bad : {"serial:/dev/ttyACM0@", "serial:/dev/ttyACM0@fast", "serial:a@0",
                           "serial:a@-1", "serial:a@99999999999"})
-    EXPECT_NE(problem_of_place(bad).find("whose rate is not a number"), std::string::npos)
-        << bad;
-  EXPECT_FALSE(is_elsewhere(""));
-  EXPECT_FALSE(is_elsewhere("simulated"));
-  EXPECT_TRUE(is_elsewhere("serial:/dev/ttyACM0"));
+    EXPECT_NE(problem_of_place(bad).find("whose rate is not a number"), std::string::npos) << bad;
+  EXPECT_FALSE(is_outside_simulation(""));
+  EXPECT_FALSE(is_outside_simulation("simulated"));
+  EXPECT_TRUE(is_outside_simulation("serial:/dev/ttyACM0"));
 }
 
 TEST(Place, WhatNoBoardCanRunIsRefusedBeforeAnythingIsOpened) {

@@ -45,7 +45,7 @@ Outcome RecordedRun::finish() {
     out.foreign = far->foreign();
   }
   const Controllers& controllers = simulation_.controllers();
-  out.seen = controllers.seen_totals();
+  out.controller = controllers.controller_totals();
   out.supervised = controllers.supervised_totals();
   out.duration = static_cast<double>(simulation_.last()) * signals::tick_seconds;
   if (const HighLevel* gait = controllers.gait()) {

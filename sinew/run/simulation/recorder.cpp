@@ -36,7 +36,7 @@ Recorder::Recorder(const experiment::Experiment& e, const Controllers& controlle
   first_edge_ = columns_.size();
   std::size_t width = 0;  // numbers in a row
   for (const Column& c : columns_)
-    if (machine_ || !c.of_truth()) width += c.topic.fields.size();
+    if (machine_ || !c.is_simulated_only()) width += c.topic.fields.size();
 
   // Reserve storage for the largest number of samples and edges.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
@@ -109,15 +109,15 @@ signals::Table Recorder::take() {
 void Recorder::sample(Tick t) noexcept {
   if (t < next_) return;
   next_ += period_;
-  if (!controllers_.knows(t)) return;  // its message from a remote board is lost
+  if (!controllers_.has_state_of(t)) return;  // its message from a remote board is lost
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   cursor_ = number_ = 0;
   const double time = static_cast<double>(t) * signals::tick_seconds;
   if (machine_) machine_->truth(time, truths_);
-  controllers_.look(time, &truths_, [&](const Snapshot& now) {
+  controllers_.with_snapshot(time, &truths_, [&](const Snapshot& now) {
     for (const Column& c : columns_) {
-      if (!machine_ && c.of_truth()) break;  // they are last in the list
+      if (!machine_ && c.is_simulated_only()) break;  // they are last in the list
       std::array<double, 2> values{};
       c.value(now, values.data());
       put({values.data(), c.topic.fields.size()});

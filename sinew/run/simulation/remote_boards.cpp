@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sinew/control/link/words.h"
+#include "sinew/control/link/texts.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/units/constants.h"
 
@@ -41,8 +41,9 @@ control::Board only_board(const experiment::Experiment& e) {
 
 link::Configuration configuration_of(const experiment::Experiment& e) {
   const control::Board board = only_board(e);
-  link::Configuration out{board.spine, board.limits, {}};
-  out.safety.host_hold = std::max<std::uint32_t>(out.safety.host_hold, 3u * board.spine.period);
+  link::Configuration out{board.joint_controller, board.limits, {}};
+  out.safety.host_hold =
+      std::max<std::uint32_t>(out.safety.host_hold, 3u * board.joint_controller.period);
   out.safety.host_vent = std::max(out.safety.host_vent, out.safety.host_hold);
   return out;
 }
@@ -83,7 +84,8 @@ bool has_valves(const experiment::Experiment& e, const control::Board& board,
   const int j = robot::find_joint(e.robot, e.robot.muscles[static_cast<std::size_t>(m)].joint);
   const auto at = std::ranges::find(board.joint, j);
   if (at == board.joint.end()) return false;
-  const auto kind = board.spine.joint[static_cast<std::size_t>(at - board.joint.begin())].kind;
+  const auto kind =
+      board.joint_controller.joint[static_cast<std::size_t>(at - board.joint.begin())].kind;
   return kind == control::JointKind::antagonist || kind == control::JointKind::three_way;
 }
 
@@ -107,14 +109,14 @@ void watch_pressures(const experiment::Experiment& e, control::SafetyConfig& out
 link::Configuration bench_configuration_of(const experiment::Experiment& e) {
   constexpr std::uint32_t most_missing = 3;
   link::Configuration out = configuration_of(e);
-  if (out.spine.hold_limit == 0) out.spine.hold_limit = most_missing;
+  if (out.joint_controller.hold_limit == 0) out.joint_controller.hold_limit = most_missing;
   watch_pressures(e, out.safety);
-  out.safety.vent_limit = std::max(out.safety.vent_limit, 2 * out.spine.shutdown_vent);
+  out.safety.vent_limit = std::max(out.safety.vent_limit, 2 * out.joint_controller.shutdown_vent);
   return out;
 }
 
 RemoteBoards::RemoteBoards(Boards& shown, plant::RemoteBoard& board, int lead)
-    : shown_(&shown), board_(&board), period_(shown.scan().period), lead_(lead), told_{{{this}}} {
+    : shown_(&shown), board_(&board), period_(shown.scan().period), lead_(lead), views_{{{this}}} {
   const Board& its = shown.each().front();
   joint_.assign(its.joints().begin(), its.joints().end());
   valve_.assign(its.valves().begin(), its.valves().end());
@@ -154,21 +156,22 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
     return t + 1;
   }
   const double until = board_->now() + silence;
-  const link::Telemetry* told = send(t) ? board_->next(silence) : nullptr;
-  while (told != nullptr && (told->tick <= t || told->tick > t + farthest)) {
-    if (told->tick > t) ++foreign_;
-    told = board_->next(until - board_->now());
+  const link::Telemetry* telemetry = send(t) ? board_->next(silence) : nullptr;
+  while (telemetry != nullptr && (telemetry->tick <= t || telemetry->tick > t + farthest)) {
+    if (telemetry->tick > t) ++foreign_;
+    telemetry = board_->next(until - board_->now());
   }
   take_edges(t);
   handed_on_ = false;
-  if (told == nullptr) {
+  if (telemetry == nullptr) {
     over_ = true;  // except for the edges that came with it
     return t + 1;
   }
-  lost_ += static_cast<std::uint32_t>((told->tick - t) / period_) - 1;
-  next_ = told->tick;
+  lost_ += static_cast<std::uint32_t>((telemetry->tick - t) / period_) - 1;
+  next_ = telemetry->tick;
   // Nothing is converted at the tick at which a period begins.
-  shown_->show(told->seen, told->supervised, {next_ - period_ + last_read_, next_ + 1});
+  shown_->show(telemetry->controller, telemetry->supervised,
+               {next_ - period_ + last_read_, next_ + 1});
   return next_;
 }
 
@@ -204,13 +207,13 @@ Status RemoteBoards::stop(Tick) noexcept {
 std::string RemoteBoards::problem() const {
   using Why = plant::RemoteBoard::Why;
   if (board_->why() == Why::silent) return fmt::format("the board was not heard for {} s", silence);
-  if (board_->why() == Why::gone) return "the line to the board is gone";
+  if (board_->why() == Why::closed) return "the line to the board is gone";
   if (board_->state() == control::BoardState::dump)
-    return fmt::format("the board is in dump: {}", link::in_words(board_->fault()));
-  const bool explained = end_sent_ || shown_->seen_totals().fault != Status::ok ||
+    return fmt::format("the board is in dump: {}", link::to_text(board_->fault()));
+  const bool explained = end_sent_ || shown_->controller_totals().fault != Status::ok ||
                          shown_->supervised_totals().trip.cause != control::Trip::Cause::none;
   if (board_->why() == Why::over && !explained)
-    return fmt::format("the board has left the run: {}", link::in_words(board_->fault()));
+    return fmt::format("the board has left the run: {}", link::to_text(board_->fault()));
   return "";
 }
 

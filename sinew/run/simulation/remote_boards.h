@@ -46,7 +46,7 @@ class RemoteBoards final : public signals::Port {
   // Return the scan and the last reported state of the board, like a local board; take the
   // command of a period.
   signals::Scan scan() const noexcept { return shown_->scan(); }
-  MachineSeen seen() const noexcept { return shown_->seen(); }
+  MachineState state() const noexcept { return shown_->state(); }
   void command(const MachineCommand& command) noexcept;
   // Sends the period's command and waits for the board's report. Returns the tick of the report; a
   // period whose telemetry is lost is left out.
@@ -55,14 +55,14 @@ class RemoteBoards final : public signals::Port {
   void shut_down(signals::Tick) noexcept { ends_ = true; }
 
   // The board as the loop uses it: it returns each reported edge once.
-  struct Told {
+  struct RemoteBoardView {
     RemoteBoards* of;
     // Called by the loop. Nothing is converted here.
     std::span<const signals::Edge> edges(signals::Tick) noexcept { return of->edges(); }
     const signals::Conversion* due(signals::Tick) noexcept { return nullptr; }
     void take(const signals::Conversion&, signals::Reading, signals::Tick) noexcept {}
   };
-  std::span<Told> each() noexcept { return told_; }
+  std::span<RemoteBoardView> each() noexcept { return views_; }
 
   // --- the body: valves and sensors are at the board ---
 
@@ -99,7 +99,7 @@ class RemoteBoards final : public signals::Port {
   std::uint32_t lost_ = 0, foreign_ = 0;
   std::vector<signals::Edge> edges_;
   bool handed_on_ = false;
-  std::array<Told, 1> told_;
+  std::array<RemoteBoardView, 1> views_;
 };
 
 }  // namespace sinew::run

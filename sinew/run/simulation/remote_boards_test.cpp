@@ -28,7 +28,7 @@ struct Bench {
       : experiment(e),
         body(e),
         board(watched(body.wires())),
-        remote(board.line(), 1, only_board(e).spine.period) {}
+        remote(board.line(), 1, only_board(e).joint_controller.period) {}
 
   Outcome run(int lead = 0) {
     remote.prepare(configuration_of(experiment));
@@ -159,11 +159,11 @@ TEST(RemoteBoards, AnyOneFrameOfAStartUpMayBeLost) {
       board.spoil = [&](auto& bytes) { line.answers(bytes); };
       plant::RemoteBoard remote(line.at(board.line()), 1, 100);
       ASSERT_NO_THROW(remote.prepare(configuration));
-      const auto joints = static_cast<std::uint8_t>(configuration.spine.joints);
+      const auto joints = static_cast<std::uint8_t>(configuration.joint_controller.joints);
       EXPECT_TRUE(remote.command({.from = 0, .periods = 3, .joints = joints}));
-      const link::Telemetry* told = remote.next(1.5);
-      ASSERT_NE(told, nullptr);
-      EXPECT_EQ(told->state, control::BoardState::running);
+      const link::Telemetry* telemetry = remote.next(1.5);
+      ASSERT_NE(telemetry, nullptr);
+      EXPECT_EQ(telemetry->state, control::BoardState::running);
       EXPECT_LT(board.periods, 150) << "at most one question comes again, after half a second";
       lost = line.left < 0;
     }
@@ -261,7 +261,7 @@ TEST(RemoteBoards, TelemetryOfATimeThatIsNotYetIsLeftOutAndCounted) {
 TEST(RemoteBoards, AtAMachineThreeReadingsThatDoNotComeEndTheRun) {
   const experiment::Experiment e =
       loaded("walk-test-1", {"fault=[{at=\"2 s\", of=\"hip_angle\", what=\"dropout\"}]"});
-  ASSERT_EQ(configuration_of(e).spine.hold_limit, 0u) << "a simulation bears any number";
+  ASSERT_EQ(configuration_of(e).joint_controller.hold_limit, 0u) << "a simulation bears any number";
   Bench bench(e);
   bench.remote.prepare(bench_configuration_of(e));
   const Outcome far = run::run(e, {.board = &bench.remote, .lead = 0});
@@ -356,7 +356,7 @@ TEST(RemoteBoards, AFaultsLogIsKeptByTheBoardUntilItIsArmedAgain) {
   Bench faultless(loaded("kick"));
   (void)faultless.run();
   for (const link::Telemetry& t : faultless.remote.fault_log())
-    EXPECT_TRUE(t.fault == control::BoardFault::none || t.fault == control::BoardFault::asked);
+    EXPECT_TRUE(t.fault == control::BoardFault::none || t.fault == control::BoardFault::requested);
 }
 
 TEST(RemoteBoards, AFaultsLogComesOverALineThatSpoilsEveryFourthAnswer) {

@@ -21,7 +21,7 @@ namespace sinew::run {
 // A real machine, at a card in this computer, and the clock that drives it.
 struct RealBody {
   plant::ComediPort* port = nullptr;
-  host::Beat* beat = nullptr;
+  host::TickTimer* beat = nullptr;
 };
 
 // Pace, observers and place of a run.
@@ -51,7 +51,7 @@ struct Outcome {
   std::uint32_t lost = 0;             // periods without a board's telemetry
   std::uint32_t foreign = 0;          // edges and periods with invalid valves or times
   std::string no_room;                // why the table is incomplete, and the remedy; or empty
-  SeenTotals seen;                    // last state of the low level
+  ControllerTotals controller;        // last state of the low level
   SupervisedTotals supervised;        // rejected readings and commands, and what ended the run
   air::Failure failure;               // part of the machine that was not finite
   std::vector<gait::Change> changes;  // the plan's, followed by steered ones
@@ -63,7 +63,8 @@ struct Outcome {
   // Returns whether the run ended before its plan, so that it cannot be summarised.
   bool ended_early() const {
     return failure || !line.empty() || status != signals::Status::ok ||
-           seen.fault != signals::Status::ok || supervised.trip.cause != control::Trip::Cause::none;
+           controller.fault != signals::Status::ok ||
+           supervised.trip.cause != control::Trip::Cause::none;
   }
 };
 

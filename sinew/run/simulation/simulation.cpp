@@ -25,7 +25,7 @@ static_assert(std::is_trivially_copyable_v<FaultyPort::State>);
 static_assert(std::is_trivially_copyable_v<LoopState>);
 
 // A watch that records nothing.
-struct Nobody {
+struct NullWatch {
   void command(Tick) noexcept {}
   void edge(const signals::Edge&) noexcept {}
   void sample(Tick) noexcept {}
@@ -105,7 +105,7 @@ bool Simulation::ended() const noexcept {
 
 void Simulation::advance_to(Tick tick) noexcept {
   SimulatedClock clock;
-  Nobody watch;
+  NullWatch watch;
   advance(tick, clock, watch);
 }
 
@@ -118,7 +118,7 @@ void Simulation::advance_by(double seconds) noexcept {
 void Simulation::list_channels() {
   columns_ = columns(experiment_);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (!machine_ && columns_[c].of_truth()) continue;
+    if (!machine_ && columns_[c].is_simulated_only()) continue;
     const signals::Topic& topic = columns_[c].topic;
     for (std::size_t f = 0; f < topic.fields.size(); ++f) {
       const std::string behind = topic.fields.size() > 1 ? "." + topic.fields[f].name : "";
@@ -144,16 +144,17 @@ double Simulation::read(std::size_t channel) noexcept {
 }
 
 void Simulation::read(std::span<const std::size_t> channels, std::span<double> values) noexcept {
-  const bool of_truth = std::ranges::any_of(
-      channels, [&](std::size_t c) { return columns_[column_of_[c].first].of_truth(); });
-  controllers_.look(time(), of_truth ? &truths() : nullptr, [&](const Snapshot& now) {
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      const auto [column, field] = column_of_[channels[i]];
-      double numbers[2] = {};
-      columns_[column].value(now, numbers);
-      values[i] = numbers[field];
-    }
-  });
+  const bool is_simulated_only = std::ranges::any_of(
+      channels, [&](std::size_t c) { return columns_[column_of_[c].first].is_simulated_only(); });
+  controllers_.with_snapshot(time(), is_simulated_only ? &truths() : nullptr,
+                             [&](const Snapshot& now) {
+                               for (std::size_t i = 0; i < channels.size(); ++i) {
+                                 const auto [column, field] = column_of_[channels[i]];
+                                 double numbers[2] = {};
+                                 columns_[column].value(now, numbers);
+                                 values[i] = numbers[field];
+                               }
+                             });
 }
 
 const plant::Truths& Simulation::truths() noexcept {
@@ -169,7 +170,7 @@ std::string Simulation::cause() const {
   Outcome so_far;
   so_far.status = loop_.status;
   so_far.failure = failure();
-  so_far.seen = controllers_.seen_totals();
+  so_far.controller = controllers_.controller_totals();
   so_far.supervised = controllers_.supervised_totals();
   so_far.duration = time();
   return so_far.ended_early() ? cause_of(experiment_, so_far) : "";
@@ -198,22 +199,22 @@ int Simulation::leg_number(std::string_view leg) const {
                                          : config::either(config::names_of(legs))));
 }
 
-void Simulation::wish(std::size_t setting, double value, int leg) {
+void Simulation::request_change(std::size_t setting, double value, int leg) {
   if (!(value >= 0 && value <= gait::Setting::most))
     refuse(settings()[setting].key + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
            std::string(settings()[setting].unit));
-  (void)controllers_.gait()->wish({setting, value, false, leg});
+  (void)controllers_.gait()->request_change({setting, value, false, leg});
 }
 
 void Simulation::change(std::string_view key, double value, std::string_view leg) {
-  wish(find_setting(key), value, leg_number(leg));
+  request_change(find_setting(key), value, leg_number(leg));
 }
 
-void Simulation::change(std::size_t setting, double value) { wish(setting, value, -1); }
+void Simulation::change(std::size_t setting, double value) { request_change(setting, value, -1); }
 
 void Simulation::release(std::string_view key, std::string_view leg) {
   const std::size_t setting = find_setting(key);
-  (void)controllers_.gait()->wish({setting, 0, true, leg_number(leg)});
+  (void)controllers_.gait()->request_change({setting, 0, true, leg_number(leg)});
 }
 
 // --- saving ---

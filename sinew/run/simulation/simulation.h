@@ -163,7 +163,7 @@ class Simulation {
 
   signals::Port& port() noexcept { return *port_; }
   void list_channels();
-  void wish(std::size_t setting, double value, int leg);
+  void request_change(std::size_t setting, double value, int leg);
   int leg_number(std::string_view leg) const;  // -1: all legs
   std::uint64_t model();
 

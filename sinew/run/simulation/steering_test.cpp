@@ -252,7 +252,7 @@ TEST(Steering, PauseAndSpeedLeaveTheBits) {
   over = true;
   person.join();
   expect_same(run(e).table, o.table);
-  EXPECT_EQ(o.seen.missed, 0u);
+  EXPECT_EQ(o.controller.missed, 0u);
 }
 
 TEST(Steering, APausedRunStandsStillAndGoesOn) {

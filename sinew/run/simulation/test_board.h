@@ -45,8 +45,8 @@ class BoardInThread {
 
  private:
   struct NoTicks {
-    void keep_away() noexcept {}
-    void let_come() noexcept {}
+    void block() noexcept {}
+    void allow() noexcept {}
   };
 
   // --- the host's side ---

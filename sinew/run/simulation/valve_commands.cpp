@@ -49,14 +49,14 @@ std::vector<Switched> switched_valves(const std::vector<control::Board>& boards,
                                       std::size_t valves) {
   std::vector<Switched> out(valves);
   for (const control::Board& board : boards)
-    for (std::size_t j = 0; j < board.spine.joints; ++j) {
-      const control::JointConfig& joint = board.spine.joint[j];
+    for (std::size_t j = 0; j < board.joint_controller.joints; ++j) {
+      const control::JointConfig& joint = board.joint_controller.joint[j];
       for (const control::MuscleConfig* muscle : {&joint.flexor, &joint.extensor}) {
         if (!muscle->present || joint.kind == control::JointKind::passive) continue;
         const auto set = [&](signals::Valve valve, bool exhaust) {
           Switched& its = out[board.valve[valve.index]];
           const bool later = its.board == nullptr || joint.law_tick >= its.law;
-          if (later) its = {&board.spine, joint.law_tick, exhaust};
+          if (later) its = {&board.joint_controller, joint.law_tick, exhaust};
         };
         set(muscle->inlet, false);
         if (joint.kind != control::JointKind::three_way) set(muscle->exhaust, true);

@@ -13,7 +13,7 @@ WiredBody::WiredBody(const experiment::Experiment& experiment)
     : experiment_(experiment),
       board_(only_board(experiment)),
       scan_(std::span(&board_, 1)),
-      inverted_(control::OutputStage(board_.spine, 0).inverted()),
+      inverted_(control::OutputStage(board_.joint_controller, 0).inverted()),
       machine_(machine_setup(experiment)),
       port_(&machine_.port()),
       last_(at_rest()) {
@@ -25,8 +25,8 @@ std::vector<Reading> WiredBody::at_rest() const {
   plant::Machine machine(machine_setup(experiment_));
   std::vector<Reading> out(board_.channel.size());
   if (machine.port().start(scan_.scan()) != signals::Status::ok) return out;
-  for (std::size_t i = 0; i < board_.spine.conversions; ++i) {
-    const signals::Conversion& c = board_.spine.conversion[i];
+  for (std::size_t i = 0; i < board_.joint_controller.conversions; ++i) {
+    const signals::Conversion& c = board_.joint_controller.conversion[i];
     out[c.channel.index] = machine.port().read({board_.channel[c.channel.index]}, c.read);
   }
   return out;

@@ -11,7 +11,7 @@
 #include "sinew/host/module.h"
 #include "sinew/json/json.h"
 #include "sinew/tune/mpi/module/messages.h"
-#include "sinew/tune/results/asked.h"
+#include "sinew/tune/results/request.h"
 
 namespace sinew::tune {
 
@@ -167,12 +167,12 @@ class HandOut {
 Json begin(const std::function<Sweep()>& sweep, const std::vector<double>& shares,
            std::unique_ptr<Runner>& runner) try {
   Sweep s = sweep();
-  if (s.sample && s.sample->handed) {
+  if (s.sample && s.sample->given_later) {
     s.sample->points = shares.size() / s.sample->ranges.size();
     s.sample->given = shares;
   }
   runner = std::make_unique<Runner>(s);
-  return {{"asked", asked_of(s).text}};
+  return {{"asked", request_of(s).text}};
 } catch (const std::exception& e) {
   return {{"error", e.what()}};
 }
@@ -188,17 +188,17 @@ void require_same(const std::string& ours, const std::string& theirs, int rank) 
 
 }  // namespace
 
-decltype(Options::elsewhere) Master::elsewhere(const Sweep& sweep, const std::atomic<bool>* stop) {
+decltype(Options::dispatch) Master::dispatcher(const Sweep& sweep, const std::atomic<bool>* stop) {
   if (ranks_.size() == 1) return {};
-  const bool handed = sweep.sample && sweep.sample->handed;
-  return [this, asked = asked_of(sweep).text,
-          shares = handed ? sweep.sample->given : std::vector<double>{},
+  const bool given_later = sweep.sample && sweep.sample->given_later;
+  return [this, request = request_of(sweep).text,
+          shares = given_later ? sweep.sample->given : std::vector<double>{},
           stop](std::span<const std::size_t> points, const std::function<void(Row)>& done) {
-    run(asked, shares, points, done, stop);
+    run(request, shares, points, done, stop);
   };
 }
 
-void Master::run(const std::string& asked, const std::vector<double>& shares,
+void Master::run(const std::string& request, const std::vector<double>& shares,
                  std::span<const std::size_t> points, const std::function<void(Row)>& done,
                  const std::atomic<bool>* stop) {
   HandOut out(ranks_, points, stop);
@@ -212,7 +212,7 @@ void Master::run(const std::string& asked, const std::vector<double>& shares,
       throw std::runtime_error(
           fmt::format("rank {}: {}", message->from, json.at("error").string()));
     if (json.contains("asked")) {
-      require_same(asked, json.at("asked").string(), message->from);
+      require_same(request, json.at("asked").string(), message->from);
     } else {
       out.returned(message->from);
       done(row_of(json.at("row")));

@@ -4,7 +4,7 @@
 //   Ranks ranks;
 //   if (ranks.is_worker()) return work(ranks, [] { return the same sweep; }, threads);
 //   Master master(ranks);  // before anything that can fail: its destructor releases the workers
-//   sweep(s, {.elsewhere = master.elsewhere(s, &stop)});
+//   sweep(s, {.dispatch = master.dispatcher(s, &stop)});
 //
 // A row depends on its point's number only, as for threads and shards, so a table does not depend
 // on the process that made each row. A row is sent as soon as its run is done. Open MPI ends all
@@ -74,13 +74,13 @@ class Master {
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
 
-  // Returns a function for Options::elsewhere, or an empty one if this process is alone. The
+  // Returns a function for Options::dispatch, or an empty one if this process is alone. The
   // function throws std::runtime_error if a worker has another sweep, for example other
   // files of the same names.
-  decltype(Options::elsewhere) elsewhere(const Sweep& sweep, const std::atomic<bool>* stop);
+  decltype(Options::dispatch) dispatcher(const Sweep& sweep, const std::atomic<bool>* stop);
 
  private:
-  void run(const std::string& asked, const std::vector<double>& shares,
+  void run(const std::string& request, const std::vector<double>& shares,
            std::span<const std::size_t> points, const std::function<void(Row)>& done,
            const std::atomic<bool>* stop);
 

@@ -78,12 +78,12 @@ std::string goals_of(const Tuning& tuning, const Candidate& candidate) {
   const bool mean = tuning.goals.over == Goals::Over::mean;
   const char* of = runs == 1 ? "" : mean ? ", the mean of its runs" : ", the worst of its runs";
   for (std::size_t i = 0; i < tuning.goals.goals.size(); ++i)
-    add(tuning.goals.goals[i].figure, candidate.judged.goals[i], of);
+    add(tuning.goals.goals[i].figure, candidate.evaluation.goals[i], of);
   for (std::size_t i = 0; i < tuning.goals.limits.size(); ++i) {
     const Figure& figure = tuning.goals.limits[i].figure;
     const auto same = [&](const Goal& g) { return g.figure.key == figure.key; };
     if (std::ranges::none_of(tuning.goals.goals, same))
-      add(figure, candidate.judged.limits[i], runs == 1 ? "" : ", the worst of its runs");
+      add(figure, candidate.evaluation.limits[i], runs == 1 ? "" : ", the worst of its runs");
   }
   if (tuning.runs.allow_unreachable)
     out += "# It was tuned with points out of reach allowed: the nearest ones were aimed at.\n";

@@ -92,8 +92,8 @@ double cost(const Goal& goal, double value) { return goal.maximize ? -value : va
 
 }  // namespace
 
-Judgement judge(const Goals& goals, std::span<const Figures> runs) {
-  Judgement out;
+CandidateEvaluation evaluate(const Goals& goals, std::span<const Figures> runs) {
+  CandidateEvaluation out;
   for (std::size_t i = 0; i < goals.goals.size(); ++i)
     out.goals.push_back(goal_over(goals, i, runs));
   for (std::size_t i = 0; i < goals.limits.size(); ++i)
@@ -110,16 +110,16 @@ Judgement judge(const Goals& goals, std::span<const Figures> runs) {
   return out;
 }
 
-std::vector<double> costs(const Goals& goals, const Judgement& judged) {
+std::vector<double> costs(const Goals& goals, const CandidateEvaluation& evaluation) {
   std::vector<double> out;
   for (std::size_t i = 0; i < goals.goals.size(); ++i)
-    out.push_back(judged.feasible() ? std::clamp(cost(goals.goals[i], judged.goals[i]),
-                                                 -0.5 * infeasible, 0.5 * infeasible)
-                                    : infeasible * (1 + judged.violation));
+    out.push_back(evaluation.feasible() ? std::clamp(cost(goals.goals[i], evaluation.goals[i]),
+                                                     -0.5 * infeasible, 0.5 * infeasible)
+                                        : infeasible * (1 + evaluation.violation));
   return out;
 }
 
-bool dominates(const Goals& goals, const Judgement& a, const Judgement& b) {
+bool dominates(const Goals& goals, const CandidateEvaluation& a, const CandidateEvaluation& b) {
   if (!a.feasible() || !b.feasible()) return a.violation < b.violation;
   bool better = false;
   for (std::size_t i = 0; i < goals.goals.size(); ++i) {
@@ -130,24 +130,26 @@ bool dominates(const Goals& goals, const Judgement& a, const Judgement& b) {
   return better;
 }
 
-std::vector<std::size_t> front(const Goals& goals, std::span<const Judgement> judged) {
+std::vector<std::size_t> front(const Goals& goals,
+                               std::span<const CandidateEvaluation> evaluation) {
   const auto before = [&](std::size_t a, std::size_t b) {
     for (std::size_t i = 0; i < goals.goals.size(); ++i) {
-      const double of_a = cost(goals.goals[i], judged[a].goals[i]);
-      const double of_b = cost(goals.goals[i], judged[b].goals[i]);
+      const double of_a = cost(goals.goals[i], evaluation[a].goals[i]);
+      const double of_b = cost(goals.goals[i], evaluation[b].goals[i]);
       if (of_a != of_b) return of_a < of_b;
     }
     return a < b;
   };
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < judged.size(); ++i)
-    if (judged[i].feasible()) order.push_back(i);
+  for (std::size_t i = 0; i < evaluation.size(); ++i)
+    if (evaluation[i].feasible()) order.push_back(i);
   std::ranges::sort(order, before);
   // A later candidate in this order cannot dominate an earlier one.
   std::vector<std::size_t> out;
   for (const std::size_t i : order) {
     const bool beaten = std::ranges::any_of(out, [&](std::size_t j) {
-      return dominates(goals, judged[j], judged[i]) || judged[j].goals == judged[i].goals;
+      return dominates(goals, evaluation[j], evaluation[i]) ||
+             evaluation[j].goals == evaluation[i].goals;
     });
     if (!beaten) out.push_back(i);
   }

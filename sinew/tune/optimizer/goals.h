@@ -53,7 +53,7 @@ struct Figures {
 inline constexpr double without_figures = 1000;  // a violation larger than that of any figure
 
 // The evaluation of a candidate's runs.
-struct Judgement {
+struct CandidateEvaluation {
   std::vector<double> goals;   // over the runs with figures; NaN if there are none
   std::vector<double> limits;  // the worst of those runs
   double violation = 0;
@@ -64,18 +64,18 @@ struct Judgement {
 };
 
 // Evaluates at least one run. Does not throw.
-Judgement judge(const Goals& goals, std::span<const Figures> runs);
+CandidateEvaluation evaluate(const Goals& goals, std::span<const Figures> runs);
 
 // Returns the costs that an optimiser minimises, one per goal. An infeasible candidate costs more
 // than any feasible one, increasing with its violation.
-std::vector<double> costs(const Goals& goals, const Judgement& judged);
+std::vector<double> costs(const Goals& goals, const CandidateEvaluation& evaluation);
 
 // Returns whether `a` is as good as `b` in every goal and better in one, or feasible while `b` is
 // not, or less infeasible than `b`.
-bool dominates(const Goals& goals, const Judgement& a, const Judgement& b);
+bool dominates(const Goals& goals, const CandidateEvaluation& a, const CandidateEvaluation& b);
 
 // Returns the indices of those that no other dominates, the best in the first goal first; of equal
 // ones the first. Empty if none is feasible.
-std::vector<std::size_t> front(const Goals& goals, std::span<const Judgement> judged);
+std::vector<std::size_t> front(const Goals& goals, std::span<const CandidateEvaluation> evaluation);
 
 }  // namespace sinew::tune

@@ -14,23 +14,24 @@ namespace {
 
 using Function = std::function<std::vector<double>(const double*)>;
 
-struct Course {
+struct Progress {
   std::vector<std::vector<double>> generations;  // points
   std::vector<std::vector<double>> costs;
   bool converged = false;
 };
 
-Course course(const MethodAsked& asked, const Function& f, int generations) {
-  Course out;
-  OptimizerMethod method(asked);
-  std::vector<double> points = sobol_shares(asked.dimensions, asked.population, asked.seed);
+Progress progress(const MethodParameters& parameters, const Function& f, int generations) {
+  Progress out;
+  OptimizerMethod method(parameters);
+  std::vector<double> points =
+      sobol_shares(parameters.dimensions, parameters.population, parameters.seed);
   for (int g = 0; g < generations && !out.converged; ++g) {
     if (g > 0) points = method.ask();
     out.converged = points.empty();
     if (out.converged) break;
     std::vector<double> costs;
-    for (std::size_t i = 0; i < asked.population; ++i) {
-      const std::vector<double> one = f(&points[i * asked.dimensions]);
+    for (std::size_t i = 0; i < parameters.population; ++i) {
+      const std::vector<double> one = f(&points[i * parameters.dimensions]);
       costs.insert(costs.end(), one.begin(), one.end());
     }
     g == 0 ? method.begin(points, costs) : method.tell(costs);
@@ -50,17 +51,17 @@ std::vector<double> rosenbrock(const double* u, std::size_t n) {
 }
 
 TEST(Method, CmaesFollowsABentValley) {
-  const MethodAsked asked{.dimensions = 5, .population = 16, .seed = 3};
-  const Course c = course(
-      asked, [](const double* u) { return rosenbrock(u, 5); }, 400);
+  const MethodParameters parameters{.dimensions = 5, .population = 16, .seed = 3};
+  const Progress c = progress(
+      parameters, [](const double* u) { return rosenbrock(u, 5); }, 400);
   EXPECT_LT(*std::ranges::min_element(c.costs.back()), 1e-8);
   EXPECT_NEAR(c.generations.back()[0], 0.75, 1e-4);
 }
 
 TEST(Method, CmaesEndsWhereItsPointsAreOne) {
-  const MethodAsked asked{.dimensions = 2, .population = 16, .seed = 3};
-  const Course c = course(
-      asked, [](const double* u) { return rosenbrock(u, 2); }, 1000);
+  const MethodParameters parameters{.dimensions = 2, .population = 16, .seed = 3};
+  const Progress c = progress(
+      parameters, [](const double* u) { return rosenbrock(u, 2); }, 1000);
   EXPECT_TRUE(c.converged);
   EXPECT_LT(c.costs.size(), 300U);
 }
@@ -75,11 +76,11 @@ TEST(Method, Nsga2SpreadsAlongAKnownFront) {
     const double g = 1 + 9 * rest / double(n - 1);
     return std::vector<double>{u[0], g * (1 - std::sqrt(u[0] / g))};
   };
-  const MethodAsked asked{
+  const MethodParameters parameters{
       .kind = MethodKind::nsga2, .dimensions = n, .costs = 2, .population = 40, .seed = 2};
-  const Course c = course(asked, zdt1, 150);
+  const Progress c = progress(parameters, zdt1, 150);
   double most = 0, low = 1, high = 0;
-  for (std::size_t i = 0; i < asked.population; ++i) {
+  for (std::size_t i = 0; i < parameters.population; ++i) {
     const double f1 = c.costs.back()[2 * i], f2 = c.costs.back()[2 * i + 1];
     most = std::max(most, f2 - (1 - std::sqrt(f1)));
     low = std::min(low, f1), high = std::max(high, f1);
@@ -92,11 +93,11 @@ TEST(Method, Nsga2SpreadsAlongAKnownFront) {
 TEST(Method, StaysInsideItsRanges) {
   for (const MethodKind kind : {MethodKind::cmaes, MethodKind::nsga2}) {
     const std::size_t goals = kind == MethodKind::cmaes ? 1 : 2;
-    const MethodAsked asked{
+    const MethodParameters parameters{
         .kind = kind, .dimensions = 3, .costs = goals, .population = 16, .seed = 5};
     // The optimum is in a corner.
     const auto f = [&](const double* u) { return std::vector(goals, u[0] - u[1] + u[2]); };
-    const Course c = course(asked, f, 60);
+    const Progress c = progress(parameters, f, 60);
     for (const auto& points : c.generations)
       for (const double u : points) EXPECT_TRUE(u >= 0 && u <= 1) << u;
     EXPECT_LT(*std::ranges::min_element(c.costs.back()), -0.99);
@@ -106,12 +107,13 @@ TEST(Method, StaysInsideItsRanges) {
 TEST(Method, TheSameSeedAndCostsGiveTheSamePoints) {
   for (const MethodKind kind : {MethodKind::cmaes, MethodKind::nsga2}) {
     const std::size_t goals = kind == MethodKind::cmaes ? 1 : 2;
-    MethodAsked asked{.kind = kind, .dimensions = 4, .costs = goals, .population = 16, .seed = 11};
+    MethodParameters parameters{
+        .kind = kind, .dimensions = 4, .costs = goals, .population = 16, .seed = 11};
     const auto f = [&](const double* u) { return std::vector(goals, rosenbrock(u, 4)[0]); };
-    const Course a = course(asked, f, 20), b = course(asked, f, 20);
+    const Progress a = progress(parameters, f, 20), b = progress(parameters, f, 20);
     EXPECT_EQ(a.generations, b.generations);
-    asked.seed = 12;
-    EXPECT_NE(course(asked, f, 20).generations, a.generations);
+    parameters.seed = 12;
+    EXPECT_NE(progress(parameters, f, 20).generations, a.generations);
   }
 }
 

@@ -15,15 +15,16 @@ namespace sinew::tune {
 namespace {
 
 // Reports "generation 3 of 40: best trolley.mean_speed [in/s] = 6.21, 12 of 16 feasible".
-class Teller {
+class Reporter {
  public:
-  Teller(const Tuning& tuning, const run::Notices& notices) : tuning_(tuning), notices_(notices) {}
+  Reporter(const Tuning& tuning, const run::Notices& notices)
+      : tuning_(tuning), notices_(notices) {}
 
   void generation(const std::vector<Candidate>& candidates) {
     std::size_t feasible = 0;
     for (const Candidate& c : candidates) {
-      feasible += c.judged.feasible() ? 1 : 0;
-      if (!best_ || dominates(tuning_.goals, c.judged, *best_)) best_ = c.judged;
+      feasible += c.evaluation.feasible() ? 1 : 0;
+      if (!best_ || dominates(tuning_.goals, c.evaluation, *best_)) best_ = c.evaluation;
     }
     std::string best = fmt::format("violation {:.3g}", best_->violation);
     if (best_->feasible() && tuning_.goals.goals.size() == 1)
@@ -38,14 +39,14 @@ class Teller {
  private:
   const Tuning& tuning_;
   const run::Notices& notices_;
-  std::optional<Judgement> best_;
+  std::optional<CandidateEvaluation> best_;
 };
 
 }  // namespace
 
-Tuned optimize_kept(const Tuning& tuning, const std::filesystem::path& file,
-                    const KeptOptions& options) {
-  Results results(file, asked_of(tuning));
+Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file,
+                         const StoredTuningOptions& options) {
+  Results results(file, request_of(tuning));
   results.expect(points(tuning.runs));
   TuneOptions own = options.tune;
   own.runs.known = results.rows();
@@ -59,10 +60,10 @@ Tuned optimize_kept(const Tuning& tuning, const std::filesystem::path& file,
   own.runs.done = [&](const Row& row) {
     if (!results.add(row)) stop();
   };
-  Teller teller(tuning, options.notices);
+  Reporter reporter(tuning, options.notices);
   own.generation = [&](const std::vector<Candidate>& candidates) {
     if (options.tune.generation) options.tune.generation(candidates);
-    teller.generation(candidates);
+    reporter.generation(candidates);
     std::vector<CandidateRow> rows;
     for (const Candidate& c : candidates) rows.push_back(row_of(c));
     try {
@@ -106,7 +107,7 @@ class Generation {
   std::size_t candidates() const { return candidates_; }
 
   // Throws if a known row does not belong to these candidates.
-  std::vector<Candidate> judged(const std::vector<Row>& rows) const;
+  std::vector<Candidate> evaluated(const std::vector<Row>& rows) const;
 
   // Throws if nothing can be evaluated: no run has figures, or none has one of the goals' or
   // limits'.
@@ -198,20 +199,20 @@ void Generation::require_figures(const std::vector<Row>& rows) const {
     require("where", tuning_.goals.limits[i].figure, limits_[i]);
 }
 
-std::vector<Candidate> Generation::judged(const std::vector<Row>& rows) const {
+std::vector<Candidate> Generation::evaluated(const std::vector<Row>& rows) const {
   const std::size_t each = rows.size() / candidates_;
   std::vector<Candidate> out;
   for (std::size_t c = 0; c < candidates_; ++c) {
     Candidate one{.number = number_ * tuning_.method.population + c,
                   .generation = number_,
                   .values = values(c),
-                  .judged = {}};
+                  .evaluation = {}};
     std::vector<Figures> all;
     for (std::size_t i = c * each; i < (c + 1) * each; ++i) {
       require_own(rows[i], one.values);
       all.push_back(figures(rows[i]));
     }
-    one.judged = judge(tuning_.goals, all);
+    one.evaluation = evaluate(tuning_.goals, all);
     out.push_back(std::move(one));
   }
   return out;
@@ -261,18 +262,18 @@ class Loop {
       return;
     }
     if (first) generation.require_figures(rows);
-    const std::vector<Candidate> judged = generation.judged(rows);
+    const std::vector<Candidate> evaluated = generation.evaluated(rows);
     std::vector<double> costs_of_all;
-    for (const Candidate& c : judged) {
-      const std::vector<double> own = costs(tuning_.goals, c.judged);
+    for (const Candidate& c : evaluated) {
+      const std::vector<double> own = costs(tuning_.goals, c.evaluation);
       costs_of_all.insert(costs_of_all.end(), own.begin(), own.end());
     }
     if (first)
       method_.begin(shares, costs_of_all);
     else
       method_.tell(costs_of_all);
-    if (options_.generation) options_.generation(judged);
-    out_.candidates.insert(out_.candidates.end(), judged.begin(), judged.end());
+    if (options_.generation) options_.generation(evaluated);
+    out_.candidates.insert(out_.candidates.end(), evaluated.begin(), evaluated.end());
   }
 
   // Returns the rows of a generation; runs the unknown ones.
@@ -285,8 +286,8 @@ class Loop {
     own.known = known_of(options_.runs.known, from, points(runs));
     if (options_.runs.progress)
       *options_.runs.progress += static_cast<std::int64_t>(own.known.size());
-    if (own.known.size() < points(runs) && options_.elsewhere)
-      own.elsewhere = options_.elsewhere(runs);
+    if (own.known.size() < points(runs) && options_.dispatch)
+      own.dispatch = options_.dispatch(runs);
     own.done = [&](const Row& row) {
       if (options_.runs.progress) ++*options_.runs.progress;
       if (!options_.runs.done) return;
@@ -300,9 +301,9 @@ class Loop {
   }
 
   void add_best() {
-    std::vector<Judgement> judged;
-    for (const Candidate& c : out_.candidates) judged.push_back(c.judged);
-    out_.best = front(tuning_.goals, judged);
+    std::vector<CandidateEvaluation> evaluated;
+    for (const Candidate& c : out_.candidates) evaluated.push_back(c.evaluation);
+    out_.best = front(tuning_.goals, evaluated);
   }
 
   const Tuning& tuning_;
@@ -313,7 +314,7 @@ class Loop {
 
 const char* to_text(MethodKind kind) { return kind == MethodKind::cmaes ? "cmaes" : "nsga2"; }
 
-void add_columns(const Tuning& tuning, Asked& out) {
+void add_columns(const Tuning& tuning, StudyRequest& out) {
   using Role = Column::Role;
   const std::vector<Range>& ranges = tuning.runs.sample->ranges;
   for (std::size_t i = tuning.tuned; i < ranges.size(); ++i)
@@ -340,8 +341,8 @@ Tuned optimize(const Tuning& tuning, const TuneOptions& options) {
   return Loop(tuning, options).run();
 }
 
-Asked asked_of(const Tuning& tuning) {
-  Asked out = asked_of(tuning.runs);
+StudyRequest request_of(const Tuning& tuning) {
+  StudyRequest out = request_of(tuning.runs);
   out.title = tuning.title;
   std::string own =
       fmt::format("method = {}, population {}, seed {}, step {}\n", to_text(tuning.method.kind),
@@ -362,20 +363,20 @@ Asked asked_of(const Tuning& tuning) {
 }
 
 CandidateRow row_of(const Candidate& candidate) {
-  const Judgement& judged = candidate.judged;
+  const CandidateEvaluation& evaluated = candidate.evaluation;
   CandidateRow out{.number = candidate.number,
                    .generation = candidate.generation,
-                   .feasible = judged.feasible(),
-                   .violation = judged.violation,
-                   .holds = judged.holds,
+                   .feasible = evaluated.feasible(),
+                   .violation = evaluated.violation,
+                   .holds = evaluated.holds,
                    .cells = {}};
   for (const Value& value : candidate.values) out.cells.push_back(value.cell);
   const auto add = [&](const std::vector<double>& numbers) {
     for (const double number : numbers)
       out.cells.push_back(std::isfinite(number) ? fmt::format("{:.9g}", number) : "");
   };
-  add(judged.goals);
-  add(judged.limits);
+  add(evaluated.goals);
+  add(evaluated.limits);
   return out;
 }
 

@@ -24,14 +24,14 @@ namespace sinew::tune {
 struct Candidate {
   std::size_t number = 0, generation = 0;  // counted from 0
   std::vector<Value> values;               // one per tuned range
-  Judgement judged;
+  CandidateEvaluation evaluation;
 };
 
 struct TuneOptions {
   // Threads, lanes, stop, progress, done and known as in a sweep, with the tuning's own points.
   Options runs;
   // Returns the function that runs a generation elsewhere, which replaces the threads here.
-  std::function<decltype(Options::elsewhere)(const Sweep&)> elsewhere = {};
+  std::function<decltype(Options::dispatch)(const Sweep&)> dispatch = {};
   // Called after each evaluated generation, between runs. Must not throw.
   std::function<void(const std::vector<Candidate>&)> generation = {};
 };
@@ -51,14 +51,14 @@ struct Tuned {
 Tuned optimize(const Tuning& tuning, const TuneOptions& options);
 
 // Return the request that a study's file stores, and the stored part of a candidate.
-Asked asked_of(const Tuning& tuning);
+StudyRequest request_of(const Tuning& tuning);
 CandidateRow row_of(const Candidate& candidate);
 
 // Tuning with a study's file: each row is stored as soon as its run is done, each candidate as soon
 // as its generation is.
 
 // Options of a tuning with a file.
-struct KeptOptions {
+struct StoredTuningOptions {
   TuneOptions tune;                        // `known` and `done` are not used
   std::function<void()> ask_to_stop = {};  // called if a row cannot be written
   run::Notices notices = {};
@@ -66,7 +66,7 @@ struct KeptOptions {
 
 // Continues the study in the file, or creates it. Reports a note for each generation. Throws like
 // optimize() and Results; completed runs are then in the file.
-Tuned optimize_kept(const Tuning& tuning, const std::filesystem::path& file,
-                    const KeptOptions& options);
+Tuned optimize_and_store(const Tuning& tuning, const std::filesystem::path& file,
+                         const StoredTuningOptions& options);
 
 }  // namespace sinew::tune

@@ -80,9 +80,9 @@ TEST_F(OptimizeTest, BeginsWithWhatTheExperimentHas) {
   const config::Origin* gain = config::find_origin(e.origins, "joint.lever.angle_gain");
   ASSERT_NE(gain, nullptr);
   EXPECT_TRUE(gain->text.starts_with(tuned.candidates[0].values[0].cell)) << gain->text;
-  const Ran ran = run_once(lever, {"sequence.repeat=1"});
-  EXPECT_NEAR(tuned.candidates[0].judged.goals[0],
-              *ran.summary.find("joints.lever.tracking_rms_rad") * 180 / M_PI, 1e-6);
+  const RunResult result = run_once(lever, {"sequence.repeat=1"});
+  EXPECT_NEAR(tuned.candidates[0].evaluation.goals[0],
+              *result.summary.find("joints.lever.tracking_rms_rad") * 180 / M_PI, 1e-6);
 }
 
 TEST_F(OptimizeTest, FindsABetterOneThatIsOneWhenItIsRunAgain) {
@@ -92,8 +92,8 @@ TEST_F(OptimizeTest, FindsABetterOneThatIsOneWhenItIsRunAgain) {
   const Tuned tuned = optimize(t, {.runs = {.threads = 2}});
   ASSERT_EQ(tuned.best.size(), 1U);
   const Candidate& best = tuned.candidates[tuned.best[0]];
-  EXPECT_LT(best.judged.goals[0], 0.9 * tuned.candidates[0].judged.goals[0]);
-  EXPECT_EQ(best.judged.violation, 0);
+  EXPECT_LT(best.evaluation.goals[0], 0.9 * tuned.candidates[0].evaluation.goals[0]);
+  EXPECT_EQ(best.evaluation.violation, 0);
 
   const auto reported_end = [&](std::size_t end) {
     Tuned moved = tuned;
@@ -105,7 +105,7 @@ TEST_F(OptimizeTest, FindsABetterOneThatIsOneWhenItIsRunAgain) {
   // Runs the file that is written for the candidate.
   const fs::path written = folder_ / "best.toml";
   std::ofstream(written) << experiment_of(t, best, written);
-  const Ran again = run_once(written.string(), {});
+  const RunResult again = run_once(written.string(), {});
   ASSERT_TRUE(again.ok()) << again.status;
   EXPECT_EQ(t.goals.goals[0].figure.cell(again.summary), row_of(best).cells[2])
       << experiment_of(t, best, written);
@@ -126,21 +126,21 @@ TEST_F(OptimizeTest, GoesOnFromItsFile) {
     fs::remove(file_);
     std::atomic<bool> stop{false};
     std::atomic<std::int64_t> runs{0};
-    KeptOptions first{.tune = {.runs = {.threads = 1, .lanes = 1, .stop = &stop}}};
+    StoredTuningOptions first{.tune = {.runs = {.threads = 1, .lanes = 1, .stop = &stop}}};
     first.tune.runs.progress = &runs;
     std::thread stopper([&] {
       while (runs.load() < stop_after) std::this_thread::yield();
       stop = true;
     });
-    const Tuned part = optimize_kept(t, file_, first);
+    const Tuned part = optimize_and_store(t, file_, first);
     stopper.join();
     EXPECT_TRUE(part.stopped || stop_after >= 12);
     const HeldStudy held = read_results(file_);
     EXPECT_GE(held.rows.size(), std::size_t(stop_after));
-    KeptOptions second{};
+    StoredTuningOptions second{};
     std::vector<std::string> notes;
     second.notices.on_note = [&](std::string_view note) { notes.emplace_back(note); };
-    const Tuned all = optimize_kept(t, file_, second);
+    const Tuned all = optimize_and_store(t, file_, second);
     EXPECT_EQ(text_of(all.candidates), whole);
     ASSERT_FALSE(notes.empty());
     EXPECT_NE(notes[0].find(std::to_string(held.rows.size()) + " of 18 runs are there"),
@@ -154,20 +154,20 @@ TEST_F(OptimizeTest, GoesOnFromItsFile) {
 
 TEST_F(OptimizeTest, MoreGenerationsGoOnWithTheSameStudy) {
   TuningFile file = lever_file();
-  optimize_kept(lever_tuning(file), file_, {});
+  optimize_and_store(lever_tuning(file), file_, {});
   file.generations = 4;
-  const Tuned more = optimize_kept(lever_tuning(file), file_, {});
+  const Tuned more = optimize_and_store(lever_tuning(file), file_, {});
   EXPECT_EQ(more.candidates.size(), 24U);
   EXPECT_EQ(text_of(more.candidates), text_of(optimize(lever_tuning(file), {}).candidates));
-  EXPECT_EQ(read_results(file_).asked.points, 24U);
+  EXPECT_EQ(read_results(file_).request.points, 24U);
 }
 
 TEST_F(OptimizeTest, AnotherTuningIsRefused) {
   TuningFile file = lever_file();
   file.generations = 1;
-  optimize_kept(lever_tuning(file), file_, {});
+  optimize_and_store(lever_tuning(file), file_, {});
   file.where = {"joints.lever.passiveness >= 60 %"};
-  const std::string words = message([&] { optimize_kept(lever_tuning(file), file_, {}); });
+  const std::string words = message([&] { optimize_and_store(lever_tuning(file), file_, {}); });
   EXPECT_NE(words.find("where = joints.lever.passiveness >= 50 %"), std::string::npos) << words;
   EXPECT_NE(words.find("60 %"), std::string::npos) << words;
 }
@@ -217,7 +217,7 @@ TEST_F(OptimizeTest, ACandidateIsRunInEveryCircumstance) {
                 {.name = "slow", .experiment = "", .sets = {"phase.up.duration=1 s"}, .weight = 3}};
   const Tuning t = lever_tuning(file);
   EXPECT_EQ(t.runs_of_candidate(), 12U);
-  const Tuned tuned = optimize_kept(t, file_, {});
+  const Tuned tuned = optimize_and_store(t, file_, {});
   const HeldStudy held = read_results(file_);
   ASSERT_EQ(held.rows.size(), 60U);
   // Calculates the second candidate's goal by hand.
@@ -229,10 +229,10 @@ TEST_F(OptimizeTest, ACandidateIsRunInEveryCircumstance) {
     sum += own * std::stod(cells[5]);
     weight += own;
   }
-  EXPECT_NEAR(tuned.candidates[1].judged.goals[0], sum / weight, 1e-12);
-  ASSERT_EQ(held.asked.cases.size(), 2U);
-  EXPECT_EQ(held.asked.cases[1].name, "slow");
-  EXPECT_EQ(held.asked.cases[1].sets, file.cases[1].sets);
+  EXPECT_NEAR(tuned.candidates[1].evaluation.goals[0], sum / weight, 1e-12);
+  ASSERT_EQ(held.request.cases.size(), 2U);
+  EXPECT_EQ(held.request.cases[1].name, "slow");
+  EXPECT_EQ(held.request.cases[1].sets, file.cases[1].sets);
   // Draws are the same for all candidates.
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(held.rows[i].cells[2], held.rows[24 + i].cells[2]);
 }

@@ -27,7 +27,7 @@ std::vector<std::size_t> shown_of(const std::vector<std::size_t>& front) {
 
 const Candidate& closest(const std::vector<Candidate>& candidates) {
   return *std::ranges::min_element(candidates, {},
-                                   [](const Candidate& c) { return c.judged.violation; });
+                                   [](const Candidate& c) { return c.evaluation.violation; });
 }
 
 std::string cell(double number) {
@@ -52,10 +52,10 @@ struct RowUnit {
 RowUnit row_unit(const std::string& unit, bool named, const TableUnits* shown, double room) {
   RowUnit out{unit, {}, {}};
   if (!shown || (named && !shown->of_all)) return out;
-  const std::optional<units::ToldUnit> told = units::told_unit(unit, room);
-  if (!told) return out;
-  const units::ShownUnit to = shown->units.of(told->held, units::ShownUnits::not_known, room);
-  return {to.name, told->unit, to};
+  const std::optional<units::QuantityUnit> given = units::read_quantity_unit(unit, room);
+  if (!given) return out;
+  const units::ShownUnit to = shown->units.of(given->stored, units::ShownUnits::unknown_size, room);
+  return {to.name, given->unit, to};
 }
 
 std::string heading_of(const std::string& key, const std::string& unit) {
@@ -94,15 +94,15 @@ std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& 
     add((goals.goals[i].maximize ? "maximize  " : "minimize  ") +
             (plain ? figure.key
                    : heading_of(std::string(analysis::without_unit(figure.key)), unit.name)),
-        [&](const Candidate& c) { return cell(unit.of(c.judged.goals[i])); });
+        [&](const Candidate& c) { return cell(unit.of(c.evaluation.goals[i])); });
   }
   for (std::size_t i = 0; i < goals.limits.size(); ++i) {
     const RowUnit unit = row_unit(goals.limits[i].figure.unit, true, shown, room);
     add("where     " + text_of(goals.limits[i], unit),
-        [&](const Candidate& c) { return cell(unit.of(c.judged.limits[i])); });
+        [&](const Candidate& c) { return cell(unit.of(c.evaluation.limits[i])); });
   }
   if (!goals.limits.empty())
-    add("          holds [%]", [](const Candidate& c) { return cell(100 * c.judged.holds); });
+    add("          holds [%]", [](const Candidate& c) { return cell(100 * c.evaluation.holds); });
   for (std::size_t i = 0; i < tuning.tuned; ++i) {
     const Axis& axis = tuning.runs.sample->ranges[i].axis;
     const RowUnit unit = row_unit(axis.unit, true, shown, room);
@@ -115,13 +115,13 @@ std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& 
 Json json_of(const Tuning& tuning, const Candidate& candidate) {
   Json out{{"candidate", candidate.number},
            {"generation", candidate.generation},
-           {"feasible", candidate.judged.feasible()},
-           {"violation", candidate.judged.violation},
-           {"holds", candidate.judged.holds}};
+           {"feasible", candidate.evaluation.feasible()},
+           {"violation", candidate.evaluation.violation},
+           {"holds", candidate.evaluation.holds}};
   for (std::size_t i = 0; i < tuning.goals.goals.size(); ++i)
-    out["goals"][tuning.goals.goals[i].figure.heading()] = candidate.judged.goals[i];
+    out["goals"][tuning.goals.goals[i].figure.heading()] = candidate.evaluation.goals[i];
   for (std::size_t i = 0; i < tuning.goals.limits.size(); ++i)
-    out["limits"][tuning.goals.limits[i].text] = candidate.judged.limits[i];
+    out["limits"][tuning.goals.limits[i].text] = candidate.evaluation.limits[i];
   for (std::size_t i = 0; i < tuning.tuned; ++i)
     out["set"][tuning.runs.sample->ranges[i].axis.key] = candidate.values[i].text;
   return out;

@@ -36,26 +36,27 @@ const SinewMethods* methods() {
   return get();
 }
 
-SinewMethodAsked of_module(const MethodAsked& asked) {
-  return {.nsga2 = asked.kind == MethodKind::nsga2 ? 1 : 0,
-          .dimensions = asked.dimensions,
-          .costs = asked.costs,
-          .population = asked.population,
-          .seed = asked.seed,
-          .step = asked.step};
+SinewMethodParameters of_module(const MethodParameters& parameters) {
+  return {.nsga2 = parameters.kind == MethodKind::nsga2 ? 1 : 0,
+          .dimensions = parameters.dimensions,
+          .costs = parameters.costs,
+          .population = parameters.population,
+          .seed = parameters.seed,
+          .step = parameters.step};
 }
 
 }  // namespace
 
-OptimizerMethod::OptimizerMethod(const MethodAsked& asked)
-    : asked_(asked), methods_(methods()), method_(nullptr, methods_->end) {
-  const SinewMethodAsked all = of_module(asked);
+OptimizerMethod::OptimizerMethod(const MethodParameters& parameters)
+    : parameters_(parameters), methods_(methods()), method_(nullptr, methods_->end) {
+  const SinewMethodParameters all = of_module(parameters);
   method_.reset(methods_->make(&all));
   if (!method_) throw std::runtime_error("pagmo refuses this method");
 }
 
 void OptimizerMethod::check(bool success) const {
-  if (!success) throw std::runtime_error(std::string("pagmo: ") + methods_->words(method_.get()));
+  if (!success)
+    throw std::runtime_error(std::string("pagmo: ") + methods_->error_text(method_.get()));
 }
 
 void OptimizerMethod::begin(const std::vector<double>& points, const std::vector<double>& costs) {
@@ -63,10 +64,10 @@ void OptimizerMethod::begin(const std::vector<double>& points, const std::vector
 }
 
 std::vector<double> OptimizerMethod::ask() {
-  std::vector<double> out(asked_.population * asked_.dimensions);
+  std::vector<double> out(parameters_.population * parameters_.dimensions);
   std::size_t count = 0;
   check(methods_->ask(method_.get(), out.data(), &count));
-  out.resize(count * asked_.dimensions);
+  out.resize(count * parameters_.dimensions);
   return out;
 }
 
@@ -146,7 +147,7 @@ void refuse_contradictions(const TuningFile& file, const std::vector<Limit>& lim
     }
 }
 
-MethodAsked method_of(const TuningFile& file, const Tuning& tuning) {
+MethodParameters method_of(const TuningFile& file, const Tuning& tuning) {
   using Method = TuningFile::Method;
   const std::size_t goals = tuning.goals.goals.size();
   const bool several =
@@ -179,7 +180,7 @@ void refuse_twice(const TuningFile& file, const Sample& sample) {
 }
 
 void add_ranges(const TuningFile& file, Tuning& out) {
-  Sample sample{.ranges = {}, .handed = true};
+  Sample sample{.ranges = {}, .given_later = true};
   for (const std::string& text : file.tune)
     sample.ranges.push_back(parse_range(text, place(file, "tune")));
   out.tuned = sample.ranges.size();

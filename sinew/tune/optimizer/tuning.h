@@ -39,7 +39,7 @@ namespace sinew::tune {
 enum class MethodKind { cmaes, nsga2 };
 
 // Parameters of a method.
-struct MethodAsked {
+struct MethodParameters {
   MethodKind kind = MethodKind::cmaes;
   std::size_t dimensions = 0;   // coordinates of a point, above 0
   std::size_t costs = 1;        // costs of a point; cmaes: 1
@@ -52,7 +52,7 @@ struct MethodAsked {
 class OptimizerMethod {
  public:
   // Throws std::runtime_error if the program was built without pagmo.
-  explicit OptimizerMethod(const MethodAsked& asked);
+  explicit OptimizerMethod(const MethodParameters& parameters);
 
   // Sets the first generation's points, one after the other, and their costs. Throws
   // std::runtime_error, as do the others.
@@ -68,7 +68,7 @@ class OptimizerMethod {
  private:
   void check(bool success) const;
 
-  MethodAsked asked_;
+  MethodParameters parameters_;
   const SinewMethods* methods_;
   std::unique_ptr<void, void (*)(void*)> method_;
 };
@@ -106,7 +106,7 @@ struct Tuning {
   std::vector<double> drawn = {};  // shares of the drawn ranges, point by point
   std::size_t draws = 1;
   Goals goals;
-  MethodAsked method;
+  MethodParameters method;
   std::size_t generations = 0;
   std::vector<double> start = {};         // shares of the experiment's values; the first candidate
   double atmosphere = units::atmosphere;  // for gauge pressures of the experiment [Pa]

@@ -48,7 +48,7 @@ class StudyPageTest : public ::testing::Test {
  protected:
   StudyPageTest() {
     fs::create_directories(folder_);
-    Results results(file_, asked_of(a_sweep()));
+    Results results(file_, request_of(a_sweep()));
     results.add_all(some_rows());
   }
   ~StudyPageTest() override { fs::remove_all(folder_); }
@@ -134,16 +134,16 @@ TEST_F(StudyPageTest, IsAskedOfStudiesOnly) {
 TEST_F(StudyPageTest, ShowsTheCandidatesOfATuning) {
   using From = Column::Role;
   const fs::path file = folder_ / "tuning.db";
-  Asked asked = asked_of(a_sweep());
-  asked.title = "A faster lever";
-  asked.text += "draws = 2, 0.5\n";
-  asked.points = 40;
-  asked.of_candidates = {{"joint.lever.damping [N m s/rad]", true, From::parameter},
-                         {"air_used [kg]", true, From::minimize},
-                         {"sequence_duration [ms]", true, From::maximize},
-                         {"air_used [kg]", true, From::limit}};
+  StudyRequest request = request_of(a_sweep());
+  request.title = "A faster lever";
+  request.text += "draws = 2, 0.5\n";
+  request.points = 40;
+  request.of_candidates = {{"joint.lever.damping [N m s/rad]", true, From::parameter},
+                           {"air_used [kg]", true, From::minimize},
+                           {"sequence_duration [ms]", true, From::maximize},
+                           {"air_used [kg]", true, From::limit}};
   {
-    Results results(file, asked);
+    Results results(file, request);
     results.add_all(some_rows());
     results.add_candidates(
         {{.number = 0, .feasible = true, .cells = {"0.1", "1", "2", "1"}},
@@ -171,9 +171,9 @@ TEST_F(StudyPageTest, ShowsTheCandidatesOfATuning) {
 // the request.
 TEST_F(StudyPageTest, IsReadWithoutItsExperiment) {
   const fs::path study = folder_ / "own.db";
-  Asked asked = asked_of(a_sweep());
-  asked.experiment = (folder_ / "gone.toml").string();
-  { Results(study, asked).add_all(some_rows()); }
+  StudyRequest request = request_of(a_sweep());
+  request.experiment = (folder_ / "gone.toml").string();
+  { Results(study, request).add_all(some_rows()); }
   const StudyView view = study_view(study);
   EXPECT_EQ(view.rows.size(), 2u);
   EXPECT_EQ(view.sets, std::vector<std::string>{"sequence.repeat=2"});

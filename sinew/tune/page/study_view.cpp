@@ -12,7 +12,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/json/json.h"
 #include "sinew/report/page/page.h"
-#include "sinew/tune/results/asked.h"
+#include "sinew/tune/results/request.h"
 #include "sinew/tune/results/results.h"
 
 namespace sinew::tune {
@@ -29,17 +29,17 @@ std::optional<std::string> value_after(const std::string& line, const std::strin
 }
 
 // Returns the value of a fact, "0.1.0" of `sinew`; empty if it does not exist.
-std::string fact(const Asked& asked, const std::string& name) {
-  std::istringstream lines(asked.text);
+std::string fact(const StudyRequest& request, const std::string& name) {
+  std::istringstream lines(request.text);
   for (std::string line; std::getline(lines, line);)
     if (const auto value = value_after(line, name)) return *value;
   return "";
 }
 
 // Returns how many facts have that name.
-std::size_t count(const Asked& asked, const std::string& name) {
+std::size_t count(const StudyRequest& request, const std::string& name) {
   std::size_t out = 0;
-  std::istringstream lines(asked.text);
+  std::istringstream lines(request.text);
   for (std::string line; std::getline(lines, line);) out += value_after(line, name) ? 1 : 0;
   return out;
 }
@@ -78,10 +78,10 @@ StudyColumn shown(const Column& column) {
 
 // Returns the columns of a sweep. The key that is searched is a result of the search and a
 // setting of its run.
-std::vector<StudyColumn> columns_of_runs(const Asked& asked) {
-  const std::string searched = fact(asked, "largest");
+std::vector<StudyColumn> columns_of_runs(const StudyRequest& request) {
+  const std::string searched = fact(request, "largest");
   std::vector<StudyColumn> out;
-  for (const Column& column : asked.columns) {
+  for (const Column& column : request.columns) {
     out.push_back(shown(column));
     if (!searched.starts_with(column.heading + ": ")) continue;
     out.back().role = StudyColumn::Role::figure;
@@ -92,9 +92,9 @@ std::vector<StudyColumn> columns_of_runs(const Asked& asked) {
 
 // Returns the columns of a tuning. A figure that is both a goal and a limit has two
 // columns; that of the limit is the worst run's.
-std::vector<StudyColumn> columns_of_candidates(const Asked& asked) {
+std::vector<StudyColumn> columns_of_candidates(const StudyRequest& request) {
   std::vector<StudyColumn> out;
-  for (const Column& column : asked.of_candidates) {
+  for (const Column& column : request.of_candidates) {
     StudyColumn next = shown(column);
     if (std::ranges::find(out, next.heading, &StudyColumn::heading) != out.end()) {
       const std::size_t unit = std::min(next.heading.find(" ["), next.heading.size());
@@ -106,12 +106,12 @@ std::vector<StudyColumn> columns_of_candidates(const Asked& asked) {
 }
 
 // Returns the product of the numbers of seeds, draws and cases.
-std::size_t runs_of_a_candidate(const Asked& asked) {
-  const std::string draws = fact(asked, "draws"), seeds = fact(asked, "vary");
+std::size_t runs_of_a_candidate(const StudyRequest& request) {
+  const std::string draws = fact(request, "draws"), seeds = fact(request, "vary");
   const auto number = static_cast<std::size_t>(std::atoll(draws.c_str()));
   const auto commas = static_cast<std::size_t>(std::ranges::count(seeds, ','));
   return std::max<std::size_t>(1, number) * (commas + 1) *
-         std::max<std::size_t>(1, count(asked, "case"));
+         std::max<std::size_t>(1, count(request, "case"));
 }
 
 StudyRow row_of(CandidateRow row, const std::vector<StudyColumn>& columns) {
@@ -138,23 +138,23 @@ bool is_study(const fs::path& file) {
 
 StudyView study_view(const fs::path& file) {
   HeldStudy held = read_results(file);
-  const Asked& asked = held.asked;
-  const bool tune = !asked.of_candidates.empty();
-  StudyView out{.title = asked.title.empty() ? title_of(asked.experiment) : asked.title,
+  const StudyRequest& request = held.request;
+  const bool tune = !request.of_candidates.empty();
+  StudyView out{.title = request.title.empty() ? title_of(request.experiment) : request.title,
                 .kind = tune ? "tune" : "sweep",
-                .experiment = asked.experiment,
+                .experiment = request.experiment,
                 .file = file.filename().string(),
-                .columns = tune ? columns_of_candidates(asked) : columns_of_runs(asked),
+                .columns = tune ? columns_of_candidates(request) : columns_of_runs(request),
                 .rows = {},
-                .expected = tune ? asked.points / runs_of_a_candidate(asked) : asked.points,
-                .asked = asked.text,
-                .version = fact(asked, "sinew"),
-                .sets = asked.sets,
-                .allow_unreachable = fact(asked, "allow_unreachable") == "true"};
-  out.cases = asked.cases;
+                .expected = tune ? request.points / runs_of_a_candidate(request) : request.points,
+                .request = request.text,
+                .version = fact(request, "sinew"),
+                .sets = request.sets,
+                .allow_unreachable = fact(request, "allow_unreachable") == "true"};
+  out.cases = request.cases;
   for (Case& one : out.cases) {
-    if (one.experiment.empty()) one.experiment = asked.experiment;
-    one.sets.insert(one.sets.begin(), asked.sets.begin(), asked.sets.end());
+    if (one.experiment.empty()) one.experiment = request.experiment;
+    one.sets.insert(one.sets.begin(), request.sets.begin(), request.sets.end());
   }
   for (CandidateRow& row : held.candidates) out.rows.push_back(row_of(std::move(row), out.columns));
   for (Row& row : held.rows)
@@ -174,7 +174,7 @@ StudyRun run_of(const StudyView& study, std::size_t number) {
     if (!column.set && column.role != StudyColumn::Role::parameter) continue;
     if (row->cells[i].empty()) continue;
     if (column.heading == "experiment")
-      out.experiment = beside({.experiment = study.experiment}, row->cells[i]);
+      out.experiment = experiment_path({.experiment = study.experiment}, row->cells[i]);
     else
       out.sets.push_back(set_of(column, row->cells[i]));
   }
@@ -221,7 +221,7 @@ Json json_of(const StudyView& study) {
           {"sets", study.sets},
           {"cases", std::move(cases)},
           {"allow_unreachable", study.allow_unreachable},
-          {"asked", study.asked},
+          {"asked", study.request},
           {"columns", std::move(columns)},
           {"rows", json_of(study.rows)}};
 }

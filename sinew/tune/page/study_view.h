@@ -45,7 +45,7 @@ struct StudyView {
   std::vector<StudyColumn> columns;
   std::vector<StudyRow> rows;
   std::size_t expected = 0;  // number of rows of the complete study
-  std::string asked;         // the request, one fact per line
+  std::string request;       // the request, one fact per line
   std::string version;
   std::vector<std::string> sets = {};  // key=value, for every run
   bool allow_unreachable = false;      // for every run

@@ -86,10 +86,10 @@ std::int64_t Database::number(const std::string& sql) {
 void Database::fail(int code) const {
   const char* const stays = "make room, or let it be written; its rows are kept";
   const int error = handle_ ? sqlite3_system_errno(handle_) : 0;
-  const std::string words = error != 0 ? log::system_words(error) : sqlite3_errmsg(handle_);
+  const std::string words = error != 0 ? log::system_error_text(error) : sqlite3_errmsg(handle_);
   switch (code & 0xff) {
     case SQLITE_FULL:
-      throw log::Error(file_, "cannot be written: " + log::system_words(ENOSPC), stays);
+      throw log::Error(file_, "cannot be written: " + log::system_error_text(ENOSPC), stays);
     case SQLITE_IOERR:
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:

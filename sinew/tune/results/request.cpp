@@ -1,4 +1,4 @@
-#include "sinew/tune/results/asked.h"
+#include "sinew/tune/results/request.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ std::string values_of(const std::string& file, const std::vector<std::string>& s
 // Returns the values that result from a word, which may name a file; empty if the word is invalid
 // without another axis, so that only its name counts.
 std::string values_of_word(const Sweep& s, const Axis& axis, const Value& value) try {
-  if (axis.key == "experiment") return values_of(beside(s, value.text), s.sets);
+  if (axis.key == "experiment") return values_of(experiment_path(s, value.text), s.sets);
   std::vector<std::string> sets = s.sets;
   sets.push_back(axis.set(value));
   return values_of(s.experiment, sets);
@@ -68,7 +68,7 @@ void add_sample(const Sample& sample, Text& out) {
   const std::string points = sample.given.empty()
                                  ? fmt::format("{}, seed {}", to_text(sample.kind), sample.seed)
                                  : fmt::format("given, {:016x}", units::hash(bytes));
-  const bool whole = !sample.handed || !sample.given.empty();
+  const bool whole = !sample.given_later || !sample.given.empty();
   out.line("sample", whole ? fmt::format("{} points, {}", sample.points, points) : "handed out");
   for (const Range& range : sample.ranges) out.axis("range", range.axis, to_text(range.scale));
 }
@@ -136,7 +136,7 @@ std::vector<Column> columns_of(const Sweep& s) {
 
 }  // namespace
 
-Asked asked_of(const Sweep& s) {
+StudyRequest request_of(const Sweep& s) {
   return {.text = text_of(s),
           .columns = columns_of(s),
           .points = points(s),
@@ -165,8 +165,8 @@ const char* to_text(Column::Role role) {
   return "other";
 }
 
-std::string hash_of(const Asked& asked) {
-  return fmt::format("{:016x}", units::hash(std::string_view(asked.text)));
+std::string hash_of(const StudyRequest& request) {
+  return fmt::format("{:016x}", units::hash(std::string_view(request.text)));
 }
 
 Difference difference(const std::string& first, const std::string& second) {
@@ -184,9 +184,10 @@ Difference difference(const std::string& first, const std::string& second) {
   }
 }
 
-void require_same(const std::filesystem::path& file, const Asked& held, const Asked& asked) {
-  if (held.text == asked.text) return;
-  const Difference d = difference(held.text, asked.text);
+void require_same(const std::filesystem::path& file, const StudyRequest& held,
+                  const StudyRequest& request) {
+  if (held.text == request.text) return;
+  const Difference d = difference(held.text, request.text);
   if (d.first.starts_with("sinew = ") && d.second.starts_with("sinew = ")) refuse_version(file, d);
   run::refuse(file, "another study, with " + config::in_quotes(d.first),
               config::in_quotes(d.second) + ", as now requested", "another name");

@@ -1,4 +1,4 @@
-// tune/results/asked.h - text of a study's request: two studies are the same if their texts are
+// tune/results/request.h - text of a study's request: two studies are the same if their texts are
 // equal.
 //
 // The text contains everything that a row's cells depend on: the version of Sinew; every value, in
@@ -31,7 +31,7 @@ struct Column {
 // Returns the role's name in the study's file.
 const char* to_text(Column::Role role);
 
-struct Asked {
+struct StudyRequest {
   std::string text;  // one fact per line
   std::vector<Column> columns;
   std::size_t points = 0;  // not part of a tuning's text, since a tuning may be extended
@@ -44,10 +44,10 @@ struct Asked {
 };
 
 // Throws config::Error for a faulty experiment.
-Asked asked_of(const Sweep& sweep);
+StudyRequest request_of(const Sweep& sweep);
 
 // Returns sixteen hexadecimal digits that identify the text.
-std::string hash_of(const Asked& asked);
+std::string hash_of(const StudyRequest& request);
 
 // The first fact in which two texts differ, with its table in the file: `"[trolley] drag = 1 N"`;
 // "nothing" for a text that ends before. For equal texts both are the same.
@@ -58,6 +58,7 @@ Difference difference(const std::string& first, const std::string& second);
 
 // Throws config::Error that begins with the file if it holds another study than requested, or
 // one of another version of Sinew.
-void require_same(const std::filesystem::path& file, const Asked& held, const Asked& asked);
+void require_same(const std::filesystem::path& file, const StudyRequest& held,
+                  const StudyRequest& request);
 
 }  // namespace sinew::tune

@@ -21,8 +21,8 @@
 #include "sinew/log/file.h"
 #include "sinew/log/lock.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/tune/results/asked.h"
 #include "sinew/tune/results/database.h"
+#include "sinew/tune/results/request.h"
 #include "sinew/tune/table.h"
 #include "sinew/units/hash.h"
 
@@ -86,24 +86,24 @@ Merged merge(const std::vector<fs::path>& from, const fs::path& to) {
     if (fs::equivalent(file, to, none))
       run::refuse(to, "a file that is merged", "a name for all of them", "another name");
 
-  const Asked asked = read_results(from.front()).asked;
-  Results out(to, asked);
-  Rows rows(asked.columns);
+  const StudyRequest request = read_results(from.front()).request;
+  Results out(to, request);
+  Rows rows(request.columns);
   rows.add(to, out.rows());
   const std::size_t before = rows.size();
   for (const fs::path& file : from) {
     const HeldStudy held = read_results(file);
-    require_same(file, held.asked, asked);
+    require_same(file, held.request, request);
     rows.add(file, held.rows);
   }
   out.add_all(rows.besides(to));
-  return {asked.points, rows.size(), rows.size() - before};
+  return {request.points, rows.size(), rows.size() - before};
 }
 
 void open_results(const Sweep& s, const std::filesystem::path& file, Options& options,
                   std::optional<Results>& results, const run::Notices& notices) {
   if (file.empty()) return;
-  results.emplace(file, asked_of(s));
+  results.emplace(file, request_of(s));
   options.known = results->rows();
   std::erase_if(options.known, [&](const Row& row) { return !options.share.has(row.point); });
   if (!options.known.empty())
@@ -111,14 +111,14 @@ void open_results(const Sweep& s, const std::filesystem::path& file, Options& op
                              options.share.size(points(s))));
 }
 
-void judge(const std::vector<Row>& rows, const Sweep& s, std::size_t points,
-           const std::string& kept, bool goes_on, const run::Notices& notices) {
+void check_rows(const std::vector<Row>& rows, const Sweep& s, std::size_t points,
+                const std::string& kept, bool can_continue, const run::Notices& notices) {
   for (const std::string& text : warnings(rows)) notices.warning(text);
   if (rows.size() < points)
     throw std::runtime_error(
         fmt::format("interrupted: {} of {} points are done{}{}", rows.size(), points,
                     kept.empty() ? "" : " and kept in " + kept,
-                    goes_on ? "; the same command continues with the others" : ""));
+                    can_continue ? "; the same command continues with the others" : ""));
   try {
     refuse_empty_columns(rows, s);
   } catch (const std::exception& e) {
@@ -316,33 +316,33 @@ bool has_study(Database& database, const fs::path& file) {
 
 // Creates all tables at once, with the request. The view `run` has a column of numbers or texts for
 // each cell, named by its heading; a repeated name has a number appended.
-void make_tables(Database& database, const Asked& asked) {
+void make_tables(Database& database, const StudyRequest& request) {
   database.run("PRAGMA journal_mode = WAL");
   database.run("BEGIN IMMEDIATE");
   database.run(tables);
   Statement fact(database, "INSERT INTO study VALUES (?1, ?2)");
-  const auto say = [&](const char* key, const std::string& value) {
+  const auto put = [&](const char* key, const std::string& value) {
     fact.bind(std::string(key)).bind(value).to_the_end();
   };
-  say("format", fmt::format("sinew.study/{}", study_format));
-  say("sinew_version", SINEW_VERSION);
-  say("kind", asked.of_candidates.empty() ? "sweep" : "tuning");
-  say("title", asked.title);
-  say("experiment", asked.experiment);
-  say("sets", json_of(asked.sets));
-  say("cases", json_of(asked.cases));
-  say("points", std::to_string(asked.points));
-  say("hash", hash_of(asked));
-  say("asked", asked.text);
-  const std::vector<std::string> names = names_of(asked.columns, of_runs);
-  make_headings(database, "heading", asked.columns, names);
-  database.run(view_of("run", "result", of_runs, asked.columns, names));
-  if (!asked.of_candidates.empty()) {
+  put("format", fmt::format("sinew.study/{}", study_format));
+  put("sinew_version", SINEW_VERSION);
+  put("kind", request.of_candidates.empty() ? "sweep" : "tuning");
+  put("title", request.title);
+  put("experiment", request.experiment);
+  put("sets", json_of(request.sets));
+  put("cases", json_of(request.cases));
+  put("points", std::to_string(request.points));
+  put("hash", hash_of(request));
+  put("asked", request.text);
+  const std::vector<std::string> names = names_of(request.columns, of_runs);
+  make_headings(database, "heading", request.columns, names);
+  database.run(view_of("run", "result", of_runs, request.columns, names));
+  if (!request.of_candidates.empty()) {
     database.run(tables_of_candidates);
-    const std::vector<std::string> theirs = names_of(asked.of_candidates, of_candidates);
-    make_headings(database, "candidate_heading", asked.of_candidates, theirs);
+    const std::vector<std::string> theirs = names_of(request.of_candidates, of_candidates);
+    make_headings(database, "candidate_heading", request.of_candidates, theirs);
     database.run(
-        view_of("candidate", "candidate_result", of_candidates, asked.of_candidates, theirs));
+        view_of("candidate", "candidate_result", of_candidates, request.of_candidates, theirs));
   }
   write_checksum(database);
   database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT",
@@ -350,14 +350,14 @@ void make_tables(Database& database, const Asked& asked) {
 }
 
 // Returns the request in the file. Throws log::Error if it is damaged.
-Asked study_of(Database& database, const fs::path& file) {
-  Asked out{.text = value_of(database, "asked"),
-            .columns = {},
-            .points = 0,
-            .experiment = value_of(database, "experiment"),
-            .sets = texts_of(value_of(database, "sets"), file),
-            .title = value_of(database, "title"),
-            .cases = cases_of(value_of(database, "cases"), file)};
+StudyRequest study_of(Database& database, const fs::path& file) {
+  StudyRequest out{.text = value_of(database, "asked"),
+                   .columns = {},
+                   .points = 0,
+                   .experiment = value_of(database, "experiment"),
+                   .sets = texts_of(value_of(database, "sets"), file),
+                   .title = value_of(database, "title"),
+                   .cases = cases_of(value_of(database, "cases"), file)};
   out.points = static_cast<std::size_t>(
       database.number("SELECT CAST(value AS INTEGER) FROM study WHERE key = 'points'"));
   out.columns = columns_of(database, "heading");
@@ -406,7 +406,7 @@ void require_whole(Database& database, const fs::path& file) {
                      "keep a copy, and choose another name");
 }
 
-std::vector<Row> rows_of(Database& database, const fs::path& file, const Asked& asked) {
+std::vector<Row> rows_of(Database& database, const fs::path& file, const StudyRequest& request) {
   std::vector<Row> out;
   Statement select(database,
                    "SELECT point, ok, stop_reached, no_air, out_of_reach, lacks, differs, cells, "
@@ -421,7 +421,7 @@ std::vector<Row> rows_of(Database& database, const fs::path& file, const Asked& 
                  .no_air = select.number(3) != 0,
                  .out_of_reach = select.number(4) != 0};
     require_checksum(row, select.text(8), file, fmt::format("point {}", row.point));
-    if (row.point >= asked.points || row.cells.size() != asked.columns.size())
+    if (row.point >= request.points || row.cells.size() != request.columns.size())
       throw log::Error(file, "is damaged: a row that the study cannot have",
                        "keep a copy, and choose another name");
     out.push_back(std::move(row));
@@ -430,9 +430,9 @@ std::vector<Row> rows_of(Database& database, const fs::path& file, const Asked& 
 }
 
 std::vector<CandidateRow> candidates_of(Database& database, const fs::path& file,
-                                        const Asked& asked) {
+                                        const StudyRequest& request) {
   std::vector<CandidateRow> out;
-  if (asked.of_candidates.empty()) return out;
+  if (request.of_candidates.empty()) return out;
   Statement select(database,
                    "SELECT candidate, generation, feasible, violation, holds, cells, checksum "
                    "FROM candidate_result ORDER BY candidate");
@@ -454,7 +454,7 @@ int take(const fs::path& file, bool& made) {
   const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   const int error = errno;
   if (fd < 0)
-    throw log::Error(file, "cannot be written: " + log::system_words(error),
+    throw log::Error(file, "cannot be written: " + log::system_error_text(error),
                      "choose a folder that exists and that you may write to");
   struct stat info {};
   const bool regular = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
@@ -467,24 +467,24 @@ int take(const fs::path& file, bool& made) {
   return fd;
 }
 
-void require_room(const Asked& asked, const fs::path& file) {
-  if (asked.columns.size() <= most_columns) return;
-  run::refuse(file, std::to_string(asked.columns.size()) + " columns",
+void require_room(const StudyRequest& request, const fs::path& file) {
+  if (request.columns.size() <= most_columns) return;
+  run::refuse(file, std::to_string(request.columns.size()) + " columns",
               "at most " + std::to_string(most_columns), "fewer ranges or figures, or a CSV file");
 }
 
 }  // namespace
 
-Results::Results(const fs::path& file, const Asked& asked) : file_(file) {
-  require_room(asked, file);
+Results::Results(const fs::path& file, const StudyRequest& request) : file_(file) {
+  require_room(request, file);
   if (fs::is_directory(file)) run::refuse(file, "a folder", "the name of a file");
   run::require_folder_of(file);
   lock_ = take(file, made_);
   try {
     database_.emplace(file, Database::Use::write);
-    if (!has_study(*database_, file)) make_tables(*database_, asked);
+    if (!has_study(*database_, file)) make_tables(*database_, request);
     require_whole(*database_, file);
-    require_same(file, study_of(*database_, file), asked);
+    require_same(file, study_of(*database_, file), request);
     // Rows that are not on the disk when the power fails are run again; no row is stored in part.
     database_->run("PRAGMA synchronous = NORMAL");
     insert_.emplace(*database_,
@@ -606,9 +606,9 @@ HeldStudy read_results(const fs::path& file) {
   // Reads the rows of one instant while others are added.
   database.run("BEGIN");
   require_whole(database, file);
-  HeldStudy out{.asked = study_of(database, file), .rows = {}};
-  out.rows = rows_of(database, file, out.asked);
-  out.candidates = candidates_of(database, file, out.asked);
+  HeldStudy out{.request = study_of(database, file), .rows = {}};
+  out.rows = rows_of(database, file, out.request);
+  out.candidates = candidates_of(database, file, out.request);
   return out;
 }
 

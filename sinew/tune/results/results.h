@@ -1,7 +1,7 @@
 // tune/results/results.h - SQLite file with the rows of one study, each of them stored as soon as
 // its run is done.
 //
-//   Results results("study.db", asked_of(sweep));
+//   Results results("study.db", request_of(sweep));
 //   tune::sweep(sweep, {.done = [&](const Row& row) { results.add(row); },
 //                       .known = results.rows()});
 //
@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "sinew/run/folder/notices.h"
-#include "sinew/tune/results/asked.h"
 #include "sinew/tune/results/database.h"
+#include "sinew/tune/results/request.h"
 
 namespace sinew::tune {
 
@@ -32,7 +32,7 @@ struct CandidateRow {
   bool feasible = false;                   // all limits hold for the required share of runs
   double violation = 0;                    // distance from it; 0: feasible
   double holds = 0;                        // share of its runs for which all limits hold
-  std::vector<std::string> cells;          // as many as Asked::of_candidates
+  std::vector<std::string> cells;          // as many as StudyRequest::of_candidates
 
   bool operator==(const CandidateRow&) const = default;
 };
@@ -42,7 +42,7 @@ class Results {
   // Opens the file of this study, or creates it. Throws config::Error for a file with another study
   // or of another version; log::Error for a file that is no study, cannot be written, or is being
   // written by another process.
-  Results(const std::filesystem::path& file, const Asked& asked);
+  Results(const std::filesystem::path& file, const StudyRequest& request);
 
   // Removes the file if it was created by this object and has no row.
   ~Results();
@@ -85,7 +85,7 @@ class Results {
 
 // The contents of a file.
 struct HeldStudy {
-  Asked asked;
+  StudyRequest request;
   std::vector<Row> rows;                 // in the points' order
   std::vector<CandidateRow> candidates;  // those of a tuning, in their order
 };
@@ -102,10 +102,10 @@ void open_results(const Sweep& sweep, const std::filesystem::path& file, Options
                   std::optional<Results>& results, const run::Notices& notices);
 
 // Reports warnings about rows, and refuses an incomplete table of so many points. `kept` is the
-// file with the rows, empty if there is none; `goes_on` states that the same command runs the
+// file with the rows, empty if there is none; `can_continue` states that the same command runs the
 // others. Throws std::runtime_error, or config::Error if no row has a figure.
-void judge(const std::vector<Row>& rows, const Sweep& sweep, std::size_t points,
-           const std::string& kept, bool goes_on, const run::Notices& notices);
+void check_rows(const std::vector<Row>& rows, const Sweep& sweep, std::size_t points,
+                const std::string& kept, bool can_continue, const run::Notices& notices);
 
 // Merging of the files of one study's shares.
 

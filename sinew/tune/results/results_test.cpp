@@ -85,13 +85,13 @@ class ResultsTest : public ::testing::Test {
 TEST_F(ResultsTest, HoldsRowsAsTheyAre) {
   std::vector<Row> rows = some_rows();
   {
-    Results results(file_, asked_of(study()));
+    Results results(file_, request_of(study()));
     EXPECT_TRUE(results.rows().empty());
     for (const Row& row : rows) EXPECT_TRUE(results.add(row));
     EXPECT_EQ(ask("SELECT count(*) FROM run"), std::vector<std::string>{"3"}) << "while it is open";
   }
   rows[1].cells.back() = "refused: a \"b\",\n\xef\xbf\xbd";  // invalid UTF-8 is replaced
-  Results again(file_, asked_of(study()));
+  Results again(file_, request_of(study()));
   const std::vector<Row> there = again.rows();
   ASSERT_EQ(there.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_TRUE(same(there[i], rows[i])) << i;
@@ -99,7 +99,7 @@ TEST_F(ResultsTest, HoldsRowsAsTheyAre) {
 
 TEST_F(ResultsTest, IsAskedByItsHeadings) {
   {
-    Results results(file_, asked_of(study()));
+    Results results(file_, request_of(study()));
     results.add_all(some_rows());
   }
   using Answer = std::vector<std::string>;
@@ -113,23 +113,23 @@ TEST_F(ResultsTest, IsAskedByItsHeadings) {
 }
 
 TEST_F(ResultsTest, ThatGotNoRowIsRemoved) {
-  { const Results results(file_, asked_of(study())); }
+  { const Results results(file_, request_of(study())); }
   EXPECT_TRUE(fs::is_empty(folder_));
-  { Results(file_, asked_of(study())).add(some_rows()[0]); }
-  { const Results results(file_, asked_of(study())); }
+  { Results(file_, request_of(study())).add(some_rows()[0]); }
+  { const Results results(file_, request_of(study())); }
   EXPECT_TRUE(fs::exists(file_));
 }
 
 // An added row is stored, whenever its writer is killed.
 TEST_F(ResultsTest, AKilledWriterLeavesWhatItAdded) {
-  const Asked asked = asked_of(study(1000));
+  const StudyRequest request = request_of(study(1000));
   std::size_t before = 0;
   for (int i = 0; i < 5; ++i) {
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);
     const pid_t writer = fork();
     if (writer == 0) {
-      Results results(file_, asked);
+      Results results(file_, request);
       Row row = some_rows()[0];
       for (row.point = before; row.point < 2000; ++row.point) {
         results.add(row);
@@ -158,9 +158,9 @@ TEST_F(ResultsTest, AKilledWriterLeavesWhatItAdded) {
 }
 
 TEST_F(ResultsTest, RefusesAnotherStudyAndSaysWhatDiffers) {
-  { Results(file_, asked_of(study())).add(some_rows()[0]); }
+  { Results(file_, request_of(study())).add(some_rows()[0]); }
   const auto refusal = [&](const Sweep& s) {
-    return message([&] { const Results results(file_, asked_of(s)); });
+    return message([&] { const Results results(file_, request_of(s)); });
   };
   const std::string begin = file_.string() + ": found another study, with ";
   EXPECT_EQ(refusal(study()), "");
@@ -192,21 +192,21 @@ TEST_F(ResultsTest, AStudyIsWhatItsFilesSay) {
     std::ofstream(in) << text.replace(text.find(from), from.size(), to);
   };
   change(moved.experiment, "title", "# a comment\ntitle");
-  EXPECT_EQ(difference(asked_of(moved).text, asked_of(study()).text).first, "");
+  EXPECT_EQ(difference(request_of(moved).text, request_of(study()).text).first, "");
 
   Sweep robots = moved;
   robots.axes = {parse_axis("experiment=one-joint.toml,leg-in-air.toml")};
-  const std::string before = asked_of(robots).text;
+  const std::string before = request_of(robots).text;
   std::ofstream(folder_ / "robots/leg/robot.toml", std::ios::app) << "\n# a comment\n";
-  EXPECT_EQ(difference(asked_of(robots).text, before).first, "");
+  EXPECT_EQ(difference(request_of(robots).text, before).first, "");
   std::ofstream(folder_ / "experiments/leg-in-air.toml", std::ios::app)
       << "\n[plant_steps]\nbody = \"0.5 ms\"\n";
-  EXPECT_NE(asked_of(robots).text, before);
+  EXPECT_NE(request_of(robots).text, before);
 }
 
 TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
   const auto refusal = [&] {
-    return message([&] { const Results results(file_, asked_of(study())); });
+    return message([&] { const Results results(file_, request_of(study())); });
   };
   const auto make = [&](const std::string& sql) {
     fs::remove(file_);
@@ -220,7 +220,7 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
   make("CREATE TABLE a (b)");
   EXPECT_NE(refusal().find("a database of another program"), std::string::npos) << refusal();
   fs::remove(file_);
-  { Results(file_, asked_of(study())).add(some_rows()[0]); }
+  { Results(file_, request_of(study())).add(some_rows()[0]); }
   sqlite3* db = nullptr;
   sqlite3_open(file_.c_str(), &db);
   sqlite3_exec(db, "PRAGMA user_version = 9", nullptr, nullptr, nullptr);
@@ -241,8 +241,8 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
 
 // A tuning's file with flipped bits.
 TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
-  Asked asked = asked_of(study());
-  asked.of_candidates = {{"joint.hip.stiffness [count/deg]", true}, {"feasible", false}};
+  StudyRequest request = request_of(study());
+  request.of_candidates = {{"joint.hip.stiffness [count/deg]", true}, {"feasible", false}};
   std::vector<CandidateRow> candidates;
   for (std::size_t i = 0; i < 40; ++i)
     candidates.push_back({.number = i,
@@ -252,7 +252,7 @@ TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
                           .holds = 0.5,
                           .cells = {std::to_string(i), "yes"}});
   {
-    Results results(file_, asked);
+    Results results(file_, request);
     results.add_all(some_rows());
     results.add_candidates(candidates);
   }
@@ -273,7 +273,7 @@ TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
       EXPECT_EQ(held.rows.size(), right.rows.size()) << at;
       for (std::size_t k = 0; k < std::min(held.rows.size(), right.rows.size()); ++k)
         EXPECT_EQ(held.rows[k].cells, right.rows[k].cells) << at;
-      EXPECT_EQ(held.asked.text, right.asked.text) << at;
+      EXPECT_EQ(held.request.text, right.request.text) << at;
     } catch (const std::exception&) {
       ++refused;
     }
@@ -283,7 +283,7 @@ TEST_F(ResultsTest, AFlippedBitIsRefusedOrChangesNothing) {
 
 TEST_F(ResultsTest, AFileThatIsRemovedWhileItIsWrittenIsReported) {
   const auto rows = some_rows();
-  Results results(file_, asked_of(study()));
+  Results results(file_, request_of(study()));
   EXPECT_TRUE(results.add(rows[0]));
   fs::rename(file_, file_.string() + ".away");
   EXPECT_FALSE(results.add(rows[1]));
@@ -293,19 +293,19 @@ TEST_F(ResultsTest, AFileThatIsRemovedWhileItIsWrittenIsReported) {
 }
 
 TEST_F(ResultsTest, OfAnotherVersionOfSinewIsRefused) {
-  Asked old = asked_of(study());
+  StudyRequest old = request_of(study());
   old.text.replace(0, old.text.find('\n'), "sinew = 0.0.9");
   { Results(file_, old).add(some_rows()[0]); }
-  const std::string refusal = message([&] { const Results results(file_, asked_of(study())); });
+  const std::string refusal = message([&] { const Results results(file_, request_of(study())); });
   EXPECT_NE(refusal.find("a study of Sinew 0.0.9; expected one of this version"), std::string::npos)
       << refusal;
 }
 
 TEST_F(ResultsTest, HasOneWriter) {
-  Results first(file_, asked_of(study()));
+  Results first(file_, request_of(study()));
   first.add(some_rows()[0]);
   EXPECT_NE(message([&] {
-              const Results second(file_, asked_of(study()));
+              const Results second(file_, request_of(study()));
             }).find("process " + std::to_string(getpid()) + " is writing it"),
             std::string::npos);
   EXPECT_EQ(read_results(file_).rows.size(), 1u) << "readers are not refused";
@@ -313,7 +313,7 @@ TEST_F(ResultsTest, HasOneWriter) {
 
 // Waits for another program's transaction, then reports it; no stored row is lost.
 TEST_F(ResultsTest, TellsOfAnotherProgramsTransaction) {
-  Results results(file_, asked_of(study()));
+  Results results(file_, request_of(study()));
   results.add(some_rows()[0]);
   sqlite3* db = nullptr;
   sqlite3_open(file_.c_str(), &db);
@@ -326,12 +326,13 @@ TEST_F(ResultsTest, TellsOfAnotherProgramsTransaction) {
 }
 
 TEST_F(ResultsTest, TellsOfAFolderThatIsMissingOrMayNotBeWritten) {
-  const Asked asked = asked_of(study());
-  EXPECT_NE(message([&] { const Results r(folder_ / "no/study.db", asked); }).find("no folder"),
+  const StudyRequest request = request_of(study());
+  EXPECT_NE(message([&] { const Results r(folder_ / "no/study.db", request); }).find("no folder"),
             std::string::npos);
-  EXPECT_NE(message([&] { const Results r("/sys/study.db", asked); }).find("cannot be written"),
+  EXPECT_NE(message([&] { const Results r("/sys/study.db", request); }).find("cannot be written"),
             std::string::npos);
-  EXPECT_NE(message([&] { const Results r(folder_, asked); }).find("a folder"), std::string::npos);
+  EXPECT_NE(message([&] { const Results r(folder_, request); }).find("a folder"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -56,9 +56,9 @@ void DrivenMuscle::set_point(double share) {
 
 void DrivenMuscle::advance(double step, double length) noexcept {
   if (failed() || !(step > 0)) return;
-  world_.steer({.length = this->length(), .rate = (length - this->length()) / step});
+  world_.set_motion({.length = this->length(), .rate = (length - this->length()) / step});
   world_.node_at(time() + step);
-  world_.borrow().now.motion.length = length;  // the exact value
+  world_.mutable_state().now.motion.length = length;  // the exact value
 }
 
 }  // namespace sinew::air

@@ -26,7 +26,7 @@
 //   prepare(pose, motion, arms, bounds, trolley bound, load)   at a node: the friction problem
 //   hold(h, last)                      friction of a step of length h from there
 //   accelerate(free, held)             accelerations there, under that friction
-//   glide(motion, h, a)                motion under a constant acceleration, for a preview
+//   extrapolate(motion, h, a)          motion under a constant acceleration, for a preview
 //
 // It may leave out nodes (SkipsNodes) that are not needed:
 //
@@ -51,14 +51,15 @@
 //   begin(t, motion)               begins a smooth part: writes prescribed values to the motion
 //   corner()                       latest end of that part, by the prescribed values [s]
 //   longest_piece(motion, load, air)  length that suits the fastest rate there [s]
-//   watches(held), gap(...)        distance of a state beyond the limit of the part: cut.h
+//   needs_gap(held), gap(...)      distance of a state beyond the limit of the part: cut.h
 //   cut_within()                   required accuracy of the cut [s]
 //   stop(motion, held)             at a cut: brings to rest what reversed against its friction
 //   hold(motion, load, held)       dry friction of the part, from that before
 //
 // Air (air/network.h) has State, which is integrated; Valves and Memory, which are constant until
-// the next node; Answer, the result of one evaluation; Course, the parts that are integrated
-// through a step ahead of the body. All data that last from node to node are trivially copyable.
+// the next node; Evaluation, the result of one evaluation; QuickMasses, the parts that are
+// integrated through a step ahead of the body. All data that last from node to node are trivially
+// copyable.
 #pragma once
 
 #include <concepts>
@@ -98,7 +99,7 @@ concept WholeSteps = IsMechanism<M> && !M::cuts_steps &&
                               const typename M::Forces& held, const typename M::Acceleration& a) {
   { m.hold(h, held) } -> std::same_as<typename M::Forces>;
   { m.accelerate(a, held) } -> std::same_as<typename M::Acceleration>;
-  m.glide(q, h, a);
+  m.extrapolate(q, h, a);
 };
 
 // A mechanism that may leave out nodes.
@@ -138,7 +139,7 @@ concept CutsSteps = IsMechanism<M> && M::cuts_steps &&
   m.begin(t, q);
   m.stop(q, held);
   { m.corner() } -> std::same_as<double>;
-  { m.watches(held) } -> std::same_as<bool>;
+  { m.needs_gap(held) } -> std::same_as<bool>;
   { m.gap(q, q, held, load) } -> std::same_as<double>;
   { m.cut_within() } -> std::same_as<double>;
   { m.hold(q, load, held) } -> std::same_as<typename M::Forces>;
@@ -151,14 +152,15 @@ concept IsAirOf = IsMechanism<M> && std::is_trivially_copyable_v<typename A::Sta
     std::is_trivially_copyable_v<typename A::Memory> &&
     requires(const A& air, double t, const typename M::Ends& ends, const typename A::State& state,
              typename A::State& out, typename A::Valves& valves, typename A::Memory& memory,
-             typename A::Answer& look, const typename A::Answer* const (&looks)[4],
-             const typename A::Course& course, const signals::Edge& edge) {
-  air.evaluate(t, ends, state, valves, memory, look);
-  air.move(out, state, t, look, valves, course);
-  air.finish(out, t, looks, valves, course);
-  air.command(edge, t, look, valves);
-  air.move_valves(t, look, valves);
-  air.remember(look, state, memory);
+             typename A::Evaluation& evaluation,
+             const typename A::Evaluation* const (&evaluations)[4],
+             const typename A::QuickMasses& quick_masses, const signals::Edge& edge) {
+  air.evaluate(t, ends, state, valves, memory, evaluation);
+  air.move(out, state, t, evaluation, valves, quick_masses);
+  air.finish(out, t, evaluations, valves, quick_masses);
+  air.command(edge, t, evaluation, valves);
+  air.move_valves(t, evaluation, valves);
+  air.update_memory(evaluation, state, memory);
   { air.flowing(valves) } -> std::same_as<bool>;
   { air.valves() } -> std::same_as<int>;
   { valves.next_change } -> std::convertible_to<double>;

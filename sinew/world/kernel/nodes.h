@@ -45,10 +45,10 @@ class Nodes {
   };
 
   // Result of one evaluation of a state.
-  struct Look {
+  struct Evaluation {
     typename M::Ends ends;
     typename M::Arms arms;
-    typename A::Answer air;
+    typename A::Evaluation air;
     typename M::Load load;                  // all forces on the coordinates except dry friction
     typename M::Acceleration acceleration;  // with the friction of the step
   };
@@ -63,26 +63,26 @@ class Nodes {
 
   // Evaluates the air at a state.
   void evaluate_air(const S& t, const Moving& state, const typename A::Valves& valves,
-                    const typename A::Memory& memory, Look& look,
+                    const typename A::Memory& memory, Evaluation& evaluation,
                     std::uint64_t ahead = 0) const noexcept {
-    mechanism_.route(t, state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, valves, memory, look.air, ahead);
+    mechanism_.route(t, state.motion, evaluation.ends, evaluation.arms);
+    air_.evaluate(t, evaluation.ends, state.air, valves, memory, evaluation.air, ahead);
   }
 
   // Evaluates the right side with this dry friction.
-  void look_at(const S& t, const Moving& state, const typename A::Valves& valves,
-               const typename A::Memory& memory, const typename M::Forces& held, Look& look,
-               std::uint64_t ahead = 0) const noexcept {
-    evaluate_air(t, state, valves, memory, look, ahead);
+  void evaluate(const S& t, const Moving& state, const typename A::Valves& valves,
+                const typename A::Memory& memory, const typename M::Forces& held,
+                Evaluation& evaluation, std::uint64_t ahead = 0) const noexcept {
+    evaluate_air(t, state, valves, memory, evaluation, ahead);
     const typename M::Pose pose = mechanism_.pose(t, state.motion);
-    mechanism_.load(pose, state.motion, look.arms, look.air, look.load);
-    look.acceleration = mechanism_.accelerate(pose, state.motion, look.load, held);
+    mechanism_.load(pose, state.motion, evaluation.arms, evaluation.air, evaluation.load);
+    evaluation.acceleration = mechanism_.accelerate(pose, state.motion, evaluation.load, held);
   }
 
   // At a node whose air has been evaluated, computes the forces, the friction problem, and the
   // accelerations without friction.
-  void meet(const typename M::Pose& pose, const typename M::Motion& motion, const S& trolley_bound,
-            Look& first) noexcept {
+  void prepare_forces(const typename M::Pose& pose, const typename M::Motion& motion,
+                      const S& trolley_bound, Evaluation& first) noexcept {
     mechanism_.load(pose, motion, first.arms, first.air, first.load);
     first.acceleration = mechanism_.prepare(pose, motion, first.arms, first.air.friction_bound,
                                             trolley_bound, first.load);
@@ -90,22 +90,25 @@ class Nodes {
 
   // Advances the state by RK4. The first stage is the given evaluation, with these accelerations;
   // stages two to four are at 1/2, 1/2 and 1. Quick bodies of air are integrated ahead.
-  void piece(const S& from, const S& h, Moving& now, const typename A::Valves& valves,
-             const typename A::Memory& memory, const Look& look,
-             const typename M::Acceleration& first, const typename M::Forces& held) const noexcept {
-    Look later[3];
+  void integrate_piece(const S& from, const S& h, Moving& now, const typename A::Valves& valves,
+                       const typename A::Memory& memory, const Evaluation& evaluation,
+                       const typename M::Acceleration& first,
+                       const typename M::Forces& held) const noexcept {
+    Evaluation later[3];
     Moving stage[3];
-    typename A::Course course;
-    if constexpr (!CutsSteps<M>) air_.plan(from, h, look.ends, now.air, valves, memory, course);
+    typename A::QuickMasses quick_masses;
+    if constexpr (!CutsSteps<M>)
+      air_.plan(from, h, evaluation.ends, now.air, valves, memory, quick_masses);
     const typename M::Motion* motion[4] = {&now.motion, &stage[0].motion, &stage[1].motion,
                                            &stage[2].motion};
-    const typename A::Answer* air[4] = {&look.air, &later[0].air, &later[1].air, &later[2].air};
+    const typename A::Evaluation* air[4] = {&evaluation.air, &later[0].air, &later[1].air,
+                                            &later[2].air};
     typename M::Acceleration acceleration[4] = {first};
     for (int s = 0; s < 3; ++s) {
       const S part = s == 2 ? h : 0.5 * h;
       mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
-      air_.move(stage[s].air, now.air, part, *air[s], valves, course);
-      look_at(from + part, stage[s], valves, memory, held, later[s], course.muscles);
+      air_.move(stage[s].air, now.air, part, *air[s], valves, quick_masses);
+      evaluate(from + part, stage[s], valves, memory, held, later[s], quick_masses.muscles);
       if constexpr (RelaxesStages<M>)
         mechanism_.relax(h, 0.2, later[s].load, acceleration[s], later[s].acceleration);
       acceleration[s + 1] = later[s].acceleration;
@@ -114,7 +117,7 @@ class Nodes {
     const typename M::Motion rates = now.motion;  // rates of the first stage: the state moves
     motion[0] = &rates;
     mechanism_.finish(now.motion, h, motion, acceleration);
-    air_.finish(now.air, h, air, valves, course);
+    air_.finish(now.air, h, air, valves, quick_masses);
   }
 
   M mechanism_;

@@ -47,12 +47,12 @@ namespace sinew::plant {
 template <IsMechanism Mechanism, IsAirOf<Mechanism> Air>
 class World final : public signals::Port, private Nodes<Mechanism, Air> {
   using Integrated = Nodes<Mechanism, Air>;
-  using typename Integrated::Look;
+  using typename Integrated::Evaluation;
   using typename Integrated::Moving;
   using Acceleration = typename Mechanism::Acceleration;
   using Forces = typename Mechanism::Forces;
   using Memory = typename Air::Memory;
-  struct Unseen {
+  struct NoVisitor {
     void operator()(const auto&...) const noexcept {}
   };
 
@@ -71,7 +71,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
     typename Air::Memory memory;
     Forces held;           // friction of the last step
     double trolley_bound;  // bound of the trolley's friction in the next step [N]
-    Look first;            // first stage at the node, without friction
+    Evaluation first;      // first stage at the node, without friction
     NodeTimes times;
     bool ended;
     air::Failure failure;
@@ -93,7 +93,7 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
 
   // Commits every node up to t. If the mechanism cuts its steps, visit(from, before, to, after) is
   // called with the times [s] and the motions at both ends of each smooth piece.
-  template <class Visit = Unseen>
+  template <class Visit = NoVisitor>
   void advance(double t, const Visit& visit = {}) noexcept;
 
   // Return the motion at the last node; the constants; the air in the machine [kg]; the node's time
@@ -115,10 +115,11 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   const State& state() const noexcept { return state_; }
   // Continues from this state as its world did, with the same bits.
   void restore(const State& state) noexcept;
-  // Serve chain_lanes.h, which integrates instead of this world: borrow() gives access to the
-  // state, to move it to another node; after resume() the world continues from there.
-  State& borrow() noexcept { return state_; }
-  void resume() noexcept {
+  // Serve chain_lanes.h, which integrates instead of this world: mutable_state() gives access to
+  // the state, to move it to another node; after continue_from_state() the world continues from
+  // there.
+  State& mutable_state() noexcept { return state_; }
+  void continue_from_state() noexcept {
     prepare_friction(mechanism_.pose(state_.times.time, state_.now.motion));
   }
   double body_step() const noexcept { return step_; }  // between nodes [s]
@@ -129,13 +130,13 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
     air_.command(edge, state_.times.time, state_.first.air, state_.valves);
     prepare();
   }
-  void steer(const Motion& motion) noexcept {
+  void set_motion(const Motion& motion) noexcept {
     state_.now.motion = motion;
     prepare();
   }
   void node_at(double t) noexcept {
     advance(t);
-    if (!state_.failure && t > state_.times.time) commit(t, Unseen());
+    if (!state_.failure && t > state_.times.time) commit(t, NoVisitor());
   }
 
   // For tests: sets the rates at the last node, of the joints (missing ones: 0) [rad/s], of the
@@ -148,26 +149,26 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   }
 
   // For the senses: the machine at t, extrapolated from the last node in a copy.
-  struct Peek {
+  struct Preview {
     Moving state;
-    Look look;
+    Evaluation evaluation;
   };
-  Peek peek(double t) noexcept;
+  Preview preview(double t) noexcept;
   // Returns a preview in which only this muscle's tension and pressure are required.
-  Peek peek_muscle(double t, int) noexcept { return peek(t); }
+  Preview preview_muscle(double t, int) noexcept { return preview(t); }
   // Friction and accelerations that the last preview used.
-  struct Glance {
+  struct StepPreview {
     Forces held{};
     Acceleration acceleration{};
     Acceleration mean{};  // over the whole step, where a damper is quicker (RelaxesStages)
   };
-  const Glance& glanced() const noexcept { return glance_; }
+  const StepPreview& step_preview() const noexcept { return step_preview_; }
   template <WholeSteps = Mechanism>
-  Motion peek_motion(double t) noexcept {
-    const Glance& g = glance();
+  Motion preview_motion(double t) noexcept {
+    const StepPreview& g = update_step_preview();
     Motion motion = state_.now.motion;
-    mechanism_.glide(motion, t - state_.times.time,
-                     RelaxesStages<Mechanism> ? g.mean : g.acceleration);
+    mechanism_.extrapolate(motion, t - state_.times.time,
+                           RelaxesStages<Mechanism> ? g.mean : g.acceleration);
     return motion;
   }
   const Mechanism& mechanism() const noexcept { return mechanism_; }
@@ -188,21 +189,22 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   signals::Tick lag(signals::Channel channel) const noexcept { return lag_[channel.index]; }
 
  private:
-  void evaluate_air(double t, const Moving& state, const Memory& memory, Look& look,
+  void evaluate_air(double t, const Moving& state, const Memory& memory, Evaluation& evaluation,
                     std::uint64_t ahead = 0) const noexcept {
-    Integrated::evaluate_air(t, state, state_.valves, memory, look, ahead);
+    Integrated::evaluate_air(t, state, state_.valves, memory, evaluation, ahead);
   }
-  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held, Look& look,
-               std::uint64_t ahead = 0) const noexcept {
-    Integrated::look_at(t, state, state_.valves, memory, held, look, ahead);
+  void evaluate(double t, const Moving& state, const Memory& memory, const Forces& held,
+                Evaluation& evaluation, std::uint64_t ahead = 0) const noexcept {
+    Integrated::evaluate(t, state, state_.valves, memory, held, evaluation, ahead);
   }
-  void piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
-             const Acceleration& first, const Forces& held) const noexcept {
-    Integrated::piece(from, h, now, state_.valves, memory, look, first, held);
+  void integrate_piece(double from, double h, Moving& now, const Memory& memory,
+                       const Evaluation& evaluation, const Acceleration& first,
+                       const Forces& held) const noexcept {
+    Integrated::integrate_piece(from, h, now, state_.valves, memory, evaluation, first, held);
   }
   void prepare() noexcept;
   void prepare_friction(const typename Mechanism::Pose& pose) noexcept;
-  void look_for_failure() noexcept;
+  void check_for_failure() noexcept;
   // Returns whether a step goes from one due multiple of the body step to the next one.
   bool is_whole(double to) const noexcept {
     return state_.times.time == static_cast<double>(state_.times.multiple) * step_ &&
@@ -216,24 +218,27 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   void commit(double next, const Visit& visit) noexcept;
   template <class Visit>
   void step(double to, const Visit& visit) noexcept;
-  double longest_piece_of(const Look& look) const noexcept;  // infinite if no part is quick [s]
-  double pieces_of(double h, const Look& look) const noexcept;
+  double longest_piece_of(
+      const Evaluation& evaluation) const noexcept;  // infinite if no part is quick [s]
+  double pieces_of(double h, const Evaluation& evaluation) const noexcept;
 
   // For mechanisms that cut their steps.
   template <CutsSteps = Mechanism>
-  void begin_part(double t, Moving& s, const Memory& memory, Forces& held, Look& look) noexcept;
+  void begin_part(double t, Moving& s, const Memory& memory, Forces& held,
+                  Evaluation& evaluation) noexcept;
   template <class Visit>
-  void go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first,
-          const Visit& visit) noexcept requires CutsSteps<Mechanism>;
+  void integrate_parts(double from, double to, Moving& s, Memory& memory, Forces& held,
+                       Evaluation& first,
+                       const Visit& visit) noexcept requires CutsSteps<Mechanism>;
   template <CutsSteps = Mechanism>
   double gap(double t, const Moving& before, const Moving& after, const Memory& memory,
              const Forces& held) const noexcept;
   template <CutsSteps = Mechanism>
-  double longest_piece(const Moving& s, const Look& look) const noexcept;
+  double longest_piece(const Moving& s, const Evaluation& evaluation) const noexcept;
 
-  const Glance& glance() noexcept;
+  const StepPreview& update_step_preview() noexcept;
   template <WholeSteps = Mechanism>
-  void extrapolate(double t, Peek& p) noexcept;
+  void extrapolate(double t, Preview& p) noexcept;
 
   // Largest number of pieces of a step. Only a vanishing chamber would need more.
   static constexpr double most_pieces = 1e5;
@@ -244,8 +249,8 @@ class World final : public signals::Port, private Nodes<Mechanism, Air> {
   std::int64_t skipped_ = 0;  // multiples to skip before the next node
 
   State state_{};
-  Glance glance_{};  // for this node, once it has been computed
-  bool glanced_ = false;
+  StepPreview step_preview_{};  // for this node, once it has been computed
+  bool has_step_preview_ = false;
 
   Senses senses_;
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
@@ -269,7 +274,7 @@ template <IsMechanism M, IsAirOf<M> A>
 World<M, A>::World(const Setup& setup)
     : Integrated(setup), step_(mechanism_.node_step(setup)), senses_(setup) {
   static_assert(std::is_trivially_copyable_v<State>);
-  Look& first = state_.first;
+  Evaluation& first = state_.first;
   state_.now.motion = mechanism_.start();
   mechanism_.route(0, state_.now.motion, first.ends, first.arms);
   state_.now.air = mechanism_.start_air(air_, setup, first.ends);
@@ -281,16 +286,16 @@ World<M, A>::World(const Setup& setup)
 // Prepares a new node: valves and references, the first stage, and the friction problem.
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare() noexcept {
-  Look& first = state_.first;
+  Evaluation& first = state_.first;
   air_.move_valves(state_.times.time, state_.first.air, state_.valves);
   if constexpr (PrescribesMotion<M>) mechanism_.begin(state_.times.time, state_.now.motion);
   if constexpr (CutsSteps<M>) {
     begin_part(state_.times.time, state_.now, state_.memory, state_.held, first);
-    look_for_failure();
+    check_for_failure();
   } else {
     evaluate_air(state_.times.time, state_.now, state_.memory, first,
-                 air_.always_ahead(state_.valves));
-    look_for_failure();
+                 air_.always_quick_muscles(state_.valves));
+    check_for_failure();
     state_.trolley_bound = mechanism_.trolley_bound(state_.held, state_.trolley_bound);
     prepare_friction(mechanism_.pose(state_.times.time, state_.now.motion));
   }
@@ -299,50 +304,51 @@ void World<M, A>::prepare() noexcept {
 // Computes the friction problem of the node, and the accelerations without friction.
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept {
-  glanced_ = false;
+  has_step_preview_ = false;
   if constexpr (SkipsNodes<M>)
     skipped_ = mechanism_.next_multiple(state_.times.multiple, step_, pose, state_.now.motion) -
                (state_.times.multiple + 1);
   if constexpr (!CutsSteps<M>)  // else each part has its own
-    this->meet(pose, state_.now.motion, state_.trolley_bound, state_.first);
+    this->prepare_forces(pose, state_.now.motion, state_.trolley_bound, state_.first);
 }
 
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::restore(const State& state) noexcept {
   state_ = state;
-  resume();
+  continue_from_state();
 }
 
 // Records a failure if any value of the node's evaluation is not finite. Also updates the air's
 // memory from that evaluation.
 template <IsMechanism M, IsAirOf<M> A>
-void World<M, A>::look_for_failure() noexcept {
-  const air::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
+void World<M, A>::check_for_failure() noexcept {
+  const air::Failure of_air = air_.update_memory(state_.first.air, state_.now.air, state_.memory);
   if (state_.failure) return;
   if (of_air) {
     state_.failure = of_air;
     state_.failure.time = state_.times.time;
     if (of_air.of == air::Failure::Of::air)
       state_.failure.length = state_.first.ends.length[of_air.muscle];
-  } else if (!air::is_place(mechanism_.sum(state_.now.motion))) {
+  } else if (!air::is_position(mechanism_.sum(state_.now.motion))) {
     state_.failure = {.of = air::Failure::Of::motion, .time = state_.times.time};
   }
 }
 
 // While nothing flows, only the air that a piston traps can be quick.
 template <IsMechanism M, IsAirOf<M> A>
-double World<M, A>::longest_piece_of(const Look& look) const noexcept {
+double World<M, A>::longest_piece_of(const Evaluation& evaluation) const noexcept {
   double longest = std::numeric_limits<double>::infinity();
-  if (air_.flowing(state_.valves)) longest = air_.longest_step_of_rest(look.ends, state_.valves);
+  if (air_.flowing(state_.valves))
+    longest = air_.longest_step_of_rest(evaluation.ends, state_.valves);
   if constexpr (LiftsBody<M>)
-    longest = std::min(
-        longest, air_.longest_step_of_piston(look.ends, look.air, mechanism_.lift_per_force()));
+    longest = std::min(longest, air_.longest_step_of_piston(evaluation.ends, evaluation.air,
+                                                            mechanism_.lift_per_force()));
   return longest;
 }
 
 template <IsMechanism M, IsAirOf<M> A>
-double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
-  const double longest = longest_piece_of(look);
+double World<M, A>::pieces_of(double h, const Evaluation& evaluation) const noexcept {
+  const double longest = longest_piece_of(evaluation);
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 
@@ -352,13 +358,14 @@ template <IsMechanism M, IsAirOf<M> A>
 template <class Visit>
 void World<M, A>::step(double to, const Visit& visit) noexcept {
   if constexpr (CutsSteps<M>) {
-    go(state_.times.time, to, state_.now, state_.memory, state_.held, state_.first, visit);
+    integrate_parts(state_.times.time, to, state_.now, state_.memory, state_.held, state_.first,
+                    visit);
   } else {
     const double h = to - state_.times.time;
     Acceleration first;
     if (SkipsNodes<M> && is_whole(to)) {  // a preview uses the same friction
-      first = glance().acceleration;
-      state_.held = glance_.held;
+      first = update_step_preview().acceleration;
+      state_.held = step_preview_.held;
     } else {
       state_.held = mechanism_.hold(h, state_.held);
       first = mechanism_.accelerate(state_.first.acceleration, state_.held);
@@ -367,12 +374,13 @@ void World<M, A>::step(double to, const Visit& visit) noexcept {
     for (double k = 0; k < pieces; ++k) {
       const double from = state_.times.time + k * (h / pieces);
       if (k > 0) {
-        look_at(from, state_.now, state_.memory, state_.held, state_.first,
-                air_.always_ahead(state_.valves));
-        air_.remember(state_.first.air, state_.now.air, state_.memory);
+        evaluate(from, state_.now, state_.memory, state_.held, state_.first,
+                 air_.always_quick_muscles(state_.valves));
+        air_.update_memory(state_.first.air, state_.now.air, state_.memory);
         first = state_.first.acceleration;
       }
-      piece(from, h / pieces, state_.now, state_.memory, state_.first, first, state_.held);
+      integrate_piece(from, h / pieces, state_.now, state_.memory, state_.first, first,
+                      state_.held);
     }
   }
 }
@@ -404,34 +412,37 @@ void World<M, A>::commit(double next, const Visit& visit) noexcept {
 // Returns the friction of a whole body step from the last node. Previews use it, whatever their
 // length, so that it depends on the node alone.
 template <IsMechanism M, IsAirOf<M> A>
-auto World<M, A>::glance() noexcept -> const Glance& {
-  if (glanced_) return glance_;
-  glanced_ = true;
+auto World<M, A>::update_step_preview() noexcept -> const StepPreview& {
+  if (has_step_preview_) return step_preview_;
+  has_step_preview_ = true;
   if constexpr (!CutsSteps<M>) {
-    glance_.held = mechanism_.hold(whole_step(), state_.held);
-    glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
+    step_preview_.held = mechanism_.hold(whole_step(), state_.held);
+    step_preview_.acceleration =
+        mechanism_.accelerate(state_.first.acceleration, step_preview_.held);
   }
   if constexpr (RelaxesStages<M>) {
-    glance_.mean = glance_.acceleration;
-    mechanism_.relax(whole_step(), 0.5, state_.first.load, {}, glance_.mean);
+    step_preview_.mean = step_preview_.acceleration;
+    mechanism_.relax(whole_step(), 0.5, state_.first.load, {}, step_preview_.mean);
   }
-  return glance_;
+  return step_preview_;
 }
 
 // Extrapolates from the last node to t in a copy: the body by its acceleration, the air by Heun's
 // rule in as many pieces as a step would take. A mechanism that cuts its steps is integrated
 // instead, and an instant before the last node has the values prescribed at that time.
 template <IsMechanism M, IsAirOf<M> A>
-auto World<M, A>::peek(double t) noexcept -> Peek {
-  Peek p{.state = state_.now, .look = state_.first};
+auto World<M, A>::preview(double t) noexcept -> Preview {
+  Preview p{.state = state_.now, .evaluation = state_.first};
   if constexpr (CutsSteps<M>) {
     Memory memory = state_.memory;
-    glance_.held = state_.held;
-    if (!state_.failure) go(state_.times.time, t, p.state, memory, glance_.held, p.look, Unseen());
-    begin_part(t, p.state, memory, glance_.held, p.look);
-    glance_.acceleration = p.look.acceleration;
+    step_preview_.held = state_.held;
+    if (!state_.failure)
+      integrate_parts(state_.times.time, t, p.state, memory, step_preview_.held, p.evaluation,
+                      NoVisitor());
+    begin_part(t, p.state, memory, step_preview_.held, p.evaluation);
+    step_preview_.acceleration = p.evaluation.acceleration;
   } else {
-    (void)glance();
+    (void)update_step_preview();
     if (t > state_.times.time && !state_.failure) extrapolate(t, p);
   }
   return p;
@@ -439,22 +450,23 @@ auto World<M, A>::peek(double t) noexcept -> Peek {
 
 template <IsMechanism M, IsAirOf<M> A>
 template <WholeSteps>
-void World<M, A>::extrapolate(double t, Peek& p) noexcept {
+void World<M, A>::extrapolate(double t, Preview& p) noexcept {
   const double dt = t - state_.times.time;
   const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
   for (double k = 1; k <= pieces; ++k) {
     const double to = k < pieces ? state_.times.time + k * h : t;
-    p.state.motion = peek_motion(to);
+    p.state.motion = preview_motion(to);
     if (air_.flowing(state_.valves)) {
       const typename A::State from = p.state.air;
-      const typename A::Answer before = p.look.air;
-      typename A::Course course;
-      air_.plan(to - h, h, p.look.ends, from, state_.valves, state_.memory, course);
-      air_.move(p.state.air, from, h, before, state_.valves, course);
-      evaluate_air(to, p.state, state_.memory, p.look, course.muscles);
-      air_.correct(p.state.air, from, h, before, p.look.air, state_.valves, course);
+      const typename A::Evaluation before = p.evaluation.air;
+      typename A::QuickMasses quick_masses;
+      air_.plan(to - h, h, p.evaluation.ends, from, state_.valves, state_.memory, quick_masses);
+      air_.move(p.state.air, from, h, before, state_.valves, quick_masses);
+      evaluate_air(to, p.state, state_.memory, p.evaluation, quick_masses.muscles);
+      air_.correct(p.state.air, from, h, before, p.evaluation.air, state_.valves, quick_masses);
     }
-    evaluate_air(to, p.state, state_.memory, p.look, air_.always_ahead(state_.valves));
+    evaluate_air(to, p.state, state_.memory, p.evaluation,
+                 air_.always_quick_muscles(state_.valves));
   }
 }
 
@@ -474,7 +486,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
   if (edge.valve.index >= air_.valves() || t < state_.times.time) return signals::Status::invalid;
   // Later edges act at t or after, so these nodes are final.
-  for (double next; !state_.failure && (next = next_node()) < t;) commit(next, Unseen());
+  for (double next; !state_.failure && (next = next_node()) < t;) commit(next, NoVisitor());
   air_.command(edge, t, state_.first.air, state_.valves);
   return signals::Status::ok;
 }
@@ -501,32 +513,33 @@ auto World<M, A>::truth(double t) noexcept -> Truth {
 template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& held,
-                             Look& look) noexcept {
+                             Evaluation& evaluation) noexcept {
   mechanism_.begin(t, s.motion);
-  mechanism_.route(t, s.motion, look.ends, look.arms);
-  air_.place(look.ends, s.air);
+  mechanism_.route(t, s.motion, evaluation.ends, evaluation.arms);
+  air_.place(evaluation.ends, s.air);
   air_.use_whole_laws();
-  air_.evaluate(t, look.ends, s.air, state_.valves, memory, look.air);
-  air_.choose_sides(look.air, state_.valves);
+  air_.evaluate(t, evaluation.ends, s.air, state_.valves, memory, evaluation.air);
+  air_.choose_sides(evaluation.air, state_.valves);
   const typename M::Pose pose = mechanism_.pose(t, s.motion);
-  mechanism_.load(pose, s.motion, look.arms, look.air, look.load);
-  held = mechanism_.hold(s.motion, look.load, held);
-  look.acceleration = mechanism_.accelerate(pose, s.motion, look.load, held);
+  mechanism_.load(pose, s.motion, evaluation.arms, evaluation.air, evaluation.load);
+  held = mechanism_.hold(s.motion, evaluation.load, held);
+  evaluation.acceleration = mechanism_.accelerate(pose, s.motion, evaluation.load, held);
 }
 
 // Integrates from one instant to another. `first` is the evaluation at `from`, and finally that at
 // the beginning of the last piece.
 template <IsMechanism M, IsAirOf<M> A>
 template <class Visit>
-void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first,
-                     const Visit& visit) noexcept requires CutsSteps<M> {
+void World<M, A>::integrate_parts(double from, double to, Moving& s, Memory& memory, Forces& held,
+                                  Evaluation& first,
+                                  const Visit& visit) noexcept requires CutsSteps<M> {
   constexpr double shortest = 1e-7;  // shortest piece that is not cut [s]
   Moving others[2];
   Moving *now = &s, *after = &others[0], *spare = &others[1];
   for (double t = from; t < to;) {
     if (t > from) {
       begin_part(t, *now, memory, held, first);
-      air_.remember(first.air, now->air, memory);
+      air_.update_memory(first.air, now->air, memory);
     } else {
       mechanism_.begin(t, now->motion);
       air_.choose_sides(first.air, state_.valves);
@@ -537,7 +550,7 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
     double reached = pieces > 1 ? t + h : target;
     const auto integrate = [&](Moving& out, double within) {
       out = *now;
-      piece(t, within, out, memory, first, first.acceleration, held);
+      integrate_piece(t, within, out, memory, first, first.acceleration, held);
     };
     integrate(*after, h);
     const double broken = gap(reached, *now, *after, memory, held);
@@ -567,18 +580,18 @@ template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 double World<M, A>::gap(double t, const Moving& before, const Moving& after, const Memory& memory,
                         const Forces& held) const noexcept {
-  Look look;
-  const bool watches = air_.watches(state_.valves);
-  if (watches || mechanism_.watches(held)) look_at(t, after, memory, held, look);
-  const double of_body = mechanism_.gap(before.motion, after.motion, held, look.load);
-  return watches ? std::max(of_body, air_.gap(look.air, state_.valves)) : of_body;
+  Evaluation evaluation;
+  const bool needs_gap = air_.needs_gap(state_.valves);
+  if (needs_gap || mechanism_.needs_gap(held)) evaluate(t, after, memory, held, evaluation);
+  const double of_body = mechanism_.gap(before.motion, after.motion, held, evaluation.load);
+  return needs_gap ? std::max(of_body, air_.gap(evaluation.air, state_.valves)) : of_body;
 }
 
 template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
-double World<M, A>::longest_piece(const Moving& s, const Look& look) const noexcept {
-  return std::min(mechanism_.longest_piece(s.motion, look.load, look.air),
-                  air_.longest_piece(look.ends, look.air, s.air, state_.valves));
+double World<M, A>::longest_piece(const Moving& s, const Evaluation& evaluation) const noexcept {
+  return std::min(mechanism_.longest_piece(s.motion, evaluation.load, evaluation.air),
+                  air_.longest_piece(evaluation.ends, evaluation.air, s.air, state_.valves));
 }
 
 }  // namespace sinew::plant

@@ -18,20 +18,20 @@ struct SinewCardFacts {
   int outputs;        // number of its channels
 };
 
-// Functions return false if the card failed; `words` returns the reason.
+// Functions return false if the card failed; `error_text` returns the reason.
 struct SinewCard {
   void* (*open)(const char* device);  // nullptr: failed
   void (*close)(void* card);
   // Finds a converter with a range over 0 .. volts, and a subdevice with at least that many
   // outputs, or else the one with the most.
-  bool (*look)(void* card, double volts, int outputs, SinewCardFacts* out);
+  bool (*find_subdevices)(void* card, double volts, int outputs, SinewCardFacts* out);
   // Reserves the subdevice: other programs can no longer write to it.
   bool (*own)(void* card, int subdevice);
   bool (*make_output)(void* card, int subdevice, int channel);
   // These are called in the loop and allocate no memory.
   bool (*convert)(void* card, int subdevice, int channel, int range, std::uint32_t* count);
   bool (*write)(void* card, int subdevice, std::uint32_t mask, std::uint32_t bits);
-  const char* (*words)();
+  const char* (*error_text)();
 };
 
 const SinewCard* sinew_card_1();  // the number is the version of the struct

@@ -13,7 +13,7 @@ void* open_card(const char* device) { return comedi_open(device); }
 
 void close_card(void* card) { comedi_close(of(card)); }
 
-const char* words() { return comedi_strerror(comedi_errno()); }
+const char* error_text() { return comedi_strerror(comedi_errno()); }
 
 // Finds the narrowest range in volts that covers 0 .. volts; range -1 and the widest if none does.
 void choose_range(comedi_t* card, double volts, SinewCardFacts& out) {
@@ -47,7 +47,7 @@ void find_output(comedi_t* card, int wanted, SinewCardFacts& out) {
   }
 }
 
-bool look(void* card, double volts, int outputs, SinewCardFacts* out) {
+bool find_subdevices(void* card, double volts, int outputs, SinewCardFacts* out) {
   *out = {};
   out->range = out->output = -1;
   const char* name = comedi_get_board_name(of(card));
@@ -89,7 +89,8 @@ bool write(void* card, int subdevice, std::uint32_t mask, std::uint32_t bits) {
   return comedi_dio_bitfield2(of(card), static_cast<unsigned>(subdevice), mask, &value, 0) >= 0;
 }
 
-constexpr SinewCard functions{open_card, close_card, look, own, make_output, convert, write, words};
+constexpr SinewCard functions{open_card,   close_card, find_subdevices, own,
+                              make_output, convert,    write,           error_text};
 
 }  // namespace
 

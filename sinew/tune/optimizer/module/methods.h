@@ -7,8 +7,8 @@
 
 extern "C" {
 
-// MethodAsked in C, for the module.
-struct SinewMethodAsked {
+// MethodParameters in C, for the module.
+struct SinewMethodParameters {
   int nsga2;               // 1: NSGA-II; 0: CMA-ES
   std::size_t dimensions;  // coordinates of a point
   std::size_t costs;       // costs of a point; CMA-ES: 1
@@ -17,14 +17,14 @@ struct SinewMethodAsked {
   double step;  // CMA-ES: initial standard deviation, as a share of each range
 };
 
-// Functions return false if pagmo failed; words() then returns the error.
+// Functions return false if pagmo failed; error_text() then returns the error.
 struct SinewMethods {
-  void* (*make)(const SinewMethodAsked* asked);
+  void* (*make)(const SinewMethodParameters* parameters);
   bool (*begin)(void* method, const double* points, const double* costs);  // the first generation
   // Writes a generation; `count` is 0 if the method has converged.
   bool (*ask)(void* method, double* points, std::size_t* count);
   bool (*tell)(void* method, const double* costs);  // costs of the points that ask() wrote
-  const char* (*words)(void* method);
+  const char* (*error_text)(void* method);
   void (*end)(void* method);
 };
 

@@ -53,23 +53,23 @@ struct Costs {
 
 class Method {
  public:
-  explicit Method(const SinewMethodAsked& asked)
-      : asked_(asked), generation_(std::make_shared<Generation>()) {
-    const auto seed = static_cast<unsigned>(asked.seed ^ (asked.seed >> 32));
-    if (asked.nsga2 != 0)
-      algorithm_.emplace<pagmo::nsga2>(1U, 0.95, 10., 1. / static_cast<double>(asked.dimensions),
-                                       20., seed);
+  explicit Method(const SinewMethodParameters& parameters)
+      : parameters_(parameters), generation_(std::make_shared<Generation>()) {
+    const auto seed = static_cast<unsigned>(parameters.seed ^ (parameters.seed >> 32));
+    if (parameters.nsga2 != 0)
+      algorithm_.emplace<pagmo::nsga2>(1U, 0.95, 10.,
+                                       1. / static_cast<double>(parameters.dimensions), 20., seed);
     else
       // -1: Hansen's values. The tolerance of costs is off, since costs may be equal far from the
       // best point, and points beyond the ranges are not allowed.
-      algorithm_.emplace<pagmo::cmaes>(1U, -1., -1., -1., -1., asked.step, 0., 1e-6, true, true,
-                                       seed);
+      algorithm_.emplace<pagmo::cmaes>(1U, -1., -1., -1., -1., parameters.step, 0., 1e-6, true,
+                                       true, seed);
     population_ = pagmo::population(
-        pagmo::problem(Costs{generation_, asked.dimensions, asked.costs}), 0, seed);
+        pagmo::problem(Costs{generation_, parameters.dimensions, parameters.costs}), 0, seed);
   }
 
   void begin(const double* points, const double* costs) {
-    for (std::size_t i = 0; i < asked_.population; ++i)
+    for (std::size_t i = 0; i < parameters_.population; ++i)
       population_.push_back(point(points, i), cost(costs, i));
   }
 
@@ -88,17 +88,17 @@ class Method {
     std::visit([&](auto& algorithm) { population_ = algorithm.evolve(population_); }, algorithm_);
   }
 
-  std::string words;
+  std::string error_text;
 
  private:
   Point point(const double* all, std::size_t i) const {
-    return {all + i * asked_.dimensions, all + (i + 1) * asked_.dimensions};
+    return {all + i * parameters_.dimensions, all + (i + 1) * parameters_.dimensions};
   }
   Point cost(const double* all, std::size_t i) const {
-    return {all + i * asked_.costs, all + (i + 1) * asked_.costs};
+    return {all + i * parameters_.costs, all + (i + 1) * parameters_.costs};
   }
 
-  SinewMethodAsked asked_;
+  SinewMethodParameters parameters_;
   std::shared_ptr<Generation> generation_;
   std::variant<pagmo::cmaes, pagmo::nsga2> algorithm_;
   pagmo::population population_;
@@ -112,13 +112,13 @@ bool guarded(void* method, const Work& work) {
     work(own);
     return true;
   } catch (const std::exception& e) {
-    own.words = e.what();
+    own.error_text = e.what();
     return false;
   }
 }
 
-void* make(const SinewMethodAsked* asked) try {
-  return new Method(*asked);
+void* make(const SinewMethodParameters* parameters) try {
+  return new Method(*parameters);
 } catch (const std::exception&) {
   return nullptr;
 }
@@ -135,11 +135,11 @@ bool tell(void* method, const double* costs) {
   return guarded(method, [&](Method& m) { m.tell(costs); });
 }
 
-const char* words(void* method) { return static_cast<Method*>(method)->words.c_str(); }
+const char* error_text(void* method) { return static_cast<Method*>(method)->error_text.c_str(); }
 
 void end(void* method) { delete static_cast<Method*>(method); }
 
-constexpr SinewMethods methods{make, begin, ask, tell, words, end};
+constexpr SinewMethods methods{make, begin, ask, tell, error_text, end};
 
 }  // namespace
 

@@ -43,10 +43,10 @@ inline void enable(std::uint32_t interrupt, std::uint8_t priority) {
 }
 inline void request(std::uint32_t) {}
 
-inline void keep_ticks_away() {}
-inline void let_ticks_come() {}
-inline void keep_all_away() {}
-inline void let_all_come() {}
+inline void block_ticks() {}
+inline void allow_ticks() {}
+inline void block_interrupts() {}
+inline void allow_interrupts() {}
 inline void wait_for_writes() {}
 inline void wait_for_interrupt() {}
 inline void start_fpu() {}
