@@ -73,7 +73,7 @@ BENCHMARK_CAPTURE(against_the_plain_walk, ankle, "walk-with-ankle.toml");
 BENCHMARK_CAPTURE(against_the_plain_walk, moving_cylinder, "cylinder-staircase.toml");
 BENCHMARK_CAPTURE(against_the_plain_walk, two_legs, "walk-two-legs.toml");
 
-// The same without recording.
+// Measures the same walk without recording.
 void unwatched_walk(benchmark::State& state) {
   const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;

@@ -21,7 +21,7 @@ void count_allocation(std::size_t size) {
 
 using sinew::test::count_allocation;
 
-// Not inlined: GCC would see malloc and delete meet, and warn.
+// Not inlined: otherwise GCC sees malloc together with delete and warns.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   count_allocation(size);
   if (void* p = std::malloc(size ? size : 1)) return p;

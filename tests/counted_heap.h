@@ -1,4 +1,4 @@
-// tests/counted_heap.h - counts what one thread takes from the heap. A program that uses it has its
+// tests/counted_heap.h - counts the heap allocations of one thread. A program that uses it has its
 // own operator new (counted_heap.cpp).
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace sinew::test {
 
-extern thread_local bool counting;      // set it around what must take nothing
-extern thread_local int allocations;    // taken while counting
+extern thread_local bool counting;      // set around code that must not allocate
+extern thread_local int allocations;    // made while counting
 extern thread_local std::size_t bytes;  // their size
 
 }  // namespace sinew::test

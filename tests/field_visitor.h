@@ -1,7 +1,7 @@
 // tests/field_visitor.h - the smallest visitor of units/field.h, for tests of field tables.
 //
-// It knows the values as SI under "group.key", fills in what it has, and remembers what it was
-// asked. Folders test their tables with it without config/, which they may not include.
+// It holds the values as SI under "group.key", sets the fields from them, and records which fields
+// were read. Folders test their tables with it without config/, which they may not include.
 #pragma once
 
 #include <initializer_list>
@@ -20,7 +20,7 @@ struct FieldVisitor {
   std::map<std::string, std::vector<double>> numbers_given;
   std::map<std::string, std::string> words_given;
 
-  // What the table asked for, in its order, and what it complained about.
+  // The fields that the table read, in its order, and the errors that it reported.
   struct Asked {
     std::string key, unit, doc;
     bool optional = false;

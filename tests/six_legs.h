@@ -1,6 +1,6 @@
 // tests/six_legs.h - the largest machine: six legs of four joints on one trolley, 24 joints, 48
-// muscles and 96 valves on three boards, each with the same channels, ticks and bits. Nobody built
-// it: hip and knee are the thesis's, ankle and toe are as the knee, weaker and lighter.
+// muscles and 96 valves on three boards, each with the same channels, ticks and bits. It has never
+// been built: hip and knee are the thesis's, ankle and toe are like the knee, weaker and lighter.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ inline constexpr const char* six_legs_names[] = {"a", "b", "c", "d", "e", "f"};
 struct SixLegsJoint {
   const char *name, *link;
   double rest_deg, arm_in, length_in, mass_lb, friction_lbf_in, damping, gain;
-  int count;  // actuators of a muscle
+  int count;  // number of actuators in a muscle
   bool raises;
 };
 inline constexpr SixLegsJoint six_legs_joints[] = {

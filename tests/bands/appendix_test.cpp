@@ -1,4 +1,4 @@
-// The programs that appendix B.1 keeps as comments: what their experiments must show.
+// The programs that appendix B.1 has as comments: required results of their experiments.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,9 +49,9 @@ std::vector<double> errors_on_the_stairs(const Sets& sets) {
   return errors;
 }
 
-// 0.12 %/count, cut to whole percents: nothing below 8.3 counts. Dry friction does not widen it,
-// since the air integrates. What does are the valves: a pulse that is shorter than the opening
-// delay lets no air through, so the first percents are lost too.
+// 0.12 %/count, truncated to whole percents: zero below 8.3 counts. Dry friction does not widen it,
+// since the air integrates. The valves do: a pulse that is shorter than the opening delay lets no
+// air through, so the first percents are lost too.
 TEST(Appendix, TheKneesDeadBandIsTheTruncationAndMoreOfItTheValves) {
   constexpr double truncation = 1 / 0.12;
   const Sets no_friction = {"joint.knee.dry_friction=0 lbf in"};
@@ -98,7 +98,7 @@ Sets cylinder(const std::string& gain, const std::string& damping) {
           "cylinder.damping=" + damping + " lbf s/in"};
 }
 
-// The body held at 0.7 in, from where it starts.
+// The body controlled to 0.7 in, from its initial position.
 Hold hold(const Sets& sets) {
   const Sets still = {"sequence.phases=[\"up\"]", "phase.up.duration=1.5 s",
                       "control.brain_period=10 ms", "start.lift=0.7 in",
@@ -117,8 +117,8 @@ Hold hold(const Sets& sets) {
   return {sum / 50, *high - *low, up.back() + down.back()};
 }
 
-// The pressure that a standing flow keeps in a chamber: what comes in through an inlet that is open
-// for a share of the time leaves through the exhaust.
+// The pressure in a chamber with a steady flow: the air that enters through an inlet, open for a
+// share of the time, leaves through the exhaust.
 double standing_pressure(const experiment::Experiment& e, double in, double out) {
   const auto open = [&](const std::string& name, double duty) {
     const gas::Valve& v = *std::ranges::find(e.valves, name, &gas::Valve::name);
@@ -137,7 +137,7 @@ double standing_pressure(const experiment::Experiment& e, double in, double out)
   return low;
 }
 
-// The law's output at which standing flows carry the body: between the whole percents  [-].
+// The law's output at which steady flows carry the body: between the whole percents  [-].
 double output_that_carries(const experiment::Experiment& e) {
   const robot::Cylinder& c = e.robot.cylinder;
   double mass = c.body_mass + e.robot.foot.mass;
@@ -156,8 +156,8 @@ double output_that_carries(const experiment::Experiment& e) {
   return low;
 }
 
-// With a standing flow in both chambers the duty sets a pressure, as a 3-way valve's does: a
-// proportional law then holds a weight with an error, which the balance of flows foretells.
+// With a steady flow in both chambers the duty sets a pressure, as a 3-way valve's does: a
+// proportional law then holds a weight with an error, which the balance of flows predicts.
 TEST(Appendix, AStandingFlowCarriesTheBodyWithTheErrorThatItsBalanceForetells) {
   const auto e = experiment::load(test::file_of("cylinder-staircase"));
   const double carries = output_that_carries(e), counts_per_inch = 1437;
@@ -169,8 +169,8 @@ TEST(Appendix, AStandingFlowCarriesTheBodyWithTheErrorThatItsBalanceForetells) {
   }
 }
 
-// Valves that add air make an integrator of the air and two of the mass: only friction, or a
-// standing flow that leaks, damps it.
+// Valves that add air make an integrator of the air and two of the mass: only friction, or a steady
+// flow that leaks, damps it.
 TEST(Appendix, OnlyDampingOrAStandingFlowKeepTheCylinderFromSwinging) {
   const double stroke = 2 * inch;
   EXPECT_GT(hold({}).swing, stroke) << "B.1's gain, 4.2's minimal friction: from stop to stop";
@@ -183,7 +183,7 @@ TEST(Appendix, OnlyDampingOrAStandingFlowKeepTheCylinderFromSwinging) {
   EXPECT_LT(hold(cylinder("0.05", "3") + no_feedforward).swing, 0.01 * inch);
 }
 
-// Nearly all of the air that it uses goes straight through.
+// Nearly all of the air that it uses passes straight through.
 TEST(Appendix, TheStandingFlowTakesMoreAirThanTheWalk) {
   const analysis::Summary with = summary_of("cylinder-following"),
                           without = summary_of("cylinder-following", no_feedforward);
@@ -197,7 +197,7 @@ TEST(Appendix, TheStandingFlowTakesMoreAirThanTheWalk) {
 
 // --- pulses -------------------------------------------------------------------------------------
 
-// 5.2: smoother with a higher rate, were it not for the time that valves take.
+// 5.2: a higher rate would be smoother, except for the switching time of the valves.
 TEST(Appendix, ValveDelaysLimitTheRateOfPulses) {
   const char *distance = "trolley.distance_m", *switchings = "valves.switchings_per_step";
   const analysis::Summary at_100 = summary_of("walk-test-1"), at_151 = summary_of("pwm-151"),

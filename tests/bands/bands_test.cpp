@@ -70,9 +70,9 @@ TEST(Bands, Test2IsFasterPlannedAndWorse) {
 const std::string lightly_damped =
     "robot=" + sinew::test::source_dir() + "/robots/leg-lightly-damped/robot.toml";
 
-// 6.3: about 9 in/s without the foam. What drag the umbilicals leave, up to the printed 0.8 lb of
-// both, is not published. The calibrated leg comes near only with none at all; the lightly damped
-// one is there with a quarter to three quarters of it.
+// 6.3: about 9 in/s without the foam. The drag of the umbilicals that remains, up to the printed
+// 0.8 lb of both, is not published. The calibrated leg comes near only without any; the lightly
+// damped one is there with a quarter to three quarters of it.
 TEST(Bands, WithoutTheRollersFoamTheLightlyDampedLegIsAsFastAsReported) {
   const auto speed = [](const test::Sets& sets) {
     return *summary_of("no-drag", sets).find("trolley.mean_speed_m_per_s") / inch;
@@ -88,7 +88,7 @@ TEST(Bands, WithoutTheRollersFoamTheLightlyDampedLegIsAsFastAsReported) {
   }
 }
 
-// 6.4: in about 90 ms to the extended position. Damping of the joints decides.
+// 6.4: in about 90 ms to the extended position. It depends on the damping of the joints.
 TEST(Bands, TheKickTakesAsLongAsTheJointsAreDamped) {
   const auto time = [](const test::Sets& sets) {
     return *summary_of("kick", sets).find("foot.extension_time_s");
@@ -113,7 +113,7 @@ TEST(Bands, TheActuatorsLimitTheJoints) {
   expect("phases.extended.joints.knee.end_angle_true_rad", 343);
   expect("phases.flexed.joints.knee.end_angle_true_rad", 289);
 
-  // Vented, a joint rests where dry friction lets it: the table's angle lies between the two.
+  // Vented, a joint rests anywhere within its dry friction: the table's angle lies between the two.
   const auto between = [&](const char* joint, double degrees) {
     const auto end = [&](const char* side) {
       return *s.find(std::string("phases.relaxed_from_") + side + ".joints." + joint +
@@ -176,8 +176,8 @@ TEST(Bands, TheLightlyDampedLegNeedsItsStiffnessControl) {
   EXPECT_GE(lifted, seeds / 2);
 }
 
-// 6.3: a roller that sticks until 3 lbf push tells a table half an inch above the path from one
-// on it.
+// 6.3: a roller that sticks up to a push of 3 lbf distinguishes a table half an inch above the path
+// from one on it.
 TEST(Bands, AStickingRollerNeedsTheGap) {
   for (int seed = 1; seed <= 5; ++seed) {
     const std::string noise = "seed=" + std::to_string(seed);
@@ -216,8 +216,8 @@ TEST(Bands, DerivativeControlShakesALightlyDampedHipInEverySwing) {
   }
 }
 
-// The leg walks as far as its foot, which lags in the air, still reaches below the table; the
-// normal force as feedback finds the table an inch lower.
+// The leg walks as far as its foot, which lags in the air, still reaches below the table; with the
+// normal force as feedback it finds the table an inch lower.
 TEST(Bands, TheLowerTheTableTheShorterTheWalkUnlessTheFootFeelsIt) {
   const auto distance = [](const char* name, const std::string& height) {
     return *summary_of(name, {"ground.height=" + height, "trolley.breakaway=0 lbf"})

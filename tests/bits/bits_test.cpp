@@ -1,9 +1,9 @@
-// The same bits as on the first day: every reading, every valve edge and the whole true motion of
-// the experiments that "First light" shipped. What changes them on purpose (a law, a calibration)
-// changes golden.txt in the same commit; what adds a part to the machine must not.
+// Bit-for-bit regression: every reading, every valve edge and the whole true motion of the
+// experiments that "First light" shipped. A deliberate change of them (a law, a calibration)
+// changes golden.txt in the same commit; an added part of the machine must not change them.
 //
-// golden.txt: experiment, FNV-1a of times and values. The test prints what it found where it
-// differs.
+// golden.txt: experiment, FNV-1a of times and values. The test prints the values it computed where
+// they differ.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -32,7 +32,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ull;
 };
 
-// The topics that a run of the first day had, by prefix and last part of their names.
+// The topics that a run had then, by prefix and last part of their names.
 bool of_first_light(const std::string& topic) {
   const auto ends = [&](std::initializer_list<const char*> tails) {
     for (const char* tail : tails)
@@ -62,7 +62,7 @@ std::uint64_t hash_of(const signals::Table& table) {
   return hash.value();
 }
 
-// Puts back what an experiment has changed since.
+// Undoes later changes of an experiment.
 std::vector<std::string> of_the_first_day(const std::string& experiment) {
   if (experiment == "no-drag") return {"trolley.drag=0 lbf"};
   return {};

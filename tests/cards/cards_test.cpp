@@ -1,5 +1,5 @@
-// An experiment before a machine at a card, by the program itself and the real libcomedi, of which
-// stand_in.cpp answers the calls.
+// An experiment on a machine with an I/O card, by the program itself and the real libcomedi, whose
+// calls are answered by stand_in.cpp.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -21,10 +21,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// The leg at rest, as its sensors say it (B.1's offsets).
+// The leg at rest, as its sensors read (B.1's offsets).
 const std::string at_rest = "24:404,25:1895,26:1175,27:0,28:0,29:0,30:0";
 
-using Card = std::map<std::string, std::string>;  // how the card is, by the stand-in's words
+using Card = std::map<std::string, std::string>;  // the stand-in's variables
 
 struct Write {
   std::int64_t time = 0;  // [ns]
@@ -36,7 +36,7 @@ class Cards : public ::testing::Test {
   Result run(Card card, Words more = {}, const std::string& device = "/dev/comedi0",
              const std::string& experiment = "kick") {
     card.insert({{"CARD_COUNTS", at_rest}, {"CARD_LOG", (w_ / "writes").string()}});
-    // A sanitizer's library would be the first; it is not in that of a test's card.
+    // A sanitizer's library would be loaded first; the list does not include it.
     card.insert({{"LD_PRELOAD", test::build_dir() + "/tests/sinew_cards_stand_in.so"},
                  {"ASAN_OPTIONS", "verify_asan_link_order=0"}});
     for (const auto& [name, value] : card) setenv(name.c_str(), value.c_str(), 1);
@@ -70,7 +70,7 @@ class Cards : public ::testing::Test {
     return out;
   }
 
-  // Whatever came before: no coil has current.
+  // At the start no coil has current.
   void expect_rest() const {
     const std::vector<Write> all = writes();
     ASSERT_FALSE(all.empty());
@@ -89,7 +89,7 @@ TEST_F(Cards, WhatTheLogSaysOfTheValvesIsWhatTheCardGot) {
       robot::port_bytes(log, bits(), robot::Wiring::Polarity::low_opens);
   ASSERT_GT(said.size(), 20u);
 
-  // The last write of an instant stands; time counts from the run's first tick.
+  // The last write of an instant counts; time is from the run's first tick.
   std::vector<Write> got;
   const unsigned mask = mask_of("");
   for (const Write& w : writes()) {
@@ -97,7 +97,7 @@ TEST_F(Cards, WhatTheLogSaysOfTheValvesIsWhatTheCardGot) {
     if (!got.empty() && got.back().time == w.time) got.pop_back();
     if (got.empty() || got.back().bits != w.bits) got.push_back(w);
   }
-  // The exhausts open at tick 0; before, when the card was opened, all was shut.
+  // The exhausts open at tick 0; before, when the card was opened, all valves were closed.
   ASSERT_EQ(got.size(), said.size() + 1);
   EXPECT_EQ(got[0].bits, mask);
   for (std::size_t i = 0; i < said.size(); ++i) {
@@ -140,7 +140,7 @@ TEST_F(Cards, AFinerConverterOfAnotherRangeIsScaledAndItsEndsAreTheRobots) {
   EXPECT_EQ(last("hip_extensor_tension"), 0);
 }
 
-// The stand-in sees who takes memory between two ticks.
+// The stand-in detects allocations between two ticks.
 TEST_F(Cards, NoMemoryIsTakenInTheLoop) {
   ASSERT_EQ(run({{"CARD_HEAP", (w_ / "heap").string()}}).code, 0);
   EXPECT_FALSE(std::filesystem::exists(w_ / "heap"));
@@ -169,8 +169,8 @@ TEST_F(Cards, TenMillisecondsLateVentsTheMachine) {
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("this computer came 10 ms late or more"));
   expect_rest();
-  // The muscles' exhausts had current, and nothing else, for the robot's vent_time, 1 s: then came
-  // the rest, and again when the card was closed.
+  // The exhausts of the muscles had current, and nothing else, for the robot's vent_time, 1 s: then
+  // the rest state, and again when the card was closed.
   const std::vector<Write> all = writes();
   ASSERT_GT(all.size(), 3u);
   const Write &vent = all[all.size() - 3], &rest = all[all.size() - 2];
@@ -205,7 +205,7 @@ TEST_F(Cards, OutputsThatFailEndTheRunAndAreTriedToTheEnd) {
   EXPECT_EQ(writes().size(), 39u);
 }
 
-// What was refused half way leaves the card as it was found: shut.
+// A run that is refused half way leaves the card as it was found: all valves closed.
 TEST_F(Cards, AnOutputThatCannotBeOneNamesItsValve) {
   const Result result = run({{"CARD_STUCK", "8"}});
   EXPECT_EQ(result.code, 1);

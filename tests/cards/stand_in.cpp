@@ -1,13 +1,13 @@
-// A card that is none, and a clock that waits for nobody: preloaded, it answers in libcomedi's and
-// the C library's place. Time passes where the program sleeps, and nowhere else, so that a busy
-// computer is never late, and one that shall be is late by as much as the test says.
+// A substitute for a card and for the clock: preloaded, it answers in libcomedi's and the C
+// library's place. Time passes only while the program sleeps, so that a busy computer is never
+// late, and delays are exactly those that the test sets.
 //
-// What the card is and does is said by the environment:
+// The environment describes the card and its behaviour:
 //
-//   CARD_INPUTS, CARD_OUTPUTS, CARD_TOP, CARD_LOW, CARD_HIGH   how it is made
+//   CARD_INPUTS, CARD_OUTPUTS, CARD_TOP, CARD_LOW, CARD_HIGH   its properties
 //   CARD_BUSY        1: another program has its outputs
 //   CARD_STUCK       this line cannot be made an output
-//   CARD_COUNTS      "25:1895,26:1175": what a channel says; else the middle
+//   CARD_COUNTS      "25:1895,26:1175": the counts of a channel; else the middle
 //   CARD_READ_ERROR  from this conversion on they fail with EIO
 //   CARD_SLOW        so many conversions from the 100th take 250 us
 //   CARD_WRITE_ERROR this write fails with EIO, and all that follow
@@ -33,7 +33,7 @@ std::atomic<std::int64_t> now{1'000'000'000};  // [ns]
 std::atomic<long> sleeps{0}, conversions{0}, writes{0};
 thread_local int error = 0;
 thread_local long slept = 0;    // by this thread
-thread_local bool own = false;  // what the stand-in itself takes is not the program's
+thread_local bool own = false;  // allocations of the stand-in are not the program's
 comedi_range range{};
 int the_card = 0;
 
@@ -73,7 +73,7 @@ void keep(unsigned mask, unsigned bits) {
   own = false;
 }
 
-// The loop is on its way: the measurement's sleeps and a few of the run's are over.
+// The loop is running: the sleeps of the measurement and a few of the run's are over.
 bool looping() { return slept > 10'100 && slept < 12'000 && !own; }
 
 void tell_of_heap() {
@@ -134,7 +134,7 @@ const char* comedi_strerror(int code) { return std::strerror(code); }
 const char* comedi_get_board_name(comedi_t*) { return "stand-in"; }
 int comedi_get_n_subdevices(comedi_t*) { return 3; }
 
-// The second is a counter, of which nobody asks anything.
+// The second channel is a counter, which is not used.
 int comedi_get_subdevice_type(comedi_t*, unsigned subdevice) {
   if (subdevice == 0) return number("CARD_INPUTS", 32) > 0 ? COMEDI_SUBD_AI : COMEDI_SUBD_UNUSED;
   if (subdevice == 1) return COMEDI_SUBD_COUNTER;

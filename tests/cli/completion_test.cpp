@@ -1,4 +1,4 @@
-// `sinew completion fish`, by fish itself where it is installed. The other shells: completion.txt.
+// `sinew completion fish`, run by fish where it is installed. The other shells: completion.txt.
 #include <gmock/gmock.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// `film`: of a machine, of the stand and of several runs, where there is a browser. What is refused
-// before one starts: film.txt.
+// `film`: of a machine, of the stand and of several runs, where there is a browser. Errors before
+// a browser is started: film.txt.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -25,7 +25,7 @@ void run(const Workspace& w, const std::string& experiment, const std::string& f
   ASSERT_EQ(w.sinew({"run", experiment, "-o", folder, "--no-report"}).code, 0);
 }
 
-// Holds what is in a GIF, read by its blocks.
+// Content of a GIF, read block by block.
 struct Gif {
   int width = 0, height = 0, unlike = 0;
   std::vector<int> delays;  // of each frame [ms]
@@ -101,7 +101,7 @@ TEST(Film, OfTheStandIsAVideo) {
   EXPECT_THAT(read_text(w / "asked"), StartsWith("320,10"));
 }
 
-// A recording of angles alone, of a bench that swings otherwise, over the simulation.
+// A recording of angles alone, of a bench with a different motion, over the simulation.
 void run_both(const Workspace& w) {
   run(w, bench, "simulated");
   ASSERT_EQ(w.sinew({"run", bench, "-o", "measured", "--no-report", "--set",
@@ -130,7 +130,7 @@ TEST(Film, OfAComparisonShowsTheGhostAndWhoIsWho) {
   EXPECT_EQ(gif.delays.size(), 8u);
   EXPECT_GE(gif.unlike, 6) << "it moves";
 
-  // Another film than one of the first run beside itself, whose ghost is hidden behind nothing.
+  // Differs from a film of the first run over itself, whose ghost is hidden.
   ASSERT_EQ(film({"simulated", "measured"}, "start.gif").code, 0);
   ASSERT_EQ(film({"simulated", "simulated/log.mcap"}, "same.gif").code, 0);
   ASSERT_EQ(film({"simulated"}, "alone.gif").code, 0);

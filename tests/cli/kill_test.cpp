@@ -1,4 +1,4 @@
-// A run that is killed leaves a log that goes up to the kill.
+// A run that is killed leaves a log up to the time of the kill.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -24,15 +24,14 @@ double last_sample(const std::filesystem::path& file) {
     for (const signals::Series& s : log::read(file).series)
       if (!s.time_ns.empty()) last = std::max(last, s.time_ns.back());
   } catch (const log::Error&) {
-    return -1;  // not even the beginning
+    return -1;  // no start of a log yet
   }
   return 1e-9 * static_cast<double>(last);
 }
 
-// Slowed to real time, wall time minus simulated time is where the run started, plus how far the
-// log is behind. The smallest of many looks is the start, but for the least delay there is (there
-// is a sample every 10 ms and a write at most 10 ms later); what is missing beyond that after
-// SIGKILL was lost.
+// Slowed to real time, wall time minus simulated time is the start of the run plus the delay of the
+// log. The smallest of many readings is the start, except for the least possible delay (there is a
+// sample every 10 ms and a write at most 10 ms later); a larger delay after SIGKILL is a loss.
 double lost_in_a_kill(const Workspace& w) {
   const pid_t run = w.start({"run", "experiments/walk-test-1.toml", "-o", "run", "--pace", "1"});
   const std::filesystem::path file = w / "run/log.mcap";
@@ -55,8 +54,7 @@ double lost_in_a_kill(const Workspace& w) {
   return killed - start - last_sample(file);
 }
 
-// 20 ms of wall time. A machine with other things to do may wake a thread late, so the best of five
-// kills counts.
+// 20 ms of wall time. A busy machine may wake a thread late, so the best of five kills counts.
 TEST(Killed, LosesNoMoreThanTheLastMoment) {
   constexpr double promised = 0.020;
   double best = 1e300;
@@ -65,7 +63,7 @@ TEST(Killed, LosesNoMoreThanTheLastMoment) {
     best = std::min(best, lost_in_a_kill(w));
     EXPECT_THAT(names_in(w / "run"), ::testing::ElementsAre("log.mcap", "resolved.toml"));
 
-    // And what is left can be worked with.
+    // The rest can be read and analysed.
     EXPECT_EQ(w.sinew({"analyze", "run"}).code, 0);
     EXPECT_EQ(w.sinew({"replay", "run"}).code, 0);
     EXPECT_EQ(w.sinew({"export", "run", "--csv", "-o", "run.csv"}).code, 0);

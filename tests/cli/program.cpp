@@ -32,7 +32,7 @@ fs::path fresh_folder() {
     const int file = open((streams / name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     return file >= 0 && dup2(file, stream) >= 0;
   };
-  // The settings of who runs the tests are none of theirs.
+  // The tests do not use the settings of the user who runs them.
   setenv("XDG_CONFIG_HOME", (folder / "config").c_str(), 1);
   const bool ready = chdir(folder.c_str()) == 0 && to("out", STDOUT_FILENO) && to("err", 2);
   if (ready) execv(sinew::test::program().c_str(), arguments.data());

@@ -29,9 +29,9 @@ class Workspace {
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
   Result sinew(const Words& words) const;
-  pid_t start(const Words& words) const;  // and goes on
+  pid_t start(const Words& words) const;  // does not wait
 
-  // Replaces the only place where a file says `from`, and returns the line it stands in.
+  // Replaces the only occurrence of `from` in a file, and returns its line.
   int edit(const std::string& file, const std::string& from, const std::string& to) const;
 
  private:

@@ -1,4 +1,4 @@
-// Messages about the library's settings are told as the options that they come from.
+// Messages about the library's settings name the options that set them.
 #include "cli/settings.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Settings, AreToldAsOptions) {
             "run/1: --align sequence: found a run without phases");
 }
 
-// Those that have a range or words. A file of text may have a key of another's name, "actuator".
+// Those that have a range or choices. A text file may have a key of another's name, "actuator".
 struct IsOption : identify::RowVisitor<IsOption> {
   void row(const identify::Setting& row, const std::string&) const { expect(row); }
   void row(const identify::Setting& row, int) const { expect(row); }
@@ -78,7 +78,7 @@ TEST(Settings, WhatAUserWroteStays) {
       << "a quote ends with its line";
 }
 
-// Every option that a message of the library tells of is one of the program's.
+// Every option that a message of the library names is one of the program's.
 TEST(Settings, TheOptionsExist) {
   const Workspace w;
   const auto help = [&](Words words) {
@@ -89,7 +89,7 @@ TEST(Settings, TheOptionsExist) {
     Words command;
     std::string settings;
   };
-  // Of problems that begin a line each.
+  // Of errors that begin a line each.
   const auto subjects = [](std::initializer_list<const char*> names) {
     std::string out;
     for (const char* name : names)

@@ -1,4 +1,4 @@
-// A study in a file, `sweep --results`, that is killed, and over MPI. All else: study.txt.
+// A study in a file, `sweep --results`, that is killed, and with MPI. All else: study.txt.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -25,7 +25,7 @@ class Study : public ::testing::Test {
   Workspace w;
 };
 
-// Killed at any moment it leaves what is done; the next one runs the others alone.
+// Killed at any moment it keeps the completed runs; the next one only runs the others.
 TEST_F(Study, GoesOnWhereItWasKilled) {
   const Words many = {"sweep",  "experiments/one-joint.toml", "--seeds", "300", "--results", "s.db",
                       "--quiet"};
@@ -45,7 +45,7 @@ TEST_F(Study, GoesOnWhereItWasKilled) {
 
 class StudyOverMpi : public Study {
  protected:
-  // A line of a shell; its words on stderr.
+  // A line for a shell; its output to stderr.
   int shell(const std::string& line) {
     const std::string all = "cd " + w.path().string() +
                             " && export OMPI_ALLOW_RUN_AS_ROOT=1 "

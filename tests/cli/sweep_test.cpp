@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const std::string bench = "experiments/one-joint.toml";
 
-// Beside the table that it would have become, which stands as it was.
+// In a file next to the table that it would replace, which remains as it was.
 TEST(Sweep, InterruptedKeepsWhatIsDone) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Workspace w;

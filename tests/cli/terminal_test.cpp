@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Returns what `sinew WORDS` writes to a terminal of so many columns.
+// Returns the output of `sinew WORDS` on a terminal of so many columns.
 std::string on_terminal(const Workspace& w, const Words& words, unsigned short columns,
                         const char* no_color, const char* term = "xterm") {
   winsize size{.ws_row = 50, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
@@ -55,14 +55,14 @@ TEST(Terminal, VerdictsAreColored) {
   EXPECT_THAT(w.sinew(stand).out, Not(HasSubstr("\033")));
 }
 
-// Every word that a file gets stands on the terminal too, in lines that fit.
+// Every word that is written to a file is also shown on the terminal, in lines that fit.
 TEST(Terminal, TablesKeepWithinTheWindow) {
   const Workspace w;
   const auto words = [](const std::string& text) {
     std::istringstream in(text);
     std::multiset<std::string> out;
     for (std::string word; in >> word;) {
-      if (word.ends_with(';')) word.pop_back();  // of a class that stands before its source
+      if (word.ends_with(';')) word.pop_back();  // of a class that is printed before its source
       out.insert(word);
     }
     return out;

@@ -1,5 +1,5 @@
-// `sinew view` among other users of the machine: without the token of its address nobody is told or
-// steers anything, and who connects and says nothing, or half of something, blocks nobody.
+// `sinew view` on a machine with other users: without the token of its address nobody can read or
+// steer anything, and a client that sends nothing, or half of a request, blocks no other.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -117,8 +117,8 @@ TEST_F(View, EachHasATokenOfItsOwn) {
   EXPECT_NE(path_, first);
 }
 
-// The words of a command can be read by everybody: the browser gets a file that its user alone
-// reads.
+// The arguments of a command can be read by all users: the browser gets a file that only its user
+// can read.
 TEST_F(View, TheTokenIsNoWordOfACommand) {
   ASSERT_EQ(end(), 0);
   namespace fs = std::filesystem;
@@ -147,7 +147,7 @@ TEST_F(View, TheTokenIsNoWordOfACommand) {
   EXPECT_TRUE(names_in(workspace_ / "own").empty());
 }
 
-// Four times as many connections as there may be, of those who say nothing or half of something.
+// Four times as many connections as are allowed, with clients that send nothing or half a request.
 TEST_F(View, HalfOpenConnectionsBlockNobody) {
   Wire watcher(port_);
   watcher.send(upgrade(path_ + "live"));
@@ -161,7 +161,7 @@ TEST_F(View, HalfOpenConnectionsBlockNobody) {
   for (int i = 0; i < 10; ++i)
     EXPECT_THAT(answer(request(path_)), StartsWith("HTTP/1.1 200")) << "while they wait, " << i;
 
-  // And while they keep coming.
+  // And while new ones arrive.
   std::atomic<bool> over{false};
   std::thread crowd([&] {
     while (!over) {
@@ -175,14 +175,14 @@ TEST_F(View, HalfOpenConnectionsBlockNobody) {
   over = true;
   crowd.join();
 
-  // Who watched before still does.
+  // A client that was connected before still receives data.
   watcher.send(masked("{}"));
   EXPECT_THAT(watcher.hear("\"error\"", seconds(5)), HasSubstr("what is to be done"));
   EXPECT_EQ(end(), 0);
   EXPECT_TRUE(std::filesystem::exists(workspace_ / "run/summary.json"));
 }
 
-// One that says a byte every now and then is no better than one that says nothing.
+// A client that sends a byte every now and then is closed like one that sends nothing.
 TEST_F(View, WhoSaysHalfOfItIsLeftAfterAWhile) {
   Wire silent(port_), half(port_), slow(port_);
   half.send("GET / HTTP/1.1\r\n");

@@ -1,5 +1,4 @@
-// tests/cli/wire.h - somebody at the other end of `sinew view`: sockets, HTTP and WebSockets by
-// hand.
+// tests/cli/wire.h - a client of `sinew view`: sockets, HTTP and WebSockets written by hand.
 #pragma once
 
 #include <arpa/inet.h>
@@ -33,7 +32,7 @@ inline std::string masked(const std::string& text) {
   return std::string{'\x81', static_cast<char>(0x80 | text.size()), 0, 0, 0, 0} + text;
 }
 
-// A connection as anybody can open one.
+// A connection without any authentication.
 class Wire {
  public:
   explicit Wire(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -51,7 +50,7 @@ class Wire {
     if (open_) open_ = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) >= 0;
   }
 
-  // Returns what comes until the words are among it, the other side closes, or the time is over.
+  // Returns what arrives until it contains the text, the other side closes, or the time is over.
   std::string hear(const std::string& words, std::chrono::seconds at_most) {
     const auto until = std::chrono::steady_clock::now() + at_most;
     std::string all;

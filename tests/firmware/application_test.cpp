@@ -31,8 +31,8 @@ std::uint32_t configure(Host& host) {
   return sender.crc();
 }
 
-// Its scan must have been round before a fault is cleared, and its constants looked at once before
-// it is armed.
+// Its scan must be complete before a fault is cleared, and its constants read once before it is
+// armed.
 void arm(Host& host, std::uint32_t configuration) {
   const auto armed = [&] {
     return host.ask(link::ArmFirst{configuration}) == Code::done &&
@@ -50,7 +50,7 @@ void run(Host& host, int periods) {
   const int end = host.telemetries + periods;
   for (int known = host.telemetries; host.telemetries < end; known = host.telemetries) {
     if (!host.wait([&] { return host.telemetries > known; })) break;
-    // A host that stood still for 100 ms has its board hold, until the next command.
+    // A board whose host was silent for 100 ms holds until the next command.
     if (host.telemetry.state != BoardState::running && host.telemetry.state != BoardState::hold)
       continue;
     message.from = host.telemetry.tick + 200;
@@ -68,7 +68,7 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
   EXPECT_EQ(host.identity->state, BoardState::fault);
 
   arm(host, configure(host));
-  // A run in which a busy computer let this host stand still says nothing of what gets lost.
+  // A run in which a busy computer delayed this host gives no result on lost bytes.
   std::uint32_t lost = 0, lost_to_board = 0;
   for (int tries = 0; tries < 10; ++tries) {
     host.longest_pause();
@@ -103,13 +103,13 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
   EXPECT_LE(std::stoi(printed.substr(at + words.size())), deepest_stack);
 }
 
-// The emulator has its timers go twelve times too fast, and knows neither its clocks nor its pins:
-// no more than this can be seen of that board.
+// The emulator runs its timers twelve times too fast and has neither its clocks nor its pins: no
+// more than this can be tested of that board.
 TEST(Application, OfTheStm32f405StartsSaysWhoItIsAndIsConfigured) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   Machine machine("netduinoplus2", image("application-stm32f405"), "", 0);
   Host host(machine.line());
-  for (int i = 0; i < 20 && !host.identity; ++i) {  // what comes before it listens is lost
+  for (int i = 0; i < 20 && !host.identity; ++i) {  // bytes that arrive before it listens are lost
     host.send(link::Identify{});
     host.wait([&] { return host.identity.has_value(); }, milliseconds(500));
   }

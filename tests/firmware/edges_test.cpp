@@ -1,5 +1,5 @@
-// Edges that wait for their instant, with a signal in place of the compare's interrupt: it comes
-// between any two instructions of the "tick", as on a board.
+// Edges that are pending until their instant, with a signal in place of the compare's interrupt: it
+// arrives between any two instructions of the "tick", as on a board.
 #include "firmware/edges.h"
 
 #include <gtest/gtest.h>

@@ -54,7 +54,7 @@ class Machine {
                                        words,
                                        "-kernel",
                                        image};
-    // A board's first serial line is the one that the application speaks on.
+    // A board's first serial line is the application's.
     arguments.insert(arguments.end(), {"-serial", "chardev:line"});
     start(arguments);
     connect();
@@ -127,14 +127,14 @@ class Host {
     return came ? answer->code : link::Code::type;
   }
 
-  // The longest time that it has not looked at its line since the last call. The line holds some
-  // milliseconds of telemetry: what comes after them is lost, and no fault of the board.
+  // The longest time since the last call without a read of its line. The line buffers some
+  // milliseconds of telemetry: bytes after that are lost, which is not a fault of the board.
   Clock::duration longest_pause() {
     looked_ = Clock::now();
     return std::exchange(longest_pause_, Clock::duration{});
   }
 
-  // Listens until it is so; false: it has not been within the time.
+  // Listens until the condition holds; false: it did not within the time.
   template <class So>
   bool wait(So so, milliseconds longest = milliseconds(15'000)) {
     for (const auto end = Clock::now() + longest; !so();) {

@@ -33,7 +33,7 @@ const Script five_minutes{"endurance", {"sequence.repeat=99"}};
 
 class OnTheRealProgram : public testing::TestWithParam<Script> {};
 
-// Short ones twice: what the emulator does depends on nothing but the experiment.
+// Short ones twice: the emulator's behaviour depends only on the experiment.
 TEST_P(OnTheRealProgram, TheLogIsTheSimulationsBitForBit) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   const experiment::Experiment e = loaded(GetParam());
@@ -48,7 +48,7 @@ TEST_P(OnTheRealProgram, TheLogIsTheSimulationsBitForBit) {
   }
 }
 
-// Test 1 is table 6-4's; the last one goes on for five minutes.
+// Test 1 is table 6-4's; the last one runs for five minutes.
 INSTANTIATE_TEST_SUITE_P(
     LockStep, OnTheRealProgram,
     testing::Values(Script{"walk-test-1", {}}, Script{"walk-test-2", {}}, Script{"kick", {}},
@@ -76,7 +76,7 @@ TEST(EmulatedBoard, WalksOverItsSerialLine) {
   EXPECT_EQ(far.line, "");
   EXPECT_FALSE(far.ended_early());
   EXPECT_EQ(far.supervised.gaps, 0u) << "ticks that were missed";
-  // A computer that is busy with something else may be late with a command, never with many.
+  // A computer that is busy with other work may be late with a command, never with many.
   EXPECT_LE(far.lost, 3u);
   const run::Outcome simulated = run::run(e, {});
   EXPECT_NEAR(far.duration, simulated.duration, 0.025) << "its plan comes a period later";

@@ -1,5 +1,5 @@
-// The image for Teensy 4.1, byte by byte as it lies in the flash chip: nothing here runs it, but a
-// word in the wrong place would leave the board dark.
+// The image for Teensy 4.1, byte by byte as it is stored in the flash chip: it is not executed
+// here, but a word in the wrong place would keep the board from starting.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -76,8 +76,7 @@ TEST(Teensy41, ImageSaysAtItsPlaceWhereItIsAndHowItStarts) {
   EXPECT_EQ(flash().word(extent + 8), 0u) << "no plug-in";
 }
 
-// They run before there is code anywhere else: up to the jump that leaves the chip there is no
-// call.
+// They run before any other memory has code: up to the jump that leaves the chip there is no call.
 TEST(Teensy41, FirstInstructionsRunInTheChipAndCallNothing) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   const std::uint32_t entry = flash().word(chip + 0x1004);

@@ -16,11 +16,11 @@ constexpr std::uint32_t tick = 2'500;  // [clocks]
 // Also across the end of the counter's 32 bits.
 struct Clock {
   explicit Clock(std::uint32_t from = 0xffffff00) : from_(from) { count.start(tick, from); }
-  // What an interrupt says that is served so many ticks after the start.
+  // The tick count that an interrupt reports when it is served so many ticks after the start.
   std::uint32_t at(double ticks) {
     return count.passed(from_ + static_cast<std::uint32_t>(ticks * tick));
   }
-  // When the tick began that it is in.
+  // The beginning of the current tick.
   double began() const { return (count.began() - from_) / double{tick}; }
   TickCount count;
 
@@ -52,7 +52,7 @@ TEST(TickCount, EachThatIsLostIsCountedOnce) {
   }
 }
 
-// Two timers that were started one after the other: the interrupts come a little before or after.
+// Two timers that were started one after the other: the interrupts come a little early or late.
 TEST(TickCount, TimersThatStartOneAfterTheOtherAreTheSameClock) {
   for (const double shift : {-0.01, 0.1}) {
     Clock clock;
@@ -62,7 +62,7 @@ TEST(TickCount, TimersThatStartOneAfterTheOtherAreTheSameClock) {
 }
 
 // Work of any length in each tick; the next one is served when that is done. One that is served
-// within a 64th of the tick after it counts that one as well: none is drawn so late.
+// within a 64th of the tick after it counts that one as well: the test draws none so late.
 TEST(TickCount, WhateverIsLateNoTickIsLostOrTwice) {
   std::mt19937 random(1);
   std::exponential_distribution<double> work(2.0);  // [ticks]

@@ -1,4 +1,4 @@
-// The fuzzers' inputs, seeds and all that were ever found, against the fuzzers' laws.
+// The fuzzers' inputs, seeds and all that were ever found, checked against the fuzzers' laws.
 #include <gtest/gtest.h>
 
 #include <algorithm>

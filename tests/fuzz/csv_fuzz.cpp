@@ -1,6 +1,6 @@
-// A table of measurements that is read has a finite number for every row, within what such a
-// measurement can be, and written in SI it reads as the same bits. All of its columns together have
-// a value or a gap for every row, and times that do not run backwards.
+// A table of measurements that is read has a finite number in every row, within the range of such a
+// measurement, and written in SI it is read back with the same bits. All of its columns together
+// have a value or a gap in every row, and times that do not decrease.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ std::string written(const Measured& m) {
   return text;
 }
 
-// Reads the same bytes as a table of which nobody said what its columns mean.
+// Reads the same bytes as a table without any description of its columns.
 void all_columns(std::string_view input) {
   recording::RawTable table;
   try {

@@ -1,4 +1,4 @@
-// Gains that are read are numbers, and read the same again.
+// Gains that are read are numbers, and are read back unchanged.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// tests/fuzz/law.h - what a harness says about its input beyond "it does not crash".
+// tests/fuzz/law.h - the laws that a harness checks, in addition to "it does not crash".
 //
 // A harness is one function of namespace sinew::fuzz in <name>_fuzz.cpp. It takes any bytes, and
 // throws Broken where a law does not hold; libFuzzer counts that as a crash (entry.cpp), and
@@ -21,7 +21,7 @@ inline void law(bool holds, const std::string& words) {
   if (!holds) throw Broken(words);
 }
 
-// A refusal names the file, and says what was found and what is expected, one line for each
+// An error message names the file, the value found and the value expected, on one line for each
 // problem.
 inline void law_of_refusal(const config::Error& error, std::string_view file) {
   law(!error.problems().empty(), "a refusal says what is wrong");

@@ -1,4 +1,4 @@
-// Law: a page's request is carried out only within its bounds, and is read the same again.
+// Law: a request of a page is only executed within its bounds, and is read back unchanged.
 #include <fmt/format.h>
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// A log that is read has whole series in ascending time, and written again it reads the same.
+// A log that is read has complete series in ascending time; written and read again it is the same.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ void law_of_series(const signals::Series& s) {
     law(column.size() == s.time_ns.size(), "a value for each time: " + s.topic.name);
 }
 
-// The log's writer takes a table whose topics could be a run's own.
+// The log's writer accepts a table whose topics could be those of a run.
 bool can_be_written(const signals::Table& table) {
   std::set<std::string> names;
   std::size_t samples = 0;

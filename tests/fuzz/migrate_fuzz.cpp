@@ -1,5 +1,5 @@
-// An older TOML file that is migrated, by a history of the harness's own, is of today: it can be
-// read, and to migrate it again changes nothing. What is refused is told in words.
+// An older TOML file that is migrated, by a history of the harness's own, is current: it can be
+// read, and a second migration changes nothing. A refusal has an error message.
 #include "sinew/config/migrate.h"
 
 #include "tests/fuzz/law.h"

@@ -1,4 +1,4 @@
-// An out.dat that is read has times that ascend; written as such a log it reads as itself.
+// An out.dat that is read has ascending times; written as such a log it is read back unchanged.
 #include <algorithm>
 
 #include "tests/fuzz/law.h"

@@ -1,4 +1,4 @@
-// A table of valve instants that is taken is one that a PWM can follow, and reads the same again.
+// A table of valve instants that is accepted can be followed by a PWM, and is read back unchanged.
 #include <fmt/format.h>
 
 #include "sinew/config/valve_timing.h"

@@ -1,5 +1,5 @@
-// Values by --set, one a line, over a shipped walk. What is refused is told in words; what is taken
-// is written in a resolved.toml that is taken too, and is written the same again.
+// Values by --set, one per line, over a shipped walk. A refusal has an error message; an accepted
+// value is written to a resolved.toml that is accepted too and is written again unchanged.
 #include "sinew/config/compose.h"
 #include "sinew/experiment/experiment.h"
 #include "tests/fuzz/law.h"

@@ -27,7 +27,7 @@ bool same_value(const Node& a, const Node& b) {
   return a.children.size() == b.children.size();
 }
 
-// Tables come out after values: the order of their keys is not kept, that of lists is.
+// Tables are written after values: the order of keys may change, that of lists may not.
 void law_of_same(const Node& a, const Node& b, const std::string& text) {
   law(a.kind == b.kind && same_value(a, b),
       "\"" + a.key + "\" was changed by writing it:\n" + text);

@@ -1,5 +1,5 @@
-// Whatever bytes come over the wire: the frames that are handed out stand in them, all of them and
-// in order, however the stream is cut; a message that is read is the one that its bytes say.
+// For any bytes on the wire: the frames that are decoded are contained in them, all of them and in
+// order, however the stream is cut; a message that is decoded has the values of its bytes.
 #include <algorithm>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace {
 
 using link::Bytes;
 
-// What a frame says: type, sequence, version, board, body.
+// Content of a frame: type, sequence, version, board, body.
 Bytes said_by(const link::Frame& f) {
   Bytes out{f.type, f.envelope.sequence, f.version, f.envelope.board};
   out.insert(out.end(), f.body.begin(), f.body.end());
@@ -56,7 +56,7 @@ void law_of_message(const link::Frame& f) {
   });
 }
 
-// What a decoder hands out of a stream that comes in pieces.
+// All frames that a decoder returns for a stream that arrives in pieces.
 std::vector<Bytes> frames_in_pieces(std::span<const std::uint8_t> stream, std::size_t piece) {
   std::vector<Bytes> out;
   link::Decoder decoder;
@@ -74,7 +74,7 @@ std::vector<Bytes> frames_in_pieces(std::span<const std::uint8_t> stream, std::s
   return out;
 }
 
-// Bytes that no decoder has checked, as a body of each message.
+// Bytes that were not checked by a decoder, read as the body of each message.
 void law_of_bodies(std::span<const std::uint8_t> body) {
   link::each_message([&](auto m) {
     if (link::read(body, m) != link::Code::done) return;

@@ -18,7 +18,7 @@ using signals::Tick;
 namespace {
 
 constexpr Tick period = 100;
-constexpr double when_it_moves = 0.8;  // the vent that a run begins with is over  [s]
+constexpr double when_it_moves = 0.8;  // the vent at the beginning of a run is over  [s]
 
 // To the board, to the host or both ways.
 void draw_line(Case& c, Spoil kind, unsigned way, std::mt19937& random) {
@@ -37,7 +37,7 @@ bool is_angle(const Case& c, const FaultPart& part) {
              robot::Sensor::Kind::angle;
 }
 
-// Any word where none is wanted.
+// A random value where none is required.
 void draw_fault(Case& c, const std::vector<FaultPart>& parts, std::optional<Fault::What> wanted,
                 std::mt19937& random) {
   const FaultPart& part = parts[random() % parts.size()];
@@ -73,8 +73,8 @@ void draw_board(Case& c, unsigned what, std::mt19937& random) {
   c.failure = kinds[what].failure;
 }
 
-// A silence is the only one with a time in the table: it comes twice as often, and half of them
-// stay.
+// A silence is the only one with a time in the table: it comes twice as often, and half of them are
+// permanent.
 void draw_line_of_turn(Case& c, unsigned turn, unsigned rounds, std::mt19937& random) {
   using enum Spoil;
   constexpr Spoil kinds[] = {silence, drop,      flip,     babble, silence,
@@ -85,7 +85,7 @@ void draw_line_of_turn(Case& c, unsigned turn, unsigned rounds, std::mt19937& ra
   if (kind == silence && rounds % 2 == 0) c.lasts = 1e9;
 }
 
-// The wire of an angle, which a board notices, then what it may not notice.
+// The wire of an angle, whose fault a board detects, then faults that it cannot detect.
 void draw_fault_of_turn(Case& c, unsigned turn, std::mt19937& random) {
   using enum FaultPart::Kind;
   constexpr FaultPart::Kind kinds[] = {sensor, valve, sensor, muscle, supply};

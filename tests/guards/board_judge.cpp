@@ -1,4 +1,4 @@
-// Holds what the wires have seen against the table of docs/reference/supervision.md.
+// Compares the record of the wires with the table of docs/reference/supervision.md.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -13,8 +13,8 @@ using signals::Tick;
 
 namespace {
 
-// docs/reference/supervision.md  [ticks]; a period more, in which what is silent or lies is not yet
-// seen.
+// docs/reference/supervision.md  [ticks]; one period more, in which a silence or a false reading is
+// not yet detected.
 constexpr Tick hold_bound = 1'000, vent_bound = 10'000, sensor_bound = 300, period = 100;
 constexpr Tick forever = std::numeric_limits<Tick>::max();
 
@@ -65,17 +65,17 @@ class Judge {
       unsafe("nothing was wrong, and it tripped at something");
   }
 
-  // Nothing goes in 100 ms after the host fell silent, and 1 s after it all is let out.
+  // No air enters 100 ms after the host fell silent, and 1 s after it all air is vented.
   void silence() {
     const Tick from = proxy_.silent_from();
-    // One that hears again runs on.
+    // One that receives commands again runs on.
     const auto end = static_cast<Tick>(1e4 * (case_.from + std::min(case_.lasts, 10.0)));
     if (end > from + silence_) {
       told_.reaction = std::max<Tick>(monitor_.last_inlet(from, end) - from, 0);
       told_.bound = silence_;
     }
     if (end < from + vent_) return;
-    // Not the vent that a run begins with.
+    // Not the vent at the beginning of a run.
     const Tick vented = monitor_.vented(from + vent_bound - 10 * period);
     if (vented < 0 || vented > from + vent_)
       unsafe("a machine whose host is silent was " +
@@ -105,7 +105,7 @@ class Judge {
       unsafe("a board that hung is not reset by its watchdog with all coils without current");
   }
 
-  // Two or more: inlets are shut in the first tick after them, and the host is told.
+  // Two or more: inlets are closed in the first tick after them, and the host receives a report.
   void missed_ticks(Tick at) {
     const Tick missed = case_.failure.ticks;
     const Tick shut = monitor_.inlets_shut(at);

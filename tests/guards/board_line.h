@@ -1,5 +1,5 @@
-// tests/guards/board_line.h - a line between a host and a board that spoils the bytes on it, for a
-// time and in one direction or both.
+// tests/guards/board_line.h - a line between a host and a board that disturbs the bytes on it, for
+// a time and in one direction or both.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Spoiler {
  public:
   Spoiler(Spoil kind, double share, unsigned seed) : kind_(kind), share_(share), random_(seed) {}
 
-  // What comes out where a portion goes in; while it is not active only what it had held back.
+  // The output for a portion of input; while it is not active only the bytes that it had held back.
   std::vector<std::uint8_t> operator()(std::vector<std::uint8_t> bytes, bool active);
 
   Spoil kind() const { return kind_; }

@@ -40,7 +40,7 @@ plant::Wires Monitor::at(plant::Wires body, Tick from, plant::BoardFailure failu
   return out;
 }
 
-// --- what it sees -------------------------------------------------------------------------------
+// --- recording ----------------------------------------------------------------------------------
 
 void Monitor::host_speaks(Tick now) {
   const std::lock_guard guard(lock_);
@@ -71,7 +71,7 @@ void Monitor::see(Tick tick, std::uint32_t open, bool current) {
   seen_.push_back({f.now, f.open});
 }
 
-// --- what it has seen ---------------------------------------------------------------------------
+// --- queries ------------------------------------------------------------------------------------
 
 Monitor::Facts Monitor::facts() const {
   const std::lock_guard guard(lock_);

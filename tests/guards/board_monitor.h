@@ -1,5 +1,5 @@
-// tests/guards/board_monitor.h - what stands at the wires between a board and its machine: it knows
-// the valves and the times at which something goes wrong, and nothing of the board's program.
+// tests/guards/board_monitor.h - a recorder on the wires between a board and its machine: it has
+// the valves and the times of the faults, and nothing of the board's program.
 //
 // Times are ticks of the board's run. Host and board may call it from threads of their own.
 #pragma once
@@ -17,13 +17,13 @@ class Monitor {
  public:
   explicit Monitor(const experiment::Experiment& e);
 
-  // Stands between a board and this body; `failure` befalls the board once, at the first reading
-  // from that tick on at which an inlet is open.
+  // Connects a board with this body; `mishap` affects the board once, at the first reading from
+  // that tick on at which an inlet is open.
   plant::Wires at(plant::Wires body, signals::Tick from = 0, plant::BoardFailure failure = {});
 
-  // Bytes are on their way to the board.
+  // Call it when bytes are sent to the board.
   void host_speaks(signals::Tick now);
-  // Something befalls the board now.
+  // Call it when a fault occurs at the board.
   void board_suffers();
 
   struct Facts {

@@ -1,10 +1,10 @@
 // The cases of boards_test.cpp on the real firmware: the application with its interrupts, timers,
 // watchdog and serial line in QEMU, a proxy on the line, the simulated machine at the wires.
 //
-// Host and board have clocks of their own. A seed fixes what goes wrong, where, when by the board's
-// clock and for how long; which byte of the line is the first one to suffer is the computer's
-// doing, so that a case is not the same to the tick each time. Times are the board's ticks, however
-// slow the emulator is.
+// Host and board have clocks of their own. A seed fixes the fault, its place, its time by the
+// board's clock and its duration; which byte of the line is affected first depends on the computer,
+// so that a case is not the same to the tick each time. Times are the board's ticks, however slow
+// the emulator is.
 //
 //   SINEW_GUARD_COUNT=40    so many cases; SINEW_GUARD_SEED=n: one case
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using signals::Tick;
 constexpr int usual = 5;
 constexpr int lead = 1;
 
-// The emulator's line brings single bytes; a portion ends where it pauses, or with a telemetry.
+// The emulator's line delivers single bytes; a portion ends at a pause, or with a telemetry.
 std::ptrdiff_t read_portion(const plant::BoardLine& line, std::span<std::uint8_t> out,
                             double seconds) {
   constexpr std::size_t longest = 512;
@@ -35,7 +35,7 @@ std::ptrdiff_t read_portion(const plant::BoardLine& line, std::span<std::uint8_t
   return n;
 }
 
-// A host's line: what comes out of the proxy is handed on in as many pieces as the host asks for.
+// A host's line: the proxy's output is delivered in as many pieces as the host reads.
 class HostsLine {
  public:
   HostsLine(const plant::BoardLine& inner, Proxy& proxy) : inner_(inner), proxy_(&proxy) {}
@@ -92,13 +92,13 @@ Went run_case(const Case& c) {
   const Outcome out = run::run(c.experiment, {.board = &remote, .lead = lead});
   proxy.ends();
 
-  // Whatever has become of the host, the board is left alone for as long as it may take to rest.
+  // Whatever the state of the host, the board has as long as it may take to come to rest.
   constexpr double longest = 30;  // [s] of the wall
   std::vector<std::uint8_t> bytes(256);
   const plant::BoardLine inner = board.line();
   for (const double since = now(); !monitor.facts().at_rest() && now() < since + longest;)
     if (inner.read(bytes, 0.02) < 0) break;
-  // One that hung says who it is when it has begun anew.
+  // One that hung identifies itself when it has restarted.
   for (int i = 0; i < 5 && c.board_at >= 0; ++i) (void)remote.wait_for_telemetry(0.1);
   return {judge(c, out, remote, monitor, proxy, lead), out.duration, now() - begin};
 }

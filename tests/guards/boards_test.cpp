@@ -1,7 +1,7 @@
-// A board at a line that loses, changes, doubles, cuts and delays bytes, a board that is reset,
-// sensors and air that fail: whatever happens, no muscle is open to both sides, its valves come to
-// rest, and what docs/reference/supervision.md promises is kept in its time. And where nothing is
-// wrong, nothing is tripped.
+// A board on a line that loses, changes, doubles, cuts and delays bytes, a board that is reset,
+// sensors and air that fail: in all cases no muscle is open to both sides, the valves come to rest,
+// and the reactions that docs/reference/supervision.md promises occur in time. Without a fault
+// there is no reaction.
 //
 // The board is its program, in a thread of this process that waits for the host in each period.
 // boards_emulated_test.cpp has the real firmware.
@@ -43,7 +43,7 @@ Told run_case(const Case& c) {
   proxy.starts();
   const Outcome out = run::run(c.experiment, {.board = &remote, .lead = 0});
 
-  // Whatever has become of the host, the board is left alone for as long as it may take to rest.
+  // Whatever the state of the host, the board has as long as it may take to come to rest.
   runs = false;
   proxy.ends();
   std::vector<std::uint8_t> bytes(256);
@@ -61,7 +61,7 @@ TEST(Boards, WhateverFailsNoCaseIsUnsafe) {
   sums.print();
 }
 
-// Ten hours with a thousand asked for.
+// Ten hours for a count of a thousand.
 TEST(Boards, WhereNothingFailsNothingIsTripped) {
   const double wanted = 0.036 * guard_count(usual) * guard_count(usual);  // [s]
   double seconds = 0;

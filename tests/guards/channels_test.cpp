@@ -1,7 +1,7 @@
-// A log of chosen channels holds those channels and no others: whatever log.channels says, and in
-// whatever order, each channel that is logged has the times and the numbers that it has in the log
-// of everything, to the last bit. Of every shipped experiment, each channel alone, and seeded
-// pairs, handfuls and orders, all written from one recorded table.
+// A log of chosen channels contains those channels and no others: for any log.channels in any
+// order, each channel that is logged has the times and the numbers that it has in the log of
+// everything, to the last bit. For every shipped experiment: each channel alone, and seeded pairs,
+// small sets and orders, all written from one recorded table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,11 +64,11 @@ std::vector<std::string> names_of(const std::vector<signals::Topic>& topics) {
 bool same_bits(const signals::Column& a, const signals::Column& b) {
   return std::ranges::equal(a, b, [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) ||
-           (x != x && y != y);  // a log knows one kind of it
+           (x != x && y != y);  // a log has one kind of NaN
   });
 }
 
-// Every channel of `log` beside the one of its name in `full`, and each that the patterns mean.
+// Compares every channel of `log`, and each that the patterns match, with its series in `full`.
 void expect_part(const signals::Table& log, const signals::Table& full, const Patterns& patterns) {
   std::size_t meant = 0;
   for (const signals::Series& whole : full.series) {
@@ -88,7 +88,7 @@ void expect_part(const signals::Table& log, const signals::Table& full, const Pa
   ASSERT_EQ(log.series.size(), meant);
 }
 
-// Some fifty samples of each series, from all of the run: enough to tell channels apart.
+// Some fifty samples of each series, from the whole run: enough to distinguish channels.
 void thin(signals::Table& table) {
   for (signals::Series& s : table.series) {
     const std::size_t step = s.time_ns.size() / 50 + 1;
@@ -111,8 +111,8 @@ class Channels : public testing::TestWithParam<std::string> {
         random_(std::hash<std::string>{}(name_)) {}
   ~Channels() override { fs::remove(file_); }
 
-  // A run feeds its log as it goes, here one of a random choice, which is compared with what the
-  // same run recorded.
+  // A run writes its log while it proceeds, here one of a random choice, which is compared with the
+  // recording of the same run.
   Recorded record() {
     const experiment::Experiment e = experiment::load(GetParam());
     Recorded out{{}, run::topics(e)};
@@ -150,7 +150,7 @@ class Channels : public testing::TestWithParam<std::string> {
     }
   }
 
-  // Pairs and handfuls in any order.
+  // Pairs and small sets in any order.
   void try_many(const Recorded& recorded) {
     const signals::Table full = written(recorded, {"*"});
     for (int i = 0; i < choices() && !HasFatalFailure(); ++i) {

@@ -1,5 +1,5 @@
-// Loaded before the C library (LD_PRELOAD), it lets one call that writes to the disk fail as on a
-// full one: the call number SINEW_FAIL_WRITE. It then makes the file SINEW_FAIL_TOLD. What goes to
+// Loaded before the C library (LD_PRELOAD), it makes one call that writes to the disk fail as on a
+// full disk: the call number SINEW_FAIL_WRITE. It then makes the file SINEW_FAIL_TOLD. Output to
 // stdin, stdout and stderr is not counted.
 #include <dlfcn.h>
 #include <fcntl.h>

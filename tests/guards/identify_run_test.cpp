@@ -6,8 +6,8 @@
 //   one-joint    friction, damping, dead times, volumes, leaks: all groups
 //   leg-in-air   the same of robots/leg, one step
 //
-// SINEW_GUARD_COUNT: trials of each; what can be asked of fewer is that most are held.
-// SINEW_GUARD_FIRST: number of the first of them, to look at one again that has failed.
+// SINEW_GUARD_COUNT: trials of each; for fewer trials the test only requires that most hold.
+// SINEW_GUARD_FIRST: number of the first of them, to repeat one that has failed.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct Number {
   std::string key;
   double scale = 0;
   int held = 0;
-  std::vector<double> width;  // of the intervals, in those of the bound
+  std::vector<double> width;  // of the intervals, relative to the bound's
 };
 
 double& at(Experiment& e, const std::string& key) {
@@ -51,9 +51,9 @@ double& at(Experiment& e, const std::string& key) {
   return *std::ranges::find(all, key, &identify::MachineNumber::key)->value;
 }
 
-// A machine whose numbers are up to 30 % off, and dead times up to the ends of the ticks that these
-// lie in: a run tells the tick well and the place in it less, so that places have to come alike.
-// Its leaks, which the shipped ones do not have, are of half a to one and a half of what empties
+// A machine whose numbers are up to 30 % off, and dead times up to the ends of their ticks: a run
+// determines the tick well and the position within it less, so these positions must be alike. Its
+// leaks, which the shipped ones do not have, are of half to one and a half of a leak that empties
 // ten cubic centimetres in two minutes.
 Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, int trial) {
   std::mt19937_64 random(static_cast<std::uint64_t>(trial) * 7919 + 1);
@@ -73,7 +73,7 @@ Experiment drawn(const Experiment& shipped, const std::vector<Number>& numbers, 
   return out;
 }
 
-// Standard deviations that no unbiased estimate goes below: of (J^T J)^-1 in noises.
+// Lower bounds for the standard deviations of an unbiased estimate: of (J^T J)^-1 in noises.
 std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
                           const std::vector<Number>& numbers) {
   identify::Matrix j(run.samples(), numbers.size());
@@ -103,7 +103,7 @@ std::vector<double> bound(Experiment truth, const identify::DrivenRun& run,
 struct Trial {
   std::vector<identify::Estimate> found;
   std::vector<double> truth, least;  // least: the bound's standard deviations
-  double noises = 0;                 // rms of what is left
+  double noises = 0;                 // rms of the residuals
   int simulations = 0;
 };
 
@@ -149,7 +149,7 @@ std::size_t held_by(const Trial& t) {
   return out;
 }
 
-// Counts a trial, and tells of what its intervals do not hold.
+// Counts a trial, and prints the numbers that are outside their intervals.
 void count(const Trial& t, int seed, std::vector<Number>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const identify::Estimate& e = t.found[i];
@@ -162,8 +162,8 @@ void count(const Trial& t, int seed, std::vector<Number>& numbers) {
   }
 }
 
-// Trials run side by side, each with one thread, and are counted in their order; that each is done
-// is told at once, for those who end a long try.
+// Trials run in parallel, each with one thread, and are counted in their order; the end of each is
+// printed at once, so that a long test can be stopped.
 std::vector<Trial> try_side_by_side(const Experiment& shipped, const std::vector<Number>& numbers,
                                     int trials) {
   std::vector<Trial> out(static_cast<std::size_t>(trials));

@@ -1,6 +1,5 @@
-// Killed, terminated or interrupted at any moment: what stands is the old result or the new one,
-// whole, or a log that reads as cut off; and the next run of the same command has nothing in its
-// way.
+// Killed, terminated or interrupted at any moment: afterwards there is the old result or the new
+// one, complete, or a log that reads as cut off; and the next run of the same command works.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -25,7 +24,7 @@ double seconds_of(const Workspace& w, const Words& words) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// A log that did not become whole: nothing yet, or messages up to some time.
+// An incomplete log: nothing yet, or messages up to some time.
 void expect_readable(const fs::path& log) {
   if (!fs::exists(log)) return;
   try {
@@ -61,7 +60,7 @@ class Kills : public ::testing::Test {
     if (writer.is_run()) {
       expect_readable(target / "unfinished/log.mcap");
       expect_readable(target / "log.mcap");
-      // Whoever reads next finishes what is half done; without a log yet it says so.
+      // The next reader completes an unfinished replacement; without a log yet it reports that.
       run(w, {"analyze", writer.target});
     }
     if (!old && writer.is_run()) return;
@@ -115,8 +114,8 @@ TEST_F(Kills, LeaveTheOldOrTheNewAndNothingInTheWay) {
               tries(50), all.size(), signalled);
 }
 
-// The moment when the new files take their places, which is too short to be hit by chance: what a
-// process leaves there that is killed between any two of its steps.
+// The moment when the new files replace the old ones, which is too short to be hit by chance: the
+// state that a process leaves there when it is killed between any two of its steps.
 TEST_F(Kills, BetweenTwoRenamesIsFinishedByWhoeverComesNext) {
   const Writer& writer = all.front();
   ASSERT_EQ(writer.name, "run");
@@ -143,7 +142,7 @@ TEST_F(Kills, BetweenTwoRenamesIsFinishedByWhoeverComesNext) {
   }
 }
 
-// A run that is interrupted says where its log is, which reads as cut off.
+// A run that is interrupted prints where its log is, which reads as cut off.
 TEST_F(Kills, AnInterruptedRunLeavesItsLog) {
   for (const int signal : {SIGINT, SIGTERM}) {
     for (const bool old : {true, false}) {

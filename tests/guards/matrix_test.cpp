@@ -1,11 +1,11 @@
-// Every number of every kind of file, put to what it should not be: refused with its key and line,
-// or accepted, listed with a reason in matrix_accepted.txt, and run without a number that is none.
+// Every number of every kind of file, replaced by an invalid value: refused with its key and line,
+// or accepted, listed with a reason in matrix_accepted.txt, and run without any NaN.
 //
 //   cells      zero, negative, nan, inf, 1e300, 1e-300, wrong unit, text, missing, twice
 //   missing    is accepted of optional keys alone; the others' acceptance must be in the list
 //
-// A field is met once: at the first shipped experiment that has it. SINEW_GUARD_COUNT: cells that
-// the program itself checks and runs as well.
+// A field is tested once: at the first shipped experiment that has it. SINEW_GUARD_COUNT: cells
+// that the program itself checks and runs as well.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -60,15 +60,15 @@ Node with(const Subject& subject, const NumericField& field, const std::string& 
   return root;
 }
 
-// --- what becomes of them ---
+// --- their outcome ---
 
 struct Verdict {
   bool accepted = false;
-  std::string words;  // of the refusal, or of what is wrong with it
+  std::string words;  // of the error message, or the violation
   bool wrong = false;
 };
 
-// A refusal names the key or a place.
+// An error message names the key or a place.
 void judge_refusal(const config::Error& e, const NumericField& field, const std::string& cell,
                    Verdict& out) {
   out.words = e.what();
@@ -76,7 +76,7 @@ void judge_refusal(const config::Error& e, const NumericField& field, const std:
     if (p.key.empty() || p.found.empty() || p.expected.empty()) out.wrong = true;
     if (p.found.find("nan") != std::string::npos && cell != "nan") out.wrong = true;
   }
-  // A cell that the reader refuses is refused by its own line.
+  // A cell that the reader refuses is reported with its own line.
   const bool own = std::ranges::any_of(e.problems(), [&](const config::Problem& p) {
     return p.where.file == "cell.toml" && p.where.line == 7;
   });
@@ -85,7 +85,7 @@ void judge_refusal(const config::Error& e, const NumericField& field, const std:
   (void)field;
 }
 
-// Accepted: it runs, and every number is one, but for those that are none in the unchanged run.
+// Accepted: it runs, and every number is finite, except those that are not in the unchanged run.
 void judge_run(const Ran& ran, const std::set<std::string>& usual, Verdict& out) {
   if (ran.ended) {
     out.words = "ended: " + ran.cause;
@@ -115,7 +115,7 @@ Verdict judge(const Subject& subject, const NumericField& field, const std::stri
   return out;
 }
 
-// A key that stands twice in its table.
+// A key that occurs twice in its table.
 Verdict judge_twice(const NumericField& field) {
   const std::size_t dot = field.path.rfind('.');
   const std::string key = dot == field.path.npos ? field.path : field.path.substr(dot + 1);
@@ -134,7 +134,7 @@ std::set<std::string> usual_of(const Subject& s) {
   return {ran.not_finite.begin(), ran.not_finite.end()};
 }
 
-// --- the list of what is accepted ---
+// --- the list of accepted cells ---
 
 // "reason: …" and below it lines "robot pattern cell cell …"
 std::map<std::string, std::string> listed() {
@@ -189,7 +189,7 @@ void check_by_program(const std::vector<Cell>& all, std::size_t count) {
     EXPECT_EQ(run.code == 0 || ended, c.accepted) << told << run.err;
     if (c.accepted) continue;
     EXPECT_THAT(check.out, ::testing::HasSubstr("cell.toml:")) << told;
-    // The same words: check puts them on stdout, run on stderr.
+    // The same message: check prints it to stdout, run to stderr.
     const std::string first = check.out.substr(0, check.out.find('\n'));
     EXPECT_THAT(run.err, ::testing::HasSubstr(first)) << told;
   }

@@ -1,5 +1,5 @@
-// Memory does not grow with a run: of a walk of SINEW_GUARD_COUNT simulated seconds the program
-// takes as much at its peak as of one of half of them, with a log and without, and so do the
+// Memory does not grow with a run: the program's peak for a walk of SINEW_GUARD_COUNT simulated
+// seconds is as large as for a walk of half of them, with a log and without; the same for the
 // commands that read the log.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ constexpr double noise = 4e6;            // of a peak: a stride of a log that is
 
 double seconds() {
   const char* asked = std::getenv("SINEW_GUARD_COUNT");
-  return asked ? std::atof(asked) : 7200;  // half of it fills all that a page shows
+  return asked ? std::atof(asked) : 7200;  // half of it fills all plots of a page
 }
 
 // Runs the program and returns its peak of memory  [B].
@@ -50,9 +50,9 @@ struct Peaks {
   double growth(double lasts) const { return (whole - half) / (lasts / 2) * 3600; }
 };
 
-// Measures, prints what it found, as a line of ./check, and judges it. What libraries a kernel
-// happens to keep mapped counts too, by half a megabyte: it is measured up to three times and the
-// least of each is taken. What grows, grows each time.
+// Measures, prints the result as a line of ./check, and checks it. Libraries that a kernel happens
+// to keep mapped count too, by half a megabyte: it is measured up to three times and the smallest
+// values are taken. A real growth occurs each time.
 template <class WordsFor>
 void expect_no_growth(const test::Workspace& at, const std::string& what, double lasts,
                       const WordsFor& words_for) {

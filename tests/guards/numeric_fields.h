@@ -1,11 +1,11 @@
-// tests/guards/numeric_fields.h - every number that a file of Sinew can hold, and how to put
-// another in its place.
+// tests/guards/numeric_fields.h - every number that a file of Sinew can hold, and a function that
+// replaces it.
 //
 //   Lister lister;
 //   experiment::run_fields(lister, e);         the visitor of units/field.h
 //   for (const NumericField& f : lister.fields) put(root, f, config::make_number("", 0));
 //
-// The tree is that of a resolved file, in which every value stands in SI.
+// The tree is that of a resolved file, in which every value is in SI.
 #pragma once
 
 #include <algorithm>

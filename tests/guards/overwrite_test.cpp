@@ -1,5 +1,4 @@
-// What stands where a command writes is, whatever happens to it, the old result or the new one,
-// whole.
+// The target of a command contains the old result or the new one, complete, after any disturbance.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -55,7 +54,7 @@ TEST_F(Overwrite, WhatIsDoneLeavesTheNewAndNothingBeside) {
   }
 }
 
-// The limit on the size of files stands for a disk that is full at some byte.
+// The limit on the size of files simulates a disk that is full at some byte.
 TEST_F(Overwrite, AFullDiskLeavesTheOld) {
   for (const Writer& writer : writers(w)) {
     const Results results = both(w, writer);
@@ -84,7 +83,7 @@ TEST_F(Overwrite, AFaultLeavesTheOldRunAndSaysWhereTheNewOneIs) {
   EXPECT_EQ(difference(state(w / writer.target), results.old), "");
   EXPECT_FALSE(log::read(w / "out/run/unfinished/log.mcap").series.empty());
 
-  // The next one takes its place.
+  // The next command takes its place.
   EXPECT_EQ(run(w, writer.fresh).code, 0);
   EXPECT_EQ(difference(state(w / writer.target), results.fresh), "");
   EXPECT_FALSE(fs::exists(w / "out/run/unfinished"));
@@ -158,7 +157,7 @@ TEST_F(Overwrite, PipesAndStdoutAreWrittenDirectly) {
     EXPECT_EQ(out.code, 0) << writer.name;
     EXPECT_THAT(out.output, HasSubstr(results.fresh.at(""))) << writer.name;
 
-    // Also where the shell made a file of it, and goes on with it.
+    // Also where the shell made a file of it, and continues with it.
     const Ended file = run(w, words, [&] {
       const int fd = open("appended", O_WRONLY | O_CREAT | O_TRUNC, 0600);
       dprintf(fd, "before\n");
@@ -171,7 +170,7 @@ TEST_F(Overwrite, PipesAndStdoutAreWrittenDirectly) {
   }
 }
 
-// Both at once: one of them is told who is there, or both are done one after the other.
+// Both at once: one of them reports the other, or both are done one after the other.
 TEST_F(Overwrite, TwoAtOnceLeaveOneOfTheTwoWhole) {
   int pairs = 0;
   for (const Writer& writer : writers(w)) {
@@ -192,7 +191,7 @@ TEST_F(Overwrite, TwoAtOnceLeaveOneOfTheTwoWhole) {
       writers(w).size(), pairs);
 }
 
-// Half a walk in the place of a whole one, as if the robot had come that far.
+// Half a walk in place of a whole one, as if the robot had stopped there.
 TEST_F(Overwrite, AFolderInUseIsRefusedWithItsProcess) {
   const Words walk = {"run", "experiments/walk-test-1.toml", "-o", "walk", "--no-report"};
   Words slow = walk;
@@ -209,7 +208,7 @@ TEST_F(Overwrite, AFolderInUseIsRefusedWithItsProcess) {
   kill(first.pid, SIGKILL);
   ended(first);
 
-  // The lock died with it.
+  // The lock ended with its process.
   EXPECT_EQ(run(w, force).code, 0);
   EXPECT_TRUE(log::read(w / "walk/log.mcap").complete);
 }

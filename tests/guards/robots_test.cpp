@@ -1,4 +1,4 @@
-// Robots at random: shipped ones with every number varied, and links hung on. Each is refused with
+// Random robots: shipped ones with every number varied, and links added. Each is refused with
 // its key, or walks: every number finite, its air accounted for, twice the same bits.
 //
 // SINEW_GUARD_COUNT: how many; 300 in ./check.
@@ -36,9 +36,9 @@ class Random {
   std::uint64_t state_;
 };
 
-// Whether a field describes the machine, not what is asked of it nor how finely it is integrated.
+// Whether a field describes the machine, not its commands nor the resolution of its integration.
 bool physical(const NumericField& f) {
-  // An option that is not there stays away whole: half of one is a contradiction.
+  // An option that is absent remains absent: half of one is a contradiction.
   for (const char* option : {".taper.", ".pressure_law."})
     if (f.pattern.find(option) != f.pattern.npos) return false;
   if (f.kind == NumericField::Kind::integer) return f.pattern == "muscle.*.count";
@@ -49,7 +49,7 @@ bool physical(const NumericField& f) {
   return false;
 }
 
-// Within its range mostly, now and then far around it.
+// Within its range mostly, sometimes far outside it.
 double varied(const NumericField& f, Random& random) {
   const bool narrow = f.unit == "rad" || f.pattern.ends_with(".efficiency");
   const bool rises = f.pattern == "air.polytropic_exponent";  // from just above 1
@@ -103,7 +103,7 @@ bool same_bits(const signals::Table& a, const signals::Table& b) {
   return true;
 }
 
-// Air that came in and has not left is still in the muscle; with hoses, in them or in a muscle.
+// Air that entered and has not left is still in the muscle; with hoses, in them or in a muscle.
 void expect_air_balance(const experiment::Experiment& e, const signals::Table& table,
                         const std::string& who) {
   double entered = 0, size_of_all = 0;
@@ -190,7 +190,7 @@ TEST(Robots, AtRandomAreRefusedOrWalk) {
             << " were refused, " << count.ended << " ended early\n";
   if (std::getenv("SINEW_GUARD_COUNT"))
     for (const auto& [key, n] : count.by) std::cout << "  " << n << " by " << key << "\n";
-  // Were most of them refused, little would be tried.
+  // If most of them were refused, little would be tested.
   EXPECT_GT(count.walked, static_cast<int>(tries / 4));
 }
 

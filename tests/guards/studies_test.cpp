@@ -1,5 +1,6 @@
-// The same study alone, by two threads, as three shards merged, over three processes of mpirun, and
-// killed at any moments and gone on with in any of these ways: the same table, to the byte.
+// The same study in one process, with two threads, as three shards merged, over three processes
+// of mpirun, and killed at any moments and continued in any of these ways: the same table, to the
+// byte.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
@@ -22,7 +23,7 @@ using ::testing::HasSubstr;
 
 constexpr int points = 120;
 
-// The same number of runs as generations that follow from each other.
+// The same number of runs as generations that depend on each other.
 const char* const tuning =
     "format = \"sinew.tuning/1\"\n"
     "title = \"a lever\"\n"
@@ -48,11 +49,11 @@ Words with(Words words, const Words& more) {
 
 bool has_mpi() { return SINEW_HAS_MPI && std::system("command -v mpirun >/dev/null") == 0; }
 
-// Three processes where there may be fewer processors, by whoever builds in a container.
+// Three processes where there may be fewer processors, as root in a container.
 [[noreturn]] void become_mpirun(const Words& words) {
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  // A process that dies while it begins may leave a lock of PMIx's shared memory taken, for which
+  // A process that dies while it starts may leave a lock of PMIx's shared memory taken, for which
   // mpirun then waits forever: once in 130 kills. Without that memory there is no such lock.
   setenv("PMIX_MCA_gds", "hash", 1);
   const std::string program = sinew::test::program();
@@ -92,14 +93,14 @@ class Studies : public ::testing::TestWithParam<Words> {
     ASSERT_EQ(std::count(table.begin(), table.end(), '\n'), rows + 1);
   }
 
-  // Of this study, run or gone on with as the words say.
+  // Of this study, run or continued with these arguments.
   std::string table_of(const Words& words) {
     const Result r = w.sinew(with(with(GetParam(), words), {"-o", "t.csv", "--force", "--quiet"}));
     EXPECT_EQ(r.code, 0) << r.err;
     return read_text(w / "t.csv");
   }
 
-  // Kills the process, one of those that mpirun started, or asks mpirun to end.
+  // Kills the process, one of those that mpirun started, or stops mpirun itself.
   bool disturb(const Started& process, bool mpi) {
     const std::vector<pid_t> ranks = mpi ? children_of(process.pid) : std::vector<pid_t>{};
     const std::size_t which = random() % 4;
@@ -112,7 +113,7 @@ class Studies : public ::testing::TestWithParam<Words> {
 
   Workspace w;
   std::string table;
-  double lasts = 0;  // one after the other [s]
+  double lasts = 0;  // duration of the serial run [s]
   std::mt19937 random{7};
 };
 

@@ -1,5 +1,5 @@
 // tests/guards/subjects.h - shipped experiments as trees, of the robots and of the test stand, and
-// short runs of what they become.
+// short runs of variations of them.
 #pragma once
 
 #include <filesystem>

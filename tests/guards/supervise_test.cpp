@@ -1,6 +1,5 @@
-// Readings that lie, commands that cannot be and ticks that are skipped, in quantity: what is
-// really broken ends the run in time, what is only noise does not, and the valves obey whatever
-// comes.
+// False readings, impossible commands and skipped ticks, in quantity: a real fault ends the run in
+// time, noise alone does not, and the valves obey in all cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,14 +22,14 @@ using What = Fault::What;
 
 constexpr Tick period = 100;  // of the low level [ticks]
 
-// Counts what this process has tried: ctest gives each test one of its own.
+// Counts the tries of this process: ctest gives each test one of its own.
 struct Tally {
   std::int64_t broken = 0, noisy = 0, stuck = 0, rejected = 0;
   control::FuzzCount fuzz;
 };
 Tally tally;
 
-// Prints what was tried, a line each for whoever reads ./check.
+// Prints the number of tries, one line each for the output of ./check.
 class Tell : public ::testing::Environment {
  public:
   void TearDown() override {
@@ -94,7 +93,7 @@ Tick vented_at(const run::Outcome& outcome, const Experiment& e, Tick from) {
   for (const robot::Muscle& m : e.robot.muscles)
     for (const auto& [which, wanted] : {std::pair{"inlet", 0.0}, std::pair{"exhaust", 1.0}}) {
       const signals::Series& s = *outcome.table.find("/valve/" + m.name + "/" + which + "/open");
-      Tick since = wanted == 0 ? 0 : -1;  // all are shut before the first edge
+      Tick since = wanted == 0 ? 0 : -1;  // all are closed before the first edge
       for (std::size_t i = 0; i < s.time_ns.size(); ++i) {
         const Tick at = s.time_ns[i] / signals::tick_nanoseconds;
         if (at > from + 5) break;
@@ -118,7 +117,7 @@ void expect_vented_in_time(const Trial& trial, const char* what) {
   EXPECT_EQ(trip.channel.index, channel);
   EXPECT_EQ(out.controller.fault, signals::Status::fault);
 
-  // The first scan that reads a lie, and the third.
+  // The first scan that reads a false value, and the third.
   const Tick read = e.robot.sensors[static_cast<std::size_t>(channel)].tick;
   const double scan = (trial.first_lie / signals::tick_seconds - static_cast<double>(read)) /
                       static_cast<double>(period);
@@ -148,7 +147,7 @@ TEST(Supervise, OneAtTheLowerRailIsVentedInTime) {
   break_sensor(What::offset, -4095, "bottom rail");
 }
 
-// As noisy as its file says, and one reading of ten at most a lie, never two in a row.
+// As noisy as its file specifies, and at most one reading of ten false, never two in a row.
 TEST(Supervise, NoiseWithinItsFileAndSingleBadSamplesDoNotTrip) {
   std::mt19937 random(3);
   std::int64_t rejected = 0;
@@ -178,7 +177,7 @@ TEST(Supervise, NoiseWithinItsFileAndSingleBadSamplesDoNotTrip) {
   EXPECT_GT(rejected, count());
 }
 
-// A frozen reading ends no run by itself; it is counted, where its joint is driven.
+// A frozen reading does not end a run; it is counted, where its joint is driven.
 TEST(Supervise, AStuckPotentiometerIsCountedAndEndsNoRun) {
   std::mt19937 random(5);
   int counted = 0;
@@ -196,7 +195,7 @@ TEST(Supervise, AStuckPotentiometerIsCountedAndEndsNoRun) {
 
 // --- the low level alone ------------------------------------------------------------------------
 
-// 5,000 periods a try: random gaps, commands that are no numbers, readings that lie.
+// 5,000 periods a try: random gaps, commands that are NaN, false readings.
 TEST(Supervise, ValvesObeyWhateverComes) {
   std::mt19937 random(9);
   control::FuzzCount& all = tally.fuzz;
@@ -204,7 +203,7 @@ TEST(Supervise, ValvesObeyWhateverComes) {
     for (int part = 0; part < 10; ++part) {
       const control::JointControllerConfig config = control::any_leg(random);
       control::SuperviseConfig limits;
-      const bool trips = random() % 4 == 0;  // else it goes on, so that there is something to see
+      const bool trips = random() % 4 == 0;  // else it continues, so that more is tested
       if (!trips) limits.gap_vent = limits.vent_commands = limits.bad_readings = 1'000'000;
       for (std::size_t s = 0; s < 7; ++s)
         limits.sensor[s] = {.low = 100, .high = 4000, .max_step = 2000, .joint = 1};
@@ -216,7 +215,7 @@ TEST(Supervise, ValvesObeyWhateverComes) {
                                          .counts = 5000};
       control::fuzz(supervisor, 500, options, random, all);
       const control::Supervised& seen = supervisor.supervised();
-      if (!trips) {  // an ended one judges no more
+      if (!trips) {  // a run that has ended checks no more
         EXPECT_GT(seen.rejected, 0u);
       }
       if (seen.trip.cause != Trip::Cause::none) {

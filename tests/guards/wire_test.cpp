@@ -1,5 +1,5 @@
-// Frames on a bad line, in quantity: what was spoiled is never taken, and what is obeyed is what
-// was sent, once, in order and in its time.
+// Frames on a disturbed line, in quantity: a changed frame is never accepted, and the commands that
+// are carried out are those that were sent, once, in order and in their time.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ using signals::Tick;
 
 constexpr Tick period = 100;
 
-// Counts what this process has tried: ctest gives each test one of its own.
+// Counts the tries of this process: ctest gives each test one of its own.
 struct Tally {
   std::int64_t flipped = 0, bursts = 0, sent = 0, whole = 0, obeyed = 0, passed = 0;
 };
@@ -44,7 +44,7 @@ class Tell : public ::testing::Environment {
 };
 const auto* const tell = ::testing::AddGlobalTestEnvironment(new Tell);
 
-// A try is 100,000 spoiled frames, and besides some periods of commands.
+// A try is 100,000 changed frames, and some periods of commands.
 constexpr int flipped_a_try = 50'000, bursts_a_try = 50'000, commands_a_try = 5'000;
 
 int count() {
@@ -52,7 +52,7 @@ int count() {
   return asked ? std::max(1, std::atoi(asked)) : 10;
 }
 
-// splitmix64: the quantity is in the tries, not in the dice.
+// splitmix64: a simple generator is sufficient for this many tries.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
@@ -68,7 +68,7 @@ class Dice {
   std::uint64_t state_;
 };
 
-// All that a decoder has handed out until the line is silent.
+// All frames that a decoder returns until the line is silent.
 template <class Use>
 void whole_of(Decoder& decoder, std::span<const std::uint8_t> bytes, Use use) {
   decoder.push(bytes);
@@ -76,7 +76,7 @@ void whole_of(Decoder& decoder, std::span<const std::uint8_t> bytes, Use use) {
   while (const Frame* f = decoder.next()) use(*f);
 }
 
-// Tries n frames that `spoil` has spoiled; a new frame, and a good one behind it, now and then.
+// Tries n frames that `spoil` has changed; sometimes a new frame, and a good one after it.
 template <class Spoil>
 void spoil_frames(int n, std::uint64_t seed, Spoil spoil) {
   Dice dice(seed);
@@ -127,8 +127,8 @@ TEST(Wire, BurstsOfSixteenNeverPass) {
   tally.bursts = n;
 }
 
-// Over sync, type, sequence and length what comes out depends on the whole frame: every burst at
-// every place, for each type. A part of them where there is no time for all.
+// The result depends on the whole frame after sync, type, sequence and length: every burst at every
+// place, for each type. A part of them where there is no time for all.
 TEST(Wire, BurstsOverTheHeadOfEachTypeNeverPass) {
   const std::uint32_t step = count() >= 500 ? 2 : 2 * 127;
   std::mt19937 random(3);
@@ -149,9 +149,9 @@ TEST(Wire, BurstsOverTheHeadOfEachTypeNeverPass) {
   });
 }
 
-// --- commands over a bad line -------------------------------------------------------------------
+// --- commands over a disturbed line -------------------------------------------------------------
 
-// What the line does to a frame on its way.
+// The effect of the line on a frame in transit.
 class BadLine {
  public:
   explicit BadLine(unsigned seed) : random_(seed) {}
@@ -215,7 +215,7 @@ class BadLine {
   std::array<Bytes, 64> seen_;
 };
 
-// A board's end, as far as commands go.
+// A board's end of the line, for commands only.
 struct Board {
   Decoder decoder;
   SequenceWindow window;
@@ -245,7 +245,7 @@ TEST(Wire, WhatIsObeyedWasSentForThatPeriod) {
   std::mt19937 random(4);
   BadLine line(5);
   Board board;
-  std::map<Tick, Bytes> sent;  // by the period they are for
+  std::map<Tick, Bytes> sent;  // by their period
   Tick last = 0;
   for (int i = 0; i < periods; ++i) {
     const Tick begun = i * period;

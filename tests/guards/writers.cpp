@@ -22,7 +22,7 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
-// Wall time is no part of a result.
+// Wall time is not part of a result.
 std::string comparable(const fs::path& file) {
   const std::string text = read_text(file);
   if (file.filename() != "summary.json") return text;
@@ -39,7 +39,7 @@ Writer of_a_run(const std::string& name, const std::string& experiment, const Wo
   return {name, with(words, other), words, with(words, {"--set", "nothing.such=1"}), target};
 }
 
-// `-o target --force` behind what is written from `input`, or from `other`.
+// `-o target --force` after the command that writes from `input`, or from `other`.
 Writer of_a_file(const std::string& name, const std::string& target, const Words& before,
                  const std::string& input, const std::string& other, const Words& after = {}) {
   const auto words = [&](const std::string& from) {

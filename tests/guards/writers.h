@@ -1,5 +1,5 @@
-// tests/guards/writers.h - every command that writes a file or a folder, over an older one: what
-// stood there before, what stands there when it is done, and ways to disturb it meanwhile.
+// tests/guards/writers.h - every command that writes a file or a folder, over an older one: its
+// content before and after the command, and ways to disturb the command.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace sinew::test {
 struct Writer {
   std::string name;
   Words old, fresh;    // leave an older and a newer result at the same place
-  Words refused;       // such that nothing may happen to it
+  Words refused;       // such that the old result must remain
   std::string target;  // a file, or the folder of a run or of figures
 
   bool is_run() const { return fresh[0] == "run" || fresh[0] == "import"; }
@@ -27,15 +27,15 @@ struct Writer {
 std::vector<Writer> writers(const Workspace& w);
 void prepare(const Workspace& w);
 
-// Names and contents, of a file alone under "". Of a run without what it left unfinished, and of
-// its summary without the wall clock's share. Nothing where nothing is.
+// Names and contents, of a single file under "". Of a run without unfinished files, and of its
+// summary without wall time. Empty if there is nothing.
 using State = std::map<std::string, std::string>;
 State state(const std::filesystem::path& target);
 
-// "": they are the same; else what differs, by its names.
+// "": they are the same; else the names that differ.
 std::string difference(const State& found, const State& expected);
 
-// The older and the newer result, and the older one again where it stood.
+// The older and the newer result, and the older one again in its place.
 struct Results {
   State old, fresh;
 };

@@ -1,6 +1,6 @@
-// The n-th call that writes fails, for n = 1, 2, 3 … until the command is done without it: each
-// time the command says so and ends with 1, and what stands is the old result, or, where only the
-// last words to the disk failed, the new one.
+// The n-th call that writes fails, for n = 1, 2, 3 … until the command makes fewer calls:
+// each time the command reports it and ends with 1, and afterwards there is the old result or,
+// where only the final flush to the disk failed, the new one.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// Did the call number n fail? The command's end besides.
+// Did the call number n fail? Also the command's exit.
 bool failed(const Workspace& w, const Writer& writer, int n, Ended& end) {
   const std::string told = (w / "told").string();
   fs::remove(told);
@@ -43,7 +43,7 @@ TEST(Writes, ThatFailAreToldOfAndLoseNothing) {
       EXPECT_EQ(end.code, 1) << writer.name << ", call " << n;
       EXPECT_THAT(end.output, HasSubstr(writer.target)) << writer.name << ", call " << n;
       EXPECT_THAT(end.output, HasSubstr("No space left on device")) << writer.name << n;
-      // Whoever comes next finishes what is half done, also where that is all.
+      // The next command completes an unfinished replacement, also where that is all it does.
       Words look = writer.fresh;
       std::erase(look, "--force");
       if (writer.is_folder()) run(w, writer.is_run() ? Words{"analyze", writer.target} : look);
@@ -59,7 +59,7 @@ TEST(Writes, ThatFailAreToldOfAndLoseNothing) {
               total);
 }
 
-// A row that a study's file could not take is run again; none that it took is lost.
+// A row that could not be written to a study's file is run again; no written row is lost.
 void lose_no_row(const Workspace& w, const Words& alone, const std::string& result, int least) {
   Words words = alone;
   words.insert(words.end(), {"--results", "s.db"});
@@ -69,7 +69,7 @@ void lose_no_row(const Workspace& w, const Words& alone, const std::string& resu
   Ended end;
   for (int n = 1; n < 500 && failed(w, writer, n, end); n = next(n, all), ++failures) {
     SCOPED_TRACE("call " + std::to_string(n));
-    // At the very end, when all rows are there, SQLite puts off what it cannot write.
+    // At the very end, when all rows are there, SQLite postpones writes that fail.
     EXPECT_THAT(end.code, ::testing::AnyOf(0, 1)) << end.output;
     told += end.code;
     EXPECT_TRUE(end.code == 0 || end.output.find("s.db: cannot be") != std::string::npos)

@@ -1,11 +1,11 @@
-// check.mjs - reads a log with the MCAP project's own library, so that Sinew's writer is not only
-// understood by Sinew's reader.
+// check.mjs - reads a log with the MCAP project's own library, to test Sinew's writer with a reader
+// other than Sinew's own.
 //
 //   npm ci
 //   node check.mjs whole runs/walk/1/log.mcap    a finished log: index, statistics, every message
-//   node check.mjs cut FILE                      a log that was cut off: what is left can be read
+//   node check.mjs cut FILE                      a log that was cut off: the rest can be read
 //
-// Exit code 0: as it should be, 1: not so (one line says what), 2: wrong usage.
+// Exit code 0: correct, 1: not correct (one line gives the reason), 2: wrong usage.
 import { readFile } from "node:fs/promises";
 import { crc32 } from "@foxglove/crc";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
@@ -18,7 +18,7 @@ function expect(condition, message) {
   if (!condition) throw new Failure(message);
 }
 
-// Schemas by number, channels by number, and for each message: does it say what its schema says?
+// Schemas by number, channels by number, and for each message: does its content match its schema?
 class Messages {
   #schemas = new Map();
   #channels = new Map();
@@ -42,7 +42,7 @@ class Messages {
     const properties = this.#schemas.get(channel.schemaId);
     expect(properties, `channel ${channel.topic} has no schema`);
     expect(channel.messageEncoding === "json", `${channel.topic} is ${channel.messageEncoding}`);
-    // A reader that does not look into schemas finds the units beside the channel.
+    // A reader that does not parse schemas finds the units in the channel's metadata.
     for (const [name, property] of Object.entries(properties)) {
       const unit = channel.metadata.get(`unit.${name}`);
       expect(unit === property.unit, `${channel.topic}.${name} is in ${property.unit} and in ${unit}`);
@@ -100,7 +100,7 @@ function checkStatistics(reader, messages, first, last) {
     same(`messages of channel ${channel}`, messages.counts.get(channel) ?? 0, count);
 }
 
-// A value that never changes is written once, and the topic at whose times it stands is there as a whole.
+// A value that never changes is written once, and the topic that has its times is complete.
 function checkSteady(messages) {
   const counts = new Map();
   for (const [id, count] of messages.counts) counts.set(messages.topicOf(id), count);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # muscle.sh FOLDER   builds sinew::muscle alone, on a machine that seems to have no library but the
-# compiler's, installs it below FOLDER, and runs two programs of somebody else against it.
+# compiler's, installs it below FOLDER, and builds and runs two outside programs with it.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 mkdir -p "$1"
@@ -21,13 +21,13 @@ cmake -G Ninja -S . -B "$build" -DSINEW_ONLY=muscle "${flags[@]}" >"$folder/musc
   { cat "$folder/muscle.log"; fail "does not build"; }
 seconds=$((SECONDS - begin))
 
-# No header from outside was read, and none is installed that asks for one.
+# No outside header was read, and no installed header includes one.
 read_there=$(ninja -C "$build" -t deps | grep -oE '/(fmt|nlohmann|ceres|eigen3|boost|CLI|toml[+]*)/[^ ]*' | sort -u || true)
 [[ ! $read_there ]] || fail "reads $read_there"
 asked=$(grep -rhoE '#include ["<](fmt|nlohmann|ceres|Eigen|boost|CLI|toml[+]*)/[^">]*' "$prefix/include" || true)
 [[ ! $asked ]] || fail "installed headers have: $asked"
 
-# Lesson 04 prints what it prints with the whole of Sinew.
+# Lesson 04 prints the same as with the whole of Sinew.
 SINEW_PREFIX=$prefix SINEW_CMAKE_FLAGS=$without tools/examples.sh 04-consumer
 
 # sinew/muscle.h is the first and only header of this one.
@@ -36,7 +36,7 @@ cmake -G Ninja -S tests/package/muscle -B "$folder/one" -DCMAKE_PREFIX_PATH="$pr
   cmake --build "$folder/one" >>"$folder/muscle.log" || { cat "$folder/muscle.log"; fail "muscle.h does not serve"; }
 "$folder/one/one_muscle"
 
-# Who asks for more is told what there is.
+# A request for another component fails with a list of the components.
 mkdir -p "$folder/more"
 printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(more LANGUAGES CXX)' \
   'find_package(sinew REQUIRED COMPONENTS experiment)' >"$folder/more/CMakeLists.txt"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # package.sh BUILD FOLDER   makes the Debian packages of a build, installs them below a root of its
-# own without being root, uses what is installed there, removes it, and looks that nothing is left.
+# own without being root, uses the installed files, removes them, and checks that nothing remains.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 if ! command -v dpkg-deb >/dev/null; then
@@ -12,19 +12,19 @@ mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 root=$folder/root debs=$folder/debs
 rm -rf "$root" "$debs" "$folder/again"
-export SOURCE_DATE_EPOCH=1000000000  # both times, though somebody commits meanwhile
+export SOURCE_DATE_EPOCH=1000000000  # the same both times, also after a commit in between
 
 fail() { echo "package: $*" >&2; exit 1; }
 packages() { dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Package} ${db:Status-Status}\n' 2>/dev/null; }
 files() { (cd "$root" && find . -path ./var/lib/dpkg -prune -o -print | sort); }
-# dpkg without root's rights, below the root; what the packages depend on is not there.
+# dpkg without root's rights, below the root; the dependencies of the packages are not installed.
 dpkg_in_root() {
   PATH=$PATH:/usr/sbin:/sbin dpkg --root="$root" --force-not-root --force-depends \
     --force-script-chrootless --log="$folder/dpkg.log" "$@" >"$folder/dpkg.out" 2>&1 ||
     { cat "$folder/dpkg.out"; fail "dpkg $1 failed"; }
 }
 
-# 1. The packages. Compressed quickly: what users get is smaller.
+# 1. The packages. Compressed quickly: those for users are smaller.
 make_into() {
   (cd "$build" && cpack -G DEB -B "$1" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip \
      ${2:+-D "CPACK_COMPONENTS_ALL=$2"}) >"$folder/cpack.log" 2>&1 || { cat "$folder/cpack.log"; fail "cpack failed"; }
@@ -91,7 +91,7 @@ cd "$OLDPWD"
 SINEW_PREFIX=$root/usr tools/examples.sh 04-consumer
 python/tests/journey.sh "$root/usr"
 
-# 4. Removed: nothing is left.
+# 4. Removed: nothing remains.
 mapfile -t names < <(packages | awk '{ print $1 }')
 dpkg_in_root --purge "${names[@]}"
 after=$(files)

@@ -96,8 +96,8 @@ TEST(Reference, ConstantsWithSeveralValuesOrCounts) {
     EXPECT_NEAR(per_parameter * printed(name), si(name), 1e-12 * si(name)) << name;
 }
 
-// Not modelled, so held as numbers only: the hip's cylinder and its potentiometer (it stays at its
-// stop), the counterweight, the force transducer's beam and amplifier.
+// Not modelled, so checked as numbers only: the hip's cylinder and its potentiometer (it remains at
+// its stop), the counterweight, the force transducer's beam and amplifier.
 TEST(Reference, ConstantsOfWhatIsNotModelled) {
   const std::map<std::string, double> values = {{"cylinder_bore", 0.627}, {"cylinder_stroke", 2},
                                                 {"counterweight", 10},    {"lin_pot_scale", 0.57},

@@ -63,11 +63,11 @@ TEST(Reference, LegAsPrintedHasThePrintedValves) {
 TEST(Reference, Clocks) {
   EXPECT_DOUBLE_EQ(signals::tick_seconds, si("isr_period"));
   EXPECT_DOUBLE_EQ(1 / (si("isr_period") * si("pwm_ticks")), si("pwm_leg"));
-  EXPECT_DOUBLE_EQ(as_printed().body_step, si("dt_code"));  // ours by choice; appendix A's step
+  EXPECT_DOUBLE_EQ(as_printed().body_step, si("dt_code"));  // chosen by us; appendix A's step
   EXPECT_DOUBLE_EQ(as_printed().plan.brain_period, 1 / si("pwm_leg"));
 }
 
-// Chapter 3's average; its own model stays below in every swing: "under-damped".
+// Chapter 3's average; its own model remains below in every swing: "under-damped".
 TEST(Reference, DampingRatio) {
   EXPECT_DOUBLE_EQ(printed("zeta"), 0.035);
   for (const char* name : {"A 60psi 6lb", "B 80psi 11lb", "C 60psi 11lb"})
@@ -279,7 +279,7 @@ TEST(Reference, Timing) {
         << names[i];
 }
 
-// No experiment kicks yet; the gait's path holds the printed formula, which joins both poses.
+// No experiment kicks yet; the gait's path has the printed formula, which joins both poses.
 TEST(Reference, Kick) {
   const json& kick = reference()["trajectory"]["kick"];
   const auto n = numbers(kick["kick"]);

@@ -1,12 +1,12 @@
 // Chapter 3 in numbers: every set-up of verification_summary, by the network's air and [37].
 //
-// The readings that nobody printed are those of reference.json: trapped air is sealed at the
-// hanging equilibrium and let go 0.2 in below it; the valve is open from the start of each period;
-// means are those of the last five periods of 3 s. Friction by sign(v) as printed: where it flips
-// without end the mass stays, which is what a converged integration does.
+// Where the reference leaves something open, reference.json has its reading: trapped air is sealed
+// at the hanging equilibrium and released 0.2 in below it; the valve is open from the start of each
+// period; means are those of the last five periods of 3 s. Friction by sign(v) as printed: where
+// the sign would change at every instant the mass stands still, as in a converged integration.
 //
-// Not held: f_trans_Hz of the 1 lb loads, whose transient leaves the actuator's range; all of "E"
-// but its name, see below.
+// Not checked: f_trans_Hz of the 1 lb loads, whose transient leaves the actuator's range; all of
+// "E" except its name, see below.
 
 #include "tests/reference/test_stand.h"
 
@@ -276,12 +276,12 @@ void expect_pulsed(const Pulsed& set_up, const std::vector<Sample>& samples, con
   const double settled =
       last_time(smoothed, [&](const Sample& x) { return std::abs(x.length - mean) > 0.02; });
   EXPECT_NEAR(settled, e["settle_s"].get<double>(), falls ? 0.05 : tolerance.settled);
-  // How the reference counts its swings is not known: 4 %.
+  // The reference's method of counting swings is not known: 4 %.
   if (set_up.load > 1)
     expect_share(transient_frequency(smoothed, mean), e["f_trans_Hz"], 0.04, "f_trans_Hz");
 }
 
-// The equations are ours but for rounding of the reference's grid: means to 1e-4, ripples, which
+// The equations are ours except for rounding of the reference's grid: means to 1e-4, ripples, which
 // are small differences, to 1 %.
 TEST(TestStand, PulsedValveByTheEquations) {
   for (const Pulsed& set_up : pulsed_set_ups)
@@ -295,8 +295,8 @@ TEST(TestStand, PulsedValveByTheEquations) {
                   "equations");
 }
 
-// By the code: its .0165 and .064 are what the network's exact orifice leaves; ripples and peaks
-// feel them and, at 1 ms, the coarse steps.
+// By the code: its .0165 and .064 are the remaining difference from the network's exact orifice;
+// ripples and peaks depend on them and, at 1 ms, on the coarse steps.
 TEST(TestStand, PulsedValveByTheCode) {
   for (const Pulsed& set_up : pulsed_set_ups) {
     const std::vector<Sample> samples = pulse(set_up, by_code());
@@ -338,7 +338,7 @@ TEST(TestStand, Sensitivities) {
 }
 
 // A 1 lb load at 25 Hz falls through b/sqrt 3 again and again (to -3 in), where [31] has no force:
-// chaotic, three ways of calculating it give three answers. Held: that it does leave the range.
+// chaotic, three ways of calculating it give three results. Checked: that it does leave the range.
 TEST(TestStand, OnePoundAt25HzLeavesTheRange) {
   const json& row = summary()["E 25Hz 1lb"];
   for (const char* column : {"thesis_1ms", "code_conv", "equations"})
@@ -348,7 +348,7 @@ TEST(TestStand, OnePoundAt25HzLeavesTheRange) {
   EXPECT_LT(range(samples, [](const Sample& x) { return x.length; }).first, 2.0);
 }
 
-// How far the reference's own coarser steps are from its converged run: below what is held above.
+// How far the reference's own coarser steps are from its converged run: below the limits above.
 TEST(TestStand, ErrorsOfTheReferenceAreSmallerThanTheTolerances) {
   for (const auto& [name, row] : summary().items()) {
     ASSERT_TRUE(row.contains("err_1ms") && row.contains("err_10us")) << name;

@@ -11,7 +11,7 @@ namespace {
 using test::figure, test::seed, test::summary_of;
 using units::degree, units::inch;
 
-// The hamstring alone bends the knee and stretches the hip: slack, it leaves both where they hang.
+// The hamstring alone bends the knee and stretches the hip: slack, it leaves both hanging.
 TEST(ThreeMuscles, WalkBecauseOfTheHamstring) {
   for (int n = 1; n <= 3; ++n) {
     const analysis::Summary s = summary_of("three-muscles", {seed(n)});
@@ -34,8 +34,8 @@ analysis::Summary walk_with(const std::string& source, int n) {
                                             "trolley.track_length=10 ft", seed(n)});
 }
 
-// Pressures do what forces do, and are steadier; position alone walks and repeats its steps as
-// well, but the stiffness is no longer what was asked for.
+// Pressures have the same effect as forces, and are steadier; position alone walks and repeats its
+// steps as well, but the stiffness is no longer the commanded one.
 TEST(FewerSensors, PressuresReplaceForcesAndPositionAloneWalks) {
   for (int n = 1; n <= 3; ++n) {
     const analysis::Summary forces = walk_with("forces", n), pressures = walk_with("pressures", n),
@@ -53,14 +53,14 @@ TEST(FewerSensors, PressuresReplaceForcesAndPositionAloneWalks) {
   }
 }
 
-// One force per joint: the flexor's will do, the extensor's carries the body and misleads.
+// One force per joint: the flexor's is sufficient, the extensor's carries the body and misleads.
 TEST(FewerSensors, OneForceIsEnoughIfItIsTheFlexors) {
   EXPECT_GT(figure(walk_with("flexor force", 1), "trolley.distance_m") / inch, 53);
   EXPECT_LT(figure(walk_with("extensor force", 1), "trolley.distance_m") / inch, 2);
 }
 
-// The transducers of table C-1 change nothing by being there, but the noise of their sensors'
-// places.
+// The presence of the transducers of table C-1 changes only the noise, which depends on the places
+// of the sensors.
 TEST(FewerSensors, TransducersThatNoLawReadsChangeLittle) {
   const analysis::Summary plain = summary_of("walk-test-1"),
                           more = summary_of("walk-with-pressures",
@@ -100,7 +100,7 @@ TEST(Dampers, CostQuickness) {
   EXPECT_GT(last, 0.3);
 }
 
-// A joint's law may take its speed from a sensor; the hip then shakes less, as with an estimate.
+// A joint's law may use the speed of a sensor; the hip then shakes less, as with an estimate.
 TEST(Spindles, DampTheHipOfTest2) {
   const auto shakes = [](const char* gain) {
     const std::string robot = sinew::test::source_dir() + "/robots/leg-with-spindles/robot.toml",

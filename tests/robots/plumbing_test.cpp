@@ -1,4 +1,4 @@
-// Another plumbing of the leg changes its walk as the laws of the plumbing say.
+// Another plumbing of the leg changes its walk as the laws of the plumbing predict.
 #include <gtest/gtest.h>
 
 #include "runs.h"
@@ -11,8 +11,8 @@ namespace {
 using test::figure, test::seed, test::summary_of;
 using units::inch;
 
-// 5.1: the same path, supply and muscles, the same way within an inch and a half, as little spread;
-// and ten times the air at least, because no valve ever seals.
+// 5.1: the same path, supply and muscles, the same distance within an inch and a half, an equally
+// small spread; and ten times the air at least, because no valve ever seals.
 TEST(Plumbing, ThreeWayValvesWalkAsFarOnTenTimesTheAir) {
   for (int n = 1; n <= 5; ++n) {
     const analysis::Summary two = summary_of("walk-test-1", {seed(n)}),
@@ -27,7 +27,7 @@ TEST(Plumbing, ThreeWayValvesWalkAsFarOnTenTimesTheAir) {
   }
 }
 
-// Whatever the valve's size within the leg's two, and for Robot III's own valve.
+// For any size of valve between the leg's two, and for Robot III's own valve.
 TEST(Plumbing, TheValvesSizeDoesNotExcuseTheAir) {
   const double two = figure(summary_of("walk-test-1"), "air_used_per_step_kg");
   for (const char* area : {"9.774e-6 ft2", "2.142e-5 ft2"}) {
@@ -40,7 +40,7 @@ TEST(Plumbing, TheValvesSizeDoesNotExcuseTheAir) {
   EXPECT_GT(figure(summary_of("walk-3-way", sets), "air_used_per_step_kg"), 8 * two);
 }
 
-// Between the two: what a regulator lets in it lets out again, but it shuts in between.
+// Between the two: a regulator vents the air that it supplied, but it seals the muscle in between.
 TEST(Plumbing, RegulatorsWalkOnAirBetweenTheTwo) {
   for (int n = 1; n <= 3; ++n) {
     const analysis::Summary two = summary_of("walk-test-1", {seed(n)}),
@@ -54,7 +54,7 @@ TEST(Plumbing, RegulatorsWalkOnAirBetweenTheTwo) {
   }
 }
 
-// A regulator is always open: its muscle may be quicker than a step of the body. Air that swung to
+// A regulator is always open: its muscle may be faster than a step of the body. Air that flows to
 // and fro in each step would be counted again and again.
 TEST(Plumbing, RegulatorsTakeNoMoreAirInLongSteps) {
   for (const char* conductance : {"1 L/(s bar)", "10 L/(s bar)"}) {
@@ -66,7 +66,7 @@ TEST(Plumbing, RegulatorsTakeNoMoreAirInLongSteps) {
   }
 }
 
-// A slow one walks less far: half the way at 200 ms.
+// A slow one walks less far: half the distance at 200 ms.
 TEST(Plumbing, SlowRegulatorsSlowTheWalk) {
   const auto distance = [](const char* time) {
     const std::string set = std::string("valve.regulator.regulator.time_constant=") + time;
@@ -76,9 +76,9 @@ TEST(Plumbing, SlowRegulatorsSlowTheWalk) {
   EXPECT_LT(distance("200 ms"), 0.5 * distance("10 ms"));
 }
 
-// --- what the air costs a robot that carries it -------------------------------------------------
+// --- air consumption of a robot that carries its tank -------------------------------------------
 
-// What has left the tank is what went into the muscles: m = dP V/(R T).
+// The air that has left the tank has entered the muscles: m = dP V/(R T).
 TEST(Endurance, TheTankLosesWhatTheMusclesTake) {
   const analysis::Summary s = summary_of("endurance", {"sequence.repeat=25"});
   const double lost = units::absolute(300 * units::psi) - figure(s, "supply.end_tank_pressure_Pa");
@@ -100,7 +100,7 @@ TEST(Endurance, PlumbingDecidesHowFarATankLasts) {
   EXPECT_GT(regulated, 10 * three);
 }
 
-// A line that never falls was full for at least the whole run, and has no time at which it fell.
+// A line that never falls was full for at least the whole run, and has no time of its fall.
 TEST(Endurance, ALineThatHoldsOutHasALowerBound) {
   const analysis::Summary s = summary_of("endurance", {"sequence.repeat=1"});
   EXPECT_EQ(s.find("supply.full_time_s"), nullptr);
@@ -110,7 +110,7 @@ TEST(Endurance, ALineThatHoldsOutHasALowerBound) {
   EXPECT_GT(figure(s, "supply.full_distance_at_least_m"), 0);
 }
 
-// 4.2's tank of 100 gallons, at its own 100 psi: a walk is a drop in it.
+// 4.2's tank of 100 gallons, at its own 100 psi: a walk uses very little of it.
 TEST(Endurance, TheThesissTankHardlyMoves) {
   const analysis::Summary s = summary_of(
       "walk-test-1", {"air.supply={ kind = \"tank\", volume = \"378.5 L\", initial_pressure = "
@@ -121,7 +121,7 @@ TEST(Endurance, TheThesissTankHardlyMoves) {
 
 // --- hoses --------------------------------------------------------------------------------------
 
-// 3.4: what a hose takes away is flow, so the walk gets shorter with it; it hardly damps.
+// 3.4: a hose reduces the flow, so the walk gets shorter with it; it adds hardly any damping.
 TEST(Hoses, TakeWayAndHardlyDamp) {
   double last = figure(summary_of("walk-test-1"), "trolley.distance_m");
   const char* shakes = "joints.hip.swing_oscillation_rms_rad";

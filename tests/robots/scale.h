@@ -34,11 +34,11 @@ inline void scale(robot::Joint& j, const Scale& s) {
 }
 
 inline void scale(robot::Cam& cam, const Scale& s) {
-  cam.radius *= s.length;  // stays not set
+  cam.radius *= s.length;  // remains not set
   for (double& r : cam.radii) r *= s.length;
 }
 
-// A pipe does not scale: the air's viscosity is what it is. Its conductance does.
+// A pipe does not scale: the air's viscosity is a constant. Its conductance does.
 inline void scale(robot::Muscle& m, const Scale& s) {
   scale(m.cam, s);
   scale(m.second.cam, s);
@@ -114,7 +114,7 @@ inline void scale(gas::Valve& v, const Scale& s) {
   v.max_frequency /= s.length;
 }
 
-// What moves; the controller's numbers stay.
+// What moves; the controller's numbers are not scaled.
 inline experiment::Experiment scaled(experiment::Experiment e, double factor) {
   const Scale s(factor);
   scale(e.robot, s);

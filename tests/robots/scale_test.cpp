@@ -1,5 +1,5 @@
-// A test of dimensional analysis: a leg n times as small, made of numbers that are scaled by their
-// units alone, does in time t/n what the leg does in t. Valves are driven open loop at random.
+// A test of dimensional analysis: a leg n times as small, whose numbers are scaled by their units
+// alone, moves in time t/n as the leg moves in t. Valves are driven open loop at random.
 #include "scale.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ std::vector<Toggle> random_toggles(unsigned seed, int valves, Tick end) {
   return out;
 }
 
-// Returns what the machine does, its ticks being `stretch` of the small one's.
+// Returns the motion of the machine, with ticks that are `stretch` of the small one's.
 template <class World>
 std::vector<plant::Truth> motion(const Experiment& e, const std::vector<Toggle>& toggles,
                                  Tick stretch, Tick end) {
@@ -106,7 +106,7 @@ void compare(const Experiment& e, int n, unsigned seed, double seconds, double t
   expect_alike(large, small, n, static_cast<int>(e.robot.joints.size()), muscles, tolerance);
   double moved = 0;
   for (const plant::Truth& t : large) moved = std::max(moved, std::abs(t.rate[0]));
-  EXPECT_GT(moved, 0.5);  // rad/s: something has happened
+  EXPECT_GT(moved, 0.5);  // rad/s: the machine moved
 }
 
 const std::vector<std::string> everything = {
@@ -121,7 +121,7 @@ const std::vector<std::string> everything = {
     "joint.hip.damper=1 lbf in s/rad",
     "trolley.payload=2 lb"};
 
-// Joints that rub, or a foot and a trolley that do: of one kind, see below.
+// Joints with friction, or a foot and a trolley with friction: of one kind, see below.
 const std::vector<std::string> no_trolley = {"trolley.drag=0 lbf"},
                                smooth_joints = {"joint.hip.dry_friction=0 lbf in",
                                                 "joint.knee.dry_friction=0 lbf in",
@@ -134,8 +134,8 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
   return a;
 }
 
-// A scale that is a power of two only moves exponents: not one bit may differ. A number in the code
-// that has a unit and was not scaled would show, however small what it does.
+// A scale that is a power of two only changes exponents: not one bit may differ. A number in the
+// code that has a unit and was not scaled would show, however small its effect.
 TEST(Scale, AnEighthOfTheLegMovesAlikeToTheBit) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     compare<plant::ChainWorld<2>>(load("leg-in-air", no_trolley), 8, seed, 4, 0);
@@ -162,8 +162,9 @@ TEST(Scale, AFifthOfTheLegMovesAlikeToRounding) {
   }
 }
 
-// The hair of damping in mechanism/friction/friction.h is 1e-9 of the largest response, be it of an
-// angle or of a way: with both kinds of friction it has a size of its own, and shows that much.
+// The small damping in mechanism/friction/friction.h is 1e-9 of the largest response, be it of an
+// angle or of a distance: with both kinds of friction it has a size of its own, and causes a
+// difference of that order.
 TEST(Scale, BothKindsOfFrictionAgreeButForAHair) {
   constexpr int n = 8;
   constexpr Tick end = 1200;  // 0.96 s of the leg
@@ -181,7 +182,7 @@ TEST(Scale, BothKindsOfFrictionAgreeButForAHair) {
 
 // --- robots/cricket -----------------------------------------------------------------------------
 
-// Its file is the leg an eighth as large, in numbers of four digits: in the air, with the leg's
+// Its file is the leg scaled to an eighth, in numbers of four digits: in the air, with the leg's
 // delays and gravity scaled as well, it moves alike.
 TEST(Cricket, IsTheLegAnEighthAsLarge) {
   const auto end = static_cast<Tick>(0.2 / signals::tick_seconds);  // 1.6 s of the leg
@@ -212,7 +213,7 @@ TEST(Cricket, StandsInACubeOfTwoInches) {
   for (const robot::Link& l : r.links) EXPECT_LE(l.length, cube);
 }
 
-// 7.1: the size is not what limits it. Its valves are: what a delay takes grows as the legs shrink.
+// 7.1: the size is not the limit. Its valves are: the effect of a delay grows as the legs shrink.
 TEST(Cricket, WalksAndFeelsDelaysMoreThanWeight) {
   const auto distance = [](std::vector<std::string> sets) {
     return test::figure(test::summary_of("cricket", std::move(sets)), "trolley.distance_m") /

@@ -34,7 +34,7 @@ class SixLegs : public testing::Test {
   static experiment::Experiment load(const std::vector<std::string>& sets = {}) {
     return run::buildable(path, sets);
   }
-  // The first complaint about the machine with these sets.
+  // The first error of the machine with these sets.
   static std::string refusal(const std::vector<std::string>& sets) {
     try {
       (void)load(sets);
@@ -74,8 +74,8 @@ TEST_F(SixLegs, AreOnThreeBoardsWithTheSameNumbers) {
   EXPECT_EQ(channels.size(), 72u);
 }
 
-// All joints move as they are told, all valves work, all feet are loaded, and all air that came in
-// is there or has left.
+// All joints follow their commands, all valves switch, all feet are loaded, and all air that
+// entered is present or has left.
 TEST_F(SixLegs, MoveInAClosedLoop) {
   const experiment::Experiment e = load();
   const run::Outcome out = run::run(e);
@@ -114,7 +114,7 @@ TEST_F(SixLegs, MoveInAClosedLoop) {
       }
   }
 
-  // Every reader of a log knows all of it.
+  // Every reader of a log can read all of it.
   const config::Node root = config::compose(path);
   const analysis::Summary summary = analysis::summarize(out.table, analysis::read_machine(root));
   double used = 0;

@@ -33,7 +33,7 @@ TEST(TwoLegs, WalkInAntiphase) {
   }
 }
 
-// A leg that stands in place of walking does not carry the other one along.
+// A leg that stands instead of walking does not carry the other one along.
 TEST(TwoLegs, BothMakeTheSpeed) {
   const analysis::Summary both = summary_of("walk-two-legs");
   const analysis::Summary lame = summary_of(
@@ -41,8 +41,8 @@ TEST(TwoLegs, BothMakeTheSpeed) {
   EXPECT_LT(figure(lame, "trolley.distance_m"), 0.5 * figure(both, "trolley.distance_m"));
 }
 
-// The legs' laws are those of the leg: what the low level knows of each joint differs from the
-// leg's in its channels, valves and times alone.
+// The legs' laws are those of the leg: the low level's data of each joint differ from the leg's in
+// channels, valves and times alone.
 TEST(TwoLegs, LawsAreThoseOfTheLeg) {
   const control::JointControllerConfig two = control::joint_controller_config(
                                            run::installation(load("walk-two-legs"))),
@@ -96,7 +96,7 @@ TEST(TwoLegs, WalkOnAnkles) {
   }
 }
 
-// The air of each leg's muscles beside the other's: the same legs half a step apart use the same.
+// The legs' air, compared: the same legs half a step apart use the same.
 TEST(TwoLegs, ShareTheWork) {
   const analysis::Summary s =
       summary_of("walk-two-legs", {"sequence.repeat=6", "trolley.track_length=20 ft"});

@@ -33,7 +33,7 @@ class BoardOnPty {
     if (file_ < 0 || ::grantpt(file_) != 0 || ::unlockpt(file_) != 0)
       throw std::runtime_error("no pseudo-terminal");
     device_ = ::ptsname(file_);
-    // Without a host it must not hang up, nor echo, and bytes that nobody takes are lost.
+    // Without a host it must not hang up, nor echo, and bytes that are not read are lost.
     keeper_ = ::open(device_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios raw{};
     ::tcgetattr(keeper_, &raw);
@@ -58,7 +58,7 @@ class BoardOnPty {
       if (*file >= 0) ::close(std::exchange(*file, -1));
   }
 
-  // Waits until it is so; false: it is not, after so many seconds.
+  // Waits until the condition holds; false: it did not within so many seconds.
   template <class So>
   bool wait(So so, double seconds) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -111,7 +111,7 @@ class BoardOnPty {
     fault_ = program_.safety().fault();
     open_ = out.open;
   }
-  // Ten ticks at a time: a computer like this one wakes nobody every 100 us.
+  // Ten ticks at a time: a computer like this one cannot wake a thread every 100 us.
   void run() {
     auto due = std::chrono::steady_clock::now();
     while (!ends_) {

@@ -34,7 +34,7 @@ Words view_at(const BoardOnPty& board) {
           "--no-report"};
 }
 
-// A live view that goes on: its address, and the program, which ends with this.
+// A live view in progress: its address, and the program, which ends with this.
 struct Viewed {
   explicit Viewed(BoardOnPty& board) : host(w.start(view_at(board))) {
     EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 20));
@@ -83,7 +83,7 @@ TEST_F(MachineInAPage, IsSeenAndStoppedByItsButton) {
   EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5));
 }
 
-// A simulation would go to its end at full speed.
+// A simulation would run to its end at full speed.
 TEST_F(MachineInAPage, IsVentedBySignals) {
   for (const int signal : {SIGINT, SIGHUP, SIGTSTP}) {
     BoardOnPty board(loaded());

@@ -1,4 +1,4 @@
-// `sinew run --port serial:…` with a board at the other end, and what becomes of the board when its
+// `sinew run --port serial:…` with a board at the other end, and the state of the board after its
 // host is asked to stop, dies, or loses its line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ bool has_ended(const BoardOnPty& board) {
   return state != BoardState::running && state != BoardState::hold;
 }
 
-// What a program that is started in its life can read, and then waits for.
+// Standard input of the programs started during its life: these answers, then no end of file.
 class AnswersThatCome {
  public:
   explicit AnswersThatCome(const std::string& answers) : before_(::dup(0)) {
@@ -57,7 +57,7 @@ class AnswersThatCome {
   int before_, ends_[2];
 };
 
-// A run that goes on, a second after its start.
+// A run in progress, a second after its start.
 struct Running {
   explicit Running(BoardOnPty& b, const std::string& name = "walk-test-1")
       : board(b), host(w.start(run_at(b, name))) {
@@ -69,7 +69,7 @@ struct Running {
     if (host > 0) ::kill(host, SIGKILL);
     wait();
   }
-  // What the program ended with.
+  // The program's exit code.
   int wait() {
     int status = 0;
     if (host > 0) ::waitpid(host, &status, 0);
@@ -151,8 +151,8 @@ TEST(Serial, AStopThatIsAskedForVents) {
   }
 }
 
-// A window that closes sends several signals, and who is impatient presses twice; Ctrl-Z would
-// leave the machine as it is.
+// A window that closes sends several signals, and a user may press Ctrl-C twice; Ctrl-Z would leave
+// the machine as it is.
 TEST(Serial, SeveralSignalsVentAsOneDoes) {
   for (const int signal : {SIGINT, SIGHUP, SIGQUIT, SIGTSTP}) {
     BoardOnPty board(loaded("walk-test-1"));
@@ -169,7 +169,7 @@ TEST(Serial, SeveralSignalsVentAsOneDoes) {
   }
 }
 
-// A device that is no board, and is never silent: a receiver of positions, a logger.
+// A device that is not a board and sends all the time: a GPS receiver, a logger.
 TEST(Serial, ASignalEndsTheStartUpAtALineThatIsNeverSilent) {
   const Workspace w;
   const int far = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
@@ -278,7 +278,7 @@ TEST(Serial, ASecondHostIsRefusedAndTheFirstGoesOn) {
   EXPECT_FALSE(has_ended(board));
 }
 
-// Its log cannot grow: the run is told of, and the machine is not left under air.
+// Its log cannot grow: the run reports it, and the machine is not left under pressure.
 TEST(Serial, AFullDiskLeavesTheBoardAtRest) {
   BoardOnPty board(loaded("kick"));
   const Workspace w;

@@ -1,4 +1,4 @@
-// go_on EXPERIMENT SAVE...   goes on from each save to the end, and prints what was seen there.
+// go_on EXPERIMENT SAVE...   continues from each save to the end, and prints a hash.
 #include <cstdio>
 #include <exception>
 #include <fstream>

@@ -1,4 +1,4 @@
-// A walk saved at a hundred random instants goes on in another process with the same bits.
+// A walk saved at a hundred random instants continues in another process with the same bits.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>

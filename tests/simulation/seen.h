@@ -1,4 +1,4 @@
-// tests/simulation/seen.h - all that can be read of a simulation, as one number.
+// tests/simulation/seen.h - all readings of a simulation as one number.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace sinew::test {
 
-// FNV-1a of the bits of every channel at ten instants from where it stands to its end.
+// FNV-1a of the bits of every channel at ten instants from its current time to its end.
 inline std::uint64_t seen_to_the_end(run::Simulation& s) {
   std::uint64_t h = 0xcbf29ce484222325;
   const signals::Tick from = s.last() - s.last() / 20;

@@ -1,6 +1,6 @@
-// browser.mjs SITE [PICTURES]   reads the docs site as a person would: serves it on this computer,
-// types into its search, follows the first hit, and looks at every formula. Nothing may be asked of
-// anybody else. Pictures of some pages go where they are wanted.
+// browser.mjs SITE [PICTURES]   tests the docs site in a browser: serves it on this computer, types
+// into its search, follows the first hit, and checks every formula. No other server may be
+// contacted. Pictures of some pages are written to PICTURES.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { readdirSync, readFileSync } from 'node:fs';
@@ -29,8 +29,8 @@ after(async () => {
   server?.kill();
 });
 
-// Opens a page, lets `does` happen, and sees that nothing went wrong and nobody else was asked. A
-// page makes its search ready as soon as it is open, which takes seconds: only `search` has it do so.
+// Opens a page, lets `does` happen, and checks that there was no error and no outside request. A
+// page prepares its search when it is opened, which takes seconds: only with `search`.
 async function visit(path, does, { search = false, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   context.setDefaultTimeout(60000);
@@ -50,9 +50,9 @@ async function visit(path, does, { search = false, ...options } = {}) {
   }
 }
 
-// Types into the search box of an open page and returns where the first hit leads: the first section of
-// the first page, or that page where its own words are meant. The first search of a page waits until its
-// index is made, which takes seconds, and more of them on a busy computer.
+// Types into the search box of an open page and returns the target of the first hit: the first section
+// of the first page, or that page where its own text is meant. The first search of a page waits until
+// its index is made, which takes seconds, and more of them on a busy computer.
 async function first_hit(page, words) {
   const items = page.locator('.md-search-result__item');
   const type = async (text) => {
@@ -69,7 +69,7 @@ async function first_hit(page, words) {
   return link.getAttribute('href');
 }
 
-// Follows a hit. Returns the path of the page, the heading at the hit, and the words of the page.
+// Follows a hit. Returns the path of the page, the heading at the hit, and the text of the page.
 async function follow(page, hit) {
   await page.goto(new URL(hit, url).href);
   return page.evaluate(() => {
@@ -80,7 +80,7 @@ async function follow(page, hit) {
   });
 }
 
-// What is typed, the page that the first hit must be on, and what stands at its place.
+// The typed text, the page that the first hit must be on, and the heading at its place.
 const searches = [
   ['effectiveness', /actuator|stiffness_8h/, /effectiveness/i],
   ['inlet', /./, /inlet/i],

@@ -1,4 +1,4 @@
-// A preview between two nodes is nearly the node, and a world converges with its order.
+// A state between two nodes is close to the node, and a world converges with its order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,15 +16,15 @@ class Accuracy : public Worlds {};
 
 using Numbers = std::array<double, most_quantities>;
 
-// Records a figure that a law found, for --gtest_output and for who wants to see it.
+// Records a measured figure, for --gtest_output.
 void record(const std::string& key, double figure) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2e", figure);
   ::testing::Test::RecordProperty(key, text);
 }
 
-// A preview from the last node to just before the next one against that node itself, by what is
-// compared: the longest preview. The largest differences of a second.
+// The state extrapolated from the last node to just before the next one, compared with that node,
+// by kind of quantity: the longest extrapolation there is. The largest differences in a second.
 std::map<Kind, double> preview_errors(const Subject& s, const Variant& variant) {
   const std::unique_ptr<Body> body = s.make(variant);
   const Channels channels(*body);
@@ -49,7 +49,7 @@ std::map<Kind, double> preview_errors(const Subject& s, const Variant& variant) 
   return worst;
 }
 
-// Nothing rubs: dry friction belongs to a step, and jumps where one ends.
+// No friction: dry friction is constant within a step and jumps at its end.
 TEST_P(Accuracy, PreviewsAgreeWithNodes) {
   const Subject& s = GetParam();
   std::map<Kind, double> worst = preview_errors(s, {.smooth = true});
@@ -65,7 +65,7 @@ TEST_P(Accuracy, PreviewsAgreeWithNodes) {
   record("mass", worst[Kind::mass]);
 }
 
-// On its ground and with all that rubs.
+// On its ground and with all friction.
 TEST_P(Accuracy, PreviewsAgreeWithNodesUnderFriction) {
   const Subject& s = GetParam();
   std::map<Kind, double> worst = preview_errors(s, {});
@@ -77,7 +77,7 @@ TEST_P(Accuracy, PreviewsAgreeWithNodesUnderFriction) {
   record("tension", worst[Kind::tension]);
 }
 
-// Let go away from where it would rest, and followed for 64 ms.
+// Released away from its rest position, and followed for 64 ms.
 Numbers swing(const Subject& s, double step, bool driven) {
   const std::unique_ptr<Body> body =
       s.make({.step = step, .pressure = 3e5, .displaced = true, .smooth = true});
@@ -91,7 +91,7 @@ Numbers swing(const Subject& s, double step, bool driven) {
   return out;
 }
 
-// The largest error of an angle or a place; where nothing can move, the mass of its air in grams.
+// The largest error of an angle or a position; where nothing can move, of the mass of its air [g].
 double error(const std::vector<Quantity>& what, const Numbers& a, const Numbers& exact) {
   double place = 0, mass = 0;
   for (std::size_t i = 0; i < what.size(); ++i) {

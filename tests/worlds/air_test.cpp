@@ -1,4 +1,4 @@
-// Air that went in and has not left is there, and energy that nothing takes away is kept.
+// Conservation: air that entered and has not left is present, and energy without losses is kept.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 class Balance : public Worlds {};
 
-// The accounts of a world every 10 ms while its valves are driven at random.
+// The balances of a world every 10 ms while its valves are driven at random.
 std::vector<std::vector<Account>> book(const Subject& s, Tick end) {
   const std::unique_ptr<Body> body = s.make({});
   const Channels channels(*body);
@@ -33,7 +33,7 @@ std::vector<std::vector<Account>> book(const Subject& s, Tick end) {
   return out;
 }
 
-// Relative to all the air that has moved or is there: the rounding of some thousand steps, 1e-16
+// Relative to all the air that has moved or is present: the rounding of some thousand steps, 1e-16
 // each. Measured: 1e-13.
 constexpr double rounding = 1e-12;
 
@@ -51,7 +51,7 @@ TEST_P(Balance, AirIsNeitherMadeNorLost) {
   RecordProperty("share", std::to_string(1e15 * most) + "e-15");
 }
 
-// Every part with a valve takes air and gives air, or the balance would be none.
+// Every part with a valve takes in and releases air; otherwise the balance would test nothing.
 TEST_P(Balance, EveryPathOfTheAirActs) {
   const auto books = book(GetParam(), 10000);
   if (GetParam().taps.empty()) return;
@@ -61,8 +61,8 @@ TEST_P(Balance, EveryPathOfTheAirActs) {
   }
 }
 
-// Drift of the energy over a second, or until a cord hangs slack: from there on a muscle that
-// pushes back finds nobody.
+// Drift of the energy over a second, or until a tendon is slack: from there on a muscle that pushes
+// has nothing to push against.
 double drift(const Subject& s, double step) {
   const std::unique_ptr<Body> body =
       s.make({.step = step, .pressure = 3e5, .displaced = true, .lossless = true});
@@ -83,9 +83,9 @@ double drift(const Subject& s, double step) {
   return worst;
 }
 
-// Shut in and without losses, body, springs, air and the room's air together keep their energy but
-// for what RK4 makes of it: half the step, a thirty-second of the drift, down to what the series of
-// the pressures leaves (2e-11 of a pressure, 2e-13 of the energy that moves).
+// Sealed and without losses, body, springs, air and the room's air together keep their energy
+// except for the error of RK4: half the step, a thirty-second of the drift, down to what the series
+// of the pressures contributes (2e-11 of a pressure, 2e-13 of the energy that moves).
 TEST_P(Balance, EnergyIsKeptWithoutLosses) {
   const Subject& s = GetParam();
   if (!s.conserves) return;

@@ -1,4 +1,4 @@
-// A world has the same bits twice, however often and however it is looked at.
+// A world has the same bits twice, however often and however it is observed.
 #include <gtest/gtest.h>
 
 #include "sinew/run/simulation/test_same.h"
@@ -25,7 +25,7 @@ TEST_P(Bits, TwiceTheSameBits) {
   expect_same(GetParam(), once, follow(GetParam(), {}, end, 1));
 }
 
-// Reads at random instants, several a tick.
+// Observations at random instants, several per tick.
 TEST_P(Bits, PeeksLeaveNoTrace) {
   expect_same(GetParam(), follow(GetParam(), {}, end, 2),
               follow(GetParam(), {}, end, 2, {.truths = 3}));
@@ -42,14 +42,14 @@ TEST_P(Bits, AdvancingInPortionsChangesNoBit) {
               follow(GetParam(), {}, end, 4, {.advances = true}));
 }
 
-// A save that another body restores holds all that the future depends on: some 80 times in a run,
-// between nodes too, while edges are on their way.
+// A save that another body restores contains all state that the future depends on: some 80 times in
+// a run, also between nodes, while edges are pending.
 TEST_P(Bits, GoesOnFromASave) {
   expect_same(GetParam(), follow(GetParam(), {}, end, 5),
               follow(GetParam(), {}, end, 5, {.restores = true}));
 }
 
-// The real controller in the loop: what it decides depends on every reading.
+// The real controller in the loop: its output depends on every reading.
 TEST_P(Bits, ReadsDoNotChangeAClosedLoop) {
   if (!GetParam().run) return;
   const signals::Table alone = GetParam().run(false, 0);

@@ -1,5 +1,5 @@
-// tests/worlds/body.h - what the laws of this folder ask of a world: the only place where a world
-// and a law meet. A new world needs an adapter like those of planar.cpp and stand.cpp, no new law.
+// tests/worlds/body.h - the interface between the worlds and the laws of this folder. A new world
+// needs an adapter like those of planar.cpp and stand.cpp, no new law.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace sinew::worlds {
 
-// A number of the truth, by what it is: laws state their tolerances for these.
+// A number of the truth, by kind: laws state their tolerances for these kinds.
 enum class Kind { angle, place, rate, tension, pressure, mass, other };
 struct Quantity {
   std::string name;
@@ -43,7 +43,7 @@ class Body {
   virtual std::int64_t nodes() const = 0;
   virtual air::Failure failure() const = 0;
 
-  // The state at the last node and the commands since, as bytes; and a body that goes on from it.
+  // The state at the last node and the commands since, as bytes; and a body that continues from it.
   virtual std::vector<std::byte> save() const = 0;
   virtual void restore(std::span<const std::byte> saved) = 0;
 
@@ -54,8 +54,8 @@ class Body {
   // At a node.
   virtual std::vector<Account> air(double t) = 0;
 
-  // Returns the energy of all that moves, of springs and gravity, of the air and of the room that
-  // it pushes aside  [J].
+  // Returns the energy of all moving parts, of springs and gravity, of the air and of the room air
+  // that it displaces  [J].
   virtual double energy(double t) = 0;
 };
 
@@ -63,9 +63,9 @@ class Body {
 struct Variant {
   double step = 0;         // between nodes; 0: the subject's own [s]
   double pressure = 0;     // at the start, absolute; 0: the subject's own [Pa]
-  bool displaced = false;  // from where it would rest
-  bool smooth = false;     // nothing rubs, nothing touches the ground
-  bool lossless = false;   // smooth; nothing damps; the braid does the virtual work of its pressure
+  bool displaced = false;  // starts away from its rest position
+  bool smooth = false;     // no friction, no contact with the ground
+  bool lossless = false;   // smooth; no damping; the braid does the virtual work of its pressure
 };
 
 // A valve or regulator that the random pattern drives.
@@ -74,11 +74,11 @@ struct Tap {
   bool regulator = false;
 };
 
-// The limits that a subject is held to. The defaults are those of a planar world; each other value
-// stands where its subject is made, with the reason and the figure that was measured.
+// The limits for a subject. The defaults are those of a planar world; every other value is set
+// where its subject is made, with the reason and the measured figure.
 struct Limits {
-  // A preview over a whole step against the node there, valves at random. A preview is the motion
-  // at constant acceleration and Heun's rule for the air, both of the third order within the step.
+  // A state extrapolated over a whole step against the node there, valves at random: the motion at
+  // constant acceleration and Heun's rule for the air, both of the third order within the step.
   // Measured of legs: 1.9e-5 rad, 1.9e-6 m, 0.11 N, 520 Pa, 0.086 mg.
   double preview_angle = 2.2e-5;  // [rad]
   double preview_place = 2.2e-6;  // [m]
@@ -86,16 +86,16 @@ struct Limits {
   double preview_pressure = 600;  // [Pa]
   double preview_mass = 1e-7;     // [kg]
 
-  // These hold where it rubs: the foot may touch the ground, or a joint come to rest, within the
+  // These apply with friction: the foot may touch the ground, or a joint come to rest, within the
   // step, and the gauge's share of the mesh's friction jumps at the node. Measured of legs: 5.2e-4
   // rad, 5.5e-5 m, 1.4 N.
   double rubbing_angle = 7e-4;   // [rad]
   double rubbing_place = 7e-5;   // [m]
   double rubbing_tension = 1.7;  // [N]
 
-  // Mean of two halvings from 1 ms on, and the error there [rad] or [m]: shut in, then with valves
-  // at random. Valves cost order where a flow changes its law within a step: choked or not, and
-  // linear near no difference. Measured: 4.0 to 4.3 and 9e-9; 2.4 to 4.5 and 4e-8.
+  // Mean of two halvings from 1 ms on, and the error there [rad] or [m]: sealed, then valves at
+  // random. Valves reduce the order where a flow changes its law within a step: choked or not, and
+  // linear at small differences. Measured: 4.0 to 4.3 and 9e-9; 2.4 to 4.5 and 4e-8.
   double order = 3.8, error = 1e-7;
   double driven_order = 2, driven_error = 1e-6;
 
@@ -109,11 +109,11 @@ struct Subject {
   std::vector<Tap> taps;
   double step = 0;  // between nodes [s]
 
-  // Closed loop with the real controller: every tick visited, extra reads per event. Empty: there
-  // is no experiment of it.
+  // Closed loop with the real controller: every tick visited, extra observations per event. Empty:
+  // there is no experiment of it.
   std::function<signals::Table(bool every_tick, int extra_readers)> run;
 
-  bool conserves = false;  // with its air shut in and without losses it keeps its energy
+  bool conserves = false;  // sealed and without losses, its energy is constant
   Limits limits;
 };
 

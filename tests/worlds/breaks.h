@@ -1,5 +1,5 @@
-// tests/worlds/breaks.h - faults of the air for planar subjects: all that a fault can be, in the
-// first 0.7 s, at instants of no grid, one after the other and at once.
+// tests/worlds/breaks.h - faults of the air for planar subjects: all kinds of faults, in the first
+// 0.7 s, at instants that are not on a grid, one after the other and several at once.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace sinew::worlds {
 using Fault = experiment::Fault;
 using Breaks = std::vector<Fault>;
 
-// Faults of shutters and seats alone: they only move the shares of the valves' areas.
+// Faults of shutters and seats alone: they only change the valves' effective areas.
 inline Breaks of_valves() {
   using What = Fault::What;
   return {
@@ -22,7 +22,7 @@ inline Breaks of_valves() {
   };
 }
 
-// Faults of the rest, most of which need more than valves. The supply fails below and at the room's
+// The other faults, most of which need more than valves. The supply fails below and at the room's
 // pressure: a muscle whose inlet is open then empties through it.
 inline Breaks of_everything() {
   using What = Fault::What;

@@ -1,5 +1,5 @@
-// tests/worlds/drive.h - valves driven by a seeded random pattern, and a world that is followed
-// while it moves, with few or with many extra reads.
+// tests/worlds/drive.h - valves driven by a seeded random pattern, and a world that is observed
+// while it moves, seldom or at every instant.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ using signals::Tick;
 
 inline double seconds(double ticks) { return ticks * signals::tick_seconds; }
 
-// Edges of any valve, one each 0.1 to 6 ms, of many valves more often. A generator's raw numbers:
-// the same on every system.
+// Edges of random valves, one each 0.1 to 6 ms, more often where there are many valves. Uses the
+// raw numbers of a generator, which are the same on every system.
 inline std::vector<signals::Edge> random_edges(const std::vector<Tap>& taps, Tick end,
                                                unsigned seed) {
   std::vector<signals::Edge> out;
@@ -67,12 +67,12 @@ class Channels {
   std::array<signals::Conversion, 192> all_{};  // six boards full
 };
 
-// Reads of a world in addition to those that are recorded.
+// Observations of a world in addition to the recording.
 struct ExtraReads {
   bool every_tick = false;  // the truth at each tick, and a node if one is due
   unsigned truths = 0;      // at most, at random instants of each tick
   bool advances = false;    // calls that commit nodes, at random instants
-  bool restores = false;    // another body goes on from a save, at random instants
+  bool restores = false;    // another body continues from a save, at random instants
 };
 
 // Truth each 3.7 ms, readings of all channels each millisecond.
@@ -82,8 +82,8 @@ struct Record {
   double entered = 0;  // air through the valves [kg]
 };
 
-// A world from its start to `end`, with extra reads. A conversion that begins at a tick is
-// read a tick later, and calls never go back in time, so nothing is read between the two.
+// Runs a world from its start to `end` with an observer. A conversion that begins at a tick is
+// read a tick later, and calls never go back in time, so there is no observation between the two.
 inline Record follow(const Subject& subject, const Variant& variant, Tick end, unsigned seed,
                      const ExtraReads& extra = {}) {
   std::unique_ptr<Body> body = subject.make(variant);

@@ -1,4 +1,4 @@
-// A world takes no heap once it runs, and never goes back in time: the loop relies on both.
+// A running world does not allocate memory and never goes back in time: the loop relies on both.
 #include <gtest/gtest.h>
 
 #include "tests/counted_heap.h"
@@ -38,7 +38,7 @@ TEST_P(Loop, TakesNoMemory) {
   EXPECT_EQ(allocations, 1);
 }
 
-// An edge before the last node is refused and changes nothing; a look back sees the last node.
+// An edge before the last node is refused and has no effect; an earlier time gives the last node.
 TEST_P(Loop, NeverGoesBack) {
   const std::unique_ptr<Body> body = GetParam().make({}), other = GetParam().make({});
   const std::size_t count = body->quantities().size();
@@ -56,13 +56,13 @@ TEST_P(Loop, NeverGoesBack) {
   other->truth(0.5, undisturbed);
   for (std::size_t i = 0; i < count; ++i)
     EXPECT_EQ(later[i], undisturbed[i]) << body->quantities()[i].name;
-  // At the node itself an edge still comes in time.
+  // At the node itself an edge is still in time.
   if (GetParam().taps.empty()) return;
   EXPECT_EQ(body->port().drive({.at = 5000, .valve = {GetParam().taps[0].valve}, .open = true}),
             signals::Status::ok);
 }
 
-// A world that has ended says so, and takes no edge.
+// A world that has ended reports it, and accepts no edge.
 TEST_P(Loop, StopsForGood) {
   const std::unique_ptr<Body> body = GetParam().make({});
   Channels channels(*body);

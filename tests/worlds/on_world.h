@@ -1,6 +1,6 @@
 // tests/worlds/on_world.h - any world as a body: the one adapter of this folder.
 //
-// Of a world it takes what all have; what a set-up and a truth mean is said by a Meaning:
+// It uses only what all worlds have in common; a Meaning interprets a set-up and a truth:
 //
 //   World                        made from a Setup
 //   channels(setup)              of its port

@@ -1,5 +1,5 @@
-// tests/worlds/planar.cpp - planar machines as subjects: every mechanism with every air, each for
-// what it exists for.
+// tests/worlds/planar.cpp - planar machines as subjects: every mechanism with every kind of air,
+// each for its own purpose.
 #include <unistd.h>
 
 #include <algorithm>
@@ -119,8 +119,8 @@ std::vector<Account> accounts(const Setup& s, const Truth& x) {
   return out;
 }
 
-// The machine as one: what a tank gives stays within it, but for what its line gives while a fault
-// has cut it off.
+// The machine as a whole: air from a tank stays within it, except for the air that its line gives
+// while a fault has cut it off.
 Account machine_account(const Setup& s, const Truth& x, double held) {
   Account all{.of = "machine", .held = held, .entered = x.air_past_tank};
   const bool tank = s.supply.kind == gas::Supply::Kind::tank;
@@ -136,7 +136,7 @@ Account machine_account(const Setup& s, const Truth& x, double held) {
   return all;
 }
 
-// Returns the energy of a polytrope that is shut in, and of the room that its volume takes  [J].
+// Returns the energy of a sealed polytrope, and of the room air that its volume displaces  [J].
 double air_energy(const Setup& s, double pressure, double volume) {
   return pressure * volume / (s.air.polytropic_exponent - 1.0) + s.air.atmosphere * volume;
 }
@@ -263,7 +263,7 @@ Subject of_setup(const std::string& name, const Setup& s) {
               .make = [s](const Variant& v) { return std::make_unique<Planar>(varied(s, v)); },
               .taps = taps_of(s),
               .step = s.steps.body};
-  // Between hose and muscle, and at walls, what flows by itself is lost; memory of the mesh too.
+  // Between hose and muscle, and at walls, energy of the flow is lost; memory of the mesh too.
   out.conserves = s.faults.empty() && all_seal(s) && !(s.air.wall_time > 0) &&
                   (!s.cylinder || s.cylinder->mode == air::Cylinder::Mode::valves);
   for (const air::Muscle& m : s.muscles)
@@ -365,7 +365,7 @@ Subject six_legs() {
   return out;
 }
 
-// Below what its regulator would hold from the start on: the line falls with every pulse.
+// Below the set point of its regulator from the start on: the line falls with every pulse.
 const Sets tank{"air.supply.kind=tank", "air.supply.volume=0.2 L",
                 "air.supply.initial_pressure=80 psi gauge"};
 const Sets leak{"muscle.hip_flexor.leak={ area = \"1e-8 m2\" }",

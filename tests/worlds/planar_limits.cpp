@@ -3,7 +3,7 @@
 
 namespace sinew::worlds {
 
-// Known exceptions, each with what was measured.
+// Known exceptions, each with the measured figures.
 Limits planar_limits(const std::string& name) {
   Limits l;
   // A short muscle with little air fills within a few milliseconds (0.19 N, 1240 Pa, 0.11 mg).
@@ -25,31 +25,31 @@ Limits planar_limits(const std::string& name) {
     l.order = l.driven_order = -1, l.energy = 2e-8;
   }
   // The body accelerates on its cylinder (3.9e-5 rad, 4.0e-6 m; 1.4e-3 rad, 1.5e-4 m where the foot
-  // lands). Chambers near the supply's pressure go ahead of a step (9e-9 m).
+  // lands). Chambers near the supply's pressure are faster than a step (9e-9 m).
   if (name == "moving_cylinder") {
     l.preview_angle = 5e-5, l.preview_place = 5e-6, l.preview_pressure = 1000;
     l.rubbing_angle = 1.7e-3, l.rubbing_place = 1.8e-4;
     l.driven_order = -1;
   }
-  // The body falls on its stop, and no step is cut where it arrives (7e-5 rad at 1 ms).
+  // The body falls on its stop, and the step is not divided where it arrives (7e-5 rad at 1 ms).
   if (name == "regulated_cylinder") l.order = l.driven_order = -3, l.error = l.driven_error = 2e-3;
   // Stretched and filled at once, a short muscle with little air (0.24 N).
   if (name == "driven_length") l.preview_tension = 0.28;
-  // Never shut in: what vents passes from choked to not choked to linear (order 1.9).
+  // Never sealed: a flow that vents passes from choked to not choked to linear (order 1.9).
   if (name == "leg_3_way") l.order = 1.5;
   // Regulators have such kinks all the time (order 0.6, 2.0e-6 rad; 0.29 N, 1360 Pa, 0.21 mg).
   if (name == "regulators") {
     l.order = l.driven_order = -2, l.error = l.driven_error = 1e-5;
     l.preview_tension = 0.35, l.preview_pressure = 1600, l.preview_mass = 2.5e-7;
   }
-  // Hoses go ahead of a step by an error of their own, along a length that runs on straight (8e-7
-  // rad; driven 8e-6).
+  // Hoses add an error of their own within a step, along a length that runs on straight (8e-7 rad;
+  // driven 8e-6).
   if (name == "hoses_with_air")
     l.order = l.driven_order = -2, l.error = 2e-6, l.driven_error = 2e-5;
-  // The mesh's memory moves at nodes alone, so a turn of the pressure is seen a step late (order
-  // 2.7; driven 1.8 and 2.5e-6).
+  // The mesh's memory changes at nodes alone, so a reversal of the pressure is seen a step late
+  // (order 2.7; driven 1.8 and 2.5e-6).
   if (name == "memory") l.order = 1, l.error = 1e-6, l.driven_order = 0.5, l.driven_error = 1e-5;
-  // Delays and failures go by the pressure at the last node, however old (order 0.6, 1.2e-6).
+  // Delays and failures depend on the pressure at the last node, however old (order 0.6, 1.2e-6).
   if (name == "failing_valves") l.driven_order = -1, l.driven_error = 1e-5;
   // An inlet stands open until its muscle is full, then settles at the supply's pressure (0.20 N,
   // 1530 Pa, 0.23 mg).
@@ -63,7 +63,7 @@ Limits planar_limits(const std::string& name) {
   }
   // As of hoses without a fault (driven 1.5e-5 rad).
   if (name == "broken_hoses") l.order = l.driven_order = -2, l.error = 2e-6, l.driven_error = 3e-5;
-  // A chamber whose valve stands open goes ahead of a step (order 2.0, 2.3e-7 m).
+  // A chamber whose valve is open is faster than a step (order 2.0, 2.3e-7 m).
   if (name == "broken_cylinder") l.order = 1.5, l.error = 5e-7;
   return l;
 }

@@ -57,7 +57,7 @@ struct OfStand {
     take("tank", Kind::pressure, x.tank_pressure);
   }
 
-  // Air that a tank gives stays within the stand.
+  // Air from a tank stays within the stand.
   static std::vector<Account> air(const Setup& s, const StandTruth& x, double held) {
     const bool has_tank = s.supply.kind == gas::Supply::Kind::tank;
     std::vector<Account> out{{"stand", held, has_tank ? 0.0 : x.air_in, x.air_out, x.air_leaked}};
@@ -156,8 +156,8 @@ StandSetup regulated() {
   return s;
 }
 
-// The stand integrates also between nodes, in pieces that suit its fastest rate, and so its
-// previews are as exact as its nodes. Measured: 6.4e-9 m, 3.3e-5 N, 0.18 Pa, 5e-12 kg.
+// The stand integrates also between nodes, in pieces that suit its fastest rate, and so states
+// between nodes are as exact as the nodes. Measured: 6.4e-9 m, 3.3e-5 N, 0.18 Pa, 5e-12 kg.
 Limits limits_of(const std::string& name) {
   Limits l{.preview_angle = 0,
            .preview_place = 2e-8,

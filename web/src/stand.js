@@ -6,7 +6,7 @@ import * as parts from './stand_parts.js';
 
 const window_seconds = 0.01;  // a valve is lit if it was open at any time within it
 
-// Returns the stand in the form of a machine's scene, for the parts of the page that both share; the
+// Returns the stand in the form of a machine's scene, for the code that draws both; the
 // stand's element is its only muscle.
 export const as_scene = (stand) => ({
   drawn_from: stand.drawn_from,

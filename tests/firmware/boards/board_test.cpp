@@ -1,5 +1,5 @@
-// A port on this computer, with registers that are entries of a map: what it writes, in which
-// order, and what its edges do. It cannot show that a chip has these registers.
+// A port on this computer, with registers that are entries of a map: its writes, their order, and
+// the effect of its edges. It cannot show that a chip has these registers.
 #include <gtest/gtest.h>
 
 #include "firmware/edges.h"

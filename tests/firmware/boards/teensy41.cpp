@@ -15,7 +15,7 @@ std::uint32_t at(std::uintptr_t address) { return cortex_m::registers().value[ad
 struct Pin {
   std::uintptr_t port;
   std::uint32_t bit;
-  int number;  // beside it
+  int number;  // printed on the board
 };
 // Outputs 0 … 15 and the supply.
 constexpr std::array<Pin, 17> pins{{

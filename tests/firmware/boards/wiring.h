@@ -1,5 +1,5 @@
-// tests/firmware/boards/wiring.h - where a board's pins and timers are, told a second time: by the
-// reference manual's names, for the tests of its port.
+// tests/firmware/boards/wiring.h - where a board's pins and timers are, written independently with
+// the reference manual's names, for the tests of its port.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace sinew::firmware {
 
 struct Wiring {
   const char* board;
-  std::string (*pin)(std::uint32_t output);  // by the name beside it; `outputs`: the supply's
+  std::string (*pin)(std::uint32_t output);  // by its printed name; `outputs`: the supply's
   std::uint32_t outputs, inputs;
   bool (*drives)(std::uint32_t output);       // is its pin an output?
   bool (*has_current)(std::uint32_t output);  // would it have, if it were one? `outputs`: supply
@@ -26,9 +26,9 @@ struct Wiring {
   std::uint32_t clocks_a_us;
   std::uint32_t edges, line, ticks;  // interrupts
 
-  // As the chip does it: a register that acts when it is written.
+  // Behaviour of the chip: a register with a side effect when it is written.
   void (*act)(std::uintptr_t address, std::uint32_t value);
-  void (*power_on)();  // as bad as may be: latches of outputs would give current
+  void (*power_on)();  // the worst case: latches of outputs would give current
 };
 extern const Wiring wiring;
 

@@ -1,5 +1,5 @@
-// A muscle in a loop of 1 kHz that is not Sinew's: filled for 40 ms at its length of rest, then let
-// go shorter. It pulls when it is full, and less when it is short; no air is lost meanwhile.
+// A muscle in a 1 kHz loop outside Sinew: filled for 40 ms at its rest length, then released to a
+// shorter length. It pulls when it is full, and less when it is short; no air is lost in between.
 #include "sinew/muscle.h"
 
 #include <cmath>

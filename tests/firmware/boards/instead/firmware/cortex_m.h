@@ -1,4 +1,4 @@
-// In place of firmware/cortex_m.h: registers are entries of a map, and a test sees each write.
+// In place of firmware/cortex_m.h: registers are entries of a map, and a test receives all writes.
 #pragma once
 
 #include <cstddef>
