@@ -260,8 +260,7 @@ void add_check(CLI::App& app, Action& action) {
   sub.add_option(
          "FILE", options.files,
          "experiment, rig, plan, tuning, robot, actuator, valves, wiring file, predict.dat, "
-         "gain*.dat, or a "
-         "run's folder or log")
+         "gain*.dat, or a run's folder or log")
       ->required();
   sub.add_flag("--json", options.json, "as JSON");
 }

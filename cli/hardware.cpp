@@ -295,8 +295,7 @@ void add_fmu(CLI::App& app, Action& action) {
   CLI::App& sub =
       subcommand(fmu, "export",
                  "an actuator, a muscle with valves, joints with muscles, or a machine with "
-                 "its controllers, as "
-                 "an FMU",
+                 "its controllers, as an FMU",
                  "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
                  "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
   FmuOptions& options = runs(sub, action, export_fmu);

@@ -24,6 +24,7 @@
 namespace {
 
 using namespace sinew;
+using namespace sinew::cli;
 
 // Returns the error's text. Where a robot was given in place of an experiment, it names the command
 // that makes an experiment from a robot; the library has no commands.
@@ -38,42 +39,37 @@ std::string words_of(const std::exception& e) {
   return config::to_text(p);
 }
 
-cli::ExitCode run_safely(const cli::Action& action) {
+ExitCode run_safely(const Action& action) {
   try {
-    const cli::ExitCode code = action();
+    const ExitCode code = action();
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
-    cli::error("stdout: cannot write the result; make room or choose another place");
+    error("stdout: cannot write the result; make room or choose another place");
   } catch (const std::exception& e) {
     std::fflush(stdout);
-    cli::error(words_of(e));
-    if (cli::is_of_option(e)) return cli::wrong_usage;
+    error(words_of(e));
+    if (is_of_option(e)) return wrong_usage;
   }
-  return cli::failed;
+  return failed;
 }
 
 // The commands, in the order of `sinew help commands`.
 struct Entry {
   std::string_view name;
-  cli::Add* add;
+  Add* add;
 };
 // clang-format off
 constexpr Entry commands[] = {
-    {"run", cli::add_run},                 {"analyze", cli::add_analyze},
-    {"report", cli::add_report},           {"view", cli::add_view},
-    {"bring-up", cli::add_bring_up},       {"firmware", cli::add_firmware},
-    {"compare", cli::add_compare},         {"export", cli::add_export},
-    {"import", cli::add_import},           {"replay", cli::add_replay},
-    {"sweep", cli::add_sweep},             {"tune", cli::add_tune},
-    {"merge", cli::add_merge},             {"sensitivity", cli::add_sensitivity},
-    {"show", cli::add_show},               {"keys", cli::add_keys},
-    {"check", cli::add_check},             {"migrate", cli::add_migrate},
-    {"actuator", cli::add_actuator},       {"valve", cli::add_valve},
-    {"kinematics", cli::add_kinematics},   {"identify", cli::add_identify},
-    {"figures", cli::add_figures},         {"film", cli::add_film},
-    {"fmu", cli::add_fmu},                 {"force-beam", cli::add_force_beam},
-    {"doctor", cli::add_doctor},           {"list", cli::add_list},
-    {"new", cli::add_new},                 {"completion", cli::add_completion},
-    {"help", cli::add_help},
+  {"run", add_run},                 {"analyze", add_analyze},         {"report", add_report},
+  {"view", add_view},               {"bring-up", add_bring_up},       {"firmware", add_firmware},
+  {"compare", add_compare},         {"export", add_export},           {"import", add_import},
+  {"replay", add_replay},           {"sweep", add_sweep},             {"tune", add_tune},
+  {"merge", add_merge},             {"sensitivity", add_sensitivity}, {"show", add_show},
+  {"keys", add_keys},               {"check", add_check},             {"migrate", add_migrate},
+  {"actuator", add_actuator},       {"valve", add_valve},             {"kinematics", add_kinematics},
+  {"identify", add_identify},       {"figures", add_figures},         {"film", add_film},
+  {"fmu", add_fmu},                 {"force-beam", add_force_beam},   {"doctor", add_doctor},
+  {"list", add_list},               {"new", add_new},                 {"completion", add_completion},
+  {"help", add_help},
 };
 // clang-format on
 
@@ -81,22 +77,22 @@ constexpr Entry commands[] = {
 struct Program {
   CLI::App app{
       "Sinew simulates, identifies, tunes and controls robots with braided pneumatic muscles."};
-  cli::Action action;  // given by the parsed line
+  Action action;  // given by the parsed line
 
   explicit Program(std::string_view only = "") {
     app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
     app.set_help_flag("-h,--help", "this text");
     app.require_subcommand(1);
-    app.formatter(std::make_shared<cli::Help>());
+    app.formatter(std::make_shared<Help>());
     for (const Entry& entry : commands)
       if (only.empty() || entry.name == only) entry.add(app, action);
-    cli::complete_description(app);
+    complete_description(app);
   }
   Program(const Program&) = delete;  // the commands hold references to `action`
 
   // Throws CLI::ParseError if the words are not understood, or request the help or the version.
   void parse(std::vector<std::string> words) {
-    words = cli::with_help_first(std::move(words), app);
+    words = with_help_first(std::move(words), app);
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(std::move(words));
   }
@@ -143,8 +139,8 @@ std::vector<std::string> with_shipped_files(std::vector<std::string> words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cli::fill_closed_streams();
-  cli::survive_file_limits();
+  fill_closed_streams();
+  survive_file_limits();
   const std::vector<std::string> words =
       with_shipped_files(std::vector<std::string>(argv + 1, argv + argc));
   Program program(only_command(words));
@@ -160,7 +156,7 @@ int main(int argc, char** argv) {
     whole.parse(words);
     return run_safely(whole.action);
   } catch (const CLI::ParseError& e) {
-    cli::error(cli::problems_of_line(whole.app, e));
-    return cli::wrong_usage;
+    error(problems_of_line(whole.app, e));
+    return wrong_usage;
   }
 }

@@ -350,8 +350,7 @@ void add_export(CLI::App& app, Action& action) {
   CLI::App& how = alternatives(sub, "format");
   how.add_option("--format", options.format,
                  "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
-                 "of the valves' "
-                 "ports")
+                 "of the valves' ports")
       ->check(one_of({"csv", "out.dat", "ports"}));
   how.add_flag("--csv", options.csv, "the same as --format csv");
   sub.add_option("-o,--output", options.out, "the file to write; else stdout");

@@ -23,8 +23,8 @@ constexpr std::string_view settings =
     "diameter down drop_incomplete encoding exponent external_volume flexion flexor_length "
     "force frequency full_scale hold_out keep_force known label largest law_error lever load "
     "machine model moment_arm names offsets only part per_volume points port pressure range "
-    "rate report rest rest_length root sensors shard spread_times thousands units values vary "
-    "volume where ";
+    "rate reading report rest rest_length root sensors shard spread_times thousands units "
+    "values vary volume where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
 // What has a line number is a key of that file.

@@ -1,5 +1,5 @@
 // cli/thesis/figures.cpp - the program that `sinew figures --thesis` becomes
-// (cli/figures_thesis.cpp). It is one of its own, so that sinew is built and walks without the
+// (cli/figures.cpp). It is a program of its own, so that sinew is built and walks without the
 // figures of the thesis.
 //
 //   thesis-figures ROOT OUT FORCE MUST_DRAW JSON QUIET [PICTURE…]   words that sinew has checked

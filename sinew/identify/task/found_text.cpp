@@ -471,7 +471,7 @@ void put_more(std::string& out, const ScaleFound& found, const TextOptions&) {
   if (found.corrected_by != 1)
     put(out, "its reading    the law times {:.4f}\n", found.corrected_by);
   else
-    put(out, "one reading    --reading \"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
+    put(out, "one reading    reading=\"{:.4g} mm, {:.4g} kPa gauge, FORCE\" corrects it most\n",
         1e3 * p.lengths.back(), 1e-3 * p.highest);
   if (p.inside_95 > 0)
     put(out, "68 % within    {:.3g} N\n95 % within    {:.3g} N of the law\n",
