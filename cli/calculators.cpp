@@ -58,11 +58,11 @@ config::Range possible_lengths(const actuator::Actuator& a) {
 
 // Prints each doubt once.
 void warn(const std::vector<Point>& points, const Messages& messages) {
-  std::vector<std::string> said;
+  std::vector<std::string> printed;
   for (const Point& p : points)
     for (const std::string& text : p.beyond)
-      if (std::ranges::find(said, text) == said.end()) said.push_back(text);
-  for (const std::string& text : said)
+      if (std::ranges::find(printed, text) == printed.end()) printed.push_back(text);
+  for (const std::string& text : printed)
     messages.warning(text + (points.size() > 1 ? " (rows with *)" : ""));
 }
 
@@ -102,8 +102,8 @@ ExitCode run_actuator(const ActuatorOptions& options) {
     fmt::print("{}\n", out.text(2));
     return ok;
   }
-  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = asked.is_requested ? &asked.units : nullptr;
+  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = chosen.is_requested ? &chosen.units : nullptr;
   fmt::print("{}", points.size() == 1 ? run::text_of(points[0], shown)
                                       : run::table_of(points, lengths.unit, pressures.unit, shown));
   warn(points, Messages(options.quiet));
@@ -174,14 +174,14 @@ ExitCode run_valve(const ValveOptions& options) {
   }
   const std::vector<run::Delivered> duties = deliveries(valve, options);
 
-  if (const std::string doubt = run::doubt_of(valve, f); !doubt.empty())
-    Messages(options.quiet).warning(doubt);
+  if (const std::string warning = run::flow_warning(valve, f); !warning.empty())
+    Messages(options.quiet).warning(warning);
   if (options.json) {
     fmt::print("{}\n", (Json::parse(run::json_of(valve, f, times, duties))).text(2));
     return ok;
   }
-  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = asked.is_requested ? &asked.units : nullptr;
+  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = chosen.is_requested ? &chosen.units : nullptr;
   fmt::print("{}{}{}", run::text_of(valve, f, shown),
              run::text_of(times, volume, f, shown, air.atmosphere),
              run::text_of(duties, options.frequency));

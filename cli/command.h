@@ -58,7 +58,7 @@ inline void add_sets(CLI::App& sub, std::vector<std::string>& sets) {
 }
 
 // Completes the description once all options are added: values are named VALUE, NUMBER or N in the
-// help, and text that is no number is refused in messages of this program.
+// help, and text that is not a number is refused in messages of this program.
 void complete_description(CLI::App& app);
 
 // End the program as wrong usage: "option: found …; expected …", or of a missing option "option:

@@ -193,7 +193,7 @@ ExitCode draw_thesis(const FiguresOptions& request) {
   const std::string program = host::find_module("thesis-figures").string();
   if (program.empty())
     throw std::runtime_error(
-        "sinew figures --thesis: found no program thesis-figures beside this one; expected it in "
+        "sinew figures --thesis: found no program thesis-figures next to this one; expected it in "
         "lib/sinew; try: cmake --preset release && cmake --build --preset all");
 
   const auto flag = [](bool set) { return set ? "yes" : "no"; };
@@ -227,8 +227,9 @@ void add_figures(CLI::App& app, Action& action) {
       sub.add_option("DIR", options->runs, "folders of runs, log files, or files of muscles");
   CLI::Option* thesis = sub.add_flag("--thesis", options->thesis, "those of Colbrunn (2000)");
   runs->excludes(thesis);
-  sub.add_option("-o,--output", options->out,
-                 "folder for the figures and index.json; of runs: else figures/ beside the log");
+  sub.add_option(
+      "-o,--output", options->out,
+      "folder for the figures and index.json; of runs: else figures/ in the log's folder");
   sub.add_option("--root", options->root, "--thesis: folder of robots/ and experiments/; .");
   sub.add_option("--format", options->formats, "pdf, svg, png or csv; svg,png")
       ->allow_extra_args(false);

@@ -54,7 +54,7 @@ ExitCode write(const NewCommandOptions& options) {
     messages.note("written, but it needs these changes");
     return failed;
   }
-  messages.note("valid as written; its comments say what each table is for. Next:");
+  messages.note("valid as written; its comments describe each table. Next:");
   for (const std::string& command : next_commands(options, made.files[0]))
     messages.note("  " + command);
   return ok;
@@ -124,11 +124,11 @@ struct ShowOptions {
 
 ExitCode show(const ShowOptions& options) {
   const files::Values values = files::values(options.file, options.sets, options.keys);
-  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si, &values.in_si);
+  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si, &values.in_si);
   if (options.json)
     fmt::print("{}\n", Json::parse(files::json_of(values)).text(2));
   else
-    fmt::print("{}", files::text_of(values, asked.is_requested ? &asked.units : nullptr));
+    fmt::print("{}", files::text_of(values, chosen.is_requested ? &chosen.units : nullptr));
   return ok;
 }
 
@@ -249,12 +249,12 @@ void add_show(CLI::App& app, Action& action) {
       ->required();
   sub.add_option("KEY", options.keys, "keys, or how they begin");
   add_sets(sub, options.sets);
-  add_units(sub, options.units, "of the column beside what is written, else SI");
+  add_units(sub, options.units, "of the column of converted values, else SI");
   sub.add_flag("--json", options.json, "as JSON");
 }
 
 void add_check(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
+  CLI::App& sub = subcommand(app, "check", "all errors of files at once",
                              "sinew check robots/leg/*.toml robots/leg/predict.dat");
   CheckOptions& options = runs(sub, action, check_all);
   sub.add_option(
@@ -275,7 +275,7 @@ void add_migrate(CLI::App& app, Action& action) {
   sub.add_option("-o,--output", options->how.folder,
                  "folder of the new files; without it each takes the place of the old one, which "
                  "is kept as FILE.bak");
-  sub.add_flag("--dry-run", options->dry_run, "says what would be changed and writes nothing");
+  sub.add_flag("--dry-run", options->dry_run, "prints what would be changed and writes nothing");
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] {
     options->how.write = !options->dry_run;

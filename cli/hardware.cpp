@@ -95,14 +95,14 @@ struct BringUpOptions {
 
 // Returns false if a signal comes first. A signal ends poll(), but not a read.
 bool can_read(const Interrupt& interrupt) {
-  while (!interrupt.asked()) {
+  while (!interrupt.requested()) {
     pollfd in{0, POLLIN, 0};
     if (::poll(&in, 1, -1) > 0) break;
   }
-  return !interrupt.asked();
+  return !interrupt.requested();
 }
 
-std::optional<bool> asked(const std::string& question, bool yes, const Interrupt& interrupt) {
+std::optional<bool> confirmed(const std::string& question, bool yes, const Interrupt& interrupt) {
   for (std::string line;;) {
     fmt::print("    {} [y/n] ", question);
     std::fflush(stdout);
@@ -132,7 +132,7 @@ std::string problem_of_port(const std::string& place) {
 void refuse_yes_at_a_machine(const BringUpOptions& o) {
   if (o.yes && o.place.starts_with("serial:"))
     config::fail({"bring-up", 0, 0}, "--yes", "yes to everything at " + o.place,
-                 "an operator who answers: air may be open and persons near");
+                 "an operator at the keyboard: air may be open and persons near");
 }
 
 ExitCode bring_up(const BringUpOptions& o) {
@@ -151,18 +151,19 @@ ExitCode bring_up(const BringUpOptions& o) {
   std::optional<SpaceBar> space_bar;  // while valves move; else keys are replies
   run::BringUp steps(
       bench, o.robot, *place.board(), place.lead(),
-      {.tell =
+      {.inform =
            [](const std::string& line) {
              fmt::print("{}\n", line);
              std::fflush(stdout);
            },
-       .ask = [&](const std::string& question) { return asked(question, o.yes, interrupt); },
+       .confirm =
+           [&](const std::string& question) { return confirmed(question, o.yes, interrupt); },
        .moves =
            [&](bool now) {
              space_bar.reset();
              if (now) space_bar.emplace([&] { space = true; });
            },
-       .stops = [&] { return interrupt.asked() || space; }},
+       .stops = [&] { return interrupt.requested() || space; }},
       folder);
   return steps.go() ? ok : failed;
 }
@@ -195,7 +196,7 @@ ExitCode build(const FirmwareOptions& o) {
   run::build_firmware(o.sources, board, o.out, low, o.force);
   Messages(false).note(
       fmt::format("built {}, whose outputs are {} where a coil has current; onto the board with",
-                  o.out, low ? "0, as wiring.polarity says," : "1"));
+                  o.out, low ? "0, by wiring.polarity," : "1"));
   print_flash(board, o.out);
   return ok;
 }
@@ -209,15 +210,15 @@ ExitCode wiring(const FirmwareOptions& o) {
 // --- fmu ---
 
 struct FmuOptions {
-  fmu::Asked asked;
+  fmu::ExportRequest request;
   std::string out;
   bool force = false, json = false;
 };
 
 ExitCode export_fmu(const FmuOptions& options) {
-  const fmu::Fmu made = fmu::make_fmu(options.asked);
+  const fmu::Fmu made = fmu::make_fmu(options.request);
   const std::string file = options.out.empty() ? made.identifier + ".fmu" : options.out;
-  run::refuse_to_overwrite(file, options.force, {options.asked.file}, ".fmu");
+  run::refuse_to_overwrite(file, options.force, {options.request.file}, ".fmu");
   run::write_file(file, made.bytes);
   fmt::print("{}", options.json ? fmu::json_of(made, file) : fmu::text_of(made, file));
   return ok;
@@ -250,7 +251,7 @@ void add_bring_up(CLI::App& app, Action& action) {
   add_sets(sub, options.sets);
   sub.add_flag("--clear-fault", options.clear_fault,
                "the board's watchdog or memory fault has been looked into");
-  sub.add_flag("--yes", options.yes, "every question is answered with yes: for a simulated bench");
+  sub.add_flag("--yes", options.yes, "confirms every question: for a simulated bench");
 }
 
 void add_firmware(CLI::App& app, Action& action) {
@@ -299,33 +300,33 @@ void add_fmu(CLI::App& app, Action& action) {
                  "sinew fmu export experiments/walk-test-1.toml --input control.stiffness.knee "
                  "--output /joint/knee/angle --output /trolley/position -o leg.fmu");
   FmuOptions& options = runs(sub, action, export_fmu);
-  fmu::Asked& asked = options.asked;
+  fmu::ExportRequest& request = options.request;
   sub.add_option(
-         "FILE", asked.file,
+         "FILE", request.file,
          "actuator: a tube; rig: its muscle; robot: its joints; experiment: the machine with "
          "its controllers")
       ->required();
   sub.add_option("-o,--out", options.out, "the FMU; NAME.fmu here");
   sub.add_flag("--force", options.force, "replace a file that is there");
-  sub.add_option("--muscle", asked.muscle, "this muscle alone, with its valves");
-  sub.add_flag("--without-valves", asked.without_valves, "a muscle whose pressure is an input");
-  sub.add_option("--joint", asked.joints, "this joint with its muscles; may be repeated")
+  sub.add_option("--muscle", request.muscle, "this muscle alone, with its valves");
+  sub.add_flag("--without-valves", request.without_valves, "a muscle whose pressure is an input");
+  sub.add_option("--joint", request.joints, "this joint with its muscles; may be repeated")
       ->allow_extra_args(false);
-  sub.add_option("--actuator", asked.actuator, "which actuator, where the file has several");
-  sub.add_option("--input", asked.inputs,
+  sub.add_option("--actuator", request.actuator, "which actuator, where the file has several");
+  sub.add_option("--input", request.inputs,
                  "a setting of the plan as an input: control.stiffness.JOINT …; may be repeated")
       ->allow_extra_args(false);
-  sub.add_option("--output", asked.outputs,
+  sub.add_option("--output", request.outputs,
                  "a channel of the run; may be repeated; all, if none is named")
       ->allow_extra_args(false);
-  sub.add_option("--parameter", asked.parameters,
+  sub.add_option("--parameter", request.parameters,
                  "a value of the experiment that an importer may set; may be repeated")
       ->allow_extra_args(false);
-  sub.add_option("--fmi", asked.version, "version of the interface")
+  sub.add_option("--fmi", request.version, "version of the interface")
       ->transform(between(2, 3))
       ->capture_default_str();
-  sub.add_option("--name", asked.name, "of the model; from the file, the muscle or the joints");
-  add_sets(sub, asked.sets);
+  sub.add_option("--name", request.name, "of the model; from the file, the muscle or the joints");
+  add_sets(sub, request.sets);
   sub.add_flag("--json", options.json, "what was written, as JSON");
 }
 

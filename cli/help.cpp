@@ -24,7 +24,7 @@ struct Task {
 };
 constexpr Task tasks[] = {
     {"Run a machine or a muscle", "run view replay", "sinew run experiments/walk-test-1.toml"},
-    {"Look at runs", "report compare figures film analyze export",
+    {"See runs", "report compare figures film analyze export",
      "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html"},
     {"Learn from measurements", "import identify",
      "sinew identify static forces.csv --value \"length=80 mm\" --out muscle.toml"},

@@ -143,7 +143,7 @@ void add_outputs(CLI::App& sub, const MethodHelp& help, ResultOptions& result) {
   if (help.page) {
     CLI::Option* page =
         sub.add_option("--report", result.report,
-                       "FILE.html: a page with the data and the models; absent: beside --out");
+                       "FILE.html: a page with the data and the models; absent: next to --out");
     sub.add_flag("--no-report", result.no_report, "no page")->excludes(page);
   }
   if (help.units)
@@ -167,12 +167,12 @@ void refuse_together(const Options<Settings>&) {}
 void refuse_together(const Options<identify::GeometrySettings>& options) {
   const bool counted = !options.settings.trapezoids.empty();
   if (options.data.files.empty() != counted)
-    refuse("DATA", counted ? "a file beside --trapezoids" : "no file",
+    refuse("DATA", counted ? "a file together with --trapezoids" : "no file",
            "either a file of lengths and diameters, or --trapezoids");
   if (counted && !options.result.report.empty())
-    refuse("--report", "--trapezoids beside it", "a file of lengths and diameters, to show it");
+    refuse("--report", "--trapezoids with it", "a file of lengths and diameters, to show it");
   if (counted && options.settings.side.empty())
-    require("--side", "the side of one trapezoid, beside --trapezoids");
+    require("--side", "the side of one trapezoid, with --trapezoids");
 }
 
 // --- tables ---
@@ -530,8 +530,8 @@ ExitCode run_force_beam(const ForceBeamOptions& options) {
     fmt::print("{}\n", json_of(s, wanted));
     return ok;
   }
-  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
-  const units::ShownUnits* shown = asked.is_requested ? &asked.units : nullptr;
+  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = chosen.is_requested ? &chosen.units : nullptr;
   fmt::print("{}", text_of(s, shown));
   if (wanted)
     fmt::print("\n{} with the gages, from the load:\n{}", options.settings.sensitivity,

@@ -92,9 +92,9 @@ Interrupt::~Interrupt() {
   for (std::size_t i = 0; i < count_; ++i) sigaction(ending_signals[i], &before_[i], nullptr);
 }
 
-const std::atomic<bool>& Interrupt::asked() const { return interrupted; }
+const std::atomic<bool>& Interrupt::requested() const { return interrupted; }
 
-void Interrupt::ask() { interrupted = true; }
+void Interrupt::request() { interrupted = true; }
 
 void survive_file_limits() { signal(SIGXFSZ, SIG_IGN); }
 

@@ -11,9 +11,9 @@
 
 namespace sinew::cli {
 
-// During its lifetime the first of these signals only sets asked(). A second one ends the program
-// by the signal's default; where a machine is driven only after ten seconds, in which the machine
-// is stopped, and Ctrl-Z and Ctrl-\ are handled alike. At most one object exists at a time.
+// During its lifetime the first of these signals only sets requested(). A second one ends the
+// program by the signal's default; where a machine is driven only after ten seconds, in which the
+// machine is stopped, and Ctrl-Z and Ctrl-\ are handled alike. At most one object exists at a time.
 class Interrupt {
  public:
   enum class Of { work, machine };
@@ -23,8 +23,8 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  const std::atomic<bool>& asked() const;
-  void ask();  // as a signal would
+  const std::atomic<bool>& requested() const;
+  void request();  // as a signal would
 
  private:
   std::array<struct sigaction, 5> before_{};

@@ -18,6 +18,7 @@
 #include "cli/interrupt.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
+#include "sinew/config/changes.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/files/shipped.h"
 
@@ -33,7 +34,7 @@ std::string words_of(const std::exception& e) {
   if (!file || file->problems().size() != 1) return e.what();
   config::Problem p = file->problems()[0];
   if (p.key != "format" || p.found != config::in_quotes("robot") ||
-      p.expected != config::in_quotes("sinew.experiment/1"))
+      p.expected != config::in_quotes(config::newest_format("experiment")))
     return e.what();
   p.try_this = "sinew new experiment NAME --of " + p.where.file;
   return config::to_text(p);

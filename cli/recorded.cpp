@@ -284,7 +284,7 @@ ExitCode make(const FilmCommandOptions& options) {
   if (kind != film::Kind::gif) film::require_ffmpeg();
 
   const Interrupt interrupt;
-  film::Filming filming = filming_of(options, film, interrupt.asked(), messages.notices());
+  film::Filming filming = filming_of(options, film, interrupt.requested(), messages.notices());
   std::atomic<std::int64_t> done{0};
   {
     const ProgressBar bar(done, filming.frames(), {.each = 1, .unit = "frames"}, options.quiet);
@@ -306,25 +306,25 @@ void add_report(CLI::App& app, Action& action) {
   sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")
       ->required()
       ->expected(1, 2);
-  sub.add_option("-o,--output", options->out,
-                 "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
+  sub.add_option(
+      "-o,--output", options->out,
+      "the file to write; else report.html in the log's folder, STUDY.html next to STUDY.db");
   add_machine(sub, options->machine);
   add_units(sub, options->units, "in which the page of a run begins, else as set");
   add_flags(sub, *options, "replace the file", "");
   sub.callback([=, &action] {
     const bool study = tune::is_study(options->runs.front());
     if (!study && options->runs.size() > 1)
-      refuse("DIR", "two runs", "one run, or studies; sinew compare shows runs beside each other");
+      refuse("DIR", "two runs", "one run, or studies; sinew compare shows several runs together");
     if (study && !options->machine.empty())
-      refuse("--machine", "a study beside it", "a run: a study has no machine of its own");
+      refuse("--machine", "a study to compare with", "a run: a study has no machine of its own");
     action = [=] { return study ? report_study(*options) : report_run(*options); };
   });
 }
 
 void add_compare(CLI::App& app, Action& action) {
-  CLI::App& sub =
-      subcommand(app, "compare", "runs beside each other: numbers, parameters, channels",
-                 "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
+  CLI::App& sub = subcommand(app, "compare", "several runs: numbers, parameters, channels",
+                             "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
   CompareOptions& options = runs(sub, action, compare_runs);
   sub.add_option("RUN", options.runs, "folders of runs, or log files; the first is compared with")
       ->required()
@@ -337,7 +337,7 @@ void add_compare(CLI::App& app, Action& action) {
       ->expected(1, CLI::detail::expected_max_vector_size);
   add_units(sub, options.units, "of the tables, else thesis, and of the page; --json is in SI");
   sub.add_flag("--all", options.all, "every figure and channel, equal ones too");
-  sub.add_flag("--json", options.json, "all of it as JSON");
+  sub.add_flag("--json", options.json, "everything as JSON");
   add_flags(sub, options, "replace the page", "");
 }
 
@@ -354,7 +354,7 @@ void add_export(CLI::App& app, Action& action) {
       ->check(one_of({"csv", "out.dat", "ports"}));
   how.add_flag("--csv", options.csv, "the same as --format csv");
   sub.add_option("-o,--output", options.out, "the file to write; else stdout");
-  sub.add_option("--channels", options.channels, "csv: topics only; * stands for anything");
+  sub.add_option("--channels", options.channels, "csv: topics only; * matches anything");
   sub.add_flag("--derived", options.derived, "csv: also what the analysis derives");
   add_machine(sub, options.machine);
   add_flags(sub, options, "replace the file", "");

@@ -60,7 +60,7 @@ struct RunOptions {
 };
 
 void note_page(const std::filesystem::path& folder, const Messages& messages) {
-  messages.note(fmt::format("to look at it, open {}", (folder / run::report_name).string()));
+  messages.note(fmt::format("to see it, open {}", (folder / run::report_name).string()));
 }
 
 // Prints verdicts or summary.json to stdout, and the place of the run to stderr.
@@ -81,10 +81,11 @@ void tell(const run::StoredRun& kept, const RunOptions& options, const Messages&
 // Runs the experiment, with its log where there is one.
 run::Outcome run_logged(const RunOptions& options, run::RunStorage& kept, Interrupt& interrupt) {
   std::atomic<std::int64_t> tick{0};
-  run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
+  run::RunOptions run_options{
+      .pace = options.pace, .progress = &tick, .stop = &interrupt.requested()};
   kept.apply(run_options);
   std::optional<SpaceBar> space_bar;
-  if (run::is_outside_simulation(options.run.port)) space_bar.emplace([&] { interrupt.ask(); });
+  if (run::is_outside_simulation(options.run.port)) space_bar.emplace([&] { interrupt.request(); });
   if (space_bar && space_bar->listens() && !options.quiet)
     fmt::print(stderr, "the space bar stops the machine\n");
   const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
@@ -101,7 +102,7 @@ ExitCode run_experiment(const RunOptions& options) {
   Interrupt interrupt(run::is_outside_simulation(options.run.port) ? Interrupt::Of::machine
                                                                    : Interrupt::Of::work);
   run::RunRequest request = options.run;
-  request.stop = &interrupt.asked();
+  request.stop = &interrupt.requested();
   run::RunStorage kept(request, messages.notices());
   tell(kept.store(run_logged(options, kept, interrupt)), options, messages);
   return ok;
@@ -160,7 +161,7 @@ ExitCode view_recorded(const ViewOptions& o) {
   live::Server server(port_of(o), {.get = served.get});
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  messages.note(served.in_words(server.url()));
+  messages.note(served.description(server.url()));
   const live::Browser browser(o.open ? server.url() : "");
   server.run();
   return ok;
@@ -270,7 +271,7 @@ run::StoredRun import_out_dat(const ImportOptions& options, const Messages& mess
   const run::ImportRequest& request = options.request;
   const std::string& path = request.files.front();
   if (request.files.size() > 1)
-    config::fail({path, 0, 0}, "", "out.dat beside other files", "out.dat alone",
+    config::fail({path, 0, 0}, "", "out.dat together with other files", "out.dat alone",
                  "an import of each");
   const experiment::Experiment e =
       run::buildable_robot(config::compose(request.experiment, request.sets), request.experiment);
@@ -342,7 +343,7 @@ void add_clock_options(CLI::App& sub, ImportOptions& options) {
                  "the recording's time that becomes 0, \"12.5 s\"; else its first sample");
   sub.add_option("--join", options.join, "several files: side by side in time, or end to end")
       ->check(one_of({"side", "end"}));
-  sub.add_option("--shift", options.shifts, "FILE=TIME: by which a file is later than it says")
+  sub.add_option("--shift", options.shifts, "FILE=TIME: added to the times of a file")
       ->allow_extra_args(false);
 }
 
@@ -476,9 +477,8 @@ void add_import(CLI::App& app, Action& action) {
 }
 
 void add_analyze(CLI::App& app, Action& action) {
-  CLI::App& sub =
-      subcommand(app, "analyze", "a run's numbers from its log, beside what is reported",
-                 "sinew analyze runs/walk-test-1/1 --json");
+  CLI::App& sub = subcommand(app, "analyze", "a run's numbers from its log, with the reported ones",
+                             "sinew analyze runs/walk-test-1/1 --json");
   AnalyzeOptions& options = runs(sub, action, analyze_run);
   sub.add_option("DIR", options.run, "a run's folder, or a log file")->required();
   add_machine(sub, options.machine);

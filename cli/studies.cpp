@@ -77,20 +77,20 @@ std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const ProgressBar bar(progress, static_cast<std::int64_t>(points),
                         {.each = 1, .unit = "points", .decimals = 0}, !how.bar);
   Interrupt interrupt;
-  options.stop = &interrupt.asked();
+  options.stop = &interrupt.requested();
   options.progress = &progress;
   if (how.master) options.dispatch = how.master->dispatcher(s, options.stop);
   options.row = [&](const tune::Row& row) {
-    if (how.csv && !late && !how.csv->add(row.cells)) interrupt.ask();
+    if (how.csv && !late && !how.csv->add(row.cells)) interrupt.request();
   };
   options.done = [&](const tune::Row& row) {
-    if (results && !results->add(row)) interrupt.ask();
+    if (results && !results->add(row)) interrupt.request();
   };
   std::vector<tune::Row> rows = tune::sweep(s, options);
   if (results) results->throw_failure();
   if (how.csv) how.csv->throw_failure();
-  tune::judge(rows, s, points, results || !how.csv ? file : how.csv->part(), !file.empty(),
-              how.messages.notices());
+  tune::check_rows(rows, s, points, results || !how.csv ? file : how.csv->part(), !file.empty(),
+                   how.messages.notices());
   if (!how.csv) return rows;
   if (late)
     for (const tune::Row& row : rows) how.csv->add(row.cells);
@@ -119,7 +119,7 @@ void add_runs(CLI::App& sub, tune::Study& study, RunsOptions& options) {
   add_words(sub, "--range", study.range,
             "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   add_words(sub, "--report", study.report,
-            "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
+            "keys of summary.json, with commas: key, or key [unit]; else the reported ones");
   add_units(sub, study.units, "of figures that name none, else SI; --json is in SI");
   add_sets(sub, study.set);
   sub.add_flag("--allow-unreachable", study.allow_unreachable, "as in sinew run");
@@ -141,17 +141,19 @@ void write_table(const std::string& file, const std::vector<std::string>& headin
 
 struct SweepOptions : Flags {
   std::string file, out;
-  tune::Said said;  // besides the plan
+  tune::StudyOptions study_options;  // in addition to the plan
   RunsOptions runs;
 };
 
 ExitCode sweep_all(const SweepOptions& options) {
-  const auto asked = [&] { return tune::sweep_of(tune::load_study(options.file, options.said)); };
+  const auto read_sweep = [&] {
+    return tune::sweep_of(tune::load_study(options.file, options.study_options));
+  };
   const tune::Ranks ranks;
-  if (is_worker_of(ranks, options.runs, asked)) return ok;
+  if (is_worker_of(ranks, options.runs, read_sweep)) return ok;
   tune::Master master(ranks);
   const Messages messages(options.quiet);
-  const tune::Sweep s = asked();
+  const tune::Sweep s = read_sweep();
   tune::check(s);
 
   const std::vector<std::string> headings = tune::headings(s);
@@ -173,11 +175,14 @@ ExitCode sweep_all(const SweepOptions& options) {
 }
 
 void add_sample(CLI::App& sub, SweepOptions& options) {
-  sub.add_option("--points", options.said.study.points, "of the sample, each a row or more")
+  sub.add_option("--points", options.study_options.study.points,
+                 "of the sample, each a row or more")
       ->transform(between(1, 1000000));
-  sub.add_option("--sample", options.said.sample, "how the points lie: sobol, latin, random; sobol")
+  sub.add_option("--sample", options.study_options.sample,
+                 "how the points lie: sobol, latin, random; sobol")
       ->check(one_of({"sobol", "latin", "random"}));
-  sub.add_option("--sample-seed", options.said.sample_seed, "other points of the same kind; 1")
+  sub.add_option("--sample-seed", options.study_options.sample_seed,
+                 "other points of the same kind; 1")
       ->transform(between(0, 2147483647));
 }
 
@@ -197,12 +202,12 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const TuneOptions& options, t
   Interrupt interrupt;
   tune::StoredTuningOptions kept{
       .tune = {.runs = {.threads = host::threads_of(options.runs.threads)}},
-      .ask_to_stop = [&] { interrupt.ask(); },
+      .ask_to_stop = [&] { interrupt.request(); },
       .notices = messages.notices()};
-  kept.tune.runs.stop = &interrupt.asked();
+  kept.tune.runs.stop = &interrupt.requested();
   kept.tune.runs.progress = &progress;
   kept.tune.dispatch = [&](const tune::Sweep& s) {
-    return master.dispatcher(s, &interrupt.asked());
+    return master.dispatcher(s, &interrupt.requested());
   };
   const ProgressBar bar(progress, all, {.each = 1, .unit = "runs", .decimals = 0}, options.quiet);
   return tune::optimize_and_store(tuning, options.runs.results, kept);
@@ -222,10 +227,10 @@ std::string command_of(const tune::Tuning& tuning, const tune::Candidate& candid
 // Prints the table. Units of the command or the session take precedence over those of the file, and
 // these over the user's settings.
 void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const TuneOptions& options) {
-  const config::UnitsToShow asked = chosen_units(options.units, units::UnitSet::si);
+  const config::UnitsToShow chosen = chosen_units(options.units, units::UnitSet::si);
   const char* session = std::getenv(config::units_variable);
-  const tune::TableUnits shown{asked.units, !options.units.empty() || (session && *session)};
-  fmt::print("{}", tune::text_of(tuning, tuned, asked.is_requested ? &shown : nullptr));
+  const tune::TableUnits shown{chosen.units, !options.units.empty() || (session && *session)};
+  fmt::print("{}", tune::text_of(tuning, tuned, chosen.is_requested ? &shown : nullptr));
   if (tuned.best.size() == 1)
     fmt::print("{}\n", command_of(tuning, tuned.candidates[tuned.best.front()]));
 }
@@ -233,27 +238,27 @@ void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Tune
 // Returns the candidate of --candidate, or the only best one.
 const tune::Candidate& chosen(const tune::Tuned& tuned, const TuneOptions& options) {
   const std::size_t all = tuned.candidates.size();
-  const auto asked = static_cast<std::size_t>(options.candidate);
+  const auto wanted = static_cast<std::size_t>(options.candidate);
   if (options.candidate < 0 && tuned.best.size() == 1) return tuned.candidates[tuned.best.front()];
-  if (options.candidate >= 0 && asked < all) return tuned.candidates[asked];
+  if (options.candidate >= 0 && wanted < all) return tuned.candidates[wanted];
   config::fail({"candidate", 0, 0}, "",
                options.candidate < 0 ? fmt::format("{} best candidates", tuned.best.size())
-                                     : std::to_string(asked),
+                                     : std::to_string(wanted),
                fmt::format("the number of one, 0 to {}", all - 1), "one of the table's");
 }
 
 ExitCode tune_all(const TuneOptions& given) {
   TuneOptions options = given;
-  const auto asked = [&] {
+  const auto read_tuning = [&] {
     return tune::load_tuning(options.file, options.sets, options.generations);
   };
   if (options.runs.results.empty())
     options.runs.results = fs::path(options.file).stem().string() + ".db";
   const tune::Ranks ranks;
-  if (is_worker_of(ranks, options.runs, [&] { return asked().runs; })) return ok;
+  if (is_worker_of(ranks, options.runs, [&] { return read_tuning().runs; })) return ok;
   tune::Master master(ranks);
   const Messages messages(options.quiet);
-  const tune::Tuning tuning = asked();
+  const tune::Tuning tuning = read_tuning();
   const std::vector<fs::path> inputs{options.file, tuning.runs.experiment};
   if (!options.out.empty()) run::refuse_to_overwrite(options.out, options.force, inputs);
   if (!options.best.empty()) run::refuse_to_overwrite(options.best, options.force, inputs, ".toml");
@@ -270,7 +275,7 @@ ExitCode tune_all(const TuneOptions& given) {
     print();
     throw std::runtime_error(
         fmt::format("interrupted: {} of {} generations are done and kept in "
-                    "{}; the same command goes on with the others",
+                    "{}; the same command continues with the others",
                     tuned.candidates.size() / tuning.method.population, tuning.generations,
                     options.runs.results));
   }
@@ -368,25 +373,27 @@ void add_sweep(CLI::App& app, Action& action) {
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
   sub.add_option("FILE", options->file, "the experiment, or a plan of sweeps")->required();
-  add_words(sub, "--vary", options->said.study.vary,
+  add_words(sub, "--vary", options->study_options.study.vary,
             "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
-  add_runs(sub, options->said.study, options->runs);
+  add_runs(sub, options->study_options.study, options->runs);
   sub.add_option("--shard", options->runs.shard,
                  "i/n: of all points every n-th from the i-th on; sinew merge joins the files")
       ->needs(sub.get_option("--results"));
   add_sample(sub, *options);
-  sub.add_option("--seeds", options->said.study.seeds, "each point with the noise of seeds 1 … N")
+  sub.add_option("--seeds", options->study_options.study.seeds,
+                 "each point with the noise of seeds 1 … N")
       ->transform(between(1, 10000));
-  sub.add_option("--largest", options->said.study.largest,
+  sub.add_option("--largest", options->study_options.study.largest,
                  "the largest value of one more key for which --where holds; written like --vary");
-  add_words(sub, "--where", options->said.study.where,
+  add_words(sub, "--where", options->study_options.study.where,
             "\"key < value\" of summary.json, also <=, >, >=; repeated: all must hold");
-  sub.add_option("--halvings", options->said.halvings, "of the interval that --largest finds; 6")
+  sub.add_option("--halvings", options->study_options.halvings,
+                 "of the interval that --largest finds; 6")
       ->transform(between(0, 50));
   sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
   add_flags(sub, *options, "replace that file", "print the table as JSON");
   sub.callback([=, &action] {
-    if (options->json) options->said.study.units.clear();
+    if (options->json) options->study_options.study.units.clear();
     action = [=] { return sweep_all(*options); };
   });
 }

@@ -136,7 +136,7 @@ inline std::string six_legs_experiment() {
         "{1}{0}_hip = \"285 deg\", {0}_knee = \"300 deg\", {0}_ankle = \"90 deg\", {0}_toe = \"20 "
         "deg\"",
         leg, angles.empty() ? "" : ", ");
-  return R"(format = "sinew.experiment/1"
+  return R"(format = "sinew.experiment/2"
 title = "Six legs of four joints"
 robot = "robot.toml"
 seed = 1

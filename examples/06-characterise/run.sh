@@ -62,7 +62,7 @@ base   = "$root/robots/leg/robot.toml"
 files  = { actuator = "my-actuator.toml" }
 END
 cat >my-walk.toml <<END
-format = "sinew.experiment/1"
+format = "sinew.experiment/2"
 base   = "$root/experiments/walk-test-1.toml"
 robot  = "my-leg.toml"
 END

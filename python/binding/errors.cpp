@@ -64,7 +64,8 @@ void bind_errors(py::module_& m) {
   static const py::handle log =
       new_exception(m, "LogError", "A log cannot be read or written.", PyExc_OSError);
   static const py::handle run = new_exception(
-      m, "RunError", "A run ended before its plan did; the words say why, and what was last seen.",
+      m, "RunError",
+      "A run ended before its plan did; the text states the reason, and the last state.",
       PyExc_RuntimeError);
   static const py::handle board = new_exception(
       m, "BoardError", "A board, or a card, is not there, or not as it should be.", PyExc_OSError);

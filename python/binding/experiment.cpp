@@ -276,15 +276,14 @@ void bind_experiment(py::module_& m) {
   m.def("convert", &converted, py::arg("value"), py::arg("unit"), py::arg("display"),
         "Returns a value of an SI unit in another: convert(0.0254, \"m\", \"in\"). Raises\n"
         "ValueError.");
-  m.def(
-      "shown", &shown, py::arg("value"), py::arg("unit"), py::arg("units") = "",
-      py::arg("digits") = 4,
-      "Returns a value of an SI unit as people see it: shown(0.08, \"m\", \"metric\") is \"80 "
-      "mm\".\n"
-      "`units` is si, thesis, metric, or a choice on top of one, \"metric,length=cm\"; without "
-      "it,\n"
-      "what SINEW_UNITS or your settings say, else si. Pressures in \"Pa\" are absolute ones, and\n"
-      "gauges count from 14.7 psi. Raises InputError.");
+  m.def("shown", &shown, py::arg("value"), py::arg("unit"), py::arg("units") = "",
+        py::arg("digits") = 4,
+        "Returns a value of an SI unit as people see it: shown(0.08, \"m\", \"metric\") is \"80 "
+        "mm\".\n"
+        "`units` is si, thesis, metric, or a choice on top of one, \"metric,length=cm\"; without "
+        "it,\n"
+        "SINEW_UNITS or your settings, else si. Pressures in \"Pa\" are absolute ones, and\n"
+        "gauges count from 14.7 psi. Raises InputError.");
   m.def("in_units", &in_units, py::arg("values"), py::arg("unit"), py::arg("units") = "",
         "Returns numbers of an SI unit in that of such units, and what it is called, for an axis:\n"
         "ys, label = in_units(pressure, \"Pa\", \"metric\"). Raises InputError.");

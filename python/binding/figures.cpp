@@ -140,7 +140,7 @@ void bind_figures(py::module_& m) {
       "in your language. `width`, `height` and `font` are texts with units, \"84 mm\" and \"9 "
       "pt\";\n"
       "`units` is si, thesis, metric or metric,length=cm; `start` and `stop` are in s. Returns\n"
-      "what index.json says, with `warnings`. Raises InputError.");
+      "the content of index.json, with `warnings`. Raises InputError.");
   m.def(
       "film", &film, py::arg("runs"), py::arg("path"), py::kw_only(), py::arg("start") = py::none(),
       py::arg("stop") = py::none(), py::arg("speed") = 1.0, py::arg("width") = 880,

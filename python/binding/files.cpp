@@ -75,20 +75,20 @@ void bind_files(py::module_& m) {
         "Brings a TOML file of an older format to today's; comments and layout stay. The old file\n"
         "is kept as FILE.bak, or the new one goes into `folder`; nothing is overwritten. Returns\n"
         "what it was and is, each change with its line, and where new and old file are. Without\n"
-        "`write` it only tells. Raises InputError.");
+        "`write` it only reports. Raises InputError.");
   m.def("keys", &keys, py::kw_only(), py::arg("kind") = "",
         "Returns the keys of files that have all of the words in their path, description or\n"
         "choices: a dict each, with `kind`, `key`, `type`, `unit`, `default`, `doc` and more. A\n"
         "word with a dot is a key or how one begins, with your names in it: joint.hip.damping.\n"
         "`kind` is that of a file: robot, actuator, valves, wiring, experiment, rig, plan, tuning\n"
-        "or any. Raises InputError, with the nearest key, where there is none.");
+        "or any. Raises InputError, with the nearest key, if the key is unknown.");
   m.def("key_schema", &key_schema, py::arg("kind"),
         "Returns the JSON schema of files of that kind, for editors that complete TOML.");
   m.def(
       "list_files", &list_files, py::arg("kind") = "", py::kw_only(),
       py::arg("folder") = py::none(),
       "Returns the robots, experiments, rigs, studies and examples that come with Sinew and that\n"
-      "stand in `folder`, this one without it: a dict each, with `kind`, `path`, `title`,\n"
+      "are in `folder`, this one without it: a dict each, with `kind`, `path`, `title`,\n"
       "`problem` (why it cannot be read) and `shipped`. `kind` is one of these words, or all.\n"
       "Raises InputError.");
   m.def(
@@ -96,7 +96,7 @@ void bind_files(py::module_& m) {
       py::arg("folder") = py::none(), py::arg("of") = py::none(), py::arg("actuator") = py::none(),
       py::arg("metric") = false,
       "Writes a commented file to begin with, valid as written, and returns the paths of what\n"
-      "was written, the one that was asked for first. `kind` is robot, actuator, valves,\n"
+      "was written, the requested one first. `kind` is robot, actuator, valves,\n"
       "experiment, plan, rig, tuning or mapping; `of` the file that it is about; `actuator` that\n"
       "of a robot's muscles; `metric` has mm, N and bar in place of in, lbf and psi. Nothing is\n"
       "overwritten. Raises InputError.");

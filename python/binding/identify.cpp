@@ -107,7 +107,7 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
 
 void bind_identify(py::module_& m) {
   static const py::handle refusal = new_exception(
-      m, "RefusalError", "Data cannot support the model that was asked of them; the words say why.",
+      m, "RefusalError", "The data cannot support the requested model; the text states the reason.",
       PyExc_RuntimeError);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

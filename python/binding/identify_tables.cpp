@@ -237,7 +237,7 @@ void bind_identify_tables(py::module_& m) {
                     "What the data do not support; empty: nothing.")
       .def("text", &text_of, py::arg("which"), py::arg("out"),
            "Returns the text of a parameter file, as it would stand at `out`.")
-      .def("page", &page_of, "Returns the page with the data beside the models, as HTML.")
+      .def("page", &page_of, "Returns the page with the data and the models, as HTML.")
       .def("cell", &cell, "Returns the page as HTML for a notebook; None without one.")
       .def("timing", &timing, py::arg("frequency"),
            "Returns predict.dat of a valve, and by how much a duty is off at most.");

@@ -97,7 +97,7 @@ void bind_actuator(py::module_& m) {
       "are gauge\npressures. Numbers and arrays alike, which are broadcast.");
   c.def(py::init(&read_actuator), py::arg("path"), py::arg("name") = "",
         py::arg("external_volume") = 0.0,
-        "Reads an actuator, robot or experiment file; `name` says which, where it has several.\n"
+        "Reads an actuator, robot or experiment file; `name` selects one of several.\n"
         "`external_volume` [m3] of hose and fittings counts for the sealed stiffness. Raises\n"
         "InputError.")
       .def_property_readonly(
@@ -150,7 +150,7 @@ void bind_actuator(py::module_& m) {
                 run::json_of(point_at(a, length, pressure, velocity)));
           },
           py::arg("length"), py::arg("pressure"), py::arg("velocity") = Point::not_given,
-          "Returns all that the laws say of one point, by names that end with the unit.");
+          "Returns the values of all laws at one point, by names that end with the unit.");
 }
 
 struct HeldValve {
@@ -183,7 +183,8 @@ void bind_valve(py::module_& m) {
                           "An open valve's flow. All in SI; pressures are absolute. Numbers and "
                           "arrays alike.");
   c.def(py::init(&read_valve), py::arg("path"), py::arg("name") = "",
-        "Reads a valves, robot or experiment file; `name` says which. Raises InputError.")
+        "Reads a valves, robot or experiment file; `name` selects one of several. Raises "
+        "InputError.")
       .def_property_readonly(
           "name", [](const HeldValve& v) { return v.law.name; }, "Its name.")
       .def(

@@ -95,7 +95,7 @@ void bind_loop(py::module_& m) {
            py::arg("simulation").none(false), py::arg("write"), py::arg("read"),
            py::arg("period") = 0.01,
            "`write` are keys of settings, `read` names of channels; `period` in seconds, the\n"
-           "gait controller's 0.01 if not said. Raises ValueError for what there is not.")
+           "gait controller's 0.01 if not given. Raises ValueError for an unknown name.")
       .def_property_readonly("simulation", &Loop::simulation, "What it steps.")
       .def_property_readonly("period", &Loop::period, "Of a step, in seconds.")
       .def("step", &step, py::arg("values"),

@@ -133,7 +133,7 @@ void check_step(double step) {
 void refuse_failed(const air::DrivenMuscle& m) {
   if (m.failed())
     throw RunError(fmt::format(
-        "muscle: its air is no number any more at {:g} s, {:g} m long; expected lengths at which "
+        "muscle: its air is not finite at {:g} s, {:g} m long; expected lengths at which "
         "it has room for air, and that change by less than a step can follow",
         m.time(), m.length()));
 }
@@ -239,7 +239,7 @@ void bind_looks(Class& c) {
       "Pressure of the room, absolute [Pa].");
   add_look(
       c, "tension", [](const Muscle& m) { return m.tension(); },
-      "Force on both ends [N], static and viscous: a cord, so that it never pushes.");
+      "Force on both ends [N], static and viscous: a tendon, which never pushes.");
   add_look(
       c, "friction", [](const Muscle& m) { return m.friction(); },
       "Bound of the dry friction between bladder and mesh [N]. Whether the muscle sticks\n"
@@ -259,7 +259,7 @@ void bind_looks(Class& c) {
                           "\"in\", \"out\" and by\n\"leak\" since the start.");
   add_look(
       c, "failed", [](const Muscle& m) { return m.failed(); },
-      "Is its air no number any more? Then it stands still.");
+      "Whether its air is not finite any more; then it does not move.");
 }
 
 void bind_motion(Class& c) {
@@ -269,13 +269,14 @@ void bind_motion(Class& c) {
        "regulator is in its place.")
       .def(
           "exhaust", [](HeldMuscle& m, bool on) { UseMuscle(m)->exhaust(on); }, py::arg("on"),
-          "Current of the exhaust's coil from now on. Raises ValueError where there is none.")
+          "Current of the exhaust's coil from now on. Raises ValueError if it has no exhaust "
+          "valve.")
       .def("set_point", &set_point, py::arg("share"),
            "Sets a regulator in the inlet's place, from now on: 0 to 1 of its range. Raises\n"
            "ValueError where there are other valves.")
       .def("advance", &advance, py::arg("step"), py::arg("length"),
            "Lets `step` [s] pass, in which the muscle comes, straight, to be `length` [m] long.\n"
-           "Raises ValueError for what is no step or length, RunError where its air is no number\n"
+           "Raises ValueError for an impossible step or length, RunError if its air is not finite\n"
            "any more.")
       .def("follow", &follow, py::arg("step"), py::arg("lengths"), py::arg("inlet") = py::none(),
            py::arg("exhaust") = py::none(),
@@ -307,7 +308,7 @@ void bind_muscle(py::module_& m) {
   c.def(
       py::init(&make), py::arg("path"), py::arg("name") = "", py::arg("length") = py::none(),
       py::arg("pressure") = py::none(), py::arg("sets") = py::none(),
-      "Reads a muscle of a rig, robot or experiment file; `name` says which, where it has\n"
+      "Reads a muscle of a rig, robot or experiment file; `name` selects one if it has\n"
       "several; `sets` as for Experiment. `length` at the start [m]; None: the file's, a robot's\n"
       "mount length. `pressure` there, absolute [Pa]; None: the file's, or the room's. Raises\n"
       "InputError; ValueError for a length at which there is no room for air.");

@@ -166,13 +166,13 @@ void bind_recording(py::module_& m) {
           "folder", [](const Recording& r) { return path_text(r.folder); },
           "Where it is kept; empty: nowhere.")
       .def_readonly("board", &Recording::board,
-                    "Who answered at the port of the run; empty: it was simulated, or read.")
+                    "Device at the port of the run; empty: it was simulated, or read.")
       .def_property_readonly(
           "summary", [](const Recording& r) { return parsed(r.summary); },
           "Its figures, as `sinew run` writes them to summary.json: dicts, SI.")
       .def_property_readonly(
           "verdicts", [](const Recording& r) { return parsed(r.verdicts); },
-          "What is reported of the experiment beside what came out: a list of dicts.")
+          "Reported values of the experiment and those of the run: a list of dicts.")
       .def("page", &page,
            "Returns the page that shows the run, report.html, which needs no network: HTML.\n"
            "Raises RuntimeError where the library was built without it.")

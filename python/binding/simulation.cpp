@@ -98,7 +98,7 @@ void bind_looks(Class& c) {
        "What can be read, each with its unit.")
       .def("read", &read, py::arg("channel"),
            "Returns the value of a channel now, by its name or its place in `channels`, in its\n"
-           "unit. Changes nothing. Raises ValueError or IndexError for one that there is not.")
+           "unit. Changes nothing. Raises ValueError or IndexError for an unknown one.")
       .def_property_readonly(
           "settings", [](HeldSimulation& s) { return Use(s)->settings(); },
           "What can be changed, each with its unit.")
@@ -110,7 +110,7 @@ void bind_looks(Class& c) {
           },
           py::arg("key"),
           "Returns what a setting is at now, the plan's or what was set in its place, in SI; of\n"
-          "the first leg. Raises ValueError for one that there is not.")
+          "the first leg. Raises ValueError for an unknown one.")
       .def(
           "change",
           [](HeldSimulation& s, const std::string& key, double value, const std::string& leg) {
@@ -182,10 +182,9 @@ void advance(Simulation& simulation, double seconds) {
 
 void bind_simulation(py::module_& m) {
   bind_parts(m);
-  Class c(
-      m, "Simulation",
-      "A run that you hold: advance it, look at it, change it, save and restore it. However it\n"
-      "is cut into advances, looked at and restored: the same bits as a run at one go.");
+  Class c(m, "Simulation",
+          "A run that you hold: advance it, read it, change it, save and restore it. However it\n"
+          "is cut into advances, looked at and restored: the same bits as a run at one go.");
   c.def(py::init([](const py::object& experiment, const py::object& sets) {
           return std::make_shared<HeldSimulation>(experiment_of(experiment, sets));
         }),

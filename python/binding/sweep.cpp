@@ -156,9 +156,9 @@ void bind_sweep(py::module_& m) {
   m.def("tune", &tune_file, py::arg("path"), py::arg("results"), py::kw_only(),
         py::arg("sets") = py::none(), py::arg("generations") = 0, py::arg("threads") = 0,
         py::arg("progress") = py::none(),
-        "Searches the best values of an experiment's keys, as a tuning's file says, and returns\n"
+        "Searches the best values of an experiment's keys, by a tuning's file, and returns\n"
         "what `sinew tune --json` prints. Every run is kept in the file `results`, with which a\n"
-        "tuning that was interrupted goes on. `generations` stands in place of the file's number.\n"
+        "tuning that was interrupted continues. `generations` replaces the file's number.\n"
         "`threads` and `progress` are those of sweep(). Raises InputError, and RuntimeError where\n"
         "the library was built without pagmo.");
 }

@@ -84,7 +84,7 @@ class Wrong(Refusals):
         with tempfile.TemporaryDirectory() as folder:
             bad = os.path.join(folder, "bad.toml")
             with open(bad, "w", encoding="utf-8") as file:
-                file.write('format = "sinew.experiment/1"\nrobot = 3\n')
+                file.write('format = "sinew.experiment/2"\nrobot = 3\n')
             empty = os.path.join(folder, "empty.toml")
             open(empty, "w", encoding="utf-8").close()
             stiff = "control.stiffness.hip"

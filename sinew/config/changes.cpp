@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
 namespace sinew::config {
 
@@ -34,8 +35,7 @@ std::vector<std::string_view> names_of_kinds(const Changes& changes) {
 }
 
 std::string format_line(const Kind* kind) {
-  if (!kind || !kind->now.empty()) return "format = \"sinew.experiment/1\"";
-  return fmt::format("format = \"sinew.{}/{}\"", kind->name, kind->newest);
+  return fmt::format("format = \"{}\"", newest_format(kind ? kind->name : "experiment"));
 }
 
 }  // namespace
@@ -45,22 +45,31 @@ const Kind* Changes::find(std::string_view kind) const {
   return it == kinds.end() ? nullptr : &*it;
 }
 
-// All formats are at their first number: no key has been removed yet. A test stand had its own kind
-// before it became part of an experiment.
+// A test stand had its own kind before it became part of an experiment.
 const Changes& changes() {
   static const Changes all{.kinds = {{"robot"},
                                      {"actuator"},
                                      {"valves"},
                                      {"wiring"},
-                                     {"experiment"},
+                                     {"experiment", 2},
                                      {"rig", 1, "experiment"},
                                      {"plan"},
                                      {"tuning"},
                                      {"settings"},
                                      {"mapping"},
                                      {"labels"}},
-                           .keys = {}};
+                           .keys = {{.kind = "experiment",
+                                     .format = 2,
+                                     .from = "control.brain_period",
+                                     .to = "high_level_period"}}};
   return all;
+}
+
+std::string newest_format(std::string_view name) {
+  const Kind* kind = changes().find(name);
+  if (kind && !kind->now.empty()) kind = changes().find(kind->now);
+  if (!kind) throw std::invalid_argument("no kind of file: " + std::string(name));
+  return fmt::format("sinew.{}/{}", kind->name, kind->newest);
 }
 
 Format format_of(std::string_view text) {

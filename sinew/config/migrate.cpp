@@ -335,20 +335,25 @@ Migrated migrated(std::string_view text, const std::string& name, const Changes&
   }
 
   out.was_kind = out.kind;
-  const Kind& kind = *changes.find(out.kind);
+  const int first = std::max(out.from, 1);
   Problems problems;
-  for (int number = std::max(out.from, 1) + 1; number <= kind.newest; ++number) {
-    for (const KeyChange* change : changes_to(number, out.kind, changes))
-      apply(*change, name, out, problems);
-    out.to = number;
-  }
-  if (!problems.empty()) throw Error(problems);
+  const auto update_keys = [&](const Kind& kind, int from) {
+    out.to = from;
+    while (out.to < kind.newest) {
+      ++out.to;
+      for (const KeyChange* change : changes_to(out.to, out.kind, changes))
+        apply(*change, name, out, problems);
+    }
+  };
+  const Kind& kind = *changes.find(out.kind);
+  update_keys(kind, first);
   const bool replaced = !kind.now.empty();
   if (replaced) {
     out.kind = kind.now;
-    out.to = 1;
+    update_keys(*changes.find(out.kind), 1);
   }
-  if (replaced || out.to > std::max(out.from, 1)) set_format(out);
+  if (!problems.empty()) throw Error(problems);
+  if (replaced || out.to > first) set_format(out);
   require_same_values(text, name, out);
   return out;
 }

@@ -250,7 +250,7 @@ void check_numbers(const Experiment& e, List& out) {
   };
   whole("log.period", e.log.period, signals::tick_seconds, "0.1 ms");
   const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
-  whole("control.brain_period", e.plan.brain_period, period, "the low level's period");
+  whole("control.high_level_period", e.plan.high_level_period, period, "the low level's period");
   if (!e.robot.low_level.valve_timing.empty() && e.robot.low_level.pwm_ticks != 100)
     out.push_back({"low_level.pwm_ticks", std::to_string(e.robot.low_level.pwm_ticks),
                    "100: predict.dat counts the ticks of such a period",

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/config/write/writer.h"
@@ -24,7 +25,7 @@ Problem not_an_experiment(const config::Node& root, const std::string& path) {
   p.where.file = path;
   p.key = "format";
   p.found = config::in_quotes(config::format_kind(root));
-  p.expected = "\"sinew.experiment/1\"";
+  p.expected = config::in_quotes(config::newest_format("experiment"));
   p.try_this = "sinew check " + path;
   return p;
 }
@@ -159,7 +160,7 @@ Tick last_tick(const Experiment& e) {
   // One tick is added to the run of a stand, so that its last instant is sampled too.
   if (e.stand) return std::llround(e.stand->duration / signals::tick_seconds) + 1;
   const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
-  const auto gait_period_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
+  const auto gait_period_ticks = std::llround(e.plan.high_level_period / signals::tick_seconds);
   const Tick plan = gait::periods(e.robot, e.plan) * gait_period_ticks;
   // One period is added for the last valves to shut and for a sample at the plan's end.
   const Tick last = e.robot.low_level.pwm_ticks;

@@ -64,7 +64,7 @@ TEST(Check, ReturnsWhatIsWrongWithItsPlaceAndNeverThrows) {
 }
 
 TEST(Check, TellsWhatAnExperimentBreaksAndWhatNeverActs) {
-  const std::string base = "format = \"sinew.experiment/1\"\nbase = \"" + root +
+  const std::string base = "format = \"sinew.experiment/2\"\nbase = \"" + root +
                            "experiments/walk-test-1.toml\"\ntitle = \"broken\"\n";
   const Written broken("broken.toml", base +
                                           "[[fault]]\nat = \"1 s\"\nof = \"hip_flexor.inlet\"\n"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/files/key_text.h"
@@ -191,8 +192,7 @@ void refuse_unknown(std::string_view kind) {
 
 std::string schema_of(std::string_view kind) {
   refuse_unknown(kind);
-  const std::string format =
-      fmt::format("sinew.{}/1", kind == "rig" ? std::string_view("experiment") : kind);
+  const std::string format = config::newest_format(kind);
   Place root;
   for (const std::string& one : kinds_within(kind))
     for (const Key& key : keys_of(one))

@@ -310,9 +310,10 @@ Subject subject_of(const std::string& kind, const NewOptions& options) {
   const config::Node root = config::compose(options.of);
   const std::string_view wanted = study ? "experiment" : "robot";
   if (const std::string_view found = config::format_kind(root); found != wanted)
-    config::fail(
-        {options.of, 0, 0}, "", fmt::format("format = \"sinew.{}/1\"", found),
-        fmt::format("the {} that the new {} is of, format = \"sinew.{}/1\"", wanted, kind, wanted));
+    config::fail({options.of, 0, 0}, "",
+                 fmt::format("format = \"{}\"", config::newest_format(found)),
+                 fmt::format("the {} that the new {} is of, format = \"{}\"", wanted, kind,
+                             config::newest_format(wanted)));
   Subject out{options.of, joints_of(root)};
   if (std::ranges::none_of(out.joints, &Joint::driven))
     config::fail({options.of, 0, 0}, "joint", "no joint with muscles", "one at least");

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto patience = std::chrono::seconds(60);  // with an answer, on a slow machine
+constexpr auto patience = std::chrono::seconds(60);  // for a reply, on a slow computer
 constexpr int commands = 3, answers = 4;             // the files that the browser reads and writes
 
 // Its options, without the dashes before them. Letters are drawn alike on every screen.
@@ -84,7 +84,7 @@ struct Chromium::Impl {
 };
 
 Chromium::Impl::~Impl() {
-  to.close();  // it ends when nobody speaks to it any more
+  to.close();  // it ends when its pipe is closed
   if (pid > 0) {
     if (!ends_within(pid, 3)) kill_group(pid);
     wait_for(pid);
@@ -133,7 +133,7 @@ std::string Chromium::Impl::next_message() {
       return out;
     }
     if (stop) throw Stopped();
-    if (Clock::now() - begin > patience) fail("does not answer");
+    if (Clock::now() - begin > patience) fail("does not reply");
     pollfd wait{from.file(), POLLIN, 0};
     if (::poll(&wait, 1, 100) <= 0) continue;
     char bytes[1 << 16];
@@ -152,7 +152,7 @@ Json Chromium::Impl::ask(const char* method, Json parameters) {
   if (!write_all(to.file(), text)) fail("ended");
   while (true) {
     Json answer;
-    if (!Json::parse(next_message(), answer)) fail("says what is no JSON");
+    if (!Json::parse(next_message(), answer)) fail("sends text that is not JSON");
     if (!answer.contains("id") || answer["id"] != last) continue;
     if (answer.contains("error"))
       fail(fmt::format("refuses {}: {}", method, answer["error"].string("message", "")));

@@ -4,7 +4,7 @@
 //   browser.open(file);                               // a page on this machine
 //   browser.evaluate("document.title");               // "\"Walking\"", as JSON
 //
-// It speaks the protocol of the browser's developer tools. The browser is the user's own Chromium
+// It uses the protocol of the browser's developer tools. The browser is the user's own Chromium
 // or Chrome, in a profile that is made for it and goes with it; it listens on no port and needs no
 // network.
 #pragma once
@@ -18,7 +18,7 @@
 namespace sinew::film {
 
 // Returns the browser's program: what the variable CHROMIUM names, or the first of the usual names
-// on the PATH. Empty where there is none.
+// on the PATH. Empty if it is missing.
 std::filesystem::path find_chromium();
 
 // A browser that runs as long as this lives.
@@ -44,7 +44,7 @@ class Chromium {
 
   // The work was interrupted.
   struct Stopped : std::runtime_error {
-    // Says so.
+    // Throws that error.
     Stopped() : std::runtime_error("interrupted") {}
   };
 

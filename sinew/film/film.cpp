@@ -94,7 +94,7 @@ std::vector<double> times_of(const FilmOptions& options, double begin, double en
 
 [[noreturn]] void without_drawing(const std::string& run) {
   config::fail({run, 0, 0}, "", "a run without a drawing",
-               "a run of a robot or of the test stand whose file says where its parts are");
+               "a run of a robot or of the test stand whose file has the places of its parts");
 }
 
 std::string number(double value) { return Json(value).text(); }

@@ -22,7 +22,7 @@
 
 namespace sinew::film {
 
-// Says what a film shows, and how.
+// Content of a film, and its form.
 struct FilmOptions {
   // The part that is shown, in the run's time [s].
   double from = -std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ struct FilmOptions {
 // The kind of file that keeps a film.
 enum class Kind { gif, mp4, webm };
 
-// Returns the kind that a file's ending says. Throws config::Error for another ending.
+// Returns the kind by the file's ending. Throws config::Error for another ending.
 Kind kind_of(const std::filesystem::path& file);
 
 // Throws config::Error, which begins with the name of what is wrong, for options of which there can
@@ -49,12 +49,12 @@ class Filming {
  public:
   // Opens the run's page. `machine`: what was run, in place of the folder's resolved.toml; may be
   // empty. Once `stop` is true the work ends with Chromium::Stopped. Throws config::Error where
-  // there is no such run, it has no drawing, or none in the time that is asked for, and
+  // there is no such run, it has no drawing, or none in the requested time, and
   // std::runtime_error, with what to do, where there is no browser.
   Filming(const std::filesystem::path& run, const std::string& machine, const FilmOptions& options,
           const std::atomic<bool>& stop, const run::Notices& notices = {});
 
-  // Opens the page of runs beside each other (run/folder/compared.h): the first one's machine as it
+  // Opens the page of several runs (run/folder/compared.h): the first one's machine as it
   // is, the others as ghosts over it in their colors, as `align_options` aligns them with it. Times
   // are the first one's; the film shows all that any of them has. Throws as above, also where one
   // of them cannot be drawn, and what the comparison throws.
@@ -62,7 +62,7 @@ class Filming {
           const FilmOptions& options, const std::atomic<bool>& stop,
           const run::Notices& notices = {});
 
-  // How many frames the film has.
+  // Returns the number of frames of the film.
   int frames() const { return static_cast<int>(times_.size()); }
 
   // Writes the film; `done` counts its frames. An older file is replaced when the new one is whole.

@@ -117,7 +117,7 @@ bool ends_within(pid_t pid, double seconds) {
 void kill_group(pid_t pid) { ::kill(-pid, SIGKILL); }
 
 bool write_all(int file, std::string_view bytes) {
-  // A reader that is gone is an answer and not this program's end.
+  // A closed pipe is an error of this write and does not end the program.
   sigset_t pipe, before;
   sigemptyset(&pipe);
   sigaddset(&pipe, SIGPIPE);

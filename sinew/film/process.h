@@ -1,4 +1,4 @@
-// film/process.h - a program beside this one, with pipes to it.
+// film/process.h - child process, with pipes to it.
 #pragma once
 
 #include <sys/types.h>
@@ -51,13 +51,13 @@ pid_t start(const std::vector<std::string>& arguments, const std::vector<Given>&
 // Waits until it has ended; -1 where it did not end by itself with a code.
 int wait_for(pid_t pid);
 
-// Has it ended within that time? [s]
+// Returns whether it ended within that time [s].
 bool ends_within(pid_t pid, double seconds);
 
 // Ends it and what it has started.
 void kill_group(pid_t pid);
 
-// Writes all of it. Returns false where nobody reads any more.
+// Writes the whole text. Returns false if the pipe is closed.
 bool write_all(int file, std::string_view bytes);
 
 // Returns the last lines of a program's words.

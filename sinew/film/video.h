@@ -17,7 +17,7 @@ void require_ffmpeg();
 // A video that is being made of frames.
 class Video {
  public:
-  // `words`: a new file for what ffmpeg says. Until finish() the video stands beside `file`.
+  // `words`: a new file for ffmpeg's output. Until finish() the video is next to `file`.
   Video(const std::filesystem::path& file, Kind kind, int frames_per_second,
         const std::filesystem::path& words);
   ~Video();

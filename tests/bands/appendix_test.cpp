@@ -101,7 +101,7 @@ Sets cylinder(const std::string& gain, const std::string& damping) {
 // The body controlled to 0.7 in, from its initial position.
 Hold hold(const Sets& sets) {
   const Sets still = {"sequence.phases=[\"up\"]", "phase.up.duration=1.5 s",
-                      "control.brain_period=10 ms", "start.lift=0.7 in",
+                      "control.high_level_period=10 ms", "start.lift=0.7 in",
                       "phase.up.cylinder={ position = [\"0.7 in\"] }"};
   const auto e = experiment::load(test::file_of("cylinder-staircase"), still + sets);
   const run::Outcome out = run::run(e);

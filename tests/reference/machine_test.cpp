@@ -64,7 +64,7 @@ TEST(Reference, Clocks) {
   EXPECT_DOUBLE_EQ(signals::tick_seconds, si("isr_period"));
   EXPECT_DOUBLE_EQ(1 / (si("isr_period") * si("pwm_ticks")), si("pwm_leg"));
   EXPECT_DOUBLE_EQ(as_printed().body_step, si("dt_code"));  // chosen by us; appendix A's step
-  EXPECT_DOUBLE_EQ(as_printed().plan.brain_period, 1 / si("pwm_leg"));
+  EXPECT_DOUBLE_EQ(as_printed().plan.high_level_period, 1 / si("pwm_leg"));
 }
 
 // Chapter 3's average; its own model remains below in every swing: "under-damped".
@@ -272,7 +272,7 @@ TEST(Reference, Timing) {
 
   const auto e = load("walk-test-1", {"sequence.thesis_timing=true"});
   const json& code = t["timing_code"];
-  EXPECT_DOUBLE_EQ(e.plan.brain_period, code["tick_s"]);
+  EXPECT_DOUBLE_EQ(e.plan.high_level_period, code["tick_s"]);
   EXPECT_DOUBLE_EQ(phase(e.plan, "foot_plant").thesis_duration, code["plant_dt_in_code"]);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(gait::periods(e.plan, phase(e.plan, names[i])), code["ticks_inclusive"][i].get<int>())

@@ -146,7 +146,7 @@ Line read_line(std::string_view text, int number, const Words& heading, double t
 class PlanWalk {
  public:
   PlanWalk(const gait::Plan& plan, config::RowProblems& problems)
-      : plan_(plan), problems_(problems), period_(std::llround(plan.brain_period * 1e9)) {}
+      : plan_(plan), problems_(problems), period_(std::llround(plan.high_level_period * 1e9)) {}
 
   // Processes a line. A new phase begins where its name changes or the timer restarts.
   void follow_plan(const Line& line) {
@@ -283,7 +283,7 @@ std::string write_out_dat(const signals::Table& table, const experiment::Experim
     config::fail({e.path, 0, 0}, "/plan/phase", "no such channel in the log", "one, for out.dat");
 
   // Writes a line when the timer has changed, as the controller of B.1 does.
-  const std::int64_t period = std::llround(e.plan.brain_period * 1e9);
+  const std::int64_t period = std::llround(e.plan.high_level_period * 1e9);
   double before = -1, step_before = -1;
   std::int64_t began = 0, last_timer = -1;
   for (std::size_t i = 0; i < phases->time_ns.size(); ++i) {

@@ -91,14 +91,14 @@ function joined(    i, out) {
   return out
 }
 
-# Prints the comment, `before` what stands in front of its first line and `opening` its sign.
+# Prints the comment, with the text `before` its first line and the sign `opening`.
 function print_comment(before, opening,    i) {
   for (i = 1; i <= n; i++)
     print (i == 1 ? before opening " " : "") text[i] (i == n ? " */" : "")
 }
 
 # Prints the variables of `double length = 0, rate = 0;` each with its own declaration and comment: the
-# part of "[m], [m/s]" that is its, or all of it.
+# part of "[m], [m/s]" that is its, or the whole.
 function print_each(code, words, but_first,    i, c, level, n, part, of, count, type, own) {
   sub(/ *; *$/, "", code)
   for (i = 1; i <= length(code); i++) {
@@ -145,7 +145,7 @@ function follow(text,    i, c) {
 function kind_of(words,    i, c, angle, out) {
   if (kind[depth] == "body") return "body"
   gsub(/alignas\([^()]*(\([^()]*\))?[^()]*\)/, "", words)
-  for (i = 1; i <= length(words); i++) {  # what stands in <> is about parameters
+  for (i = 1; i <= length(words); i++) {  # text in <> is about parameters
     c = substr(words, i, 1)
     if (c == "<") angle++
     if (!angle) out = out c
@@ -203,7 +203,7 @@ END {
       continue
     }
     if (line[i] == "") shared[depth] = ""
-    # A class of a private part, defined below, is none of the public ones.
+    # A class of a private part, defined below, is not public.
     if (code ~ /^ *(public|protected|private):/) access = code
     if (access ~ /private/ && match(code, /^ +(class|struct) [A-Za-z_]+;/)) {
       word = substr(code, RSTART, RLENGTH - 1); sub(/.* /, "", word)

@@ -3,7 +3,7 @@
 #
 #   awk -f undocumented.awk searchdata.xml doxygen.txt
 #
-# A struct or enum without a comment, which comments.awk has told, needs one unless each of its members
+# A struct or enum without a comment, which comments.awk has marked, needs one unless each of its members
 # has one. Constructors that are default, operators, begin() and the like need none.
 
 FILENAME ~ /xml$/ {

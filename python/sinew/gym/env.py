@@ -40,7 +40,7 @@ class _Shared:
         for sight in t.sights:
             if not sight.scale > 0:
                 raise ValueError(
-                    f"sight {sight.channel}: found scale {sight.scale}; expected more than 0"
+                    f"observation {sight.channel}: found scale {sight.scale}; expected more than 0"
                 )
         self.experiment = Experiment(t.experiment, dict(t.sets))
         self.course = _sinew.Course(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/utf8.h"
 
@@ -149,9 +150,7 @@ std::string to_toml(const Node& root) {
   return out;
 }
 
-void Writer::format(std::string_view kind) {
-  add(make_text("format", fmt::format("sinew.{}/1", kind)));
-}
+void Writer::format(std::string_view kind) { add(make_text("format", newest_format(kind))); }
 
 void Writer::number(const Field& field, double& value) {
   if (std::isfinite(value)) add(quantity_node(field.name, value, field.unit, !origins_));

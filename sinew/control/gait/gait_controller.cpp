@@ -27,7 +27,7 @@ GaitController::GaitController(const robot::Robot& robot, const Plan& plan, doub
     : plan_(plan),
       robot_(robot),
       leg_(robot::is_leg(robot)),
-      settle_periods_(std::llround(plan.settle / plan.brain_period)) {
+      settle_periods_(std::llround(plan.settle / plan.high_level_period)) {
   if (leg_) links_ = robot::two_links(robot);
   for (std::size_t i = 0; i < robot_.joints.size(); ++i)
     desired_.joint[i] = at_rest(robot_.joints[i], plan_.joints[i]);

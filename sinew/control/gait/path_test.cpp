@@ -60,7 +60,7 @@ TEST(Path, DesiredAnglesOfTheThesis) {
       const double s = static_cast<double>(k) / steps_of_s(plan, phase);
       const double knee = robot::inverse(leg, foot_at(phase, s)).angle[1];
       least = std::min(least, knee);
-      if (knee < 289 * degree) beyond += plan.brain_period;
+      if (knee < 289 * degree) beyond += plan.high_level_period;
     }
   EXPECT_NEAR(least / degree, 278.9, 0.05);
   EXPECT_NEAR(beyond, 0.80, 0.011);

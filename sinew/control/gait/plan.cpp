@@ -76,7 +76,7 @@ std::string_view unit_of(std::string_view measure) {
 
 int steps_of_s(const Plan& plan, const Phase& phase) {
   const bool own = plan.thesis_timing && phase.thesis_duration > 0;
-  return whole_periods(own ? phase.thesis_duration : phase.duration, plan.brain_period);
+  return whole_periods(own ? phase.thesis_duration : phase.duration, plan.high_level_period);
 }
 
 int periods(const Plan& plan, const Phase& phase) {
@@ -92,7 +92,7 @@ int periods_per_step(const Plan& plan) {
 }
 
 std::int64_t periods(const Plan& plan) {
-  const auto settle = std::llround(plan.settle / plan.brain_period);
+  const auto settle = std::llround(plan.settle / plan.high_level_period);
   return settle + std::int64_t{plan.repeat} * periods_per_step(plan);
 }
 
@@ -242,9 +242,9 @@ void check_times(const Plan& plan, List& out) {
   for (const Phase& phase : plan.phases)
     if (!(phase.duration > 0))
       out.push_back({"phase." + phase.name + ".duration", "no time", "more than 0 s",
-                     "at least one brain_period"});
-  if (!(plan.brain_period > 0))
-    out.push_back({"control.brain_period", "no time", "more than 0 s", "10 ms"});
+                     "at least one high_level_period"});
+  if (!(plan.high_level_period > 0))
+    out.push_back({"control.high_level_period", "no time", "more than 0 s", "10 ms"});
 }
 
 // Checks changes: each must name a driven joint and, if it names a leg, an existing one; it has
@@ -387,7 +387,7 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
 
 List unreachable(const robot::Robot& robot, const Plan& plan) {
   List out;
-  if (!(plan.brain_period > 0)) return out;
+  if (!(plan.high_level_period > 0)) return out;
   for (std::size_t l = 0; l < robot::legs_of(robot).size(); ++l) {
     const robot::Robot leg = robot::only_leg(robot, l);
     if (!robot::is_leg(leg)) continue;

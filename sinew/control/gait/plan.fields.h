@@ -213,13 +213,13 @@ void fields(Visitor& v, robot::Gains& g) {
 // Keys of [control].
 template <class Visitor>
 void control_fields(Visitor& v, Plan& plan) {
-  v.number({.name = "brain_period",
+  v.number({.name = "high_level_period",
             .unit = "s",
             .min = 1e-3,
             .max = 1,
             .optional = true,
             .doc = "of the high level, a multiple of the low level's"},
-           plan.brain_period);
+           plan.high_level_period);
   v.group({.name = "stiffness", .doc = "K_des [58], until a phase sets another"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
       if (joint.driven)

@@ -153,7 +153,7 @@ struct Sequence {
 struct Plan {
   enum class Finish { vent, hold };  // vent: all exhausts open, all inlets shut
 
-  double brain_period = 0.01;  // period of the gait controller [s]
+  double high_level_period = 0.01;  // period of the gait controller [s]
   double settle = 0;  // before the first phase, joints disabled [s]; not in the file's tables
   bool thesis_timing = false;  // as the code's loops: one more period per phase, s reaches 1
 

@@ -7,7 +7,7 @@
 
 namespace sinew::identify {
 
-// Which samples have settled, and by which criterion.
+// Samples that have settled, and the criterion.
 struct Settled {
   std::vector<bool> sample;  // true for each settled sample
   double window = 0;         // time over which the change of pressure is measured [s]

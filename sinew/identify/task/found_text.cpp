@@ -120,13 +120,14 @@ void put_parameters(std::string& out, const Fit& fit, const TextOptions& how) {
 // --- what each method adds ---
 
 // Damping by each way of evaluation, compared with the fitted trajectories.
-void put_methods(std::string& out, const DynamicResult& found, const config::UnitsToShow& asked) {
-  const units::ShownUnit length = asked.asked ? asked.units.of("m") : units::ShownUnit{"mm", 1e3};
-  const units::ShownUnit force = asked.units.of("N"), damping = asked.units.of("N s/m");
+void put_methods(std::string& out, const DynamicResult& found, const config::UnitsToShow& chosen) {
+  const units::ShownUnit length =
+      chosen.is_requested ? chosen.units.of("m") : units::ShownUnit{"mm", 1e3};
+  const units::ShownUnit force = chosen.units.of("N"), damping = chosen.units.of("N s/m");
   // Without a choice of units each column has its own number of decimals.
   const auto in = [&](const units::ShownUnit& unit, double si, int decimals = 4) {
-    return asked.asked ? fmt::format("{:.4g}", unit.of(si))
-                       : fmt::format("{:.{}f}", unit.of(si), decimals);
+    return chosen.is_requested ? fmt::format("{:.4g}", unit.of(si))
+                               : fmt::format("{:.{}f}", unit.of(si), decimals);
   };
   TextTable table(
       {"file", "method", "Q [" + length.name + "]", "friction at rest [" + force.name + "]",
@@ -151,12 +152,12 @@ void put_methods(std::string& out, const DynamicResult& found, const config::Uni
 }
 
 void put_combinations(std::string& out, const JointResult& found) {
-  TextTable table({"what the data tell apart, best first", "95 %"},
+  TextTable table({"what the data determine, best first", "95 %"},
                   {TextTable::Align::left, TextTable::Align::right});
   for (const Combination& c : found.combinations)
     table.add({c.text, std::isfinite(c.relative_error)
                            ? fmt::format("+- {:.2g} %", 100 * c.relative_error)
-                           : "not at all"});
+                           : "undetermined"});
   put(out, "\n{}", table.text());
 }
 
@@ -173,13 +174,13 @@ void put_explained(std::string& out, const Report& report) {
   put(out, "\n{}", table.text());
 }
 
-void put_stiffness(std::string& out, const PairResult& found, const config::UnitsToShow& asked) {
+void put_stiffness(std::string& out, const PairResult& found, const config::UnitsToShow& chosen) {
   const char* unit = found.rotary ? "N m/rad" : "N/m";
-  const units::ShownUnit shown = asked.units.of(unit);
+  const units::ShownUnit shown = chosen.units.of(unit);
   const PairStiffness& s = found.stiffness;
   put(out, "\nstiffness, springs and trapped air together: {:.5g} +- {:.2g} {}", shown.of(s.value),
       shown.of(s.uncertainty), shown.name);
-  if (std::isfinite(s.air)) put(out, ", of it {:.4g} {} the air's", shown.of(s.air), shown.name);
+  if (std::isfinite(s.air)) put(out, ", {:.4g} {} by the air", shown.of(s.air), shown.name);
   put(out, "\n");
 }
 
@@ -205,12 +206,12 @@ std::string percent(double share) { return digits(100 * share, "{:.2f} %"); }
 
 // Returns the unit of a scale: the chosen one, else that of the known values.
 std::string shown_scale(const Calibration& c, const std::string& display,
-                        const config::UnitsToShow& asked) {
-  if (!asked.asked) return scale_unit_for(c, display);
+                        const config::UnitsToShow& chosen) {
+  if (!chosen.is_requested) return scale_unit_for(c, display);
   const std::string unit = scale_unit(c);
-  if (units::told_unit(unit)) return asked.units.of(unit).name;
-  const auto told = units::told_unit(display);
-  return scale_unit_for(c, told ? asked.units.of(told->held).name : display);
+  if (units::read_quantity_unit(unit)) return chosen.units.of(unit).name;
+  const auto given = units::read_quantity_unit(display);
+  return scale_unit_for(c, given ? chosen.units.of(given->stored).name : display);
 }
 
 // Table 4-1, with model, errors and noise of each sensor.
@@ -306,7 +307,7 @@ struct PlanUnits {
   const TextOptions& how;
 
   Shown of(double si, const std::string& unit, const Shown& otherwise) const {
-    return how.units.asked ? how.shown(si, unit) : otherwise;
+    return how.units.is_requested ? how.shown(si, unit) : otherwise;
   }
   Shown length(double x) const { return of(x, "m", {1e3 * x, "mm", 1e3}); }
   Shown pressure(double x) const { return of(x, "Pa gauge", {1e-3 * x, "kPa gauge", 1e-3}); }
@@ -411,10 +412,10 @@ void put_more(std::string& out, const PairFound& found, const TextOptions& how) 
 
 void put_more(std::string& out, const RunFitFound& found, const TextOptions& how) {
   if (found.score.empty()) return;
-  const config::UnitsToShow asked = how.units;
+  const config::UnitsToShow chosen = how.units;
   // Without a choice, the units of a protractor and a gauge.
   const auto shown = [&](const std::string& unit) {
-    if (asked.asked) return asked.units.of(unit);
+    if (chosen.is_requested) return chosen.units.of(unit);
     if (unit == "Pa diff") return units::ShownUnit{"kPa", 1e-3};
     if (unit == "m") return units::ShownUnit{"mm", 1e3};
     if (unit == "N") return units::ShownUnit{"N", 1};
@@ -440,8 +441,8 @@ void put_more(std::string& out, const RunFitFound& found, const TextOptions& how
 
 void put_more(std::string& out, const GeometryFound& found, const TextOptions& how) {
   if (found.report) return;
-  const config::UnitsToShow asked = how.units;
-  const std::string unit = asked.asked ? asked.units.of("m").name : "mm";
+  const config::UnitsToShow chosen = how.units;
+  const std::string unit = chosen.is_requested ? chosen.units.of("m").name : "mm";
   put(out, "thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
       config::format_quantity(found.braid.thread_length, "m", unit),
       config::format_number(found.braid.turns),
@@ -483,9 +484,10 @@ void put_more(std::string& out, const PlanFound& found, const TextOptions& how) 
 }
 
 TextOptions::Shown TextOptions::shown(double number, const std::string& unit) const {
-  const auto held = units.asked ? units::told_unit(unit, atmosphere) : std::nullopt;
+  const auto held = units.is_requested ? units::read_quantity_unit(unit, atmosphere) : std::nullopt;
   if (!held) return {number, unit, 1};
-  const units::ShownUnit to = units.units.of(held->held, units::ShownUnits::not_known, atmosphere);
+  const units::ShownUnit to =
+      units.units.of(held->stored, units::ShownUnits::unknown_size, atmosphere);
   return {to.of(held->unit.back(number)), to.name, to.scale / held->unit.scale};
 }
 

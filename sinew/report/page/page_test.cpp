@@ -191,7 +191,7 @@ TEST(Panels, TakeWhatNobodyKnowsByItsUnit) {
 
 TEST(Parameters, ComeWithTheirSources) {
   const config::Node node = config::parse_text(R"(
-format = "sinew.experiment/1"
+format = "sinew.experiment/2"
 title = "T"
 empty = []
 [joint.hip]

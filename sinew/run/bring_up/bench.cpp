@@ -30,7 +30,7 @@ config::Node joints_of(const robot::Robot& robot, std::string_view key, bool ang
 experiment::Experiment bench_of(const std::string& robot, const fs::path& folder,
                                 const std::vector<std::string>& sets) {
   config::Node root = config::parse_text(
-      "format = \"sinew.experiment/1\"\n"
+      "format = \"sinew.experiment/2\"\n"
       "title = \"The robot hangs empty and does nothing\"\n"
       "[sequence]\nphases = [\"rest\"]\n"
       "[phase.rest]\nsource = \"sinew bring-up\"\nduration = \"1 s\"\n",

@@ -51,7 +51,7 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
       vents_(plan.finish == gait::Plan::Finish::vent && robot.low_level.vent_time > 0),
       has_cylinder_(robot::has_cylinder_joint(robot)),
       cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
-      gait_period_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
+      gait_period_ticks_(std::llround(plan.high_level_period / signals::tick_seconds)),
       scale_(assumed_scales(robot)),
       legs_(robot, plan),
       changes_(plan, robot::legs_of(robot), steering) {

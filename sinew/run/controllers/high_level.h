@@ -33,7 +33,7 @@ class HighLevel {
   HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering = nullptr);
 
   // Returns the commands of a low-level period. The gait controller itself is updated once per
-  // `brain_period`.
+  // `high_level_period`.
   const MachineCommand& update(const MachineState& state, signals::Tick t) noexcept;
   // Returns whether the body is to be vented now. A plan that ends without a vent holds its last
   // setpoints until the run's end.

@@ -11,17 +11,17 @@ namespace sinew::run {
 
 namespace {
 
-// Returns the verdict, green where it is as it should be, red where it is not.
-std::string colored(analysis::Verdict::Is is, bool color) {
-  using enum analysis::Verdict::Is;
-  const std::string_view word = to_text(is);
-  if (color && is == agrees) return fmt::format("\033[32m{}\033[0m", word);
-  if (color && (is == differs || is == agrees_after_all))
+// Returns the verdict, green if it agrees as expected, else red.
+std::string colored(analysis::Verdict::Agreement agreement, bool color) {
+  using enum analysis::Verdict::Agreement;
+  const std::string_view word = to_text(agreement);
+  if (color && agreement == agrees) return fmt::format("\033[32m{}\033[0m", word);
+  if (color && (agreement == differs || agreement == agrees_unexpectedly))
     return fmt::format("\033[31m{}\033[0m", word);
   return std::string(word);
 }
 
-// The class of a statement has a column of its own, or stands before the source where there is no
+// The class of a statement has a column of its own, or is before the source if there is no
 // room for one.
 report::TextTable table_of(const std::vector<analysis::Verdict>& verdicts, bool class_column,
                            bool color) {
@@ -31,9 +31,9 @@ report::TextTable table_of(const std::vector<analysis::Verdict>& verdicts, bool 
   for (const analysis::Verdict& v : verdicts) {
     const std::string statement_class(to_text(v.statement_class));
     std::vector<std::string> row = {std::string(analysis::without_unit(v.key)), v.reported,
-                                    v.ours.empty() ? "-" : v.ours, v.accept};
+                                    v.computed.empty() ? "-" : v.computed, v.accept};
     if (class_column) row.push_back(statement_class);
-    row.push_back(colored(v.is, color));
+    row.push_back(colored(v.agreement, color));
     row.push_back(class_column || statement_class.empty() ? v.source
                                                           : statement_class + "; " + v.source);
     table.add(std::move(row));

@@ -55,7 +55,7 @@ std::vector<Reach> reaches(const Experiment& e) {
   gait::Legs legs(e.robot, e.plan);
   gait::MachineMeasured still;
   for (std::size_t j = 0; j < out.size(); ++j) still.angle[j] = e.robot.joints[j].rest_angle;
-  const auto settle = std::llround(e.start.settle / e.plan.brain_period);
+  const auto settle = std::llround(e.start.settle / e.plan.high_level_period);
   gait::Plan once = e.plan;
   once.repeat = 1;
   const auto last = gait::periods(e.robot, once);

@@ -8,7 +8,7 @@
 
 namespace sinew::run {
 
-// Returns "the air of muscle knee_flexor was no number any more at 0.012 s: …; try …". `who` is the
+// Returns "the air of muscle knee_flexor was not finite at 0.012 s: …; try …". `who` is the
 // muscle's name in its file, `step` the key of the step's length.
 std::string to_text(const air::Failure& failure, const std::string& who,
                     const actuator::Actuator& actuator, const std::string& step);

@@ -50,7 +50,7 @@ struct StanceUnits {
 // force, "0 lbf, -20 lbf"; may be empty.
 StanceUnits units_of_file(const experiment::Experiment& experiment, const std::string& force);
 
-// Where a machine is to stand: by its foot or its angles, as text.
+// Stance of a machine: by its foot or its angles, as text.
 struct StanceRequest {
   std::string foot, angles;  // "-2 in, -13 in" about the first joint; or one angle per joint
   std::string force;         // of the foot: the torques for it, [71]; may be empty

@@ -36,7 +36,7 @@ void check_above_zero(double value, std::string_view what, const std::string& wh
 Episode::Episode(const Task& task, Simulation& example)
     : begin_(ticks(task.begin)),
       step_(ticks(task.period)),
-      control_(ticks(example.experiment().plan.brain_period)) {
+      control_(ticks(example.experiment().plan.high_level_period)) {
   check_times(example, task);
   for (const Task::Action& a : task.actions) {
     check_above_zero(a.factor, "factor", a.setting);

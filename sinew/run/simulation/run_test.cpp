@@ -275,7 +275,7 @@ TEST(Load, SaysWhatContradictsItself) {
             std::string::npos);
   EXPECT_NE(refusal({"log.period=0.25 ms"}).find("multiple of 0.1 ms"), std::string::npos);
   EXPECT_NE(refusal({"plant=mars"}).find("expected planar"), std::string::npos);
-  EXPECT_NE(refusal({"control.brain_period=15 ms"}).find("multiple of the low level's period"),
+  EXPECT_NE(refusal({"control.high_level_period=15 ms"}).find("multiple of the low level's period"),
             std::string::npos);
 }
 

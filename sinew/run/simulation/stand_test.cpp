@@ -294,7 +294,7 @@ TEST(RigFiles, OtherFormatsAreRefused) {
     experiment::load(sinew::test::source_dir() + "/robots/leg/valves.toml");
     ADD_FAILURE();
   } catch (const config::Error& e) {
-    EXPECT_NE(std::string(e.what()).find("expected \"sinew.experiment/1\""), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("expected \"sinew.experiment/2\""), std::string::npos);
   }
 }
 

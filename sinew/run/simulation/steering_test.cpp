@@ -124,7 +124,7 @@ TEST(Change, GoesThroughTheFileAndBack) {
 }
 
 std::string refusal(const std::string& change, const std::string& base = "walk-test-1") {
-  const std::string text = "format = \"sinew.experiment/1\"\nbase = \"" + source + "/experiments/" +
+  const std::string text = "format = \"sinew.experiment/2\"\nbase = \"" + source + "/experiments/" +
                            base + ".toml\"\n[[change]]\n" + change;
   const std::string file = ::testing::TempDir() + "steering_test_change.toml";
   std::ofstream(file) << text;

@@ -1,4 +1,4 @@
-// math.js - sets the formulas of a page, with the KaTeX that stands beside this file.
+// math.js - sets the formulas of a page, with the KaTeX in this folder.
 (() => {
   const formulas = [...document.querySelectorAll('.arithmatex')];
   if (!formulas.length) return;
