@@ -73,9 +73,10 @@ ExitCode list(const ListOptions& options) {
   const Messages messages(false);
   if (listing.shipped_from.empty())
     messages.warning(
-        "found none of the files that come with Sinew; SINEW_SHARE=FOLDER in the environment says "
-        "where they are");
-  if (listing.cut) messages.warning("this folder has too much below it; not all was looked at");
+        "found none of the files that come with Sinew; set SINEW_SHARE=FOLDER in the environment "
+        "to "
+        "their folder");
+  if (listing.cut) messages.warning("this folder has too much below it; not all was read");
   return ok;
 }
 

@@ -98,7 +98,7 @@ ExitCode run_experiment(const RunOptions& options) {
   if (options.pace > 0 && run::has_own_clock(options.run.port))
     config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
                  "no pace: the machine keeps its own time");
-  // From before a board is opened until the machine rests.
+  // It begins before a board is opened and ends when the machine rests.
   Interrupt interrupt(run::is_outside_simulation(options.run.port) ? Interrupt::Of::machine
                                                                    : Interrupt::Of::work);
   run::RunRequest request = options.run;

@@ -110,7 +110,7 @@ void add_keeping(CLI::App& sub, RunsOptions& options) {
   sub.add_option("--threads", options.threads, "at a time; as many as the machine has")
       ->transform(between(1, 1024));
   sub.add_option("--results", options.results,
-                 "a study's file: each row as soon as its run is done; what is there is not run "
+                 "a study's file: each row as soon as its run is done; its rows are not run "
                  "again");
 }
 

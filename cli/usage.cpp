@@ -150,11 +150,11 @@ void add_pairs(const CLI::App& command, Problems& out) {
     for (const CLI::Option* other : option->get_excludes())
       if (other->count() > 0 && !reported.contains(other)) {
         reported.insert(option);
-        add(out, option->get_name(), other->get_name() + " beside it", "one of the two");
+        add(out, option->get_name(), other->get_name() + " with it", "one of the two");
       }
     for (const CLI::Option* other : option->get_needs())
       if (other->count() == 0)
-        add(out, option->get_name(), "no " + other->get_name() + " beside it",
+        add(out, option->get_name(), "no " + other->get_name() + " with it",
             other->get_name() + " too: " + meaning_of(*other));
   }
 }

@@ -34,8 +34,9 @@ std::vector<std::string_view> names_of_kinds(const Changes& changes) {
   return names;
 }
 
-std::string format_line(const Kind* kind) {
-  return fmt::format("format = \"{}\"", newest_format(kind ? kind->name : "experiment"));
+std::string format_line(const Kind* kind, const Changes& all) {
+  return fmt::format("format = \"{}\"",
+                     kind ? newest_format(kind->name, all) : newest_format("experiment"));
 }
 
 }  // namespace
@@ -65,9 +66,9 @@ const Changes& changes() {
   return all;
 }
 
-std::string newest_format(std::string_view name) {
-  const Kind* kind = changes().find(name);
-  if (kind && !kind->now.empty()) kind = changes().find(kind->now);
+std::string newest_format(std::string_view name, const Changes& all) {
+  const Kind* kind = all.find(name);
+  if (kind && !kind->now.empty()) kind = all.find(kind->now);
   if (!kind) throw std::invalid_argument("no kind of file: " + std::string(name));
   return fmt::format("sinew.{}/{}", kind->name, kind->newest);
 }
@@ -92,14 +93,14 @@ Format check_format(const Node& root, const Changes& changes) {
     const Kind* likely = changes.find(likely_kind(root));
     const char* who = likely ? "; sinew migrate rewrites it" : "";
     fail(root.where, "format", "nothing", expected,
-         format_line(likely) + " as the first line" + who);
+         format_line(likely, changes) + " as the first line" + who);
   }
   node->used = true;
   const Format format = format_of(node->text);
   const Kind* kind = changes.find(format.kind);
   if (node->kind != Node::Kind::text || !kind || format.number < 1)
     fail(node->where, "format", shown(*node), expected,
-         format_line(kind ? kind : changes.find(closest(format.kind, names))));
+         format_line(kind ? kind : changes.find(closest(format.kind, names)), changes));
   if (format.number > kind->newest)
     fail(node->where, "format", shown(*node),
          fmt::format("\"sinew.{}/{}\" or older", format.kind, kind->newest),

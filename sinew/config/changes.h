@@ -43,7 +43,7 @@ const Changes& changes();
 
 // Returns "sinew.robot/1" of "robot", with the newest number; a kind that was replaced has the
 // format of its replacement. Throws std::invalid_argument for an unknown kind.
-std::string newest_format(std::string_view kind);
+std::string newest_format(std::string_view kind, const Changes& changes = config::changes());
 
 // Parts of `format = "sinew.robot/1"`; empty and 0 for another text.
 struct Format {

@@ -2,7 +2,7 @@
 //
 //   experiment ── base = "other.toml"      merged under the file, one level deep,
 //                                                without its `reported` figures
-//              ── robot = "robot.toml"     its tables appear beside the experiment's own
+//              ── robot = "robot.toml"     its tables are added to the experiment's own
 //                   ── files.actuator      actuator.<name>
 //                   ── files.valves        valve.<name>
 //                   ── files.wiring        wiring.…

@@ -24,7 +24,7 @@ std::filesystem::path find_chromium();
 // A browser that runs as long as this lives.
 class Chromium {
  public:
-  // Starts it. Throws std::runtime_error, with what to do, where there is none or it does not
+  // Starts it. Throws std::runtime_error, with what to do, if it is missing or does not
   // start. `stop`: once it is true, whatever waits for the browser throws Stopped.
   explicit Chromium(const std::atomic<bool>& stop);
   ~Chromium();

@@ -153,7 +153,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
     });
   }
 
-  // Sends pending answers first, then the current frame if the browser is ready.
+  // Sends pending replies first, then the current frame if the browser is ready.
   void send() {
     if (!open || sending) return;
     if (!replies.empty()) {

@@ -28,7 +28,7 @@ step_docs() {
   local version
   version=$(sed -n 's/^project(sinew VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
   grep -qx "version: $version" CITATION.cff || { echo "CITATION.cff: expected version: $version"; return 1; }
-  tools/links.sh && tools/snippets.sh
+  tools/links.sh && tools/snippets.sh && tools/words.py
 }
 
 # Configures and builds PRESET; a lock serializes builds, since ./check faces runs some steps in parallel.

@@ -107,8 +107,8 @@ class Supervisor {
   // Shuts all valves until the next good command.
   void hold() noexcept;
 
-  // From now on every tick is announced, as by a board's timer: a missed tick is a gap even if it
-  // had no event.
+  // Requires that every tick is announced from now on, as by a board's timer: a missed tick is a
+  // gap even if it had no event.
   void expect_every_tick() noexcept { every_tick_ = true; }
 
   // Vents from t on, without a law's delay.

@@ -108,9 +108,8 @@ constexpr std::string_view advice_of_length =
     "length may be missing where one holds for the whole file: values.length=\"250 mm\", or where "
     "the table has contraction and a rest length is given.";
 constexpr std::string_view advice_of_rest =
-    "rest_length is needed where a file holds several muscles; else rest_length=\"250 mm\" says "
-    "it, "
-    "or the longest length stands for it.";
+    "rest_length is needed where a file holds several muscles; else give rest_length=\"250 mm\", "
+    "or the longest length is taken for it.";
 constexpr std::string_view advice_of_time =
     "A column time makes a table a recording: its rows follow each other, begin vented, and stay "
     "at "
