@@ -15,7 +15,7 @@ from sinew import identify
 class Inputs(unittest.TestCase):
     def test_columns_are_those_of_the_program(self) -> None:
         for method in ("static", "valve", "sensor"):
-            self.assertEqual(identify.columns(method), program_json("identify", method, "--columns", "--json"))
+            self.assertEqual(identify.columns(method), program_json("identify", "columns", method, "--json"))
         with self.assertRaisesRegex(sinew.InputError, 'method: found "statik"'):
             identify.columns("statik")
 

@@ -282,7 +282,7 @@ class SameAsTheProgram(unittest.TestCase):
             "valve", [filling()], ask, "--volume", "0.0005 m3", "--port", "7 bar abs", "--exponent", "1"
         )
         alone = identify.valve(filling())  # determines only C/V
-        self.assertIn("one curve does not tell C from V", alone.refused)
+        self.assertIn("one curve does not separate C from V", alone.refused)
         self.assertEqual(alone.report["refused"], alone.refused)
         with self.assertRaises(identify.RefusalError) as raised:
             alone.write(os.path.join(self.folder, "none.toml"))
