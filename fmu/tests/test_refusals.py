@@ -139,7 +139,7 @@ class Interface(unittest.TestCase):
                     (back(saved[:-1]), "cut off or spoilt"),
                     (back(bytes(spoilt)), "cut off or spoilt"),
                     (back(b"nothing of the kind " * 10), "cut off or spoilt"),
-                    (back(other.serialized()), "of another FMU or another version"),
+                    (back(other.serialized()), "of another FMU or of another version"),
                     (lambda: slave.back_to(c_void_p()), "found no state"),
                 ]
             )
@@ -173,7 +173,7 @@ class Interface(unittest.TestCase):
                 (lambda: slave.call("SetRealInputDerivatives", vr, one, no_order, value), "of order 0"),
                 (lambda: slave.call("SetRealInputDerivatives", out, one, order, value), "of an input"),
                 (lambda: slave.call("GetRealOutputDerivatives", vr, one, order, value), "no deriv"),
-                (lambda: slave.call("CancelStep"), "there is none to cancel"),
+                (lambda: slave.call("CancelStep"), "no step can be cancelled"),
                 (lambda: slave.call("GetStatus", 0, byref(c_int())), "ever pending"),
                 (lambda: slave.call("GetRealStatus", 0, None), "expected fmi2LastSuccessfulTime"),
                 (lambda: slave.call("GetRealStatus", 2, None), "found no place for the time"),
