@@ -31,6 +31,7 @@ class PowerSeriesOf {
     for (int k = 1; k < 7; ++k) term_[k] = term_[k - 1] * (exponent - (k - 1)) / k;
   }
 
+  // Returns the exponent.
   constexpr S exponent() const { return exponent_; }
 
   // Writes (1 + x)^e to `power`, for a number or a vector. The terms are summed in pairs, which has

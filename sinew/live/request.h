@@ -20,6 +20,7 @@
 namespace sinew::live {
 
 struct Request {
+  // Action that a page requests.
   enum class Kind { pause, resume, pace, stop, set, release, release_all };
 
   Kind kind = Kind::pause;

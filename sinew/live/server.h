@@ -51,8 +51,8 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  std::uint16_t port() const;
-  std::string url() const;  // "http://127.0.0.1:8080/0f…32 digits…/"
+  std::uint16_t port() const;  // TCP port that it listens on
+  std::string url() const;     // "http://127.0.0.1:8080/0f…32 digits…/"
 
   void run();   // serves until stop() and calls all handlers
   void stop();  // callable from any thread

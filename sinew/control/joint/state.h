@@ -33,8 +33,8 @@ struct JointState {
 };
 
 struct ControllerState {
-  Phase phase = Phase::startup;  // at the last visited tick
-  std::array<JointState, max_joints> joint;
+  Phase phase = Phase::startup;              // at the last visited tick
+  std::array<JointState, max_joints> joint;  // in the order of the joints
 
   // last good counts, and the status of the last reading
   std::array<signals::Reading, max_channels> reading;

@@ -65,6 +65,7 @@ struct Curve {
 
 // A shaded range of x: stance, or the time of a fault between two lines.
 struct Span {
+  // Event that the span marks.
   enum class Of { stance, fault };
   double from = 0, to = 0;  // in x
   Of of = Of::stance;

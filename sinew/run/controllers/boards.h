@@ -74,6 +74,7 @@ class Boards;
 // View of the state of all boards in the machine's numbering. The boards must outlive it.
 class MachineState {
  public:
+  // Views the present state of the boards.
   explicit MachineState(const Boards& boards) noexcept;
 
   control::Phase phase;  // the least advanced phase of all boards

@@ -12,6 +12,7 @@ namespace sinew::run {
 
 // A clock that never waits: the loop runs as fast as possible.
 struct SimulatedClock {
+  // Returns true at once: the run continues.
   bool wait_until(signals::Tick) noexcept { return true; }
 };
 
