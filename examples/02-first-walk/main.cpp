@@ -40,7 +40,8 @@ void walk(const std::string& experiment, const std::filesystem::path& folder) {
   std::printf("\nreported beside ours\n");
   for (const analysis::Verdict& verdict : analysis::compare(kept.summary, kept.machine.reported))
     std::printf("  %s: %s, ours %s: %s\n", verdict.key.c_str(), verdict.reported.c_str(),
-                verdict.ours.c_str(), std::string(analysis::to_text(verdict.is)).c_str());
+                verdict.computed.c_str(),
+                std::string(analysis::to_text(verdict.agreement)).c_str());
 
   const bool same = same_from_the_log(kept.folder, kept.summary);
   std::printf("\nfrom the log: %s\n", same ? "the same numbers" : "other numbers");

@@ -44,8 +44,9 @@ void look(const experiment::Experiment& walk, const analysis::Machine& machine) 
   std::printf("the trolley goes %.3f m\n", *summary.find("trolley.distance_m"));
   const auto verdicts = analysis::compare(summary, machine.reported);
   for (std::size_t i = 0; i < 3; ++i)
-    std::printf("  %s: %s, reported %s: %s\n", verdicts[i].key.c_str(), verdicts[i].ours.c_str(),
-                verdicts[i].reported.c_str(), std::string(to_text(verdicts[i].is)).c_str());
+    std::printf("  %s: %s, reported %s: %s\n", verdicts[i].key.c_str(),
+                verdicts[i].computed.c_str(), verdicts[i].reported.c_str(),
+                std::string(to_text(verdicts[i].agreement)).c_str());
 }
 
 // A run that is controlled by the program: two continuations from the same time.
