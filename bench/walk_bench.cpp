@@ -7,6 +7,7 @@
 
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
@@ -79,7 +80,7 @@ void unwatched_walk(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     plant::ChainWorld<2> world(run::planar_setup(walk()));
-    run::Boards boards(walk());
+    run::Boards boards(run::boards_of(walk()));
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
     Nothing nobody;
@@ -106,7 +107,7 @@ void controller_alone(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     Still body;
-    run::Boards boards(walk());
+    run::Boards boards(run::boards_of(walk()));
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
     Nothing nobody;
