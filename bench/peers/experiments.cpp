@@ -2,6 +2,7 @@
 
 #include "sinew/run/controllers/boards.h"
 #include "sinew/run/controllers/high_level.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 
@@ -29,7 +30,7 @@ const experiment::Experiment& walk() {
 
 double drive(signals::Port& body, const experiment::Experiment& e) {
   const signals::Tick end = experiment::last_tick(e);
-  run::Boards boards(e);
+  run::Boards boards(run::boards_of(e));
   run::HighLevel high(e.robot, e.plan);
   run::SimulatedClock clock;
   Nobody nobody;
