@@ -27,7 +27,7 @@ constexpr std::string_view settings =
     "values vary volume where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file's name.
-// What has a line number is a key of that file.
+// A name with a line number is a key of that file.
 constexpr std::string_view subjects =
     " candidate freeze known model names offsets part points prior range report rigs sensors "
     "shard tie units values vary where ";

@@ -36,6 +36,7 @@ list='
     check  -                   libpagmo-dev                     searches for better walks
     check  gnuplot             gnuplot-nox                      draws figures
     check  clang-format-14     clang-format-14                  formats code; versions differ
+    check  python3             python3                          runs tools/words.py
     faces  -                   libopenmpi-dev                   sweeps over the processes of mpirun
     faces  -                   libcomedi-dev                    data acquisition cards
     faces  -                   libmatio-dev                     recordings in MATLAB files

@@ -1,4 +1,4 @@
-// What was made, for people and for programs.
+// Text and JSON of a new FMU.
 #include <fmt/format.h>
 
 #include "fmu/export/export.h"

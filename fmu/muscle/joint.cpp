@@ -205,7 +205,7 @@ void Joint::lengths_at(std::span<const double> angles, Lengths& lengths,
   routing_->at<most>(angles.data(), still.data(), lengths, rates, arms);
 }
 
-// Returns the name and length of a muscle with an impossible length; empty if there is none.
+// Returns the name and length of a muscle with an impossible length; empty if all are possible.
 std::string Joint::wrong_at(std::span<const double> angles) const {
   Lengths lengths;
   Arms arms{};

@@ -144,7 +144,7 @@ class Instance {
     sheet().set(place, value);
   }
 
-  // Returns the variable at an index. Throws if there is none or if it has another type.
+  // Returns the variable at an index. Throws if the index is too large or the type differs.
   const Variable& variable(std::size_t place, Variable::Type type) const {
     const Variable& v = variable(place);
     if (v.type != type)

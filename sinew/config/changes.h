@@ -68,7 +68,7 @@ const KeyChange* removed_key(std::string_view path, const Changes& changes);
 std::string in_words(const KeyChange& change);
 
 // Returns the likely kind of a file without a format, found from keys that only this kind has;
-// empty if there are none.
+// empty if no such key is found.
 std::string_view likely_kind(const Node& root);
 
 // Returns whether the segments of a dotted path match a pattern. The index after a list's name is

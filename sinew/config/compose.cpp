@@ -233,7 +233,7 @@ Node set_node(std::string_view key, std::string_view text) {
   return value;
 }
 
-// Returns the table of the next segment. Creates it unless its name looks like a typing error.
+// Returns the table of the next segment. Creates it unless its name is probably a typing error.
 Node& set_step(Node& table, std::string_view segment, const std::string& key) {
   if (Node* there = table.find(segment)) {
     if (there->is_table()) return *there;

@@ -17,7 +17,7 @@ namespace sinew::config {
 enum class StatementClass {
   none,               // not given: not judged, or the file is older than classes
   predicted,          // no part was fitted or put in
-  fitted,             // one of our parameters was chosen so that it agrees
+  fitted,             // one of our parameters was chosen for agreement
   put_in,             // our model was built with it
   by_construction,    // true for any numbers: an identity, a definition, a bound of the range
   code_against_code,  // identical equations computed twice

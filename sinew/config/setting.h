@@ -43,7 +43,7 @@ double quantity_setting(std::string_view name, std::string_view text, std::strin
 // Quantities of "2.5in:3.9in:0.1in", first and last included, or of one quantity.
 struct QuantityRange {
   std::vector<double> si;
-  std::string unit;  // as it was written, for a column of a table
+  std::string unit;  // unit as written, for a column of a table
 };
 
 // Returns the quantities of a range. The step of pressures is a difference: "20 psi gauge:110 psi

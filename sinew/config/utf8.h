@@ -42,7 +42,7 @@ inline std::size_t turn_at(std::string_view text, std::size_t at) {
 }
 
 // Returns the number of bytes of a control character at that position, U+0000 to U+001F or U+007F
-// to U+009F; 0 if there is none, or if it is in `kept`.
+// to U+009F; 0 if it is absent, or if it is in `kept`.
 inline std::size_t control_at(std::string_view text, std::size_t at, std::string_view kept) {
   const auto byte = static_cast<unsigned char>(text[at]);
   if (byte < 0x20) return kept.find(text[at]) == kept.npos ? 1 : 0;

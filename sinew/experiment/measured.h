@@ -22,7 +22,7 @@ struct Notes {
 };
 Notes notes(const Experiment& experiment, const signals::Table& table);
 
-// Returns the measurements as CSV. Empty if there are none: no sensors, or a sweep.
+// Returns the measurements as CSV. Empty without sensors, and for a sweep.
 std::string measured_csv(const Experiment& experiment, const signals::Table& table);
 
 }  // namespace sinew::experiment

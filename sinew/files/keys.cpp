@@ -219,7 +219,7 @@ std::vector<DecidingPath> choices_among(const std::vector<Key>& keys, std::strin
   return out;
 }
 
-// Returns whether two keys look alike to a user; the default does not depend on other values.
+// Returns whether two keys appear equal to a user; the default does not depend on other values.
 bool same(const Key* a, const Key* b) {
   if (!a || !b) return a == b;
   return a->type == b->type && a->unit == b->unit && a->per == b->per && a->min == b->min &&

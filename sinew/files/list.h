@@ -39,7 +39,7 @@ Listing list(const std::string& kind = "", const std::filesystem::path& here = "
 // Returns lines of text: a heading for each kind and place, then the path and title of each file.
 std::string text_of(const Listing& listing, const std::string& kind = "");
 
-// Returns all of it as JSON, sinew.list/1.
+// Returns the list as JSON, sinew.list/1.
 std::string json_of(const Listing& listing);
 
 }  // namespace sinew::files

@@ -25,7 +25,7 @@ constexpr int most_frames = 20000;
 constexpr int smallest = 100, largest = 3840;  // a side [pixels]
 // Browsers show a frame of a GIF for two hundredths of a second at least.
 constexpr int most_of_gif = 50, most_per_second = 120;
-constexpr int palette_frames = 12;  // whose colors are looked at
+constexpr int palette_frames = 12;  // read for its colors
 
 [[noreturn]] void wrong(const char* name, std::string found, std::string expected,
                         std::string try_this = "") {

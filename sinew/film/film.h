@@ -78,7 +78,7 @@ class Filming {
   const FilmOptions options_;
   const std::atomic<bool>& stop_;
   std::unique_ptr<Chromium> browser_;
-  std::vector<double> times_;  // of each frame [s]
+  std::vector<double> times_;  // time of each frame [s]
 };
 
 }  // namespace sinew::film

@@ -118,7 +118,7 @@ void check_devices(const Kind& kind, const DoctorOptions& options, Findings& out
                               ? "a board is connected by one"
                               : "a card reads the sensors and switches the valves";
   std::vector<fs::path> devices = named(options.root / "dev", kind.names);
-  // A card's device is named comedi and a number; comedi0_subd1 is a part of it.
+  // A card's device is named comedi and a number; comedi0_subd1 is a part of such a device.
   std::erase_if(devices, [](const fs::path& d) {
     return d.filename().string().find("_subd") != std::string::npos;
   });

@@ -369,7 +369,7 @@ class Matcher {
     const auto parse = [&](int number, const std::string& in) {
       return config::parse_quantity(fmt::format("{} {}", number, in), wanted, atmosphere_);
     };
-    // Accepts Sinew's unit or another spelling of it, such as psig.
+    // Accepts Sinew's unit or another spelling, such as psig.
     for (const config::Spelling& meant : config::spellings(unit)) {
       const config::Parsed zero = parse(0, meant.unit), one = parse(1, meant.unit);
       if (zero.mistake) continue;

@@ -115,7 +115,7 @@ Point Points::at(std::size_t index) const {
   return out;
 }
 
-// Returns whether a condition's key is missing, so that it can never hold.
+// Returns whether a condition's key is missing; such a condition never holds.
 bool lacks_condition(const Search& search, const std::vector<std::string>& lacks) {
   return std::ranges::any_of(search.where, [&](const Condition& c) {
     return std::ranges::find(lacks, c.key) != lacks.end();

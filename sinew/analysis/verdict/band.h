@@ -54,7 +54,7 @@ Band computed(double value, double last_digit);
 Band identity(double of);
 Band another(double lowest, double highest);
 
-// Returns the rule in words, for example "a percentage: 2 points, at most a quarter of it".
+// Returns the rule in words, for example "a percentage: 2 points, at most a quarter of the number".
 std::string_view rule_of(Wording wording);
 
 // The numbers of a source's text: "55 to 60 in" gives 55, 60, "in"; "below 0.5" gives -inf, 0.5,

@@ -175,7 +175,7 @@ class Program {
   const link::Frame* frame_ = nullptr;
   link::Code code_ = link::Code::done;
   const char* refusal_ = nullptr;
-  std::uint32_t value_ = 0;  // of the reply
+  std::uint32_t value_ = 0;  // sequence number of the reply
   bool quiet_ = false;       // no reply to a message that is done
   std::uint32_t refused_ = 0, late_ = 0;
   link::ConfigurationReceiver receiver_;

@@ -40,7 +40,7 @@ class Legs {
   // legs that do not exist, the default. Trivially copyable.
   using State = std::array<GaitController::State, robot::max_legs>;
   State state() const noexcept;
-  void restore(const State& state) noexcept;  // of legs with an equal plan
+  void restore(const State& state) noexcept;  // requires legs with an equal plan
 
   // Return whether all legs are finished, and the sum of their unreachable periods.
   bool finished() const noexcept;

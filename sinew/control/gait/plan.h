@@ -137,7 +137,7 @@ struct Phase {
 struct JointPlan {
   std::string name;
   double stiffness = 0;  // K_des [N m/rad]
-  robot::Gains gains;    // from the robot or the experiment
+  robot::Gains gains;    // given by the robot or the experiment
   bool enabled = true;
   bool driven = true;         // false: a passive joint, which has no values in files
   std::vector<double> range;  // lowest and highest desired angle, in the direction of increasing
@@ -196,7 +196,8 @@ std::vector<robot::Contradiction> unreachable(const robot::Robot&, const Plan&);
 int periods(const Plan&, const Phase&);
 int periods_per_step(const Plan&);
 std::int64_t periods(const Plan&);
-std::int64_t periods(const robot::Robot&, const Plan&);  // of the leg that takes longest
+std::int64_t periods(const robot::Robot&,
+                     const Plan&);  // number of periods of the longest leg plan
 
 // Returns a leg's plan: the plan with the order of phases that the leg names.
 Plan plan_of_leg(const Plan& plan, const robot::LegParts& leg);

@@ -61,7 +61,7 @@ struct LineCount {
   std::uint32_t crc16 = 0;
   std::uint32_t crc32 = 0;    // with correct CRC-16
   std::uint32_t half = 0;     // silence on the line before the end
-  std::uint32_t skipped = 0;  // bytes outside of frames
+  std::uint32_t skipped = 0;  // number of bytes outside frames
 
   friend constexpr bool operator==(const LineCount&, const LineCount&) = default;
 };

@@ -109,7 +109,7 @@ struct ConfigureChunk {
 // Ends a configuration, which the board then accepts or refuses.
 struct ConfigureEnd {
   static constexpr Type type = Type::configure_end;
-  std::uint32_t crc = 0;  // the same as in ConfigureBegin
+  std::uint32_t crc = 0;  // equal to that in ConfigureBegin
 };
 
 // Arming takes two different frames, the second of which repeats a number from the board's reply to

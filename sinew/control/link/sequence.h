@@ -2,8 +2,8 @@
 //
 // A sender counts its frames, 0 after 255. A frame 1 to 127 ahead of the last one is new, and the
 // ones between were lost; an equal number or one behind is a repetition and is not accepted. More
-// than 127 consecutive lost frames look like repetitions: identify, which moves nothing, restarts
-// the count while no joint is armed.
+// than 127 consecutive lost frames are taken for repetitions: identify, which moves nothing,
+// restarts the count while no joint is armed.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ enum Word : std::uint8_t {
 
 constexpr std::uint8_t pots = 3, gages = 4;
 constexpr std::uint16_t no_value = 0xffff;
-constexpr std::uint16_t max_hundredths = 0x7fff;  // of lbf in/rad
+constexpr std::uint16_t max_hundredths = 0x7fff;  // unit: lbf in/rad
 
 ThesisByteResult readings(std::uint8_t first, std::uint8_t count) noexcept {
   return {.what = What::readings, .first = first, .count = count};

@@ -106,7 +106,7 @@ class ThesisByteReader {
   std::array<std::uint16_t, max_values> value_{};
   std::uint8_t low_ = 0;
   bool half_ = false;         // the low byte was received
-  std::uint16_t framed_ = 0;  // bytes of the current frame
+  std::uint16_t framed_ = 0;  // received bytes of the current frame
   std::uint16_t frame_ = 0;   // size of that frame, once its length is known
 };
 

@@ -41,8 +41,8 @@ struct CommandLimits {
 };
 
 struct SuperviseConfig {
-  std::array<SensorLimits, max_channels> sensor;  // by channel
-  std::array<CommandLimits, max_joints> command;  // by joint
+  std::array<SensorLimits, max_channels> sensor;  // indexed by channel
+  std::array<CommandLimits, max_joints> command;  // indexed by joint
 
   // consecutive events:
   std::uint32_t bad_readings = 3;   // bad readings of a sensor that end the run

@@ -10,7 +10,7 @@
 //   F  tension [N]   D, theta  diameter [m] and angle of the braid at rest   p  gauge pressure [Pa]
 //   e  contraction [-]
 //
-// Forces that are all too small by one factor look like those of a thinner muscle, as D is the only
+// Forces that are all too small by one factor equal those of a thinner muscle, as D is the only
 // absolute size in the law. Only the diameter distinguishes lbf from N, so the user is requested to
 // give it.
 #pragma once
@@ -35,7 +35,7 @@ struct Check {
   std::string name;  // "pressure unit"
   TrafficLight light = TrafficLight::green;
   std::string evidence;  // a sentence
-  std::string advice;    // what to do; may be empty if green or grey
+  std::string advice;    // advice; may be empty if green or grey
 
   // A fit does not repeat this as a warning: its own notes and intervals show it, or these data
   // give no reason for doubt.

@@ -67,7 +67,7 @@ Recognised recognise(const CheckInput& input) {
   for (const CheckedTable& t : input.tables) out.files.push_back(file_of(t.table));
   const std::vector<StaticPoint>& points = input.data.points;
   if (points.empty()) return out;
-  const std::vector<int> group = length_groups(points);  // by muscle, then by length
+  const std::vector<int> group = length_groups(points);  // sorted by muscle, then by length
   for (int g = 0; g <= *std::ranges::max_element(group); ++g) {
     std::vector<StaticPoint> own;
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -25,7 +25,7 @@ struct OmittedRow {
 // Measurements left out for one reason.
 struct Omitted {
   std::string reason;            // e.g. "pressure still moving"
-  std::string criterion;         // by which they were recognised
+  std::string criterion;         // criterion that recognised them
   std::size_t count = 0;         // number left out
   std::vector<OmittedRow> rows;  // all of them, or an even selection
 };

@@ -40,7 +40,7 @@ struct RunPrior {
   double value = 0, standard_deviation = 0;  // in SI
 };
 
-// The fit needs the rest of the run, unless all of it is held out and nothing is fitted.
+// The fit needs the rest of the run, unless the whole run is held out and nothing is fitted.
 inline constexpr double most_held_out = 0.9;
 constexpr bool is_share_held_out(double share) {
   return (share >= 0 && share < most_held_out) || share == 1;

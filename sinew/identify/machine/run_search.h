@@ -27,7 +27,7 @@
 
 namespace sinew::identify {
 
-// Range of a parameter without jumps of the readings; unbounded if there are none.
+// Range of a parameter without jumps of the readings; unbounded without jumps.
 struct RunCell {
   double low = -unbounded, high = unbounded;
 };

@@ -222,7 +222,7 @@ Oscillation find_turns(std::span<const double> time, std::span<const double> val
   const double range = largest(value) - smallest(value);
   if (value.size() < 40 || !(range > 10 * out.noise)) refuse_still(subject, 0);
 
-  // Roughly first, to find the period; then smoothed by a sixteenth of it.
+  // Roughly first, to find the period; then smoothed by a sixteenth of the period.
   const Values clean = median_of_five(value);
   const std::vector<Extreme> rough =
       extremes(moving_mean(clean, 2), std::max(6 * out.noise, 0.05 * range));

@@ -26,8 +26,8 @@ std::vector<Point> points_of(std::span<const double> known, std::span<const doub
 // Returns the number of different known values.
 std::size_t level_count(std::span<const Point> points);
 
-// Returns the step of the readings: all differ by whole multiples of it. Equally spaced known
-// values give such multiples too, so the step must be less than half their distance, or be
+// Returns the step of the readings: all differ by whole multiples of that step. Equally spaced
+// known values give such multiples too, so the step must be less than half their distance, or be
 // confirmed by many readings.
 double step_of(std::span<const Point> points, std::span<const double> output);
 

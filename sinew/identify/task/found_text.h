@@ -2,7 +2,7 @@
 // scores, the parameters of the chosen one, what only this method has, and what the data do not
 // show.
 //
-// The same is in JSON (to_json in methods.h) and on a page (identify/page).
+// JSON (to_json in methods.h) and the page (identify/page) have the same content.
 #pragma once
 
 #include <string>

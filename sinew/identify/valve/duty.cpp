@@ -18,7 +18,8 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double nothing = 0.02;  // share of full delivery: less is none, more than 1 - it is full
+constexpr double nothing =
+    0.02;  // share of full delivery: less counts as nothing, more than 1 - it is full
 
 struct Map {
   std::vector<double> duty, delivered, frequency;  // delivered, or a flow of any scale

@@ -40,7 +40,7 @@ class LockStepBoard {
   bool record();  // returns whether a period begins
 
   Emulator emulator_;
-  std::vector<std::uint8_t> in_, out_;  // bytes of the line
+  std::vector<std::uint8_t> in_, out_;  // pending bytes of the line
   bool waits_ = false;                  // whether the board waits for the bytes of its line
   bool closed_ = false;
   std::int64_t periods_ = 0;  // number of periods it has run

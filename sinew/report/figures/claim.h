@@ -30,7 +30,7 @@ using config::StatementClass;
 struct Measured {
   std::string where;     // section or equation of the source
   std::string says;      // the statement, paraphrased
-  std::string reported;  // the source's number with its unit; empty if it gives no number
+  std::string reported;  // the source's number with its unit; empty if the source has only words
   std::string quantity;  // quantity taken from the computed figure
   double computed = 0;
   std::string unit;  // unit of `computed` and `accept`; empty: a pure number

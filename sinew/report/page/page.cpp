@@ -9,7 +9,7 @@
 namespace sinew::report {
 namespace {
 
-// Escapes JSON so that it cannot end its script element.
+// Escapes JSON, which then cannot end its script element.
 std::string script_safe(std::string_view json) {
   std::string out;
   for (const char c : json) {

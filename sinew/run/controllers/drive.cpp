@@ -53,7 +53,7 @@ Drive::Drive(const experiment::Experiment& e)
     planned_.push_back({.at = at, .valve = {valve}, .open = true});
     planned_.push_back({.at = at + open, .valve = {valve}, .open = false});
   }
-  // A valve that shuts and opens at one tick opens last, so that it stays open.
+  // A valve that shuts and opens at one tick opens last and stays open.
   std::ranges::stable_sort(planned_, {},
                            [](const signals::Edge& edge) { return std::pair(edge.at, edge.open); });
   if (bundle_.actuator.braid.turns > 0 && e.stand->start_length > 0)

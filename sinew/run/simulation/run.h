@@ -60,7 +60,7 @@ struct Outcome {
   double duration = 0;     // simulated [s]
   double wall = 0;         // [s]
 
-  // Returns whether the run ended before its plan, so that it cannot be summarised.
+  // Returns whether the run ended before its plan and has no summary.
   bool ended_early() const {
     return failure || !line.empty() || status != signals::Status::ok ||
            controller.fault != signals::Status::ok ||

@@ -54,7 +54,7 @@ inline constexpr double without_figures = 1000;  // a violation larger than that
 
 // The evaluation of a candidate's runs.
 struct CandidateEvaluation {
-  std::vector<double> goals;   // over the runs with figures; NaN if there are none
+  std::vector<double> goals;   // over the runs with figures; NaN without such runs
   std::vector<double> limits;  // the worst of those runs
   double violation = 0;
   double holds = 1;

@@ -33,12 +33,12 @@ const char* to_text(Column::Role role);
 
 struct StudyRequest {
   std::string text;             // one fact per line
-  std::vector<Column> columns;  // of the table
+  std::vector<Column> columns;  // columns of the table
   std::size_t points = 0;       // not part of a tuning's text, since a tuning may be extended
   std::string experiment;       // the file, as it was given
   std::vector<std::string> sets = {};      // key=value, for every run; the text has the resulting
                                            // values
-  std::string title = {};                  // of the study
+  std::string title = {};                  // title of the study
   std::vector<Case> cases = {};            // cases of each candidate; the text has their values
   std::vector<Column> of_candidates = {};  // a tuning's; empty: a sweep
 };

@@ -102,7 +102,7 @@ void open_results(const Sweep& sweep, const std::filesystem::path& file, Options
                   std::optional<Results>& results, const run::Notices& notices);
 
 // Reports warnings about rows, and refuses an incomplete table of so many points. `kept` is the
-// file with the rows, empty if there is none; `can_continue` states that the same command runs the
+// file with the rows, empty if absent; `can_continue` states that the same command runs the
 // others. Throws std::runtime_error, or config::Error if no row has a figure.
 void check_rows(const std::vector<Row>& rows, const Sweep& sweep, std::size_t points,
                 const std::string& kept, bool can_continue, const run::Notices& notices);
