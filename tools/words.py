@@ -7,12 +7,13 @@ instead. A use that is right is in tools/words_accepted.txt with its reason. Pri
 all or of one kind, and then fails.
 """
 import fnmatch
+import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+NOT_OURS = {".git", "build", "node_modules", "runs", "__pycache__"}
 NOT_READ = re.compile(r"_test\.|(^|/)tests?/|(^|/)test_|\.test\.|/pictures/|\.bib$|package-lock|^tools/words")
 C_LIKE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|`[^`]*`', re.S)
 PYTHON = re.compile(r'"""(?:.*?)"""|#[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
@@ -56,6 +57,16 @@ def table(name):
     return [re.split(r"\t+", row) for row in rows if row.strip() and not row.startswith("#")]
 
 
+def files_under(path):
+    """Yields the names of the repository's files at or below a path, without those that were built."""
+    if path.is_file():
+        yield str(path.relative_to(ROOT))
+    for folder, folders, names in os.walk(path):
+        folders[:] = sorted(f for f in folders if f not in NOT_OURS)
+        for name in sorted(names):
+            yield str((Path(folder) / name).relative_to(ROOT))
+
+
 def hits_of(name, kinds, accepted):
     path = ROOT / name
     here = [pattern for glob, pattern, _ in accepted if fnmatch.fnmatch(name, glob)]
@@ -80,8 +91,8 @@ def main(words):
     kinds = {row[0]: (re.compile(row[1], re.I if row[0] != "verbless" else 0), row[2]) for row in table("words.txt")}
     accepted = [(glob, re.compile(text, re.I), reason) for glob, text, reason in table("words_accepted.txt")]
     only = words.pop(0) if words and words[0] in kinds else None
-    names = subprocess.run(["git", "ls-files", "--", *words], cwd=ROOT, capture_output=True, text=True, check=True)
-    names = [n for n in names.stdout.split("\n") if n and not NOT_READ.search(n) and Path(n).suffix in READ]
+    names = [n for word in words or ["."] for n in files_under((ROOT / word).resolve())]
+    names = [n for n in names if not NOT_READ.search(n) and Path(n).suffix in READ]
     count = 0
     for name in names:
         for number, (kind, text) in sorted(hits_of(name, kinds, accepted).items()):
