@@ -16,7 +16,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge;
+using report::Curve;
 using units::inch, units::psi, units::pound_force;
 
 // Returns 20 to 110 psi, the range of figure 2-6.
@@ -89,46 +89,21 @@ Exhibit figure_2_6(const Sources& from) {
     largest = std::max(largest, c.ys.back());
   }
   e.claims = {
-      judge(by_construction,
-            {.where = "2.2",
-             .says = "Force is no straight line over length",
-             .reported = {},
-             .quantity = "least distance of a curve from a straight line, of its range",
-             .computed = 100 * straightest,
-             .unit = "%",
-             .accept = analysis::another(analysis::identity(100).highest, 100),
-             .why = "[22] is of second order in the length, for any numbers; no more than rounding "
-                    "would be a line",
-             .because = {}}),
-      judge(by_construction, {.where = "2.2",
-                              .says = "Force goes to zero at the greatest contraction",
-                              .reported = "0",
-                              .quantity = "largest force at b/sqrt(3)",
-                              .computed = at_shortest,
-                              .unit = "lbf",
-                              .accept = analysis::identity(largest),
-                              .why = "[22] with 3 L2 = b2",
-                              .because = {}}),
-      judge(by_construction,
-            {.where = "2.2",
-             .says = "Stiffness rises linearly with length",
-             .reported = {},
-             .quantity = "largest distance of a curve from a straight line, of its range",
-             .computed = 100 * bent,
-             .unit = "%",
-             .accept = analysis::identity(100),
-             .why = "[26]",
-             .because = {}}),
-      judge(by_construction,
-            {.where = "2.2",
-             .says = "Stiffness rises linearly with pressure",
-             .reported = {},
-             .quantity = "distance from a straight line over pressure at the longest length",
-             .computed = 100 * uneven,
-             .unit = "%",
-             .accept = analysis::identity(100),
-             .why = "[26]",
-             .because = {}})};
+      Section("2.2").number(
+          by_construction, "Force is no straight line over length", "",
+          "least distance of a curve from a straight line, of its range", 100 * straightest, "%",
+          analysis::another(analysis::identity(100).highest, 100),
+          "[22] is of second order in the length, for any numbers; no more than rounding "
+          "would be a line"),
+      Section("2.2").number(by_construction, "Force goes to zero at the greatest contraction", "0",
+                            "largest force at b/sqrt(3)", at_shortest, "lbf",
+                            analysis::identity(largest), "[22] with 3 L2 = b2"),
+      Section("2.2").number(by_construction, "Stiffness rises linearly with length", "",
+                            "largest distance of a curve from a straight line, of its range",
+                            100 * bent, "%", analysis::identity(100), "[26]"),
+      Section("2.2").number(by_construction, "Stiffness rises linearly with pressure", "",
+                            "distance from a straight line over pressure at the longest length",
+                            100 * uneven, "%", analysis::identity(100), "[26]")};
   return e;
 }
 
@@ -158,20 +133,16 @@ Exhibit figure_2_13(const Sources& from) {
     const double beyond = report::line_of(report::part(trace(c), end, end + 0.1)).slope;
     least_ratio = std::min(least_ratio, beyond / before);
   }
-  e.claims = {
-      judge(put_in, {.where = "2.3, [32]",
-                     .says = "Beyond the greatest length the threads stretch: a spring that is "
-                             "very stiff compared with the actuator",
-                     .reported = {},
-                     .quantity = "least ratio of the slopes beyond and before L_max",
-                     .computed = least_ratio,
-                     .unit = {},
-                     .accept = analysis::much_more(1),
-                     .why = "the stiffness of the threads, 500 lbf/in, is appendix A's",
-                     .because = {}}),
-      report::not_applicable("2.3", "Data of Shadow Robot Company show the effect", "",
-                             "they are of a larger actuator whose size is not given; the "
-                             "thesis's actuator is drawn in its place")};
+  e.claims = {Section("2.3, [32]")
+                  .number(put_in,
+                          "Beyond the greatest length the threads stretch: a spring that is "
+                          "very stiff compared with the actuator",
+                          "", "least ratio of the slopes beyond and before L_max", least_ratio, "",
+                          analysis::much_more(1),
+                          "the stiffness of the threads, 500 lbf/in, is appendix A's"),
+              report::not_applicable("2.3", "Data of Shadow Robot Company show the effect", "",
+                                     "they are of a larger actuator whose size is not given; the "
+                                     "thesis's actuator is drawn in its place")};
   return e;
 }
 

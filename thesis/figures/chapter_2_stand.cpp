@@ -19,7 +19,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge, report::Trace;
+using report::Curve, report::Trace;
 using Kind = Curve::Kind;
 using Style = Curve::Style;
 using units::inch, units::psi, units::pound_force;
@@ -162,33 +162,20 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
                   "measurements are lost: our stand replaces them. 45 and 75 psi are "
                   "guesses, 60 and 90 psi are named in 2.3.",
        .plots = {{.x = {"length", "in"}, .y = {"force", "lbf"}, .curves = curves}}},
-      {judge(put_in, {.where = "2.3",
-                      .says = "Force is no straight line over length",
-                      .quantity = "least distance of a way up from a straight line, of its range",
-                      .computed = 100 * least_of(loops,
-                                                 [](const Loop& l) {
-                                                   return report::bend(way_up(l, l.force));
-                                                 }),
-                      .unit = "%",
-                      .accept = analysis::noticeable(100),
-                      .why = "our stand was made with [22]",
-                      .because = "over these lengths [22] bends by less; 2-8 is lost"}),
-       judge(put_in,
-             {.where = "2.3",
-              .says = "The curves close and show hysteresis, by dry friction of bladder and mesh",
-              .quantity = "least mean opening of a loop, of its range of lengths",
-              .computed = 100 * least_of(loops, opening),
-              .unit = "%",
-              .accept = analysis::noticeable(100),
-              .why = "our stand was given the friction of 3.4",
-              .because = "Q of 3.4, 0.0044 in, opens it by less; what 2-8 showed is lost"}),
-       judge(put_in, {.where = "6.3",
-                      .says = "The more they contract, the less they pull",
-                      .quantity = "largest fall of force while the length grows",
-                      .computed = fall,
-                      .unit = "lbf",
-                      .accept = analysis::negligible(15),
-                      .why = "the range of the weights is 15 lb"})}};
+      {Section("2.3").number(
+           put_in, "Force is no straight line over length", "",
+           "least distance of a way up from a straight line, of its range",
+           100 * least_of(loops, [](const Loop& l) { return report::bend(way_up(l, l.force)); }),
+           "%", analysis::noticeable(100), "our stand was made with [22]",
+           "over these lengths [22] bends by less; 2-8 is lost"),
+       Section("2.3").number(
+           put_in, "The curves close and show hysteresis, by dry friction of bladder and mesh", "",
+           "least mean opening of a loop, of its range of lengths", 100 * least_of(loops, opening),
+           "%", analysis::noticeable(100), "our stand was given the friction of 3.4",
+           "Q of 3.4, 0.0044 in, opens it by less; what 2-8 showed is lost"),
+       Section("6.3").number(put_in, "The more they contract, the less they pull", "",
+                             "largest fall of force while the length grows", fall, "lbf",
+                             analysis::negligible(15), "the range of the weights is 15 lb")}};
 }
 
 Exhibit figure_2_9(const std::vector<Loop>& loops) {
@@ -211,15 +198,13 @@ Exhibit figure_2_9(const std::vector<Loop>& loops) {
        .caption = "Points: pressure that the dial of our stand showed. Lines: [29], a shut-in "
                   "mass of air at one temperature.",
        .plots = {{.x = {"length", "in"}, .y = {"pressure", "psi gauge"}, .curves = curves}}},
-      {judge(put_in, {.where = "2.3",
-                      .says = "The predicted rise of pressure holds; what is left comes from the "
-                              "coarse gauge",
-                      .quantity = "largest distance of a reading from [29]",
-                      .computed = largest,
-                      .unit = "psi",
-                      .accept = analysis::another(0, 1),
-                      .why = "a division of our dial is 1 psi, in a reading and in the first; the "
-                             "thesis's gauge is not described"})}};
+      {Section("2.3").number(put_in,
+                             "The predicted rise of pressure holds; what is left comes from the "
+                             "coarse gauge",
+                             "", "largest distance of a reading from [29]", largest, "psi",
+                             analysis::another(0, 1),
+                             "a division of our dial is 1 psi, in a reading and in the first; the "
+                             "thesis's gauge is not described")}};
 }
 
 // Returns the curves of 2-10 and 2-12, which have the pressures of 2.3.
@@ -262,29 +247,19 @@ Exhibit figure_2_10(const std::vector<Loop>& loops) {
        .plots = {{.x = {"length", "in"},
                   .y = {"force", "lbf"},
                   .curves = curves_with_law(loops, false)}}},
-      {judge(put_in, {.where = "2.3",
-                      .says = "The model predicts more force than was measured",
-                      .quantity = "least mean of predicted less measured force",
-                      .computed = least_of(
-                          loops, [](const Loop& l) { return mean(l.ideal_force) - mean(l.force); }),
-                      .unit = "lbf",
-                      .accept = analysis::at_least(0),
-                      .why = "our stand was made with [30]"}),
-       judge(by_construction,
-             {.where = "2.3",
-              .says = "The model has no hysteresis",
-              .quantity = "largest distance of its two ways",
-              .computed = apart,
-              .unit = "lbf",
-              .accept = analysis::negligible(15),
-              .why = "one force for each length; what is left are straight lines between readings",
-              .because = {}}),
-       judge(put_in, {.where = "2.3",
-                      .says = "What is missing depends on the pressure",
-                      .quantity = "measured by predicted force, at 60 psi less at 90 psi",
-                      .computed = at(60) - at(90),
-                      .accept = analysis::noticeable(1),
-                      .why = "[30] has 0.075 between them"})}};
+      {Section("2.3").number(
+           put_in, "The model predicts more force than was measured", "",
+           "least mean of predicted less measured force",
+           least_of(loops, [](const Loop& l) { return mean(l.ideal_force) - mean(l.force); }),
+           "lbf", analysis::at_least(0), "our stand was made with [30]"),
+       Section("2.3").number(
+           by_construction, "The model has no hysteresis", "", "largest distance of its two ways",
+           apart, "lbf", analysis::negligible(15),
+           "one force for each length; what is left are straight lines between readings"),
+       Section("2.3").number(put_in, "What is missing depends on the pressure", "",
+                             "measured by predicted force, at 60 psi less at 90 psi",
+                             at(60) - at(90), "", analysis::noticeable(1),
+                             "[30] has 0.075 between them")}};
 }
 
 Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
@@ -320,23 +295,18 @@ Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
        .plots = {{.x = {"gauge pressure", "psi"},
                   .y = {"effectiveness", "-"},
                   .curves = {by_text, by_code, found}}}},
-      {judge(put_in,
-             {.where = "2.3, [30]",
-              .says = "Found for each nominal pressure, then drawn as one function of pressure",
-              .quantity = "largest distance of what our stand finds from [30]",
-              .computed = farthest,
-              .accept = analysis::negligible(report::greatest(trace(by_text)) -
-                                             report::least(trace(by_text))),
-              .why = "of the range of [30] in the figure; our stand was made with it, and the dial "
-                     "and the "
-                     "hysteresis are in such a fit"}),
-       judge(put_in, {.where = "2.3",
-                      .says = "The actual force is less than the predicted one",
-                      .reported = "below 1",
-                      .quantity = "largest effectiveness found",
-                      .computed = highest,
-                      .accept = analysis::at_most(1),
-                      .why = "our stand was made with [30]"}),
+      {Section("2.3, [30]")
+           .number(put_in,
+                   "Found for each nominal pressure, then drawn as one function of pressure", "",
+                   "largest distance of what our stand finds from [30]", farthest, "",
+                   analysis::negligible(report::greatest(trace(by_text)) -
+                                        report::least(trace(by_text))),
+                   "of the range of [30] in the figure; our stand was made with it, and the dial "
+                   "and the "
+                   "hysteresis are in such a fit"),
+       Section("2.3").number(put_in, "The actual force is less than the predicted one", "below 1",
+                             "largest effectiveness found", highest, "", analysis::at_most(1),
+                             "our stand was made with [30]"),
        report::not_applicable("[30] and appendix A", "Which pressure the function takes", "",
                               "text and code contradict each other; both are drawn "
                               "(docs/evidence/departures.md)")}};
@@ -352,23 +322,19 @@ Exhibit figure_2_12(const std::vector<Loop>& loops) {
     largest = std::max(
         largest, sum / static_cast<double>(l.force.size()) / *std::ranges::max_element(l.force));
   }
-  return {
-      {.name = "2-12",
-       .title = "Force predicted with effectiveness, and measured",
-       .caption = "Readings of our stand and [22] with effectiveness [30] at the pressure of "
-                  "[29].",
-       .plots = {{.x = {"length", "in"},
-                  .y = {"force", "lbf"},
-                  .curves = curves_with_law(loops, true)}}},
-      {judge(put_in,
-             {.where = "2.3",
-              .says = "With effectiveness the static model describes the force adequately",
-              .quantity = "largest mean distance of a loop from the model, of its largest force",
-              .computed = 100 * largest,
-              .unit = "%",
-              .accept = analysis::negligible(100),
-              .why = "\"adequate\" is taken as a difference that is negligible; the loop's own "
-                     "opening is in it"})}};
+  return {{.name = "2-12",
+           .title = "Force predicted with effectiveness, and measured",
+           .caption = "Readings of our stand and [22] with effectiveness [30] at the pressure of "
+                      "[29].",
+           .plots = {{.x = {"length", "in"},
+                      .y = {"force", "lbf"},
+                      .curves = curves_with_law(loops, true)}}},
+          {Section("2.3").number(
+              put_in, "With effectiveness the static model describes the force adequately", "",
+              "largest mean distance of a loop from the model, of its largest force", 100 * largest,
+              "%", analysis::negligible(100),
+              "\"adequate\" is taken as a difference that is negligible; the loop's own "
+              "opening is in it")}};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge;
+using report::Curve;
 using units::psi;
 
 // Returns the flow of the maker's chart: into the room, over the supply pressure.
@@ -45,15 +45,10 @@ Exhibit figure_3_4(const Sources& from) {
                   .curves = {volume}}},
        .missing = {{"the maker's chart",
                     "lost with the figure; what was read from it is A_p C_q"}}},
-      {judge(put_in, {.where = "3.3",
-                      .says = "A_p C_q, taken back from the chart",
-                      .reported = "1.8e-5 ft2",
-                      .quantity = "the same by [42] from our curve at 100 psi",
-                      .computed = area * 1e5,
-                      .unit = "1e-5 ft2",
-                      .accept = analysis::measured(1.8, 0.1),
-                      .why = "the flow was drawn from this number, so only the way back is tested",
-                      .because = {}}),
+      {Section("3.3").number(put_in, "A_p C_q, taken back from the chart", "1.8e-5 ft2",
+                             "the same by [42] from our curve at 100 psi", area * 1e5, "1e-5 ft2",
+                             analysis::measured(1.8, 0.1),
+                             "the flow was drawn from this number, so only the way back is tested"),
        report::not_applicable("3.3", "The chart itself", "", "lost with the figure")}};
 }
 

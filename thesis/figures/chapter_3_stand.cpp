@@ -17,7 +17,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge, report::not_applicable;
+using report::Curve, report::not_applicable;
 using units::inch;
 
 // A pair of figures, and the experiment file that they come from.
@@ -151,35 +151,22 @@ void add_averages(Exhibit& e, const std::vector<Run>& stands) {
   const char* why =
       "our stand was given Q and c, so the way back by [45]-[53] is what is tested; [49] is known "
       "to give less than was put in";
-  e.claims.push_back(judge(put_in, {.where = "after [53]",
-                                    .says = "Coulomb constant Q, mean of the measurements",
-                                    .reported = "0.0044 in",
-                                    .quantity = "mean of 3-6, 3-8, 3-10 by [49]",
-                                    .computed = mean("swing.coulomb_length_m") / inch,
-                                    .unit = "in",
-                                    .accept = analysis::measured(0.0044, 0.0001),
-                                    .why = why,
-                                    .because = {}}));
-  e.claims.push_back(judge(put_in, {.where = "after [53]",
-                                    .says = "Viscous constant c, mean of the measurements",
-                                    .reported = "0.02 lb s/in",
-                                    .quantity = "mean of 3-6, 3-8, 3-10 by [52]",
-                                    .computed = mean("swing.viscous_N_s_per_m") / damping,
-                                    .unit = "lbf s/in",
-                                    .accept = analysis::measured(0.02, 0.01),
-                                    .why = why,
-                                    .because = {}}));
-  e.claims.push_back(
-      judge(put_in, {.where = "after [53]",
-                     .says = "Damping ratio, mean of the measurements",
-                     .reported = "0.035",
-                     .quantity = "mean of 3-6, 3-8, 3-10 by [53]",
-                     .computed = mean("swing.damping_ratio"),
-                     .unit = {},
-                     .accept = analysis::measured(0.035, 0.001),
-                     .why = why,
-                     .because = "the stand was given Q and c, and the ratio of [53] follows from "
-                                "them and from what swings: with 11 lb it is less"}));
+  e.claims.push_back(Section("after [53]")
+                         .number(put_in, "Coulomb constant Q, mean of the measurements",
+                                 "0.0044 in", "mean of 3-6, 3-8, 3-10 by [49]",
+                                 mean("swing.coulomb_length_m") / inch, "in",
+                                 analysis::measured(0.0044, 0.0001), why));
+  e.claims.push_back(Section("after [53]")
+                         .number(put_in, "Viscous constant c, mean of the measurements",
+                                 "0.02 lb s/in", "mean of 3-6, 3-8, 3-10 by [52]",
+                                 mean("swing.viscous_N_s_per_m") / damping, "lbf s/in",
+                                 analysis::measured(0.02, 0.01), why));
+  e.claims.push_back(Section("after [53]")
+                         .number(put_in, "Damping ratio, mean of the measurements", "0.035",
+                                 "mean of 3-6, 3-8, 3-10 by [53]", mean("swing.damping_ratio"), "",
+                                 analysis::measured(0.035, 0.001), why,
+                                 "the stand was given Q and c, and the ratio of [53] follows from "
+                                 "them and from what swings: with 11 lb it is less"));
 }
 
 // Returns the mean of the last five periods of a pulsed run [in].

@@ -18,7 +18,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge;
+using report::Curve;
 using Kind = Curve::Kind;
 using units::psi, units::pound_force;
 
@@ -173,37 +173,25 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
   for (std::size_t t = 0; t < transducers.size(); ++t) {
     scale[t] = found.sensors[t].sensitivity * pound_force;
     const std::string of = fmt::format(" of transducer {}", t + 1);
-    out.push_back(judge(put_in, {.where = "table 4-1",
-                                 .says = "Scale factor" + of,
-                                 .reported = fmt::format("{:.4f} V/lb", printed_scale[t]),
-                                 .quantity = "slope through our readings",
-                                 .computed = scale[t],
-                                 .unit = "V/lb",
-                                 .accept = analysis::measured(printed_scale[t], 1e-4),
-                                 .why = "counts of 1.2 mV and one count of noise; the scale was "
-                                        "put in, so the way back is what is "
-                                        "tested",
-                                 .because = {}}));
-    out.push_back(judge(put_in, {.where = "table 4-1",
-                                 .says = "Error from the average" + of,
-                                 .reported = fmt::format("{:.1f} %", printed_error[t]),
-                                 .quantity = "(average - s)/s",
-                                 .computed = 100 * found.sensors[t].deviation,
-                                 .unit = "%",
-                                 .accept = analysis::percentage(printed_error[t]),
-                                 .why = "of two such slopes",
-                                 .because = {}}));
+    out.push_back(Section("table 4-1")
+                      .number(put_in, "Scale factor" + of,
+                              fmt::format("{:.4f} V/lb", printed_scale[t]),
+                              "slope through our readings", scale[t], "V/lb",
+                              analysis::measured(printed_scale[t], 1e-4),
+                              "counts of 1.2 mV and one count of noise; the scale was "
+                              "put in, so the way back is what is "
+                              "tested"));
+    out.push_back(Section("table 4-1")
+                      .number(put_in, "Error from the average" + of,
+                              fmt::format("{:.1f} %", printed_error[t]), "(average - s)/s",
+                              100 * found.sensors[t].deviation, "%",
+                              analysis::percentage(printed_error[t]), "of two such slopes"));
   }
   out.push_back(
-      judge(put_in, {.where = "4.4",
-                     .says = "Transducers 1 and 3 are alike, 2 and 4 less so",
-                     .reported = {},
-                     .quantity = "difference of 2 and 4 by that of 1 and 3",
-                     .computed = std::fabs(scale[1] - scale[3]) / std::fabs(scale[0] - scale[2]),
-                     .unit = {},
-                     .accept = analysis::much_more(1),
-                     .why = "table 4-1 has 40",
-                     .because = {}}));
+      Section("4.4").number(put_in, "Transducers 1 and 3 are alike, 2 and 4 less so", "",
+                            "difference of 2 and 4 by that of 1 and 3",
+                            std::fabs(scale[1] - scale[3]) / std::fabs(scale[0] - scale[2]), "",
+                            analysis::much_more(1), "table 4-1 has 40"));
   out.push_back(report::not_applicable("4.4", "The calibration's own points", "",
                                        "lost with the figure; the weights between 0 and 16 lb are "
                                        "not given"));

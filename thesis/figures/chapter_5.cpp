@@ -16,7 +16,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge;
+using report::Curve;
 using signals::Tick;
 
 constexpr double ms_per_tick = signals::tick_seconds * 1e3;

@@ -12,7 +12,7 @@ namespace {
 using enum config::StatementClass;
 
 using analysis::Column;
-using report::Claim, report::Curve, report::judge;
+using report::Claim, report::Curve;
 using Weights = analysis::Column;
 
 constexpr const char* foot = "/foot/position";
@@ -54,13 +54,10 @@ Exhibit figure_6_1(const LegRun& run) {
            .caption = "One step of the desired path of the ankle about the hip, by the plan of "
                       "experiments/walk-test-1.toml.",
            .plots = {std::move(plot)}},
-          {judge(code_against_code, {.where = "[66], [68], [70]",
-                                     .says = "An arc of second order, then two straight lines",
-                                     .quantity = "largest distance in y from the equations",
-                                     .computed = off,
-                                     .unit = "in",
-                                     .accept = analysis::another(0, 1e-9),
-                                     .why = "rounding"})}};
+          {Section("[66], [68], [70]")
+               .number(code_against_code, "An arc of second order, then two straight lines", "",
+                       "largest distance in y from the equations", off, "in",
+                       analysis::another(0, 1e-9), "rounding")}};
 }
 
 Exhibit figure_6_3(const LegRun& run) {
@@ -71,31 +68,21 @@ Exhibit figure_6_3(const LegRun& run) {
                     "Four steps over each other, of the measured angles by forward kinematics; the "
                     "path from rest to the first step among them.",
                     run.sequence()),
-          {judge(put_in, {.where = "6.3",
-                          .says = "The table is at about -13 in",
-                          .reported = "-13 in",
-                          .quantity = "mean y of the actual path in propulsion",
-                          .computed = table,
-                          .unit = "in",
-                          .accept = analysis::another(-13.2, -12.8),
-                          .why = "\"about\": 10 % of the path's height of 2 in"}),
-           judge(put_in,
-                 {.where = "6.3",
-                  .says = "What is desired in propulsion lies 0.5 in lower than what is possible",
-                  .reported = "0.5 in",
-                  .quantity = "mean y in propulsion, actual less desired",
-                  .computed = table - analysis::mean(wanted, propulsion),
-                  .unit = "in",
-                  .accept = analysis::measured(0.5, 0.1),
-                  .because = "angles come from 714 counts/rad and are taken for 767, which lowers "
-                             "the measured foot to -13.09 in; the true one is at -13.01 in"}),
-           judge(predicted, {.where = "6.3",
-                             .says = "The actual path repeats itself very well",
-                             .quantity = "rms distance of steps from their mean",
-                             .computed = run.summary("foot.step_repeat_rms_m") / units::inch,
-                             .unit = "in",
-                             .accept = analysis::another(0, 0.25),
-                             .why = "half of the gap to the table, less than 5 % of the way"})}};
+          {Section("6.3").number(put_in, "The table is at about -13 in", "-13 in",
+                                 "mean y of the actual path in propulsion", table, "in",
+                                 analysis::another(-13.2, -12.8),
+                                 "\"about\": 10 % of the path's height of 2 in"),
+           Section("6.3").number(
+               put_in, "What is desired in propulsion lies 0.5 in lower than what is possible",
+               "0.5 in", "mean y in propulsion, actual less desired",
+               table - analysis::mean(wanted, propulsion), "in", analysis::measured(0.5, 0.1), "",
+               "angles come from 714 counts/rad and are taken for 767, which lowers "
+               "the measured foot to -13.09 in; the true one is at -13.01 in"),
+           Section("6.3").number(predicted, "The actual path repeats itself very well", "",
+                                 "rms distance of steps from their mean",
+                                 run.summary("foot.step_repeat_rms_m") / units::inch, "in",
+                                 analysis::another(0, 0.25),
+                                 "half of the gap to the table, less than 5 % of the way")}};
 }
 
 // --- over time ----------------------------------------------------------------------------------
@@ -140,26 +127,19 @@ Exhibit figure_6_4(const LegRun& run) {
   Column beyond;
   for (const double a : wanted) beyond.push_back(a < 289 ? 100.0 : 0.0);
   out.claims = {
-      judge(predicted, {.where = "6.3",
-                        .says = "The joints do not come to their limits",
-                        .quantity = "least distance of an angle to a limit of table 6-1",
-                        .computed = to_a_limit(run),
-                        .unit = "deg",
-                        .accept = analysis::at_least(0)}),
-      judge(code_against_code,
-            {.where = "6.3",
-             .says = "The knee is asked for more than it can do in a small part of swing",
-             .quantity = "share of swing with a desired knee below 289 deg",
-             .computed = analysis::mean(beyond, run.record().swing()),
-             .unit = "%",
-             .accept = analysis::small(100),
-             .because = "so do [65], [66] and table 6-1: nothing simulated is in this number"}),
-      judge(predicted, {.where = "6.3",
-                        .says = "The angle's error is larger in propulsion than usual",
-                        .quantity = "rms error of the hip, propulsion by swing",
-                        .computed = analysis::rms(error, phase_of(run, "propulsion")) /
-                                    analysis::rms(error, run.record().swing()),
-                        .accept = analysis::at_least(1)})};
+      Section("6.3").number(predicted, "The joints do not come to their limits", "",
+                            "least distance of an angle to a limit of table 6-1", to_a_limit(run),
+                            "deg", analysis::at_least(0)),
+      Section("6.3").number(
+          code_against_code, "The knee is asked for more than it can do in a small part of swing",
+          "", "share of swing with a desired knee below 289 deg",
+          analysis::mean(beyond, run.record().swing()), "%", analysis::small(100), "",
+          "so do [65], [66] and table 6-1: nothing simulated is in this number"),
+      Section("6.3").number(predicted, "The angle's error is larger in propulsion than usual", "",
+                            "rms error of the hip, propulsion by swing",
+                            analysis::rms(error, phase_of(run, "propulsion")) /
+                                analysis::rms(error, run.record().swing()),
+                            "", analysis::at_least(1))};
   return out;
 }
 
@@ -180,12 +160,9 @@ Exhibit figure_6_5(const LegRun& run) {
                                       "the converter has a ceiling."),
                .plots = {over_time(run, "tension", "lbf", std::move(curves))}},
               run.verdicts({"muscles.hip_extensor.own_scale_peak"})};
-  out.claims.push_back(judge(predicted, {.where = "6.3",
-                                         .says = "Only the hip's extensor is used to its capacity",
-                                         .quantity = "largest reading of the three others",
-                                         .computed = others,
-                                         .unit = "lbf",
-                                         .accept = analysis::much_less(30)}));
+  out.claims.push_back(Section("6.3").number(
+      predicted, "Only the hip's extensor is used to its capacity", "",
+      "largest reading of the three others", others, "lbf", analysis::much_less(30)));
   for (const std::string joint : {"hip", "knee"})
     out.claims.push_back(
         report::not_applicable("6.3", "Antagonists pull quite alike in swing: the " + joint, "",
@@ -200,13 +177,12 @@ Exhibit figure_6_6(const LegRun& run) {
            .title = "Desired and actual stiffness",
            .caption = run.caption("As the controller computes it, [27] and [60]."),
            .plots = {std::move(plot)}},
-          {judge(predicted,
-                 {.where = "6.3",
-                  .says = "The hip's stiffness is controlled much more tightly than the knee's",
-                  .quantity = "standard deviation, hip by knee",
-                  .computed = run.summary("joints.hip.stiffness_std_Nm_per_rad") /
-                              run.summary("joints.knee.stiffness_std_Nm_per_rad"),
-                  .accept = analysis::much_less(1)})}};
+          {Section("6.3").number(
+              predicted, "The hip's stiffness is controlled much more tightly than the knee's", "",
+              "standard deviation, hip by knee",
+              run.summary("joints.hip.stiffness_std_Nm_per_rad") /
+                  run.summary("joints.knee.stiffness_std_Nm_per_rad"),
+              "", analysis::much_less(1))}};
 }
 
 Exhibit figure_6_7(const LegRun& run) {
@@ -217,14 +193,11 @@ Exhibit figure_6_7(const LegRun& run) {
        .plots = {over_time(run, "joint torque", "lbf in", of_joints(run, "/torque", false))}},
       {}};
   for (const std::string joint : {"hip", "knee"})
-    out.claims.push_back(judge(
-        predicted, {.where = "6.3",
-                    .says = "The torque is near zero in swing: the " + joint,
-                    .quantity = "rms torque in the air, of its range over the walk",
-                    .computed = in_the_air_of_range(run, run.rows({"/joint/" + joint + "/torque"})),
-                    .unit = "%",
-                    .accept = analysis::negligible(100),
-                    .because = moves_against}));
+    out.claims.push_back(
+        Section("6.3").number(predicted, "The torque is near zero in swing: the " + joint, "",
+                              "rms torque in the air, of its range over the walk",
+                              in_the_air_of_range(run, run.rows({"/joint/" + joint + "/torque"})),
+                              "%", analysis::negligible(100), "", moves_against));
   return out;
 }
 
@@ -260,28 +233,19 @@ Exhibit figure_6_8(const LegRun& run) {
        .caption = run.caption("By [75] from measured angles and torques, on the foot; inertia and "
                               "gravity are ignored."),
        .plots = {over_time(run, "ground reaction", "lbf", std::move(curves))}},
-      {judge(predicted, {.where = "6.3",
-                         .says = "False reactions in swing are minimal beside those in propulsion",
-                         .quantity = "rms normal force in the air, of its range over the walk",
-                         .computed = in_the_air_of_range(run, normal),
-                         .unit = "%",
-                         .accept = analysis::negligible(100),
-                         .because = moves_against}),
-       judge(predicted,
-             {.where = "6.3",
-              .says = "Friction does not begin as soon as the foot is on the ground",
-              .quantity = "from half of the largest normal force to half of the largest friction, "
-                          "second step",
-              .computed = begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5),
-              .unit = "s",
-              .accept = analysis::noticeable(1.5)}),
-       judge(predicted, {.where = "6.3",
-                         .says = "A mass of 5 lb could have been carried",
-                         .reported = "5 lb",
-                         .quantity = "largest normal force",
-                         .computed = analysis::largest(normal, run.record().sequence()),
-                         .unit = "lbf",
-                         .accept = analysis::measured(5, 1)})}};
+      {Section("6.3").number(
+           predicted, "False reactions in swing are minimal beside those in propulsion", "",
+           "rms normal force in the air, of its range over the walk",
+           in_the_air_of_range(run, normal), "%", analysis::negligible(100), "", moves_against),
+       Section("6.3").number(
+           predicted, "Friction does not begin as soon as the foot is on the ground", "",
+           "from half of the largest normal force to half of the largest friction, "
+           "second step",
+           begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5), "s",
+           analysis::noticeable(1.5)),
+       Section("6.3").number(
+           predicted, "A mass of 5 lb could have been carried", "5 lb", "largest normal force",
+           analysis::largest(normal, run.record().sequence()), "lbf", analysis::measured(5, 1))}};
 }
 
 Exhibit figure_6_9(const LegRun& run) {
@@ -322,13 +286,11 @@ Exhibit duties(const LegRun& run, const std::string& number, const std::string& 
     c.style = Curve::Style::steps;
     curves.push_back(std::move(c));
     claims.push_back(
-        judge(fitted, {.where = "table 6-4",
-                       .says = "Mean duty cycle of the " + in_words(d.muscle) + "'s " + d.valve,
-                       .reported = std::to_string(static_cast<int>(d.reported)) + " %",
-                       .quantity = "mean over the phases",
-                       .computed = analysis::mean(run.rows({topic}), run.record().sequence()),
-                       .unit = "%",
-                       .accept = analysis::percentage(d.reported)}));
+        Section("table 6-4")
+            .number(fitted, "Mean duty cycle of the " + in_words(d.muscle) + "'s " + d.valve,
+                    std::to_string(static_cast<int>(d.reported)) + " %", "mean over the phases",
+                    analysis::mean(run.rows({topic}), run.record().sequence()), "%",
+                    analysis::percentage(d.reported)));
   }
   for (Claim& c : run.verdicts({"joints." + joint + ".passiveness"}))
     claims.push_back(std::move(c));

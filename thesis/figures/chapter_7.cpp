@@ -11,7 +11,7 @@ namespace {
 
 using enum config::StatementClass;
 
-using report::Curve, report::judge;
+using report::Curve;
 
 // Returns the largest half swing of a joint's error in a swing, mean over the steps, as a share of
 // its excursion [%]; a swing without any counts as 0.
@@ -54,15 +54,13 @@ Exhibits kick(const Sources& from) {
                 "From the begin of the kick on for half a second; a mark for each 10 ms.",
                 {begin, begin + 0.5});
   path.plots[0].curves[0].style = Curve::Style::marked;
-  return {
-      {std::move(path), run.verdicts({"foot.extension_time_s"})},
-      {joint_angles(run, "6-14", "Joint angles of the kick"),
-       {judge(predicted, {.where = "6.4",
-                          .says = "The leg oscillates after the kick: there is not enough damping",
-                          .quantity = "turning points of the hip's error in the extended position",
-                          .computed = run.summary("phases.extended.joints.hip.turning_points"),
-                          .accept = analysis::another(2, 1000),
-                          .why = "an oscillation has two turning points at least"})}}};
+  return {{std::move(path), run.verdicts({"foot.extension_time_s"})},
+          {joint_angles(run, "6-14", "Joint angles of the kick"),
+           {Section("6.4").number(
+               predicted, "The leg oscillates after the kick: there is not enough damping", "",
+               "turning points of the hip's error in the extended position",
+               run.summary("phases.extended.joints.hip.turning_points"), "",
+               analysis::another(2, 1000), "an oscillation has two turning points at least")}}};
 }
 
 // Returns the counts per radian that the controller assumes for the hip.

@@ -67,9 +67,10 @@ class Section {
  public:
   // `where` is the section as named in the claims.
   explicit Section(std::string where) : where_(std::move(where)) {}
-  report::Claim number(StatementClass statement_class, const char* says, const char* reported,
-                       const char* quantity, double computed, const char* unit, report::Band accept,
-                       const char* why = "", const char* because = "") const;
+  report::Claim number(StatementClass statement_class, const std::string& says,
+                       const std::string& reported, const std::string& quantity, double computed,
+                       const std::string& unit, const report::Band& accept,
+                       const std::string& why = "", const std::string& because = "") const;
 
  private:
   std::string where_;

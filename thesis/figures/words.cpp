@@ -47,10 +47,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> words = 
 
 }  // namespace
 
-report::Claim Section::number(StatementClass statement_class, const char* says,
-                              const char* reported, const char* quantity, double computed,
-                              const char* unit, report::Band accept, const char* why,
-                              const char* because) const {
+report::Claim Section::number(StatementClass statement_class, const std::string& says,
+                              const std::string& reported, const std::string& quantity,
+                              double computed, const std::string& unit, const report::Band& accept,
+                              const std::string& why, const std::string& because) const {
   return report::judge(statement_class, {.where = where_,
                                          .says = says,
                                          .reported = reported,
