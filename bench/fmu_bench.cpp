@@ -1,17 +1,19 @@
 // Overhead of an FMU's functions: the same steps by the library and through the C functions of the
-// binary, measured alternately.
+// binary.
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
 #include <stdlib.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bench/peers/experiments.h"
+#include "bench/peers/pair.h"
 #include "fmu/machine/machine.h"
 #include "fmu/muscle/muscle.h"
 #include "sinew/run/muscle/muscle_setup.h"
@@ -71,106 +73,100 @@ class Slave {
   int (*step_)(void*, double, double, int);
 };
 
-template <class Work>
-double time_of(const Work& work) {  // [s]
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// Measures both alternately; each returns the time of its steps [s]. Reports the medians as
-// microseconds per step, and the ratio of the FMU's to the library's.
-template <class Library, class Through>
-void by_turns(benchmark::State& state, int steps, const Library& library, const Through& through) {
-  std::vector<double> ours, theirs, ratios;
-  for (auto _ : state) {
-    ours.push_back(library() / steps);
-    theirs.push_back(through() / steps);
-    ratios.push_back(theirs.back() / ours.back());
-  }
-  const auto median = [](std::vector<double>& of) {
-    std::nth_element(of.begin(), of.begin() + static_cast<long>(of.size() / 2), of.end());
-    return of[of.size() / 2];
-  };
-  state.counters["library_us"] = 1e6 * median(ours);
-  state.counters["fmu_us"] = 1e6 * median(theirs);
-  state.counters["times_longer"] = median(ratios);
-}
-
 // Muscle at 1 kHz with length and rate as inputs and tension as output.
-void fmu_muscle(benchmark::State& state) {
+bench::Pair fmu_muscle() {
   constexpr int steps = 2000;
   constexpr double h = 1e-3;
-  const std::string root = SINEW_SOURCE_DIR;
-  const run::MuscleSetup read = run::muscle_setup(root + "/robots/leg/robot.toml", "hip_flexor");
-  const auto length_at = [&](int k) { return read.length * (1 - 0.002 * (k % 10)); };
-  by_turns(
-      state, steps,
-      [&] {
-        air::DrivenMuscle muscle(read.muscle, read.air, read.supply, read.length, 4e5);
-        return time_of([&] {
-          for (int k = 0; k < steps; ++k) {
-            muscle.advance(h, length_at(k));
-            benchmark::DoNotOptimize(muscle.tension());
-          }
-        });
-      },
-      [&] {
-        Slave muscle("sinew_fmu_muscle.so",
-                     fmu::Muscle::describe(read.muscle, read.air, read.supply, {read.length, 4e5}));
-        double in[2] = {}, out = 0;
-        const std::vector<unsigned> inputs{1, 2}, outputs{5};
-        return time_of([&] {
-          for (int k = 0; k < steps; ++k) {
-            in[0] = length_at(k);
-            muscle.set(inputs, in);
-            muscle.step(k * h, h);
-            muscle.get(outputs, &out);
-            benchmark::DoNotOptimize(out);
-          }
-        });
-      });
+  const run::MuscleSetup read =
+      run::muscle_setup(std::string(SINEW_SOURCE_DIR) + "/robots/leg/robot.toml", "hip_flexor");
+  const auto length_at = [=](int k) { return read.length * (1 - 0.002 * (k % 10)); };
+  struct Sides {
+    std::optional<air::DrivenMuscle> library;
+    std::optional<Slave> slave;
+  };
+  const auto sides = std::make_shared<Sides>();
+  return {.ours =
+              [=] {
+                const std::vector<unsigned> inputs{1, 2}, outputs{5};
+                double in[2] = {}, out = 0;
+                for (int k = 0; k < steps; ++k) {
+                  in[0] = length_at(k);
+                  sides->slave->set(inputs, in);
+                  sides->slave->step(k * h, h);
+                  sides->slave->get(outputs, &out);
+                  benchmark::DoNotOptimize(out);
+                }
+                return 1.0 * steps;
+              },
+          .theirs =
+              [=] {
+                for (int k = 0; k < steps; ++k) {
+                  sides->library->advance(h, length_at(k));
+                  benchmark::DoNotOptimize(sides->library->tension());
+                }
+                return 1.0 * steps;
+              },
+          .label = "a step of 1 ms through the FMU, against the library",
+          .before =
+              [=] {
+                sides->library.emplace(read.muscle, read.air, read.supply, read.length, 4e5);
+                sides->slave.emplace(
+                    "sinew_fmu_muscle.so",
+                    fmu::Muscle::describe(read.muscle, read.air, read.supply, {read.length, 4e5}));
+              }};
 }
 
 // Walk in steps of 10 ms with six output channels.
-void fmu_machine(benchmark::State& state) {
+bench::Pair fmu_machine() {
   constexpr int steps = 1200;
   constexpr double h = 0.01;
-  const auto walk = run::buildable(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml");
+  const auto walk = run::buildable(bench::experiment_file("walk-test-1.toml"));
   const std::vector<std::string> channels{
       "/joint/hip/angle",           "/joint/knee/angle",
       "/muscle/hip_flexor/tension", "/muscle/knee_flexor/tension",
       "/true/trolley/position",     "/true/trolley/velocity"};
-  by_turns(
-      state, steps,
-      [&] {
-        run::Simulation leg(walk);
-        std::vector<std::size_t> at;
-        for (const std::string& name : channels) at.push_back(leg.find(name));
-        std::vector<double> values(at.size());
-        return time_of([&] {
-          for (int k = 0; k < steps; ++k) {
-            leg.advance_by(h);
-            leg.read(at, values);
-            benchmark::DoNotOptimize(values.data());
-          }
-        });
-      },
-      [&] {
-        Slave leg("sinew_fmu_machine.so", fmu::Machine::describe(walk, {.outputs = channels}));
-        const std::vector<unsigned> outputs{1, 2, 3, 4, 5, 6};
-        double values[6] = {};
-        return time_of([&] {
-          for (int k = 0; k < steps; ++k) {
-            leg.step(k * h, h);
-            leg.get(outputs, values);
-            benchmark::DoNotOptimize(values);
-          }
-        });
-      });
+  struct Sides {
+    std::optional<run::Simulation> library;
+    std::vector<std::size_t> at;
+    std::optional<Slave> slave;
+  };
+  const auto sides = std::make_shared<Sides>();
+  return {.ours =
+              [=] {
+                const std::vector<unsigned> outputs{1, 2, 3, 4, 5, 6};
+                double values[6] = {};
+                for (int k = 0; k < steps; ++k) {
+                  sides->slave->step(k * h, h);
+                  sides->slave->get(outputs, values);
+                  benchmark::DoNotOptimize(values);
+                }
+                return 1.0 * steps;
+              },
+          .theirs =
+              [=] {
+                std::vector<double> values(sides->at.size());
+                for (int k = 0; k < steps; ++k) {
+                  sides->library->advance_by(h);
+                  sides->library->read(sides->at, values);
+                  benchmark::DoNotOptimize(values.data());
+                }
+                return 1.0 * steps;
+              },
+          .label = "a step of 10 ms of a walk through the FMU, against the library",
+          .before =
+              [=] {
+                sides->library.emplace(walk);
+                sides->at.clear();
+                for (const std::string& name : channels)
+                  sides->at.push_back(sides->library->find(name));
+                sides->slave.emplace("sinew_fmu_machine.so",
+                                     fmu::Machine::describe(walk, {.outputs = channels}));
+              }};
 }
 
-BENCHMARK(fmu_muscle)->Iterations(41);
-BENCHMARK(fmu_machine)->Iterations(41);
+const bench::Registration rows([] {
+  bench::compare("fmu/muscle", fmu_muscle);
+  bench::compare("fmu/machine", fmu_machine);
+});
 
 }  // namespace

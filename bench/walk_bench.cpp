@@ -1,28 +1,15 @@
-// Times of the parts of a walk. Goals (bench/README.md) are ratios within one run of this program.
+// Times of the parts of a walk.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
-#include <string>
-
-#include "sinew/control/setup/joint_controllers.h"
-#include "sinew/control/setup/supervision.h"
-#include "sinew/run/setup/installation.h"
+#include "bench/peers/experiments.h"
 #include "sinew/run/setup/planar_setup.h"
-#include "sinew/run/simulation/clock.h"
-#include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/world/machine.h"
 
 namespace {
 
 using namespace sinew;
-
-const experiment::Experiment& walk() {
-  static const experiment::Experiment e =
-      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml");
-  return e;
-}
+using bench::walk;
 
 // The whole closed loop with the channel table in memory and without a log, as `sinew run` with
 // --set log.enabled=false.
@@ -38,58 +25,18 @@ void closed_loop_walk(benchmark::State& state) {
   state.counters["nodes"] =
       benchmark::Counter(static_cast<double>(nodes), benchmark::Counter::kIsRate);
 }
-BENCHMARK(closed_loop_walk)->Unit(benchmark::kMillisecond);
-
-struct Nothing {
-  void command(signals::Tick) noexcept {}
-  void edge(const signals::Edge&) noexcept {}
-  void sample(signals::Tick) noexcept {}
-  signals::Tick next(signals::Tick t) const noexcept { return t + 1'000'000; }
-};
-
-// Measures the cost of a part of a machine: an experiment and the plain walk alternately, each per
-// simulated second.
-void against_the_plain_walk(benchmark::State& state, const char* name) {
-  using Clock = std::chrono::steady_clock;
-  const experiment::Experiment other =
-      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name);
-  const auto cost = [](const experiment::Experiment& e) {  // [s] per simulated second
-    const Clock::time_point start = Clock::now();
-    const double simulated = run::run(e).duration;
-    return std::chrono::duration<double>(Clock::now() - start).count() / simulated;
-  };
-  double least = 1e9, least_plain = 1e9;  // shortest time of each
-  for (auto _ : state) {
-    least_plain = std::min(least_plain, cost(walk()));
-    least = std::min(least, cost(other));
-  }
-  state.counters["times_the_plain_walk"] = least / least_plain;
-}
-BENCHMARK_CAPTURE(against_the_plain_walk, pressure_sensors, "walk-with-pressures.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, tank, "endurance.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, regulators, "walk-with-regulators.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, hoses_with_air, "walk-with-hoses.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, three_muscles, "three-muscles.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, ankle, "walk-with-ankle.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, moving_cylinder, "cylinder-staircase.toml");
-BENCHMARK_CAPTURE(against_the_plain_walk, two_legs, "walk-two-legs.toml");
+BENCHMARK(closed_loop_walk)->Name("parts/closed-loop-walk")->Unit(benchmark::kMillisecond);
 
 // Measures the same walk without recording.
 void unwatched_walk(benchmark::State& state) {
-  const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;
   for (auto _ : state) {
     plant::ChainWorld<2> world(run::planar_setup(walk()));
-    run::Boards boards(run::boards_of(walk()));
-    run::HighLevel high(walk().robot, walk().plan);
-    run::SimulatedClock clock;
-    Nothing nobody;
-    benchmark::DoNotOptimize(run::loop(boards, high, world, clock, nobody, end));
-    simulated += static_cast<double>(end) * signals::tick_seconds;
+    simulated += bench::drive(world, walk());
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
 }
-BENCHMARK(unwatched_walk)->Unit(benchmark::kMillisecond);
+BENCHMARK(unwatched_walk)->Name("parts/unwatched-walk")->Unit(benchmark::kMillisecond);
 
 // Gait controller, joint controllers and loop, with a body that always returns the same readings.
 class Still final : public signals::Port {
@@ -103,20 +50,14 @@ class Still final : public signals::Port {
 };
 
 void controller_alone(benchmark::State& state) {
-  const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;
   for (auto _ : state) {
     Still body;
-    run::Boards boards(run::boards_of(walk()));
-    run::HighLevel high(walk().robot, walk().plan);
-    run::SimulatedClock clock;
-    Nothing nobody;
-    benchmark::DoNotOptimize(run::loop(boards, high, body, clock, nobody, end));
-    simulated += static_cast<double>(end) * signals::tick_seconds;
+    simulated += bench::drive(body, walk());
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
 }
-BENCHMARK(controller_alone)->Unit(benchmark::kMillisecond);
+BENCHMARK(controller_alone)->Name("parts/controller-alone")->Unit(benchmark::kMillisecond);
 
 // One 1 ms step of the leg in stance: four stages, friction, contact.
 void one_node(benchmark::State& state) {
@@ -125,14 +66,14 @@ void one_node(benchmark::State& state) {
   world.advance(t);
   for (auto _ : state) world.advance(t += 1e-3);
 }
-BENCHMARK(one_node);
+BENCHMARK(one_node)->Name("parts/one-node");
 
 // One evaluation between two nodes.
 void one_preview(benchmark::State& state) {
   plant::ChainWorld<2> world(run::planar_setup(walk()));
   for (auto _ : state) benchmark::DoNotOptimize(world.truth(0.5005));
 }
-BENCHMARK(one_preview);
+BENCHMARK(one_preview)->Name("parts/one-preview");
 
 struct FourMuscles {
   using Air = air::AirNetwork<plant::chain_muscles>;
@@ -161,7 +102,7 @@ void four_muscles(benchmark::State& state) {
     benchmark::DoNotOptimize(m.evaluation);
   }
 }
-BENCHMARK(four_muscles);
+BENCHMARK(four_muscles)->Name("parts/four-muscles");
 
 // ... and in evaluations that depend on the previous result, as the stages of a step do.
 void four_muscles_in_sequence(benchmark::State& state) {
@@ -172,7 +113,7 @@ void four_muscles_in_sequence(benchmark::State& state) {
   }
   benchmark::DoNotOptimize(m.evaluation);
 }
-BENCHMARK(four_muscles_in_sequence);
+BENCHMARK(four_muscles_in_sequence)->Name("parts/four-muscles-in-sequence");
 
 // Mass matrix, its factorization and the accelerations of the two-link leg on its trolley.
 void body_accelerations(benchmark::State& state) {
@@ -187,6 +128,6 @@ void body_accelerations(benchmark::State& state) {
   }
   benchmark::DoNotOptimize(motion);
 }
-BENCHMARK(body_accelerations);
+BENCHMARK(body_accelerations)->Name("parts/body-accelerations");
 
 }  // namespace

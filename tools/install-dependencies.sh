@@ -64,7 +64,9 @@ list='
     long   clang++-14          clang-14                         second compiler
     long   -                   libclang-rt-14-dev               fuzzers and sanitizers for it
     long   llvm-symbolizer-14  llvm-14                          names lines in their reports
-    bench  -                   libbenchmark-dev                 times parts of a walk
+    bench  -                   libbenchmark-dev                 repeats rows, computes their statistics
+    bench  -                   libbenchmark-tools               compares two records
+    bench  -                   python3-scipy                    needed by that
     bench  -                   libmujoco-dev                    comparison: bodies and contacts
     bench  -                   libsundials-dev                  comparison: CVODE
 '

@@ -1,11 +1,12 @@
 // Muscles and their valves without a body; the motion is given (drill.h).
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "bench/peers/drill.h"
-#include "bench/peers/row.h"
+#include "bench/peers/pair.h"
 
 namespace sinew::bench {
 
@@ -32,18 +33,13 @@ Pressures pressures_of(DrillFunction run_drill, const Drill& d) {
 
 // One implementation of the drill and its limit for small steps.
 struct Side {
-  std::string name;
   DrillFunction run_drill;
   Pressures limit;
 
-  Side(const std::string& of, DrillFunction how)
-      : name(of), run_drill(how), limit(pressures_of(how, drill(finer))) {}
+  explicit Side(DrillFunction how) : run_drill(how), limit(pressures_of(how, drill(finer))) {}
 
   double error(const Drill& d) const {
     return largest_difference(pressures_of(run_drill, d), limit);
-  }
-  Accuracy accuracy(const Drill& d) const {
-    return {name, "pressure, largest relative difference from steps of 12.5 us", error(d), "1"};
   }
   // Returns the longest steps with an error of at most `exact`.
   int stride(double exact) const {
@@ -53,88 +49,77 @@ struct Side {
   }
 };
 
-std::vector<Accuracy> accuracies(const Side& own, const Drill& mine, const Side& peer,
-                                 const Drill& other) {
-  return {own.accuracy(mine),
-          peer.accuracy(other),
-          {"both", "pressure, largest relative difference of the two limits",
-           largest_difference(own.limit, peer.limit), "1"}};
+// Returns errors of both sides with these steps, and the difference of their limits.
+std::map<std::string, double> errors(const Side& own, const Drill& mine, const Side& peer,
+                                     const Drill& other) {
+  return {{"our_error", own.error(mine)},
+          {"their_error", peer.error(other)},
+          {"limits_differ", largest_difference(own.limit, peer.limit)}};
 }
 
-// Compares both with steps of one tick.
-Row step_for_step(Row row, const Side& own, const Side& peer, int rounds) {
+// Compares both with steps of one tick, by the step of one muscle.
+Pair step_for_step(DrillFunction ours, const std::string& label) {
+  const Side own(ours), peer(by_pow);
   const Drill d = drill(1);
-  row.per = "step of 100 us of one muscle";
-  row.accuracy = accuracies(own, d, peer, d);
-  return times_faster(std::move(row), by_turns([&] { return own.run_drill(d, nullptr).steps; },
-                                               [&] { return peer.run_drill(d, nullptr).steps; },
-                                               rounds, Clock::processor));
+  return {.ours = [=] { return ours(d, nullptr).steps; },
+          .theirs = [=] { return by_pow(d, nullptr).steps; },
+          .label = label,
+          .figures = errors(own, d, peer, d)};
 }
 
-// Compares both, each with its own steps.
-Row second_for_second(Row row, const Side& own, int mine, const Side& peer, int other, int rounds) {
+// Compares both, each with its own steps in ticks, by the simulated second of one muscle.
+Pair second_for_second(const Side& own, int mine, const Side& peer, int other,
+                       const std::string& label) {
   const Drill a = drill(1, mine), b = drill(1, other);
-  row.per = "simulated second of one muscle";
-  row.what += fmt::format(" (steps of {:g} and {:g} ms)", 0.1 * mine, 0.1 * other);
-  row.accuracy = accuracies(own, a, peer, b);
-  return times_faster(std::move(row), by_turns([&] { return own.run_drill(a, nullptr).seconds; },
-                                               [&] { return peer.run_drill(b, nullptr).seconds; },
-                                               rounds, Clock::processor));
+  return {.ours = [=, ours = own.run_drill] { return ours(a, nullptr).seconds; },
+          .theirs = [=, theirs = peer.run_drill] { return theirs(b, nullptr).seconds; },
+          .label = fmt::format("{} (steps of {:g} and {:g} ms)", label, 0.1 * mine, 0.1 * other),
+          .figures = errors(own, a, peer, b)};
 }
 
-Row against_the_divider(const Wide& wide, int rounds, bool widest) {
+Pair against_the_divider(const Wide& wide) {
   const Drill d = drill(1);
   const Counts counts = wide.run(d, nullptr);
   const double packs = counts.steps / wide.width;
-  Row row{.name = fmt::format("actuator/divider-{}", wide.width),
-          .what = fmt::format("RK4 step of {} machines' muscles side by side against the divisions "
-                              "and square roots in it, {:.2f} and {:.2f} for a pack, back to back",
-                              wide.width, counts.divisions / packs, counts.roots / packs),
-          .per = "step of 100 us of one muscle"};
-  if (widest) row.goal = 1.5;
-  volatile double sink = 0;
-  const auto bound = [&] {
-    sink = wide.divide(static_cast<std::int64_t>(counts.divisions),
-                       static_cast<std::int64_t>(counts.roots));
+  const auto bound = [=] {
+    benchmark::DoNotOptimize(wide.divide(static_cast<std::int64_t>(counts.divisions),
+                                         static_cast<std::int64_t>(counts.roots)));
     return counts.steps;
   };
-  return times_slower(
-      row, by_turns([&] { return wide.run(d, nullptr).steps; }, bound, rounds, Clock::processor));
+  return {
+      .ours = [=] { return wide.run(d, nullptr).steps; },
+      .theirs = bound,
+      .label = fmt::format("a step, against its divisions and square roots back to back, {:.2f} "
+                           "and {:.2f} of a pack",
+                           counts.divisions / packs, counts.roots / packs)};
 }
+
+const Registration rows([] {
+  compare("actuator/pow-one-machine", [] {
+    return step_for_step(by_network, "a step of one machine's four muscles, against scalar pow");
+  });
+  for (const Wide& wide : widths()) {
+    compare(fmt::format("actuator/pow-{}", wide.width), [wide] {
+      return step_for_step(wide.run, fmt::format("the same with {} machines", wide.width));
+    });
+    compare(fmt::format("actuator/divider-{}", wide.width),
+            [wide] { return against_the_divider(wide); });
+  }
+  compare("actuator/pow-as-used", [] {
+    return second_for_second(Side(by_network), machine_stride, Side(by_pow), pow_stride,
+                             "one machine's muscles by its nodes, against scalar pow by ticks");
+  });
+  compare("actuator/pow-as-used-lanes", [] {
+    return second_for_second(Side(widths().back().run), machine_stride, Side(by_pow), pow_stride,
+                             "the same, ours in the processor's lanes");
+  });
+  compare("actuator/pow-1e-4", [] {
+    const Side own(by_network), peer(by_pow);
+    return second_for_second(own, own.stride(1e-4), peer, peer.stride(1e-4),
+                             "both by the longest steps that keep pressures to 1e-4");
+  });
+});
 
 }  // namespace
-
-std::vector<Row> actuator_rows(const Effort& effort) {
-  const Side peer("pow", by_pow), alone("sinew", by_network);
-  const std::vector<Wide> wide = widths();
-  const int rounds = effort.rounds;
-  std::vector<Row> rows;
-  rows.push_back(step_for_step({.name = "actuator/pow-one-machine",
-                                .what = "RK4 step of one machine's four muscles in the machine's "
-                                        "own lanes against scalar RK4 with the C library's pow"},
-                               alone, peer, rounds));
-  for (const Wide& w : wide)
-    rows.push_back(
-        step_for_step({.name = fmt::format("actuator/pow-{}", w.width),
-                       .what = fmt::format("the same with {} machines side by side", w.width),
-                       .goal = w.width == wide.back().width ? std::optional(10.0) : std::nullopt},
-                      Side("sinew", w.run), peer, rounds));
-  rows.push_back(second_for_second({.name = "actuator/pow-as-used",
-                                    .what = "one machine's muscles by a machine's nodes against "
-                                            "scalar pow RK4 at the controller's tick",
-                                    .goal = 10.0},
-                                   alone, machine_stride, peer, pow_stride, rounds));
-  rows.push_back(second_for_second({.name = "actuator/pow-as-used-lanes",
-                                    .what = "the same, ours side by side in the processor's lanes",
-                                    .goal = 10.0},
-                                   Side("sinew", wide.back().run), machine_stride, peer, pow_stride,
-                                   rounds));
-  rows.push_back(second_for_second(
-      {.name = "actuator/pow-1e-4",
-       .what = "one machine's muscles, both by the longest steps that keep pressures to 1e-4"},
-      alone, alone.stride(1e-4), peer, peer.stride(1e-4), rounds));
-  for (const Wide& w : wide) rows.push_back(against_the_divider(w, rounds, &w == &wide.back()));
-  return rows;
-}
 
 }  // namespace sinew::bench

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <string>
 
 #include "bench/peers/experiments.h"
 #include "bench/peers/mujoco_leg.h"
-#include "bench/peers/row.h"
+#include "bench/peers/pair.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/world/batch.h"
 #include "sinew/world/machine.h"
@@ -117,66 +119,55 @@ class TheirLeg {
   LegMotion start_;
 };
 
-// Adds the largest difference of the trolley's position in two falls [mm], its final position, and
-// the share of steps with contact.
+// Adds the largest difference of the trolley's position in two falls, its final position, and the
+// share of steps with contact.
 template <class Leg>
-void judge(const std::string& of, Leg&& coarse, Leg&& fine, std::vector<Accuracy>& out) {
+void judge(const std::string& of, Leg&& coarse, Leg&& fine, std::map<std::string, double>& out) {
   std::vector<double> a, b;
-  const double touching = coarse.trace(a);
+  out[of + "_on_table"] = coarse.trace(a);
   fine.trace(b);
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
-  out.push_back({of, "trolley, largest difference from steps of 100 us", 1e3 * most, "mm"});
-  out.push_back({of, "trolley, where it comes to rest", 1e3 * a.back(), "mm"});
-  out.push_back({of, "share of the steps on the table", touching, "1"});
+  out[of + "_error_mm"] = 1e3 * most;
+  out[of + "_rest_mm"] = 1e3 * a.back();
 }
 
-// Runs each for some 10 ms per turn.
-template <class Ours, class Theirs>
-Row compared(const Row& row, Ours& ours, Theirs& theirs, int rounds) {
+// Compares several falls of both, for some 10 ms per repetition, by the step of 1 ms.
+template <class Ours>
+Pair falls(const std::shared_ptr<Ours>& ours, Integrator integrator, const std::string& label) {
+  const auto theirs = std::make_shared<TheirLeg>(10, integrator);
   const auto several = [](auto& leg, int times) {
     double steps = 0;
     for (int i = 0; i < times; ++i) steps += leg.fall();
     return steps;
   };
-  return times_faster(row, by_turns([&] { return several(ours, 20); },
-                                    [&] { return several(theirs, 2); }, rounds, Clock::processor));
+  return {.ours = [=] { return several(*ours, 20); },
+          .theirs = [=] { return several(*theirs, 2); },
+          .label = label};
 }
 
-Row against_mujoco(const std::string& name, const std::string& what, Integrator integrator,
-                   std::optional<double> goal, int rounds) {
-  Row row{.name = name, .what = what, .goal = goal, .per = "step of 1 ms"};
-  if (!has_mujoco()) return not_measured(row, "MuJoCo was not found when this program was built");
-  judge("sinew", OurLeg(1e-3), OurLeg(1e-4), row.accuracy);
-  judge("mujoco", TheirLeg(10, integrator), TheirLeg(1, integrator), row.accuracy);
-  OurLeg ours(1e-3);
-  TheirLeg theirs(10, integrator);
-  return compared(row, ours, theirs, rounds);
+Pair against_mujoco(Integrator integrator, const std::string& label) {
+  Pair pair = falls(std::make_shared<OurLeg>(1e-3), integrator, label);
+  judge("our", OurLeg(1e-3), OurLeg(1e-4), pair.figures);
+  judge("their", TheirLeg(10, integrator), TheirLeg(1, integrator), pair.figures);
+  return pair;
 }
 
-// The lanes have the same bits as the single leg; their accuracy is that of the row above.
-Row lanes_against_mujoco(std::optional<double> goal, int rounds) {
-  Row row{
-      .name = "body/mujoco-lanes",
-      .what = "the same, ours side by side in the processor's lanes, against MuJoCo's Euler step",
-      .goal = goal,
-      .per = "step of 1 ms"};
-  if (!has_mujoco()) return not_measured(row, "MuJoCo was not found when this program was built");
-  OurLegs ours;
-  TheirLeg theirs(10, Integrator::euler);
-  return compared(row, ours, theirs, rounds);
-}
+const Registration rows([] {
+  compare("body/mujoco", [] {
+    return against_mujoco(Integrator::euler,
+                          "a step of 1 ms of the leg without muscles in contact with the table, "
+                          "ours by RK4, against MuJoCo's Euler step");
+  });
+  // The lanes have the same bits as the single leg, so their accuracy is that of the first row.
+  compare("body/mujoco-lanes", [] {
+    return falls(std::make_shared<OurLegs>(), Integrator::euler,
+                 "the same, ours in the processor's lanes");
+  });
+  compare("body/mujoco-rk4",
+          [] { return against_mujoco(Integrator::rk4, "the first, against MuJoCo's RK4 step"); });
+});
 
 }  // namespace
-
-std::vector<Row> body_rows(const Effort& effort) {
-  return {against_mujoco("body/mujoco",
-                         "step of 1 ms of the leg without muscles, in contact with the table: ours "
-                         "(RK4, sticking friction) against MuJoCo's Euler step",
-                         Integrator::euler, 25.0, effort.rounds),
-          lanes_against_mujoco(25.0, effort.rounds),
-          against_mujoco("body/mujoco-rk4", "the first, one at a time, against MuJoCo's RK4 step",
-                         Integrator::rk4, std::nullopt, effort.rounds)};
-}
 
 }  // namespace sinew::bench

@@ -70,13 +70,13 @@ class Cvode {
   int side_ = 0, valve_ = 1;
 };
 
-}  // namespace
-
-std::string cvode_version() { return SUNDIALS_VERSION; }
-
-void by_cvode(double tolerance, int every, Lengths& lengths) {
+void simulate(double tolerance, int every, Lengths& lengths) {
   Cvode stepper(tolerance);
   StandRun().go(stepper, every, lengths);
 }
+
+}  // namespace
+
+StandPeer cvode_stand() { return {"cvode", SUNDIALS_VERSION, simulate}; }
 
 }  // namespace sinew::bench

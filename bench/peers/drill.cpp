@@ -194,7 +194,7 @@ Counts by_network(const Drill& d, Pressures* pressures) {
 
 std::vector<Wide> widths() {
   std::vector<Wide> out{wide_2()};
-#if defined(SINEW_PEERS_WIDE)
+#if defined(SINEW_BENCH_WIDE)
   if (__builtin_cpu_supports("avx2")) out.push_back(wide_4());
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))

@@ -28,7 +28,7 @@ constexpr int trolley = 0, hip = 1, knee = 2;  // coordinates
 // Loads the model from a file, which works with all versions.
 mjModel* load(const std::string& xml) {
   const auto file =
-      std::filesystem::temp_directory_path() / ("sinew_peers_" + std::to_string(getpid()) + ".xml");
+      std::filesystem::temp_directory_path() / ("sinew_bench_" + std::to_string(getpid()) + ".xml");
   std::ofstream(file) << xml;
   char error[1000] = "";
   mjModel* model = mj_loadXML(file.c_str(), nullptr, error, sizeof error);
@@ -40,7 +40,6 @@ mjModel* load(const std::string& xml) {
 }  // namespace
 
 std::string mujoco_version() { return mj_versionString(); }
-bool has_mujoco() { return true; }
 
 struct MujocoLeg::State {
   plant::Setup setup;

@@ -19,9 +19,8 @@
 
 namespace sinew::bench {
 
-// Returns the version that was compiled in: "2.2.2", or "none".
+// Returns the version that was compiled in, such as "2.2.2".
 std::string mujoco_version();
-bool has_mujoco();
 
 enum class Integrator { euler, rk4 };
 
@@ -36,7 +35,7 @@ struct LegMotion {
   double x = 0, x_rate = 0, hip = 0, hip_rate = 0, knee = 0, knee_rate = 0;
 };
 
-// Throws std::runtime_error if MuJoCo is not compiled in or refuses the model.
+// Throws std::runtime_error if MuJoCo refuses the model.
 class MujocoLeg final : public signals::Port {
  public:
   MujocoLeg(const plant::Setup& setup, const LegSteps& steps = {},

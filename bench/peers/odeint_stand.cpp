@@ -44,15 +44,17 @@ class Odeint {
   int side_ = 0, valve_ = 1;
 };
 
-}  // namespace
-
-std::string odeint_version() {
-  return std::to_string(BOOST_VERSION / 100000) + "." + std::to_string(BOOST_VERSION / 100 % 1000);
-}
-
-void by_odeint(double tolerance, int every, Lengths& lengths) {
+void simulate(double tolerance, int every, Lengths& lengths) {
   Odeint stepper(tolerance);
   StandRun().go(stepper, every, lengths);
+}
+
+}  // namespace
+
+StandPeer odeint_stand() {
+  return {"odeint",
+          std::to_string(BOOST_VERSION / 100000) + "." + std::to_string(BOOST_VERSION / 100 % 1000),
+          simulate};
 }
 
 }  // namespace sinew::bench

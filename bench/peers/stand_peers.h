@@ -5,7 +5,6 @@
 // adaptive step across such a discontinuity loses its order. Steps end at the valve's edges.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +12,19 @@ namespace sinew::bench {
 
 using Lengths = std::vector<double>;  // at the end of each millisecond [in]
 
-// Return the versions compiled in, or "none".
-std::string cvode_version();
-std::string odeint_version();
+// CVODE: BDF with Newton's method and a dense matrix. boost's odeint: Dormand and Prince's fifth
+// order with dense output.
+struct StandPeer {
+  std::string name, version;
+  // Simulates with this relative tolerance and writes every `every`-th length; others are not
+  // changed.
+  void (*run)(double tolerance, int every, Lengths& lengths);
+};
 
-// Simulate with this relative tolerance and write every `every`-th length; others are not changed.
-// CVODE: BDF with Newton's method and a dense matrix.
-void by_cvode(double tolerance, int every, Lengths& lengths);
-// boost::numeric::odeint: Dormand and Prince's fifth order with dense output.
-void by_odeint(double tolerance, int every, Lengths& lengths);
+StandPeer cvode_stand();
+StandPeer odeint_stand();
+
+// Returns the peers that were installed when the program was built.
+std::vector<StandPeer> stand_peers();
 
 }  // namespace sinew::bench

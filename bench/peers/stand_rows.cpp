@@ -1,14 +1,17 @@
 // The test stand, two seconds of appendix A: 25 Hz and 5 lb. Each program uses the longest step, or
 // the loosest tolerance, with which every length is within the required error of its own limit.
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <stdexcept>
 
 #include "bench/appendix_a.h"
 #include "bench/peers/experiments.h"
-#include "bench/peers/row.h"
+#include "bench/peers/pair.h"
 #include "bench/peers/stand_peers.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/run/setup/stand_setup.h"
@@ -24,7 +27,6 @@ constexpr int milliseconds = appendix_a_milliseconds, period = 40;  // [ms]
 // One implementation, with settings of increasing accuracy; setting 0 is the limit. `run` writes
 // the length every `every` milliseconds.
 struct Program {
-  std::string name;
   int settings = 0;
   std::function<void(int setting, int every, Lengths& out)> run;
   std::function<std::string(int setting)> says;
@@ -77,7 +79,7 @@ void our_stand(int setting, int every, Lengths& out) {
 }
 
 Program ours() {
-  return {"sinew", 5, our_stand,
+  return {5, our_stand,
           [](int s) { return fmt::format("nodes every {:g} ms", 1e3 * our_steps[s].node); }};
 }
 
@@ -86,7 +88,7 @@ Program ours() {
 constexpr int thesis_steps[] = {4000, 1, 2, 5, 10, 20, 50, 100, 120, 150, 200, 500, 1000};
 
 Program thesis() {
-  return {"thesis", 12, [](int s, int, Lengths& out) { appendix_a(thesis_steps[s], out.data()); },
+  return {12, [](int s, int, Lengths& out) { appendix_a(thesis_steps[s], out.data()); },
           [](int s) { return fmt::format("{} steps of RK4 in a millisecond", thesis_steps[s]); }};
 }
 
@@ -94,59 +96,62 @@ Program thesis() {
 double tolerance(int setting) {
   return setting == 0 ? 1e-12 : 1e-2 * std::pow(10.0, -(setting - 1) / 3.0);
 }
-Program adaptive(const std::string& name, void (*run)(double, int, Lengths&)) {
-  return {name, 27, [run](int s, int every, Lengths& out) { run(tolerance(s), every, out); },
+Program adaptive(void (*run)(double, int, Lengths&)) {
+  return {27, [run](int s, int every, Lengths& out) { run(tolerance(s), every, out); },
           [](int s) { return fmt::format("tolerance {:.1e}", tolerance(s)); }};
 }
 
-Row against(const Program& own, const Program& peer, double error, std::optional<double> goal,
-            int rounds) {
+// Compares both with their coarsest settings of at most this error [in], by the run of 2 s.
+Pair against(const Program& peer, double error) {
+  const Program own = ours();
   const Chosen mine = choose(own, error), other = choose(peer, error);
-  Row row{
-      .name = fmt::format("stand/{}-{:.0e}", peer.name, error),
-      .what = fmt::format("two seconds of the test stand, no length further than {:.0e} in from "
-                          "its own limit: ours, {}, against {}, {}",
-                          error, own.says(mine.setting), peer.name, peer.says(other.setting)),
-      .goal = goal,
-      .per = "run of 2 s"};
-  const std::string what = "length, largest difference from its own limit";
-  row.accuracy = {{"sinew", what, mine.error, "in"}, {peer.name, what, other.error, "in"}};
   if (other.setting == 0 || mine.setting == 0)
-    return not_measured(row, "no step or tolerance that was tried is as exact");
-  Lengths l(milliseconds);
-  const auto several = [&l](const Program& p, int setting, int times) {
-    for (int i = 0; i < times; ++i) p.run(setting, period, l);
-    return static_cast<double>(times);
+    throw std::runtime_error("no step or tolerance that was tried is as exact");
+  // Each repetition runs a program several times, for some 10 ms.
+  const auto work = [](const Program& p, int setting) -> Work {
+    const auto lengths = std::make_shared<Lengths>(milliseconds);
+    const auto once = [=] { p.run(setting, period, *lengths); };
+    const double seconds = seconds_of(
+        [&] {
+          for (int i = 0; i < 3; ++i) once();
+        },
+        Clock::processor);
+    const int times = std::clamp(static_cast<int>(0.03 / seconds), 1, 1000);
+    return [=] {
+      for (int i = 0; i < times; ++i) once();
+      return 1.0 * times;
+    };
   };
-  // Runs each for some 10 ms per turn.
-  const auto times = [&](const Program& p, int setting) {
-    const double once = seconds_of([&] { several(p, setting, 3); }, Clock::processor) / 3;
-    return std::clamp(static_cast<int>(0.01 / once), 1, 1000);
-  };
-  const int own_times = times(own, mine.setting), peer_times = times(peer, other.setting);
-  return times_faster(row, by_turns([&] { return several(own, mine.setting, own_times); },
-                                    [&] { return several(peer, other.setting, peer_times); },
-                                    rounds, Clock::processor));
+  return {.ours = work(own, mine.setting),
+          .theirs = work(peer, other.setting),
+          .label =
+              fmt::format("ours, {}, against {}", own.says(mine.setting), peer.says(other.setting)),
+          .figures = {{"our_error_in", mine.error}, {"their_error_in", other.error}}};
 }
+
+const Registration rows([] {
+  std::vector<std::pair<std::string, Program>> programs{{"thesis", thesis()}};
+  for (const StandPeer& peer : stand_peers()) {
+    programs.emplace_back(peer.name, adaptive(peer.run));
+    benchmark::AddCustomContext(peer.name, peer.version);
+  }
+  for (const double error : {2e-4, 1e-5, 2e-6})
+    for (const auto& [name, program] : programs)
+      compare(fmt::format("stand/{}-{:.0e}", name, error),
+              [program = program, error] { return against(program, error); });
+});
 
 }  // namespace
 
-std::vector<Row> stand_rows(const Effort& effort) {
-  std::vector<Row> rows;
-  for (const double error : {2e-4, 1e-5, 2e-6}) {
-    rows.push_back(against(ours(), thesis(), error, 1.8, effort.rounds));
-    const auto one = [&](const std::string& name, const std::string& version,
-                         void (*run)(double, int, Lengths&), std::optional<double> goal) {
-      if (version == "none")
-        rows.push_back(not_measured({.name = fmt::format("stand/{}-{:.0e}", name, error)},
-                                    name + " was not found when this program was built"));
-      else
-        rows.push_back(against(ours(), adaptive(name, run), error, goal, effort.rounds));
-    };
-    one("cvode", cvode_version(), by_cvode, 25.0);
-    one("odeint", odeint_version(), by_odeint, std::nullopt);
-  }
-  return rows;
+std::vector<StandPeer> stand_peers() {
+  std::vector<StandPeer> out;
+#if defined(SINEW_BENCH_CVODE)
+  out.push_back(cvode_stand());
+#endif
+#if defined(SINEW_BENCH_ODEINT)
+  out.push_back(odeint_stand());
+#endif
+  return out;
 }
 
 }  // namespace sinew::bench
