@@ -9,15 +9,14 @@
 #
 #   --tolerance R   relative difference up to which two numbers agree; 0 by default: to the last digit
 #   --floor A       numbers up to this size count as equal, in SI; 1e-12 by default
-#   --all           also prints the numbers that agree
 #
 # A line of the table has experiment, key and value, separated by tabs. Keys are those of summary.json
 # (without `host`, which depends on the computer); `verdict KEY: REPORTED` with class and verdict; `log` with
 # a hash of the output of `sinew export --csv`, every digit of every channel; `exit` with the run's exit code.
 # Tables are not committed; make one with the earlier build.
 #
-# compare exits 0 if all numbers, texts and verdicts agree, 1 if something differs. Logs that differ are
-# counted but do not change the exit code.
+# compare prints a line for each result that differs, is missing or is new, then a summary. It exits with 1
+# if there is any, except for logs, which are counted only.
 #
 # SINEW: the program, by default build/release/bin/sinew. JOBS: number of parallel runs, by default 1. ONLY:
 # experiment files, by default all of experiments/.
@@ -66,26 +65,24 @@ keep() {
 }
 
 compare() {
-  local files=() tolerance=0 floor=1e-12 all=''
+  local files=() tolerance=0 floor=1e-12
   while (($#)); do
     case $1 in
       --tolerance) tolerance=${2:?}; shift ;;
       --floor) floor=${2:?}; shift ;;
-      --all) all=yes ;;
       -*) usage >&2; exit 2 ;;
       *) files+=("$1") ;;
     esac
     shift
   done
   [[ ${#files[@]} == 2 && -r ${files[0]} && -r ${files[1]} ]] || { usage >&2; exit 2; }
-  awk -F '\t' -v tolerance="$tolerance" -v floor="$floor" -v all="$all" "$program" "${files[@]}"
+  awk -F '\t' -v tolerance="$tolerance" -v floor="$floor" "$program" "${files[@]}"
 }
 
 # shellcheck disable=SC2016  # $ belongs to awk
 program='
 function is_number(text) { return text ~ /^-?[0-9.]+([eE][-+]?[0-9]+)?$/ }
 function size(x) { return x < 0 ? -x : x }
-function note(what, line) { listed[what] = listed[what] line "\n"; ++count[what] }
 
 # Returns the relative difference of two numbers; 0 if both are at most the floor.
 function difference(a, b,   larger) {
@@ -93,49 +90,26 @@ function difference(a, b,   larger) {
   return larger <= floor ? 0 : size(a - b) / larger
 }
 
-function compare(key, a, b,   at, off) {
-  at = key
-  sub(SUBSEP, " ", at)
-  if (key ~ SUBSEP "log$") { note(a == b ? "same logs" : "other logs", at); return }
-  if (key ~ SUBSEP "verdict ") {
-    if (a == b) ++count["same verdicts"]
-    else note("verdicts", at ": " a " -> " b)
-  } else if (is_number(a) && is_number(b)) {
-    off = difference(a, b)
-    if (off <= tolerance) note("agree", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
-    else note("numbers", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
-    if (off > most) { most = off; where = at }
-  } else if (a != b) note("texts", at ": " a " -> " b)
+# Compares one result, prints it if it differs, and counts it.
+function compare(key, a, b,   off, kind) {
+  kind = key ~ / log$/ ? "logs" : key ~ / verdict / ? "verdicts" : "results"
+  ++all[kind]
+  off = is_number(a) && is_number(b) ? difference(a, b) : (a != b)
+  if (off > most && kind == "results") { most = off; where = " (" key ")" }
+  if (off <= tolerance) return
+  ++other[kind]
+  print key ": " a " -> " b
 }
 
-function show(what, title) {
-  if (count[what]) printf "%s (%d):\n%s\n", title, count[what], listed[what]
-}
-
-FNR == NR { before[$1, $2] = $3; order[++lines] = $1 SUBSEP $2; next }
-{ now[$1, $2] = $3 }
-!(($1, $2) in before) { note("new", $1 " " $2) }
+FNR == NR { before[$1 " " $2] = $3; next }
+!(($1 " " $2) in before) { print $1 " " $2 ": new"; ++gone; next }
+{ compare($1 " " $2, before[$1 " " $2], $3); seen[$1 " " $2] }
 
 END {
-  for (i = 1; i <= lines; ++i) {
-    key = order[i]
-    if (key in now) compare(key, before[key], now[key])
-    else { at = key; sub(SUBSEP, " ", at); note("missing", at) }
-  }
-
-  if (all) show("agree", "numbers that agree")
-  show("other logs", "logs with other bits")
-  show("numbers", "numbers that differ by more than " tolerance)
-  show("texts", "texts that differ")
-  show("missing", "results that are missing")
-  show("new", "results that are new")
-  show("verdicts", "verdicts that changed")
-  where = most > 0 ? " (" where ")" : ""
-  printf "%d numbers agree within %s, %d differ; largest difference %.1e%s; %d of %d logs have the same bits; ", \
-    count["agree"], tolerance, count["numbers"], most, where, \
-    count["same logs"], count["same logs"] + count["other logs"]
-  printf "%d verdicts are the same, %d changed\n", count["same verdicts"], count["verdicts"]
-  exit (count["numbers"] + count["texts"] + count["missing"] + count["new"] + count["verdicts"] > 0)
+  for (key in before) if (!(key in seen)) { print key ": missing"; ++gone }
+  printf "%d of %d results differ by more than %s, largest difference %.1e%s; %d of %d logs have other bits; %d of %d verdicts changed\n", \
+    other["results"], all["results"], tolerance, most, where, other["logs"], all["logs"], other["verdicts"], all["verdicts"]
+  exit (other["results"] + other["verdicts"] + gone > 0)
 }
 '
 
@@ -154,19 +128,19 @@ self_test() {
 
   { line e1 speed_m 1.5; line e1 log abc; line e1 title walk; line e1 'verdict speed_m: 1 m' 'fitted, agrees'; } >"$before"
   cp "$before" "$now"
-  expect 0 '1 numbers agree within 0, 0 differ; largest difference 0.0e+00; 1 of 1 logs have the same bits; 1 verdicts are the same, 0 changed'
+  expect 0 '0 of 2 results differ by more than 0, largest difference 0.0e+00; 0 of 1 logs have other bits; 0 of 1 verdicts changed'
   sed -i 's/1[.]5$/1.5000003/' "$now"
-  expect 1 'e1 speed_m  1.5 -> 1.5000003  (2.0e-07)'
-  expect 0 'e1 speed_m  1.5 -> 1.5000003  (2.0e-07)' --tolerance 1e-6 --all
-  expect 0 '1 numbers agree' --floor 2
+  expect 1 'e1 speed_m: 1.5 -> 1.5000003'
+  expect 0 '0 of 2 results differ by more than 1e-6, largest difference 2.0e-07 (e1 speed_m)' --tolerance 1e-6
+  expect 0 '0 of 2 results differ' --floor 2
   { cat "$before"; line e2 speed_m 2; } >"$now"
-  expect 1 'results that are new (1):'
+  expect 1 'e2 speed_m: new'
   sed 1d "$before" >"$now"
-  expect 1 'results that are missing (1):'
+  expect 1 'e1 speed_m: missing'
   sed 's/agrees/differs/' "$before" >"$now"
   expect 1 'e1 verdict speed_m: 1 m: fitted, agrees -> fitted, differs'
   sed 's/abc/def/' "$before" >"$now"
-  expect 0 'logs with other bits (1):'
+  expect 0 'e1 log: abc -> def'
   sed 's/walk/run/' "$before" >"$now"
   expect 1 'e1 title: walk -> run'
   rm "$before" "$now"

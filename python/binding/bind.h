@@ -54,10 +54,14 @@ struct HeldExperiment {
   std::string text;               // replaces the file: a resolved one that was pickled
   experiment::Experiment read;
 };
-using ExperimentPointer = std::shared_ptr<const HeldExperiment>;
+using ExperimentPointer = std::shared_ptr<HeldExperiment>;
 
 // Returns a path that was given as text or as pathlib's. Throws TypeError for anything else.
 std::string path_of(const py::handle& meant);
+// Returns the same; empty for None.
+std::string path_or_none(const py::handle& meant);
+// Returns the paths of a list or of a single path.
+std::vector<std::string> paths_of(const py::handle& meant);
 
 // Convert a text to bytes and a path's bytes to text like Python's os module: a name that is not
 // UTF-8 keeps its bytes.
@@ -68,6 +72,14 @@ py::object path_text(const std::string& path);
 // are in the SI units of the keys in `origins`. Throws TypeError for anything else.
 std::vector<std::string> sets_of(const py::object& sets,
                                  const std::function<const config::Origins&()>& origins);
+
+// Returns such settings for a file, whose keys have the units of numbers.
+std::vector<std::string> sets_of(const py::object& sets, const std::string& path);
+// Returns such settings where numbers have no unit. Throws TypeError for a number.
+std::vector<std::string> sets_without_numbers(const py::object& sets);
+
+// Returns the objects of a JSON text.
+py::object parsed(const std::string& json);
 
 // Returns the experiment given as an Experiment or a path. Throws TypeError for anything else, and
 // config::Error.

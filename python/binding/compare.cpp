@@ -11,11 +11,7 @@ namespace sinew::python {
 
 namespace {
 
-py::object dict_of(const std::string& json) {
-  return py::module_::import("json").attr("loads")(json);
-}
-
-std::vector<std::string> paths_of(const py::sequence& runs) {
+std::vector<std::string> folders_of(const py::sequence& runs) {
   std::vector<std::string> out;
   for (const py::handle& run : runs) {
     const bool recorded = py::isinstance<Recording>(run);
@@ -48,25 +44,17 @@ report::AlignOptions wish_of(const std::string& align, const std::string& event,
   return align_options;
 }
 
-// Returns settings as texts; values in a dict must be texts with their units.
-std::vector<std::string> texts_of(const py::object& sets) {
-  return sets_of(sets, []() -> const config::Origins& {
-    throw py::type_error(
-        "sets: found a number; expected a text with its unit, \"0.8 lbf in s/rad\"");
-  });
-}
-
 py::object compare(const py::sequence& runs, const std::string& align, const std::string& event,
                    const std::vector<std::string>& align_by, const std::string& clock,
                    double within, const std::vector<std::string>& channels) {
-  const std::vector<std::string> paths = paths_of(runs);
+  const std::vector<std::string> paths = folders_of(runs);
   const report::AlignOptions align_options = wish_of(align, event, align_by, clock, within);
   std::string json;
   {
     const py::gil_scoped_release others;
     json = to_json(run::compare_runs(paths, align_options, channels));
   }
-  return dict_of(json);
+  return parsed(json);
 }
 
 py::object replay(const py::object& path, const std::string& of, const py::object& sets,
@@ -74,7 +62,7 @@ py::object replay(const py::object& path, const std::string& of, const py::objec
   if (of != "controller" && of != "plant")
     throw py::value_error("of: found " + config::in_quotes(of) + "; expected controller or plant");
   run::ReplayRequest request{
-      .run = path_of(path), .sets = texts_of(sets), .force = force, .band = band};
+      .run = path_of(path), .sets = sets_without_numbers(sets), .force = force, .band = band};
   if (of == "plant") request.of = run::ReplayOf::plant;
   if (!folder.is_none()) request.folder = path_of(folder);
   std::string json;
@@ -82,7 +70,7 @@ py::object replay(const py::object& path, const std::string& of, const py::objec
     const py::gil_scoped_release others;
     json = to_json(run::replay_run(request));
   }
-  return dict_of(json);
+  return parsed(json);
 }
 
 }  // namespace

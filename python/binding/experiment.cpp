@@ -11,6 +11,7 @@
 #include "sinew/config/utf8.h"
 #include "sinew/control/gait/change.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/files/values.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/signals/tick.h"
 
@@ -60,15 +61,7 @@ ExperimentPointer varied(const ExperimentPointer& of, const py::object& sets) {
 
 ExperimentPointer load(const py::object& path, const py::object& sets) {
   const std::string file = path_of(path);
-  if (sets.is_none()) return read(file, {}, "");
-  ExperimentPointer plain;  // for the units of numbers
-  return read(file,
-              sets_of(sets,
-                      [&]() -> const config::Origins& {
-                        if (!plain) plain = read(file, {}, "");
-                        return plain->read.origins;
-                      }),
-              "");
+  return read(file, sets_of(sets, file), "");
 }
 
 // Returns the origin of a key. Raises KeyError if the experiment does not have the key.
@@ -160,6 +153,35 @@ std::vector<std::string> sets_of(const py::object& sets,
       py::repr(sets).cast<std::string>()));
 }
 
+std::vector<std::string> sets_of(const py::object& sets, const std::string& path) {
+  config::Origins read;
+  return sets_of(sets, [&]() -> const config::Origins& {
+    if (read.empty()) read = files::values(path).origins;
+    return read;
+  });
+}
+
+std::vector<std::string> sets_without_numbers(const py::object& sets) {
+  return sets_of(sets, []() -> const config::Origins& {
+    throw py::type_error(
+        "sets: found a number; expected a text with a unit, \"0.8 lbf in s/rad\"");
+  });
+}
+
+py::object parsed(const std::string& json) {
+  return py::module_::import("json").attr("loads")(json);
+}
+
+std::string path_or_none(const py::handle& meant) { return meant.is_none() ? "" : path_of(meant); }
+
+std::vector<std::string> paths_of(const py::handle& meant) {
+  if (!py::isinstance<py::list>(meant) && !py::isinstance<py::tuple>(meant))
+    return {path_of(meant)};
+  std::vector<std::string> out;
+  for (const py::handle path : meant) out.push_back(path_of(path));
+  return out;
+}
+
 std::string path_of(const py::handle& meant) {
   if (py::isinstance<py::str>(meant) || py::hasattr(meant, "__fspath__"))
     return bytes_of(py::module_::import("os").attr("fsdecode")(meant));
@@ -177,7 +199,7 @@ py::object path_text(const std::string& path) {
 
 ExperimentPointer experiment_of(const py::object& meant, const py::object& sets) {
   if (!py::isinstance<HeldExperiment>(meant)) return load(meant, sets);
-  const auto held = meant.cast<std::shared_ptr<HeldExperiment>>();
+  const auto held = meant.cast<ExperimentPointer>();
   return sets.is_none() ? held : varied(held, sets);
 }
 
@@ -185,13 +207,12 @@ void bind_experiment(py::module_& m) {
   py::class_<HeldExperiment, std::shared_ptr<HeldExperiment>>(
       m, "Experiment",
       "An experiment file with the robot that it names, read and checked; it does not change.")
-      .def(py::init([](const py::object& path, const py::object& sets) {
-             return std::const_pointer_cast<HeldExperiment>(load(path, sets));
-           }),
-           py::arg("path"), py::arg("sets") = py::none(),
-           "Reads the file, with settings in place of its own: {\"control.stiffness.hip\": 3.0}.\n"
-           "A number is in the key's SI unit, text has a unit of its own (\"35 lbf in/rad\").\n"
-           "Raises InputError with everything that is wrong.")
+      .def(
+          py::init([](const py::object& path, const py::object& sets) { return load(path, sets); }),
+          py::arg("path"), py::arg("sets") = py::none(),
+          "Reads the file, with settings in place of its own: {\"control.stiffness.hip\": 3.0}.\n"
+          "A number is in the key's SI unit, text has a unit of its own (\"35 lbf in/rad\").\n"
+          "Raises InputError with everything that is wrong.")
       .def_property_readonly(
           "path", [](const HeldExperiment& e) { return path_text(e.path); }, "Its file.")
       .def_property_readonly(
@@ -223,7 +244,7 @@ void bind_experiment(py::module_& m) {
       .def(
           "vary",
           [](const std::shared_ptr<HeldExperiment>& e, const py::object& sets) {
-            return std::const_pointer_cast<HeldExperiment>(varied(e, sets));
+            return varied(e, sets);
           },
           py::arg("sets"), "Returns the experiment with these settings besides.")
       .def("with_seed", &with_seed, py::arg("seed"),
@@ -264,8 +285,7 @@ void bind_experiment(py::module_& m) {
           py::arg("memo"))
       .def(py::pickle([](const HeldExperiment& e) { return py::make_tuple(e.path, resolved(e)); },
                       [](const py::tuple& state) {
-                        return std::const_pointer_cast<HeldExperiment>(
-                            read(state[0].cast<std::string>(), {}, state[1].cast<std::string>()));
+                        return read(state[0].cast<std::string>(), {}, state[1].cast<std::string>());
                       }));
   m.def(
       "quantity",

@@ -12,10 +12,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-std::vector<std::filesystem::path> paths_of(const py::object& runs) {
-  std::vector<std::filesystem::path> out;
-  if (!py::isinstance<py::list>(runs) && !py::isinstance<py::tuple>(runs)) return {path_of(runs)};
-  for (const py::handle& run : runs) out.emplace_back(path_of(run));
+std::vector<std::string> runs_of(const py::object& runs) {
+  std::vector<std::string> out = paths_of(runs);
   if (out.empty()) throw py::value_error("runs: found none; expected the folder of a run");
   return out;
 }
@@ -46,7 +44,8 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
                    const std::string& units, const std::string& width, const std::string& height,
                    const std::string& font, const std::string& title, const py::object& start,
                    const py::object& stop, bool force) {
-  run::OverlaidRuns overlaid{paths_of(runs), names, align_of(align, fit_clock)};
+  const Names folders = runs_of(runs);
+  run::OverlaidRuns overlaid{{folders.begin(), folders.end()}, names, align_of(align, fit_clock)};
   overlay = overlay || !names.empty() || overlaid.align;
   if (overlaid.runs.size() > 1 && !overlay)
     throw py::value_error("runs: found several; expected one, or names or overlay=True");
@@ -69,9 +68,9 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
     index = overlay ? run::draw_runs(overlaid, out, request, notices)
                     : run::draw_run(overlaid.runs[0], out, request, notices);
   }
-  const py::object parsed = py::module_::import("json").attr("loads")(index);
-  parsed["warnings"] = warnings;
-  return parsed;
+  const py::object about = parsed(index);
+  about["warnings"] = warnings;
+  return about;
 }
 
 report::AlignOptions wish_of(const std::string& word, bool fit_clock) {
@@ -97,8 +96,7 @@ int film(const py::object& runs, const py::object& path, const py::object& start
                             .still = still};
   options.from = time_of(start, options.from);
   options.to = time_of(stop, options.to);
-  Names of;
-  for (const std::filesystem::path& run : paths_of(runs)) of.push_back(run.string());
+  const Names of = runs_of(runs);
   const report::AlignOptions align_options = wish_of(align, fit_clock);
   if (of.size() == 1 && (align_options.by != report::Align::start || fit_clock))
     throw py::value_error(

@@ -16,7 +16,7 @@ namespace {
 
 py::dict migrate(const py::object& path, const py::object& folder, bool write) {
   files::MigrateOptions options{.write = write};
-  if (!folder.is_none()) options.folder = path_of(folder);
+  options.folder = path_or_none(folder);
   const files::Migration done = files::migrate(path_of(path), options);
   py::dict out;
   out["file"] = path_text(done.file);
@@ -34,12 +34,10 @@ py::object keys(const py::args& words, const std::string& kind) {
     if (!py::isinstance<py::str>(word)) throw py::type_error("keys: expected texts as words");
     texts.push_back(word.cast<std::string>());
   }
-  return py::module_::import("json").attr("loads")(files::json_of(files::find_keys(texts, kind)));
+  return parsed(files::json_of(files::find_keys(texts, kind)));
 }
 
-py::object key_schema(const std::string& kind) {
-  return py::module_::import("json").attr("loads")(files::schema_of(kind));
-}
+py::object key_schema(const std::string& kind) { return parsed(files::schema_of(kind)); }
 
 py::list list_files(const std::string& kind, const py::object& folder) {
   const std::string here = folder.is_none() ? "." : path_of(folder);
@@ -61,9 +59,9 @@ std::vector<std::string> new_file(const std::string& kind, const std::string& na
                                   const py::object& folder, const py::object& of,
                                   const py::object& actuator, bool metric) {
   files::NewOptions options{.metric = metric};
-  if (!folder.is_none()) options.folder = path_of(folder);
-  if (!of.is_none()) options.of = path_of(of);
-  if (!actuator.is_none()) options.actuator = path_of(actuator);
+  options.folder = path_or_none(folder);
+  options.of = path_or_none(of);
+  options.actuator = path_or_none(actuator);
   return files::write_new(kind, name, options).files;
 }
 

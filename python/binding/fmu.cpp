@@ -3,65 +3,30 @@
 
 #include "fmu/export/export.h"
 #include "python/binding/bind.h"
-#include "sinew/files/values.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::python {
 
 namespace {
 
-using Causality = fmu::Variable::Causality;
 using Names = std::vector<std::string>;
 
-py::object start_of(const fmu::Variable& v) {
-  using T = fmu::Variable::Type;
-  if (v.type == T::boolean) return py::bool_(v.start != 0);
-  return v.type == T::integer ? py::object(py::int_(static_cast<int>(v.start)))
-                              : py::object(py::float_(v.start));
-}
-
-py::dict summary_of(const fmu::Fmu& made, const std::string& path) {
-  py::dict out;
-  out["file"] = path_text(path);
-  out["kind"] = made.kind;
-  out["name"] = made.name;
-  out["model_identifier"] = made.identifier;
-  out["token"] = made.token;
-  py::list variables;
-  for (std::size_t k = 0; k < made.variables.size(); ++k) {
-    const fmu::Variable& v = made.variables[k];
-    py::dict entry;
-    entry["name"] = v.name;
-    entry["value_reference"] = k;
-    entry["type"] = fmu::word(v.type);
-    entry["causality"] = fmu::word(v.causality);
-    if (!v.unit.empty()) entry["unit"] = v.unit;
-    if (v.causality == Causality::parameter || v.causality == Causality::input)
-      entry["start"] = start_of(v);
-    entry["meaning"] = v.doc;
-    variables.append(entry);
-  }
-  out["variables"] = variables;
-  return out;
-}
-
-py::dict export_fmu(const py::object& file, const py::object& path, const std::string& muscle,
-                    const Names& joints, const std::string& actuator, bool without_valves,
-                    const Names& inputs, const Names& outputs, const Names& parameters,
-                    const py::object& sets, int fmi, const std::string& name, bool force) {
-  fmu::ExportRequest request{.file = path_of(file), .name = name, .version = fmi};
-  config::Origins plain;  // for the units of numbers
-  request.sets = sets_of(sets, [&]() -> const config::Origins& {
-    if (plain.empty()) plain = files::values(request.file).origins;
-    return plain;
-  });
-  request.actuator = actuator;
-  request.muscle = muscle;
-  request.joints = joints;
-  request.without_valves = without_valves;
-  request.inputs = inputs;
-  request.outputs = outputs;
-  request.parameters = parameters;
+py::object export_fmu(const py::object& file, const py::object& path, const std::string& muscle,
+                      const Names& joints, const std::string& actuator, bool without_valves,
+                      const Names& inputs, const Names& outputs, const Names& parameters,
+                      const py::object& sets, int fmi, const std::string& name, bool force) {
+  const std::string from = path_of(file);
+  const fmu::ExportRequest request{.file = from,
+                                   .sets = sets_of(sets, from),
+                                   .name = name,
+                                   .version = fmi,
+                                   .actuator = actuator,
+                                   .muscle = muscle,
+                                   .joints = joints,
+                                   .without_valves = without_valves,
+                                   .inputs = inputs,
+                                   .outputs = outputs,
+                                   .parameters = parameters};
   const std::string out = path_of(path);
   fmu::Fmu made;
   {
@@ -70,7 +35,9 @@ py::dict export_fmu(const py::object& file, const py::object& path, const std::s
     run::refuse_to_overwrite(out, force, {request.file}, ".fmu");
     run::write_file(out, made.bytes);
   }
-  return summary_of(made, out);
+  const py::object about = parsed(fmu::json_of(made, ""));
+  about["file"] = path_text(out);
+  return about;
 }
 
 }  // namespace

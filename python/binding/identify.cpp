@@ -100,7 +100,7 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
     files.append(identify::static_file(*found, found->muscles[i], name, source, ""));
   Json report = identify::to_json(found->report);
   report["air_at_rest"] = identify::to_json(found->air);
-  return py::make_tuple(py::module_::import("json").attr("loads")(report.text()), files);
+  return py::make_tuple(parsed(report.text()), files);
 }
 
 }  // namespace

@@ -34,10 +34,6 @@ struct Identified {
   double atmosphere = 0;          // [Pa]
 };
 
-py::object loaded(const std::string& json) {
-  return py::module_::import("json").attr("loads")(json);
-}
-
 // Reads the settings of a method from Python keywords. A visitor of identify/task/settings.h.
 class Keywords : public identify::RowVisitor<Keywords> {
  public:
@@ -145,17 +141,17 @@ py::object force_beam(const py::dict& given) {
   identify::TransducerSettings s;
   Keywords keywords(given);
   fields(keywords, s);
-  return loaded(identify::json_of(identify::transducer_of(s), identify::wanted_sensitivity(s)));
+  return parsed(identify::json_of(identify::transducer_of(s), identify::wanted_sensitivity(s)));
 }
 
 // Returns the rows of a method's settings, see SettingList.
 py::object identify_settings(const std::string& method) {
   if (method == "force-beam")
-    return loaded(identify::SettingList(identify::TransducerSettings()).rows.text());
+    return parsed(identify::SettingList(identify::TransducerSettings()).rows.text());
   std::string rows;
   with_method(method,
               [&](const auto& settings) { rows = identify::SettingList(settings).rows.text(); });
-  return loaded(rows);
+  return parsed(rows);
 }
 
 // Returns the SI unit of each column that a method reads; columns of `sensor` have arbitrary names.
@@ -170,7 +166,7 @@ py::dict identify_columns(const std::string& method) {
 
 // Returns the output of `sinew identify columns METHOD --json`.
 py::object identify_inputs(const std::string& method) {
-  return loaded(to_json(identify::inputs_of(method)).text());
+  return parsed(to_json(identify::inputs_of(method)).text());
 }
 
 // Returns the output of `--template`.
@@ -228,7 +224,7 @@ py::tuple timing(const Identified& found, const py::object& given) {
 void bind_identify_tables(py::module_& m) {
   py::class_<Identified>(m, "Identified", "What a method of identification found.")
       .def_property_readonly(
-          "report", [](const Identified& f) { return loaded(f.report); },
+          "report", [](const Identified& f) { return parsed(f.report); },
           "The report, as `sinew identify --json` prints it.")
       .def_property_readonly(
           "files", [](const Identified& f) { return f.files.size(); },

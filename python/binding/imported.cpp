@@ -30,17 +30,6 @@ recording::Mapping mapping_of(const MappingArguments& arguments) {
   return out;
 }
 
-// Returns the paths of one file or several.
-std::vector<std::string> files_of(const py::object& meant) {
-  if (!py::isinstance<py::list>(meant) && !py::isinstance<py::tuple>(meant))
-    return {path_of(meant)};
-  std::vector<std::string> out;
-  for (const py::handle file : meant) out.push_back(path_of(file));
-  return out;
-}
-
-std::string path_or_none(const py::object& meant) { return meant.is_none() ? "" : path_of(meant); }
-
 bool is_at_end(const std::string& join) {
   if (join == "end" || join == "side") return join == "end";
   throw std::invalid_argument("join: found \"" + join +
@@ -58,7 +47,7 @@ std::shared_ptr<Recording> import_recording(
     const py::object& mapping, const py::object& save_mapping, bool keep_others, const Clock& clock,
     const std::string& join, const Texts& shift, const recording::TableSettings& table,
     const py::object& sets, const py::object& folder, bool force) {
-  run::ImportRequest request{.files = files_of(files),
+  run::ImportRequest request{.files = paths_of(files),
                              .experiment = path_of(experiment),
                              .mapping_file = path_or_none(mapping),
                              .mapping = mapping_of({map, units, offset, where, scale}),

@@ -146,8 +146,7 @@ void bind_actuator(py::module_& m) {
       .def(
           "point",
           [](const HeldActuator& a, double length, double pressure, double velocity) {
-            return py::module_::import("json").attr("loads")(
-                run::json_of(point_at(a, length, pressure, velocity)));
+            return parsed(run::json_of(point_at(a, length, pressure, velocity)));
           },
           py::arg("length"), py::arg("pressure"), py::arg("velocity") = Point::not_given,
           "Returns the values of all laws at one point, by names that end with the unit.");

@@ -10,7 +10,6 @@
 #include "python/binding/numbers.h"
 #include "python/binding/used.h"
 #include "sinew/actuator/actuator.h"
-#include "sinew/files/values.h"
 #include "sinew/run/muscle/muscle_setup.h"
 #include "sinew/world/driven/driven_muscle.h"
 
@@ -22,33 +21,17 @@ constexpr double longest_step = 10;  // limit of one call [s]
 constexpr double slice = 10;         // simulated time between two checks for Ctrl-C [s]
 
 // Muscle that only one thread at a time may use.
-class HeldMuscle {
+class HeldMuscle : public Guarded<air::DrivenMuscle> {
  public:
   HeldMuscle(std::string its_path, run::MuscleSetup its_setup, double length, double pressure)
-      : path(std::move(its_path)),
+      : Guarded("muscle", its_setup.muscle, its_setup.air, its_setup.supply, length, pressure),
+        path(std::move(its_path)),
         setup(std::move(its_setup)),
-        start_length(length),
-        muscle_(setup.muscle, setup.air, setup.supply, length, pressure) {}
-
-  class Use {
-   public:
-    explicit Use(HeldMuscle& held) : muscle_(held.muscle_), now_(held.used_, "muscle") {}
-
-    air::DrivenMuscle* operator->() const { return &muscle_; }
-    air::DrivenMuscle& operator*() const { return muscle_; }
-
-   private:
-    air::DrivenMuscle& muscle_;
-    Used::Now now_;
-  };
+        start_length(length) {}
 
   const std::string path;
   const run::MuscleSetup setup;
   const double start_length;  // [m]
-
- private:
-  air::DrivenMuscle muscle_;
-  Used used_;
 };
 
 using Held = std::shared_ptr<HeldMuscle>;
@@ -70,12 +53,7 @@ void check_length(const run::MuscleSetup& setup, double length) {
 Held make(const py::object& where, const std::string& name, const std::optional<double>& length,
           const std::optional<double>& pressure, const py::object& sets) {
   const std::string path = path_of(where);
-  config::Origins plain;  // for the units of numbers
-  const auto origins = [&]() -> const config::Origins& {
-    if (plain.empty()) plain = files::values(path).origins;
-    return plain;
-  };
-  run::MuscleSetup setup = run::muscle_setup(path, name, sets_of(sets, origins));
+  run::MuscleSetup setup = run::muscle_setup(path, name, sets_of(sets, path));
   if (!length && !(setup.length > 0))
     throw std::invalid_argument(fmt::format(
         "length: found none, and {} has none; expected the length at the start [m]", path));
@@ -287,15 +265,8 @@ void bind_motion(Class& c) {
 }
 
 void bind_saves(Class& c) {
-  c.def("save", &saved, "Returns everything that the future depends on, as bytes.")
-      .def("restore", &restore, py::arg("saved"),
-           "Goes back, or on, to where it was saved, bit for bit. Raises ValueError, and changes\n"
-           "nothing, for bytes that are no save, or of another muscle.")
-      .def("copy", &copied, "Returns another muscle that stands at the same instant.")
-      .def("__copy__", &copied)
-      .def(
-          "__deepcopy__", [](HeldMuscle& m, const py::dict&) { return copied(m); }, py::arg("memo"))
-      .def(py::pickle(&pickled, &unpickled));
+  bind_states(c, &saved, &restore, &copied, "another muscle");
+  c.def(py::pickle(&pickled, &unpickled));
 }
 
 }  // namespace

@@ -36,10 +36,6 @@ py::array view(const Pointer& recording, const std::vector<double>& values) {
   return out;
 }
 
-py::object parsed(const std::string& json) {
-  return py::module_::import("json").attr("loads")(json);
-}
-
 std::string page(const Recording& recording) {
   if (recording.name.empty())
     throw std::invalid_argument("page: found what follows from a run; expected the run itself");

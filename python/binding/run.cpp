@@ -82,7 +82,7 @@ void check_place(const std::string& place) {
 Pointer run(const py::object& experiment, const py::object& sets, const py::object& folder,
             bool force, bool report, const std::string& port, bool clear_fault) {
   auto out = std::make_shared<Recording>();
-  run::RunRequest request{.folder = folder.is_none() ? "" : path_of(folder),
+  run::RunRequest request{.folder = path_or_none(folder),
                           .force = force,
                           .report = report,
                           .port = port,

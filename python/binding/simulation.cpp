@@ -128,26 +128,14 @@ void bind_looks(Class& c) {
 }
 
 void bind_saves(Class& c) {
-  c.def("save", &saved, "Returns everything that the future depends on, as bytes.")
-      .def("restore", &restore, py::arg("saved"),
-           "Goes back, or on, to where it was saved, bit for bit. Raises ValueError, and changes\n"
-           "nothing, for bytes that are no save, or of an experiment with other values.")
-      .def("copy", &copied, "Returns another simulation that stands at the same instant.")
-      .def("__copy__", &copied)
-      .def(
-          "__deepcopy__", [](HeldSimulation& s, const py::dict&) { return copied(s); },
-          py::arg("memo"))
-      .def(py::pickle(
-          [](HeldSimulation& s) {
-            return py::make_tuple(std::const_pointer_cast<HeldExperiment>(s.experiment()),
-                                  saved(s));
-          },
-          [](const py::tuple& state) {
-            auto made =
-                std::make_shared<HeldSimulation>(state[0].cast<std::shared_ptr<HeldExperiment>>());
-            restore(*made, state[1].cast<py::bytes>());
-            return made;
-          }));
+  bind_states(c, &saved, &restore, &copied, "an experiment with other values");
+  c.def(py::pickle([](HeldSimulation& s) { return py::make_tuple(s.experiment(), saved(s)); },
+                   [](const py::tuple& state) {
+                     auto made =
+                         std::make_shared<HeldSimulation>(state[0].cast<ExperimentPointer>());
+                     restore(*made, state[1].cast<py::bytes>());
+                     return made;
+                   }));
 }
 
 }  // namespace
@@ -192,9 +180,7 @@ void bind_simulation(py::module_& m) {
         "At its start. `experiment` is a path or an Experiment, `sets` as for Experiment. Raises\n"
         "InputError.");
   c.def_property_readonly(
-      "experiment",
-      [](HeldSimulation& s) { return std::const_pointer_cast<HeldExperiment>(s.experiment()); },
-      "What is run.");
+      "experiment", [](HeldSimulation& s) { return s.experiment(); }, "What is run.");
   c.def_property_readonly(
       "duration",
       [](HeldSimulation& s) { return static_cast<double>(Use(s)->last()) * signals::tick_seconds; },

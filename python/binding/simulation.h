@@ -10,31 +10,15 @@
 namespace sinew::python {
 
 // Simulation that only one thread at a time may use.
-class HeldSimulation {
+class HeldSimulation : public Guarded<run::Simulation> {
  public:
   explicit HeldSimulation(ExperimentPointer experiment)
-      : experiment_(std::move(experiment)), simulation_(experiment_->read) {}
+      : Guarded("simulation", experiment->read), experiment_(std::move(experiment)) {}
 
   const ExperimentPointer& experiment() const { return experiment_; }
 
-  // Access to the simulation during the lifetime of this object. Throws std::runtime_error if
-  // another thread uses the simulation.
-  class Use {
-   public:
-    explicit Use(HeldSimulation& held) : held_(held), now_(held.used_, "simulation") {}
-
-    run::Simulation* operator->() const { return &held_.simulation_; }
-    run::Simulation& operator*() const { return held_.simulation_; }
-
-   private:
-    HeldSimulation& held_;
-    Used::Now now_;
-  };
-
  private:
   ExperimentPointer experiment_;
-  run::Simulation simulation_;
-  Used used_;
 };
 
 // Advances by seconds, rounded to ticks, or to the plan's end. Checks for Ctrl-C meanwhile. Throws

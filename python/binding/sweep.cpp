@@ -64,6 +64,13 @@ std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e
   return out;
 }
 
+// Throws std::invalid_argument for a count below 0.
+void check_counts(std::initializer_list<std::pair<const char*, int>> counts) {
+  for (const auto& [name, value] : counts)
+    if (value < 0)
+      throw std::invalid_argument(fmt::format("{}: found {}; expected 0 or more", name, value));
+}
+
 // Calls the user's progress function.
 void report_progress(const py::object& progress, std::int64_t done, std::size_t points) {
   if (!progress.is_none()) progress(done, points);
@@ -77,10 +84,7 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
   if (!e->text.empty())
     throw std::invalid_argument(
         "experiment: found one that was pickled; expected one that was read from its file");
-  for (const auto& [name, value] :
-       {std::pair{"seeds", seeds}, {"threads", threads}, {"points", points}})
-    if (value < 0)
-      throw std::invalid_argument(fmt::format("{}: found {}; expected 0 or more", name, value));
+  check_counts({{"seeds", seeds}, {"threads", threads}, {"points", points}});
   const tune::Sweep asked = tune::sweep_of({.experiment = e->path,
                                             .set = e->sets,
                                             .vary = axes_of(vary, *e),
@@ -104,25 +108,15 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
       [&] { report_progress(progress, done.load(), all); });
   report_progress(progress, static_cast<std::int64_t>(all), all);
   tune::refuse_empty_columns(rows, asked);
-  return py::module_::import("json").attr("loads")(
-      tune::json_of(tune::headings(asked), rows))["rows"];
+  return parsed(tune::json_of(tune::headings(asked), rows))["rows"];
 }
 
 // Returns the output of `sinew tune --json` for a tuning file.
 py::object tune_file(const py::object& path, const py::object& results, const py::object& sets,
                      int generations, int threads, const py::object& progress) {
-  for (const auto& [name, value] : {std::pair{"generations", generations}, {"threads", threads}})
-    if (value < 0)
-      throw std::invalid_argument(fmt::format("{}: found {}; expected 0 or more", name, value));
+  check_counts({{"generations", generations}, {"threads", threads}});
   const std::string file = path_of(path), kept = path_of(results);
-  const tune::Tuning tuning = tune::load_tuning(
-      file,
-      sets_of(sets,
-              [&]() -> const config::Origins& {
-                throw py::type_error(
-                    "sets: found a number; expected text with a unit, \"3 N m/rad\"");
-              }),
-      generations);
+  const tune::Tuning tuning = tune::load_tuning(file, sets_without_numbers(sets), generations);
   std::atomic<bool> stop = false;
   std::atomic<std::int64_t> done = 0;
   tune::Tuned tuned;
@@ -132,7 +126,7 @@ py::object tune_file(const py::object& path, const py::object& results, const py
   do_interruptibly(
       stop, [&] { tuned = tune::optimize_and_store(tuning, kept, options); },
       [&] { report_progress(progress, done.load(), all); });
-  return py::module_::import("json").attr("loads")(tune::json_of(tuning, tuned));
+  return parsed(tune::json_of(tuning, tuned));
 }
 
 }  // namespace

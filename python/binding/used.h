@@ -5,31 +5,64 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "python/binding/bind.h"
 
 namespace sinew::python {
 
-class Used {
+// Object that only one thread at a time may use.
+template <class Object>
+class Guarded {
  public:
-  // Marks the object as used during the lifetime of this guard. Throws std::runtime_error, which
-  // calls the object `what`, if another thread, or a signal handler within a call, uses it.
-  class Now {
+  // Makes the object from the arguments; `what` names it in messages.
+  template <class... Arguments>
+  explicit Guarded(const char* what, Arguments&&... arguments)
+      : what_(what), object_(std::forward<Arguments>(arguments)...) {}
+
+  // Access to the object during the lifetime of this guard. Throws std::runtime_error if another
+  // thread, or a signal handler within a call, uses it.
+  class Use {
    public:
-    Now(Used& used, const char* what) : used_(used) {
-      if (used_.now_.exchange(true, std::memory_order_acquire))
-        throw std::runtime_error(std::string(what) +
+    explicit Use(Guarded& guarded) : guarded_(guarded) {
+      if (guarded_.used_.exchange(true, std::memory_order_acquire))
+        throw std::runtime_error(std::string(guarded_.what_) +
                                  ": another thread is at it; expected one thread at a time; try a "
                                  "copy for each thread (copy.copy)");
     }
-    Now(const Now&) = delete;
-    Now& operator=(const Now&) = delete;
-    ~Now() { used_.now_.store(false, std::memory_order_release); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    ~Use() { guarded_.used_.store(false, std::memory_order_release); }
+
+    Object* operator->() const { return &guarded_.object_; }
+    Object& operator*() const { return guarded_.object_; }
 
    private:
-    Used& used_;
+    Guarded& guarded_;
   };
 
  private:
-  std::atomic<bool> now_{false};
+  const char* what_;
+  Object object_;
+  std::atomic<bool> used_{false};
 };
+
+// Adds save(), restore() and copies to a class of guarded objects; `other` completes "for bytes
+// that are no save, or of".
+template <class Class, class Save, class Restore, class Copy>
+void bind_states(Class& c, Save save, Restore restore, Copy copy, const std::string& other) {
+  c.def("save", save, "Returns everything that the future depends on, as bytes.")
+      .def("restore", restore, py::arg("saved"),
+           ("Goes back, or on, to where it was saved, bit for bit. Raises ValueError, and changes\n"
+            "nothing, for bytes that are no save, or of " +
+            other + ".")
+               .c_str())
+      .def("copy", copy, "Returns another one that stands at the same instant.")
+      .def("__copy__", copy)
+      .def(
+          "__deepcopy__",
+          [copy](typename Class::type& object, const py::dict&) { return copy(object); },
+          py::arg("memo"));
+}
 
 }  // namespace sinew::python

@@ -67,12 +67,7 @@ namespace {
 // Returns the values and origins of an experiment, rig, robot, actuator, valves or wiring file.
 py::tuple read_values(const py::object& path, const py::object& sets) {
   const std::string file = path_of(path);
-  config::Origins plain;  // for the units of numbers
-  const auto origins = [&]() -> const config::Origins& {
-    if (plain.empty()) plain = files::values(file).origins;
-    return plain;
-  };
-  const files::Values values = files::values(file, sets_of(sets, origins));
+  const files::Values values = files::values(file, sets_of(sets, file));
   py::dict from;
   for (const config::Origin& origin : values.origins)
     from[py::str(origin.path)] = origin_of(origin);
