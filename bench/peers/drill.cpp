@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/peers/drill_wide.h"
 #include "bench/peers/experiments.h"
 #include "bench/peers/pow_muscle.h"
 #include "sinew/air/network.h"

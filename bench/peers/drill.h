@@ -58,13 +58,18 @@ Counts by_pow(const Drill& drill, Pressures* pressures);  // scalar, pow_muscle.
 Counts by_network(const Drill& drill,
                   Pressures* pressures);  // air/network.h, one machine after the other
 
-// One width of air/plain_air.h, in a library that is compiled for it.
+// One width of air/plain_air.h, in a library that is compiled for it, so that code for wide
+// registers is not linked into code for other processors.
 struct Wide {
   int width = 0;
   Counts (*run)(const Drill& drill, Pressures* pressures) = nullptr;
   // Computes so many independent divisions and square roots of packs.
   double (*divide)(std::int64_t divisions, std::int64_t roots) = nullptr;
 };
+
+[[gnu::visibility("default")]] Wide wide_2();
+[[gnu::visibility("default")]] Wide wide_4();
+[[gnu::visibility("default")]] Wide wide_8();
 
 // Returns the widths that this processor supports, the narrowest first.
 std::vector<Wide> widths();

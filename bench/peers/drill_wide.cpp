@@ -1,5 +1,5 @@
 // Drill in lanes. Compiled once for each width, SINEW_LANES.
-#include "bench/peers/drill_wide.h"
+#include "bench/peers/drill.h"
 
 #include <algorithm>
 #include <array>
